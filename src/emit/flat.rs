@@ -1,6 +1,6 @@
 //! Replaces planes by squares and flat quadrilaterals by triangles.
 
-use rtc_ir::{BoundingSphere, Plane, Scene};
+use rtc_ir::{BoundingSphere, Cylinder, InfiniteCylinder, Plane, Scene};
 use rtc_math::{Basis, Vec3, cross, unit};
 
 /// The half side of the square of a plane, in radii of the scene.
@@ -38,6 +38,25 @@ pub(super) fn square(plane: &Plane, around: BoundingSphere) -> [Vec3; 4] {
         middle + x + y,
         middle - x + y,
     ]
+}
+
+/// A cylinder without ends, as long on either side as the square of a plane is from the point of
+/// its axis that is closest to the centre of the scene.
+pub(super) fn finite(cylinder: &InfiniteCylinder, around: BoundingSphere) -> Cylinder {
+    let InfiniteCylinder {
+        center,
+        axis,
+        radius,
+    } = cylinder;
+    let direction = unit(Vec3::from_array(*axis)).unwrap_or(Vec3::Z);
+    let center = Vec3::from_array(*center);
+    let middle = center + direction * (around.center - center).dot(direction);
+    Cylinder {
+        base: (middle - direction * side(around)).to_array(),
+        axis: *axis,
+        height: 2.0 * side(around),
+        radius: *radius,
+    }
 }
 
 /// The two triangles of a flat quadrilateral, along the diagonal inside it.

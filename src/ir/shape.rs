@@ -354,3 +354,48 @@ impl Bounded for Instance {
         placed.into_iter().for_each(|corner| visit(corner, 0.0));
     }
 }
+
+/// An ellipsoid: the image of the unit sphere.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub struct Ellipsoid {
+    /// Its centre.
+    pub center: [f64; 3],
+    /// The images of the three axes, which span space: the semi-axes, if they are perpendicular.
+    pub axes: [[f64; 3]; 3],
+}
+
+impl Bounded for Ellipsoid {
+    fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+        let Self { center, axes } = self;
+        let [x, y, z] = axes.map(Vec3::from_array);
+        let half = Vec3::from_array((x * x + y * y + z * z).to_array().map(f64::sqrt));
+        let center = Vec3::from_array(*center);
+        box_corners([center - half, center + half])
+            .into_iter()
+            .for_each(|corner| visit(corner, 0.0));
+    }
+}
+
+/// A cylinder without ends.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub struct InfiniteCylinder {
+    /// A point of its axis.
+    pub center: [f64; 3],
+    /// The direction of its axis, of any length but 0.
+    pub axis: [f64; 3],
+    /// Its radius, above 0.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub radius: f64,
+}
+
+impl Bounded for InfiniteCylinder {
+    fn visit_bounds(&self, _: &[[Vec3; 2]], _: &mut dyn FnMut(Vec3, f64)) {
+        let Self {
+            center: _,
+            axis: _,
+            radius: _,
+        } = self;
+    }
+}

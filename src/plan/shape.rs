@@ -9,8 +9,8 @@ use super::surface_bounds::{
 };
 use rtc_math::{Basis, Bounds, Vec3, cos_sin_revolutions, unit};
 use rtc_valid::{
-    Cone, Cylinder, Disc, Instance, Paraboloid, Plane, Quad, Shape, Sphere, Torus, Triangle,
-    ValidScene,
+    Cone, Cylinder, Disc, Ellipsoid, InfiniteCylinder, Instance, Paraboloid, Plane, Quad, Shape,
+    Sphere, Torus, Triangle, ValidScene,
 };
 
 /// The facts that rules need about a shape.
@@ -259,6 +259,48 @@ impl ShapeFacts for Torus {
     fn formula(&self, _: &ValidScene) -> (Vec3, EquationKind) {
         let (major, minor) = (self.major.get(), self.minor.get());
         (self.center, EquationKind::Quartic { major, minor })
+    }
+}
+
+impl ShapeFacts for Ellipsoid {
+    fn bounds(&self, _: &[Bounds]) -> SurfaceBounds {
+        let [x, y, z] = self.axes;
+        let half = Vec3::from_array((x * x + y * y + z * z).to_array().map(f64::sqrt));
+        SurfaceBounds::within(Bounds::about(self.center, half), ShapeClass::Convex)
+    }
+
+    /// A bound of the least singular value of the map of the unit sphere, from its determinant and
+    /// the sum of the squares of all three.
+    fn thickness(&self) -> f64 {
+        let [x, y, z] = self.axes;
+        x.dot(y.cross(z)).abs() / (x.dot(x) + y.dot(y) + z.dot(z))
+    }
+
+    fn formula(&self, _: &ValidScene) -> (Vec3, EquationKind) {
+        (self.center, EquationKind::Quadratic(self.thickness()))
+    }
+
+    fn has_uv(&self, _: &ValidScene) -> bool {
+        true
+    }
+}
+
+impl ShapeFacts for InfiniteCylinder {
+    fn bounds(&self, _: &[Bounds]) -> SurfaceBounds {
+        SurfaceBounds {
+            extent: Extent::Anywhere,
+            class: ShapeClass::Other,
+        }
+    }
+
+    fn thickness(&self) -> f64 {
+        self.radius.get()
+    }
+
+    fn formula(&self, scene: &ValidScene) -> (Vec3, EquationKind) {
+        let (axis, eye) = (unit(self.axis).unwrap_or(Vec3::Z), scene.camera().eye);
+        let nearest = self.center + axis * axis.dot(eye - self.center);
+        (nearest, EquationKind::Quadratic(self.radius.get()))
     }
 }
 

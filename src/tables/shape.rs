@@ -65,6 +65,15 @@ macro_rules! shapes {
             }
             /// A mesh, placed.
             Instance instance Box custom { "mesh" "worldFromObject" }
+            /// An ellipsoid.
+            Ellipsoid ellipsoid Box custom { "center" "axes" }
+            /// A cylinder without ends.
+            InfiniteCylinder infiniteCylinder Inline derived {
+                "infiniteCylinder"
+                center: point "position";
+                axis: direction "direction" "axis of a cylinder";
+                radius: length "radius" "radius";
+            }
         }
     };
 }

@@ -301,6 +301,18 @@ fn contains_point(shape: &ir::Shape, point: Vec3) -> bool {
             let off = (from_center - axis * above).length();
             Vec3::new(off - major, above, 0.0).length() < *minor
         }
+        ir::Shape::Ellipsoid(ir::Ellipsoid { center, axes }) => {
+            let [x, y, z] = axes.map(Vec3::from_array);
+            let from_center = point - Vec3::from_array(*center);
+            let rows = [y.cross(z), z.cross(x), x.cross(y)];
+            let local = rows.map(|row| row.dot(from_center) / x.dot(rows[0]));
+            Vec3::from_array(local).length() < 1.0
+        }
+        ir::Shape::InfiniteCylinder(cylinder) => {
+            let from_center = point - Vec3::from_array(cylinder.center);
+            unit(Vec3::from_array(cylinder.axis))
+                .is_some_and(|axis| from_center.cross(axis).length() < cylinder.radius)
+        }
         ir::Shape::Plane(_)
         | ir::Shape::Triangle(_)
         | ir::Shape::Quad(_)

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use rtc::internals::diag::Sink;
 use rtc::internals::emit;
 use rtc::internals::ir::Lowered;
-use rtc::internals::math::{U, Vec3, ldexp, unit_scale};
+use rtc::internals::math::{Basis, U, Vec3, ldexp, unit_scale};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{
@@ -53,6 +53,28 @@ const SOLIDS: &[Solid] = &[
             let bend = p.radius * p.radius / p.height;
             let gradient = (4.0 * rho * rho + bend * bend).sqrt();
             ((rho * rho - bend * (p.height - z)) / gradient).max(-z)
+        },
+    },
+    Solid {
+        words: |p| {
+            let (axis, radius) = (text(p.axis), p.radius);
+            let place = format!("position: {}, direction: {axis}", text(p.base));
+            format!("type: infiniteCylinder, {place}, radius: {radius:?}")
+        },
+        distance: |p, _, rho| rho - p.radius,
+    },
+    Solid {
+        words: |p| {
+            let basis = Basis::around(p.axis);
+            let (x, y) = (basis.tangent * p.radius, basis.bitangent * p.radius);
+            let columns = [x, y, p.axis * p.height, p.base].map(|column| column.to_array());
+            format!("type: ellipsoid, transform: {:?}", columns.as_flattened())
+        },
+        distance: |p, z, rho| {
+            let (r2, h2) = (p.radius * p.radius, p.height * p.height);
+            let length = (rho * rho / r2 + z * z / h2).sqrt();
+            let gradient = (rho * rho / (r2 * r2) + z * z / (h2 * h2)).sqrt();
+            (length - 1.0) * length / gradient
         },
     },
 ];
@@ -132,7 +154,8 @@ proptest! {
 
     #[test]
     fn a_ray_from_outside_finds_the_first_point_of_a_solid(ray in ray(), place in place()) {
-        for solid in SOLIDS {
+        // The ray may start in the one without ends.
+        for solid in SOLIDS.iter().filter(|solid| distance(solid, &place, ray.origin) > 0.0) {
             let world = world::<rtc::internals::render::Shape>(solid, &place);
             agrees(&ray, hit(&world, &ray).map(|(t, _)| t), |p| distance(solid, &place, p))?;
         }

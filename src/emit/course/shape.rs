@@ -1,7 +1,7 @@
 //! Writes the shapes.
 
 use super::{SceneWriter, quoted, triple};
-use rtc_ir::{self as ir, Instance, Quad, Scene, Shape, Sphere, Triangle};
+use rtc_ir::{self as ir, Ellipsoid, Instance, Quad, Scene, Shape, Sphere, Triangle};
 use rtc_math::{Vec3, axis_and_angle, rotated_to_z, shortest, unit};
 
 /// A shape that the scene format can express.
@@ -153,6 +153,23 @@ impl WriteShape for Instance {
             [x, y, z] if x == y && y == z => text.number("scale", x, 4),
             _ => text.numbers("scale", &scale, 4),
         }
+        Ok(())
+    }
+}
+
+impl WriteShape for Ellipsoid {
+    fn emit<'s>(&self, text: &mut SceneWriter<'s>, _: &'s Scene) -> Result<(), String> {
+        let Self { center, axes } = self;
+        text.kind("ellipsoid");
+        let [x, y, z] = axes;
+        let straight = [[x[0], 0.0, 0.0], [0.0, y[1], 0.0], [0.0, 0.0, z[2]]];
+        if axes.map(|axis| axis.map(f64::to_bits)) != straight.map(|axis| axis.map(f64::to_bits)) {
+            let columns = text.list(axes.iter().chain([center]).flatten().copied());
+            text.line(4, &format!("transform: {columns}"));
+            return Ok(());
+        }
+        text.point("position", center);
+        text.numbers("radius", &[x[0], y[1], z[2]], 4);
         Ok(())
     }
 }

@@ -4,7 +4,7 @@
 use super::MitsubaWriter;
 use super::material::standard;
 use crate::export::{joined, shape_name};
-use crate::flat::{around, side, split, square};
+use crate::flat::{around, finite, side, split, square};
 use crate::{ply, sidecar};
 use rtc_ir::{
     BoundingSphere, Column, Cylinder, Disc, EntityKind, Field, Instance, Mesh, MeshId, Shape,
@@ -84,7 +84,19 @@ impl MitsubaWriter<'_> {
                 self.corners(&corners, &split(corners), material);
             }
             Shape::Instance(instance) => return self.instance(instance, material, path),
-            Shape::Quad(_) | Shape::Cone(_) | Shape::Paraboloid(_) | Shape::Torus(_) => {
+            Shape::InfiniteCylinder(cylinder) => {
+                let finite = finite(cylinder, around);
+                let height = shortest(finite.height);
+                let message =
+                    format!("Mitsuba has no infinite cylinder: one {height} long stands for it");
+                self.reporter.unsupported(&message, path);
+                self.cylinder_side(&finite, material);
+            }
+            Shape::Quad(_)
+            | Shape::Cone(_)
+            | Shape::Paraboloid(_)
+            | Shape::Torus(_)
+            | Shape::Ellipsoid(_) => {
                 let message = format!(
                     "Mitsuba has no {}: it is left out",
                     shape_name(&surface.shape)
@@ -139,6 +151,20 @@ impl MitsubaWriter<'_> {
 
     /// Mitsuba's cylinder has no caps, so they are discs.
     fn cylinder(&mut self, cylinder: &Cylinder, material: u32) {
+        let [base, top] = self.cylinder_side(cylinder, material);
+        let axis = unit(Vec3::from_array(cylinder.axis)).unwrap_or(Vec3::Z);
+        for (center, normal) in [(base, -axis), (top, axis)] {
+            let cap = Disc {
+                center: center.to_array(),
+                normal: normal.to_array(),
+                radius: cylinder.radius,
+            };
+            self.disc(&cap, material);
+        }
+    }
+
+    /// Writes the side of a cylinder; returns the centres of its ends.
+    fn cylinder_side(&mut self, cylinder: &Cylinder, material: u32) -> [Vec3; 2] {
         let Cylinder {
             base,
             axis,
@@ -153,14 +179,7 @@ impl MitsubaWriter<'_> {
             text.value(2, "point", "p1", &joined(top.to_array(), ", "));
             text.value(2, "float", "radius", &shortest(*radius));
         });
-        for (center, normal) in [(base, -axis), (top, axis)] {
-            let cap = Disc {
-                center: center.to_array(),
-                normal: normal.to_array(),
-                radius: *radius,
-            };
-            self.disc(&cap, material);
-        }
+        [base, top]
     }
 
     /// Mitsuba's disc has radius 1 and the z axis as its normal.

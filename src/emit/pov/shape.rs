@@ -4,8 +4,8 @@ use super::{PovWriter, vector};
 use crate::export::shape_name;
 use crate::flat::split;
 use rtc_ir::{
-    Column, Cone, Cylinder, Disc, EntityKind, Field, Instance, Mesh, Plane, Quad, Shape, Sphere,
-    Surface, Torus, Triangle, ValuePath,
+    Column, Cone, Cylinder, Disc, Ellipsoid, EntityKind, Field, InfiniteCylinder, Instance, Mesh,
+    Plane, Quad, Shape, Sphere, Surface, Torus, Triangle, ValuePath,
 };
 use rtc_math::{Basis, Vec3, is_flat, shortest, unit};
 use std::fmt::Write as _;
@@ -101,6 +101,11 @@ impl PovWriter<'_> {
                 let columns = vector(world_from_object.iter().flatten().copied());
                 format!("object {{ Mesh{} matrix {columns}", mesh.0)
             }
+            Shape::Ellipsoid(Ellipsoid { center, axes }) => {
+                let columns = vector(axes.iter().chain([center]).flatten().copied());
+                format!("sphere {{ <0, 0, 0>, 1 matrix {columns}")
+            }
+            Shape::InfiniteCylinder(cylinder) => infinite_cylinder(cylinder),
             Shape::Paraboloid(_) => return None,
         })
     }
@@ -170,6 +175,16 @@ fn cylinder(cylinder: &Cylinder) -> String {
     let top = base + direction(cylinder.axis) * cylinder.height;
     let (base, top) = (vector(base.to_array()), vector(top.to_array()));
     format!("cylinder {{ {base}, {top}, {}", shortest(cylinder.radius))
+}
+
+/// The quadric x² + z² = radius², about the y axis.
+fn infinite_cylinder(cylinder: &InfiniteCylinder) -> String {
+    let basis = Basis::around(direction(cylinder.axis));
+    let columns = [basis.bitangent, basis.normal, basis.tangent];
+    let columns = columns.iter().flat_map(Vec3::to_array);
+    let columns = vector(columns.chain(cylinder.center));
+    let square = shortest(cylinder.radius * cylinder.radius);
+    format!("quadric {{ <1, 0, 1>, <0, 0, 0>, <0, 0, 0>, -{square} matrix {columns}")
 }
 
 /// POV-Ray's torus has the y axis as its axis.

@@ -103,18 +103,9 @@ impl Cylinder {
         };
         Some(inside.seen_from(outside, slope))
     }
-}
 
-impl Intersect for Cylinder {
-    fn intersect(&self, ray: &Ray, _: &WatertightRay, _: f64) -> Option<(f64, u32)> {
-        self.intersection(ray).map(|(t, _)| (t, 0))
-    }
-
-    /// The point at `t`, moved onto the part that was hit.
-    fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
-        let part = self
-            .intersection(ray)
-            .map_or(CylinderFace::Side, |(_, part)| part);
+    /// The point at `t`, moved onto a part.
+    fn interaction_on(&self, part: CylinderFace, ray: &Ray, t: f64) -> Interaction {
         // Project the point onto the cap or the side.
         let local = (ray.origin - self.base) + ray.direction * t;
         let along = dot(local, self.axis);
@@ -134,11 +125,71 @@ impl Intersect for Cylinder {
             self.height + self.radius,
         )
     }
+}
+
+impl Intersect for Cylinder {
+    fn intersect(&self, ray: &Ray, _: &WatertightRay, _: f64) -> Option<(f64, u32)> {
+        self.intersection(ray).map(|(t, _)| (t, 0))
+    }
+
+    /// The point at `t`, moved onto the part that was hit.
+    fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
+        let part = self
+            .intersection(ray)
+            .map_or(CylinderFace::Side, |(_, part)| part);
+        self.interaction_on(part, ray, t)
+    }
 
     /// A box around the cylinder.
     fn bounds(&self) -> Option<Bounds> {
         let disc = |center| Bounds::around_disc(center, self.axis, self.radius);
         Some(disc(self.base).union(disc(self.base + self.axis * self.height)))
+    }
+}
+
+/// A prepared cylinder without ends.
+#[derive(Clone, Copy, Debug)]
+pub struct InfiniteCylinder(Cylinder);
+
+impl InfiniteCylinder {
+    /// The cylinder around the line through `center` along `direction`, which must not be zero.
+    #[must_use]
+    pub fn new(center: Vec3, direction: Vec3, radius: f64) -> Self {
+        Self(Cylinder::new(center, direction, 0.0, radius))
+    }
+
+    /// The interval of t inside.
+    fn inside(&self, ray: &Ray) -> Option<Interval<CylinderFace>> {
+        let whole = Interval {
+            enter: (f64::NEG_INFINITY, CylinderFace::Side),
+            leave: (f64::INFINITY, CylinderFace::Side),
+        };
+        self.0
+            .inside_side(ray.origin - self.0.base, ray.direction, &whole)
+    }
+}
+
+impl Intersect for InfiniteCylinder {
+    fn intersect(&self, ray: &Ray, _: &WatertightRay, _: f64) -> Option<(f64, u32)> {
+        self.inside(ray)?.first_in_front().map(|(t, _)| (t, 0))
+    }
+
+    fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
+        self.0.interaction_on(CylinderFace::Side, ray, t)
+    }
+
+    fn bounds(&self) -> Option<Bounds> {
+        None
+    }
+}
+
+impl HasBaseline for InfiniteCylinder {
+    type Baseline<R: Real> = Box<BaselineInfiniteCylinder<R>>;
+
+    fn plain<R: Real>(&self, _: Option<&Arc<BaselineMesh<R>>>) -> Option<Self::Baseline<R>> {
+        Some(Box::new(BaselineInfiniteCylinder(BaselineCylinder::new(
+            &self.0,
+        ))))
     }
 }
 
@@ -181,6 +232,16 @@ impl<R: Real> BaselineCylinder<R> {
             caps: [cap(base, -axis), cap(base + axis * height, axis)],
         }
     }
+
+    /// The roots of the infinite cylinder.
+    fn side_roots(&self, ray: &BaselineRay<R>) -> Option<[R; 2]> {
+        let f = ray.origin - self.base;
+        let (above, rise) = (f.dot(self.axis), ray.direction.dot(self.axis));
+        let (from_axis, across) = (f - self.axis * above, ray.direction - self.axis * rise);
+        let b = R::of(2.0) * from_axis.dot(across);
+        let c = from_axis.dot(from_axis) - self.radius * self.radius;
+        quadratic(across.dot(across), b, c)
+    }
 }
 
 impl<R: Real> Baseline<R> for BaselineCylinder<R> {
@@ -188,9 +249,6 @@ impl<R: Real> Baseline<R> for BaselineCylinder<R> {
         let [side, base, top] = PLAIN_PARTS;
         let f = ray.origin - self.base;
         let (above, rise) = (f.dot(self.axis), ray.direction.dot(self.axis));
-        let (from_axis, across) = (f - self.axis * above, ray.direction - self.axis * rise);
-        let b = R::of(2.0) * from_axis.dot(across);
-        let c = from_axis.dot(from_axis) - self.radius * self.radius;
         let none = R::of(f64::NAN);
         let within = |t: R| {
             let height = above + rise * t;
@@ -200,7 +258,7 @@ impl<R: Real> Baseline<R> for BaselineCylinder<R> {
                 none
             }
         };
-        let [first, second] = quadratic(across.dot(across), b, c)?.map(within);
+        let [first, second] = self.side_roots(ray)?.map(within);
         let [low, high] = self.caps.map(|cap| cap.parameter(ray));
         ray.first([(first, side), (second, side), (low, base), (high, top)])
     }
@@ -211,5 +269,21 @@ impl<R: Real> Baseline<R> for BaselineCylinder<R> {
             1 | 2 => self.caps[prim_id as usize - 1].normal(),
             _ => (local - self.axis * local.dot(self.axis)).normalized(),
         }
+    }
+}
+
+/// The twin of the cylinder without ends.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BaselineInfiniteCylinder<R>(BaselineCylinder<R>);
+
+impl<R: Real> Baseline<R> for BaselineInfiniteCylinder<R> {
+    fn intersect(&self, ray: &BaselineRay<R>, _: f64) -> Option<(R, u32)> {
+        let [side, ..] = PLAIN_PARTS;
+        let [first, second] = self.0.side_roots(ray)?;
+        ray.first([(first, side), (second, side)])
+    }
+
+    fn normal(&self, ray: &BaselineRay<R>, point: Vector<R>, part: u32) -> Vector<R> {
+        self.0.normal(ray, point, part)
     }
 }

@@ -169,6 +169,7 @@ pub(crate) mod cone;
 mod corners;
 pub(crate) mod cylinder;
 pub(crate) mod disc;
+pub(crate) mod ellipsoid;
 #[cfg_attr(
     not(target_arch = "x86_64"),
     allow(dead_code, reason = "lanes gain with AVX-512 alone")
@@ -191,8 +192,9 @@ pub(crate) mod triangle;
 /// What stands for each row of the table of shapes, by the name in its row.
 pub(crate) mod kinds {
     pub(crate) use super::cone::Cone;
-    pub(crate) use super::cylinder::Cylinder;
+    pub(crate) use super::cylinder::{Cylinder, InfiniteCylinder};
     pub(crate) use super::disc::Disc;
+    pub(crate) use super::ellipsoid::Ellipsoid;
     pub(crate) use super::instance::Instance;
     pub(crate) use super::paraboloid::Paraboloid;
     pub(crate) use super::plane::Plane;

@@ -1,8 +1,9 @@
 //! Rays that start exactly on a shape do not hit the point they start from, but hit the far side.
 
 use super::cone::Cone;
-use super::cylinder::Cylinder;
+use super::cylinder::{Cylinder, InfiniteCylinder};
 use super::disc::Disc;
+use super::ellipsoid::Ellipsoid;
 use super::geometry::Intersect;
 use super::paraboloid::Paraboloid;
 use super::plane::Plane;
@@ -107,6 +108,30 @@ fn spheres_and_solids_are_seen_from_within_alone() {
             ([0.5, 0.75, 0.0], [0.5, 0.5, 0.0]),
             ([0.0, 0.75, -0.5], [0.0, 0.5, -0.5]),
             ([0.25, 0.0, 0.0], [0.0, -1.0, 0.0]),
+        ],
+    );
+    check_eyes(
+        "infinite cylinder",
+        |center, s| boxed(InfiniteCylinder::new(center, Vec3::X, s)),
+        true,
+        &[
+            ([5.0, 0.0, -1.0], [0.0, 0.0, -1.0]),
+            ([-3.0, 1.0, 0.0], [0.0, 1.0, 0.0]),
+        ],
+    );
+    check_eyes(
+        "ellipsoid",
+        |center, s| {
+            boxed(Ellipsoid::new(
+                center,
+                [Vec3::X * (4.0 * s), Vec3::Y * s, Vec3::Z * (2.0 * s)],
+            ))
+        },
+        true,
+        &[
+            ([4.0, 0.0, 0.0], [1.0, 0.0, 0.0]),
+            ([0.0, -1.0, 0.0], [0.0, -1.0, 0.0]),
+            ([0.0, 0.0, 2.0], [0.0, 0.0, 1.0]),
         ],
     );
 }

@@ -141,6 +141,14 @@ impl PrepareShape for valid::Quad {
     }
 }
 
+impl PrepareShape for valid::Ellipsoid {
+    type Prepared = Ellipsoid;
+
+    fn prepared(&self, _: &[Arc<PreparedMesh>]) -> Option<Ellipsoid> {
+        Some(Ellipsoid::new(self.center, self.axes))
+    }
+}
+
 impl PrepareShape for valid::Instance {
     type Prepared = Instance;
 

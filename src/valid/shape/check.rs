@@ -1,7 +1,7 @@
 //! Validates each shape.
 
 use super::area::has_area;
-use super::{Instance, Quad, Shape, Sphere, Surface, Triangle};
+use super::{Ellipsoid, Instance, Quad, Shape, Sphere, Surface, Triangle};
 use crate::check::{Checker, EntityCounts, SMALLEST};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityKind, Field, ShapeKind, ValuePath};
@@ -210,13 +210,8 @@ impl Validate for ir::Instance {
         let columns =
             world_from_object.map(|column| surface_check.point(column, "worldFromObject", ""));
         let columns = [columns[0]?, columns[1]?, columns[2]?, columns[3]?];
-        let axes = [0, 1, 2].map(|k| unit(columns[k]).unwrap_or(Vec3::ZERO));
-        let volume = axes[0].dot(axes[1].cross(axes[2])).abs();
-        let smallest = columns[..3]
-            .iter()
-            .map(|axis| axis.abs().max_element())
-            .fold(f64::INFINITY, f64::min);
-        if volume < 1e-9 || smallest < SMALLEST {
+        let [axes @ .., _] = columns;
+        if is_flattening(axes) {
             let diagnostic =
                 Diagnostic::new(&codes::BAD_ROTATION, "the transform of a mesh flattens it");
             let at = surface_check.at("worldFromObject");
@@ -228,6 +223,32 @@ impl Validate for ir::Instance {
             world_from_object: columns,
         }))))
     }
+}
+
+impl Validate for ir::Ellipsoid {
+    fn validate(&self, surface_check: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
+        let Self { center, axes } = self;
+        let center = surface_check.point(*center, "center", "");
+        let axes = axes.map(|axis| surface_check.point(axis, "axes", ""));
+        let axes = [axes[0]?, axes[1]?, axes[2]?];
+        if is_flattening(axes) {
+            let message = "the axes of an ellipsoid do not span space";
+            let diagnostic = Diagnostic::new(&codes::BAD_ROTATION, message);
+            let at = surface_check.at("axes");
+            surface_check.check.report(at, "", diagnostic);
+            return None;
+        }
+        let center = center?;
+        Some(Some(Shape::Ellipsoid(Box::new(Ellipsoid { center, axes }))))
+    }
+}
+
+/// Whether a map with these images of the axes is too near to one that flattens space.
+fn is_flattening(axes: [Vec3; 3]) -> bool {
+    let [x, y, z] = axes.map(|axis| unit(axis).unwrap_or(Vec3::ZERO));
+    let sizes = axes.map(|axis| axis.abs().max_element());
+    let smallest = sizes.into_iter().fold(f64::INFINITY, f64::min);
+    x.dot(y.cross(z)).abs() < 1e-9 || smallest < SMALLEST
 }
 
 /// Whether the rows are a rotation matrix, to within 1e-6.

@@ -106,6 +106,15 @@ impl Quad {
     }
 }
 
+/// An ellipsoid.
+#[derive(Clone, Copy, Debug)]
+pub struct Ellipsoid {
+    /// Its centre.
+    pub center: Vec3,
+    /// The images of the axes of the unit sphere, linearly independent.
+    pub axes: [Vec3; 3],
+}
+
 /// A mesh placed in the world.
 #[derive(Clone, Copy, Debug)]
 pub struct Instance {

@@ -13,7 +13,7 @@ mod flat;
 mod round;
 mod tolerance;
 
-use crate::flat::{around, side};
+use crate::flat::{around, finite, side};
 use crate::reporter::ExportReporter;
 use glam::DAffine3;
 use round::UnitShape;
@@ -95,6 +95,10 @@ impl Tessellator<'_> {
             Shape::Paraboloid(paraboloid) => round::paraboloid(paraboloid, &self.tessellation),
             Shape::Torus(torus) => round::torus(torus, &self.tessellation),
             Shape::Disc(disc) => round::disc(disc, &self.tessellation),
+            Shape::Ellipsoid(ellipsoid) => round::ellipsoid(ellipsoid, &self.tessellation),
+            Shape::InfiniteCylinder(cylinder) => {
+                round::cylinder(&finite(cylinder, self.around), &self.tessellation)
+            }
             Shape::Plane(plane) => flat::plane(plane, self.around),
             Shape::Triangle(triangle) => flat::triangle(triangle),
             Shape::Quad(quad) => {
@@ -165,7 +169,12 @@ impl Tessellator<'_> {
                 "glTF has no plane: what is written is a square {} wide",
                 shortest(2.0 * side(self.around))
             ),
+            ShapeKind::InfiniteCylinder => format!(
+                "glTF has no infinite cylinder: what is written is one {} long",
+                shortest(2.0 * side(self.around))
+            ),
             ShapeKind::Sphere
+            | ShapeKind::Ellipsoid
             | ShapeKind::Quad
             | ShapeKind::Disc
             | ShapeKind::Cylinder

@@ -4,7 +4,7 @@ use super::ShapeMesh;
 use super::builder::{GridVertex, MeshBuilder, circle_point, fraction};
 use super::tolerance::Tessellation;
 use glam::{DAffine3, DMat3};
-use rtc_ir::{Cone, Cylinder, Disc, Mesh, Paraboloid, Sphere, Torus};
+use rtc_ir::{Cone, Cylinder, Disc, Ellipsoid, Mesh, Paraboloid, Sphere, Torus};
 use rtc_math::{Basis, Vec3, length, unit};
 
 /// A round shape of radius 1 (and height 1 along +z) with its numbers of steps around and along the
@@ -43,15 +43,27 @@ pub(super) fn sphere(sphere: &Sphere, tessellation: &Tessellation) -> ShapeMesh 
         radius,
         texture_from_world,
     } = sphere;
-    let along = Tessellation::along_sphere(tessellation.fraction(*radius));
-    let unit_shape = UnitShape::Sphere {
-        around: along.saturating_mul(2),
-        along,
-    };
+    let unit_shape = unit_sphere(*radius, tessellation);
     // The rows of the rotation into texture coordinates are the axes of the texture frame.
     let axes = texture_from_world.unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
     let axes = axes.map(|axis| Vec3::from_array(axis) * *radius);
     ShapeMesh::Round(unit_shape, placed(axes, *center))
+}
+
+pub(super) fn ellipsoid(ellipsoid: &Ellipsoid, tessellation: &Tessellation) -> ShapeMesh {
+    let Ellipsoid { center, axes } = ellipsoid;
+    let axes = axes.map(Vec3::from_array);
+    let longest = axes.iter().fold(0.0, |most, axis| length(*axis).max(most));
+    ShapeMesh::Round(unit_sphere(longest, tessellation), placed(axes, *center))
+}
+
+/// The unit sphere, for a sphere of this radius.
+fn unit_sphere(radius: f64, tessellation: &Tessellation) -> UnitShape {
+    let along = Tessellation::along_sphere(tessellation.fraction(radius));
+    UnitShape::Sphere {
+        around: along.saturating_mul(2),
+        along,
+    }
 }
 
 pub(super) fn cylinder(cylinder: &Cylinder, tessellation: &Tessellation) -> ShapeMesh {

@@ -128,3 +128,47 @@ fn axis(cylinder: &Cylinder) -> Option<(Numbers, Numbers, Spanned<f64>)> {
     let height = up.map(|up| length(Vec3::from_array(*up)));
     Some((base, up, height))
 }
+
+record! {
+    /// A cylinder without ends.
+    struct InfiniteCylinder, "infinite cylinder" {
+        /// The type of the object.
+        kind: Spanned<AnyScalar>, required, keys!["type"];
+        /// A point of the axis.
+        position: Spanned<Point>, required, &with_canonical(POSITION, "position");
+        /// The direction of the axis, of any length but 0.
+        direction: Spanned<Vector>, required, &with_canonical(AXIS, "direction");
+        /// The radius; 0 is invisible.
+        radius: Spanned<NonNegative>, required, &with_canonical(RADIUS, "radius");
+        /// The material.
+        material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
+        shadow: Spanned<bool>, default(true), keys!["shadow"];
+    }
+}
+
+impl Lower for InfiniteCylinder {
+    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+        let Self {
+            kind,
+            position,
+            direction,
+            radius,
+            material,
+            shadow,
+        } = self;
+        let shape = ir::InfiniteCylinder {
+            center: position.value.0,
+            axis: direction.value.0,
+            radius: radius.value.0,
+        };
+        let value_spans = [
+            ("center", position.span),
+            ("axis", direction.span),
+            ("radius", radius.span),
+        ];
+        if let Some(props) = lowering.surface_props(kind, material, shadow, context) {
+            lowering.add_surface(&props, ir::Shape::InfiniteCylinder(shape), &value_spans);
+        }
+    }
+}

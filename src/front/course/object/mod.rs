@@ -5,8 +5,8 @@
 //! first `Lowering::surface_props` lowers what all surfaces of an object share (material, shadow
 //! flag, span), then `Lowering::add_surface` adds each surface with the spans of its values.
 //!
-//! * `sphere`, `plane`, `triangle`, `quad`, `disc`, `cylinder`, `cone` (with the paraboloid)
-//!   and `torus` become the shape of the same name in the IR. `cone` has the keys of a base and
+//! * `sphere`, `plane`, `triangle`, `quad`, `disc`, `cylinder` (with the one without ends), `cone`
+//!   (with the paraboloid), `torus` and `ellipsoid` become the shape of the same name in the IR. `cone` has the keys of a base and
 //!   an axis, which cylinders share.
 //! * `solid` (box, tetrahedron, prism) and `cube` become triangles.
 //! * `mesh` becomes an instance of a mesh that is loaded later; `sizing` scales it after that.
@@ -19,6 +19,7 @@ mod cone;
 mod cube;
 mod cylinder;
 mod disc;
+mod ellipsoid;
 mod gltf;
 mod mesh;
 mod plane;
@@ -99,6 +100,8 @@ kinds! {
     cone Cone "cone";
     cone Paraboloid "paraboloid";
     torus Torus "torus";
+    ellipsoid Ellipsoid "ellipsoid";
+    cylinder InfiniteCylinder "infiniteCylinder";
     solid Cuboid "box";
     solid Tetrahedron "tetrahedron";
     cube Cube "cube";
@@ -330,11 +333,13 @@ fn zero_size_field(shape: &ir::Shape) -> Option<&'static str> {
         | ir::Shape::Disc(ir::Disc { radius, .. })
         | ir::Shape::Cylinder(ir::Cylinder { radius, .. })
         | ir::Shape::Cone(ir::Cone { radius, .. })
+        | ir::Shape::InfiniteCylinder(ir::InfiniteCylinder { radius, .. })
         | ir::Shape::Paraboloid(ir::Paraboloid { radius, .. }) => ("radius", *radius),
         ir::Shape::Torus(ir::Torus { minor, .. }) => ("minor", *minor),
         ir::Shape::Plane(_)
         | ir::Shape::Triangle(_)
         | ir::Shape::Quad(_)
+        | ir::Shape::Ellipsoid(_)
         | ir::Shape::Instance(_) => return None,
     };
     (size == 0.0).then_some(path)

@@ -1,0 +1,158 @@
+//! The ellipsoid: the unit sphere, met in the coordinates in which the ellipsoid is one.
+//!
+//! The ray is mapped to these coordinates, and there the test of the sphere decides. The map rounds
+//! by a few u of the ray's origin, seen from the centre: the offset of new rays covers that.
+
+use crate::ray::{Interaction, Ray};
+use crate::shape::baseline::ray::BaselineRay;
+use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::roots::quadratic;
+use crate::shape::baseline::{Baseline, HasBaseline};
+use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
+use crate::shape::mesh::BaselineMesh;
+use crate::shape::sphere::{Sphere, TexturedSphere};
+use crate::shape::triangle::WatertightRay;
+use rtc_math::{Bounds, Vec3, cross};
+use std::sync::Arc;
+
+/// The sphere of radius 1 about 0, with its texture.
+const UNIT_SPHERE: TexturedSphere = TexturedSphere {
+    sphere: Sphere {
+        center: Vec3::ZERO,
+        radius: 1.0,
+    },
+    texture_from_world: Vec3::AXES,
+};
+
+/// A prepared ellipsoid.
+#[derive(Clone, Copy, Debug)]
+pub struct Ellipsoid {
+    center: Vec3,
+    /// The images of the axes of the unit sphere.
+    axes: [Vec3; 3],
+    /// The rows of the inverse map.
+    inverse: [Vec3; 3],
+}
+
+impl Ellipsoid {
+    /// The image of the unit sphere about `center`; the images of the axes must span space.
+    #[must_use]
+    pub fn new(center: Vec3, axes: [Vec3; 3]) -> Self {
+        let [x, y, z] = axes;
+        let volume = cross(x, y).dot(z);
+        Self {
+            center,
+            axes,
+            inverse: [cross(y, z), cross(z, x), cross(x, y)].map(|row| row / volume),
+        }
+    }
+
+    /// The ray in the coordinates of the unit sphere; its `t` are those of the world.
+    fn to_unit(self, ray: &Ray) -> Ray {
+        let rows = |v: Vec3| Vec3::from_array(self.inverse.map(|row| row.dot(v)));
+        Ray {
+            origin: rows(ray.origin - self.center),
+            direction: rows(ray.direction),
+        }
+    }
+
+    /// A normal of the unit sphere, of any length, as one of the ellipsoid.
+    fn normal_to_world(&self, n: Vec3) -> Vec3 {
+        let [x, y, z] = self.inverse;
+        x * n.x + y * n.y + z * n.z
+    }
+}
+
+impl Intersect for Ellipsoid {
+    fn intersect(&self, ray: &Ray, _: &WatertightRay, _: f64) -> Option<(f64, u32)> {
+        let (local, factor) = self.to_unit(ray).rescaled();
+        let t = UNIT_SPHERE.sphere.intersect(&local)? * factor;
+        (t > 0.0 && t.is_finite()).then_some((t, 0))
+    }
+
+    /// The point at `t`, moved onto the unit sphere along its radius.
+    fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
+        let local = self.to_unit(ray);
+        let direction = local.outward(local.origin + local.direction * t);
+        let [x, y, z] = self.axes;
+        let point = self.center + (x * direction.x + y * direction.y + z * direction.z);
+        let normal = ray.outward(self.normal_to_world(direction));
+        let sizes = self.axes.map(|axis| axis.abs().element_sum());
+        let extent = 2.0 * sizes.iter().sum::<f64>();
+        Interaction::new(ray, point, normal, self.center, extent)
+    }
+
+    fn has_uv(&self) -> bool {
+        true
+    }
+
+    /// Those of the unit sphere: u = φ/2π and v = 1 − θ/π about the third axis.
+    fn shading_attributes(
+        &self,
+        ray: &Ray,
+        at: &Interaction,
+        prim_id: u32,
+        asked: AttributeRequest,
+    ) -> ShadingAttributes {
+        let [x, y, z] = self.axes;
+        // The map of normals is inverted by the transposed map of points.
+        let normal = Vec3::new(x.dot(at.normal), y.dot(at.normal), z.dot(at.normal));
+        let at = Interaction {
+            normal: normal.normalize_or(at.normal),
+            ..*at
+        };
+        let attributes = UNIT_SPHERE.shading_attributes(ray, &at, prim_id, asked);
+        let to_world = |v: Vec3| (x * v.x + y * v.y + z * v.z).try_normalize();
+        ShadingAttributes {
+            tangent: attributes.tangent.and_then(to_world),
+            ..attributes
+        }
+    }
+
+    fn bounds(&self) -> Option<Bounds> {
+        let [x, y, z] = self.axes;
+        let half = Vec3::from_array((x * x + y * y + z * z).to_array().map(f64::sqrt));
+        Some(Bounds::about(self.center, half))
+    }
+}
+
+impl HasBaseline for Ellipsoid {
+    type Baseline<R: Real> = Box<BaselineEllipsoid<R>>;
+
+    fn plain<R: Real>(&self, _: Option<&Arc<BaselineMesh<R>>>) -> Option<Self::Baseline<R>> {
+        Some(Box::new(BaselineEllipsoid {
+            center: Vector::of(self.center),
+            rows: self.inverse.map(Vector::of),
+        }))
+    }
+}
+
+/// Its twin, by b² − 4ac.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BaselineEllipsoid<R> {
+    center: Vector<R>,
+    rows: [Vector<R>; 3],
+}
+
+impl<R: Real> BaselineEllipsoid<R> {
+    fn to_unit(self, v: Vector<R>) -> Vector<R> {
+        let [x, y, z] = self.rows.map(|row| row.dot(v));
+        Vector { x, y, z }
+    }
+}
+
+impl<R: Real> Baseline<R> for BaselineEllipsoid<R> {
+    fn intersect(&self, ray: &BaselineRay<R>, _: f64) -> Option<(R, u32)> {
+        let f = self.to_unit(ray.origin - self.center);
+        let d = self.to_unit(ray.direction);
+        let b = R::of(2.0) * f.dot(d);
+        let roots = quadratic(d.dot(d), b, f.dot(f) - R::of(1.0))?;
+        roots.into_iter().find(|t| ray.counts(*t)).map(|t| (t, 0))
+    }
+
+    fn normal(&self, _: &BaselineRay<R>, point: Vector<R>, _: u32) -> Vector<R> {
+        let n = self.to_unit(point - self.center);
+        let [x, y, z] = self.rows;
+        (x * n.x + y * n.y + z * n.z).normalized()
+    }
+}
