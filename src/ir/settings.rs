@@ -34,6 +34,16 @@ pub struct Settings {
     pub ambient: Ambient,
 }
 
+impl Settings {
+    /// The names of the fields in the text form, in order.
+    #[must_use]
+    pub fn names() -> Vec<String> {
+        let schema = schemars::schema_for!(Self);
+        let properties = schema.get("properties").and_then(|all| all.as_object());
+        properties.map_or_else(Vec::new, |all| all.keys().cloned().collect())
+    }
+}
+
 /// How often the ambient term of the Phong model, ka·C, is added at a point.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary,

@@ -3,18 +3,6 @@
 use rtc_diag::{clip, clip_words};
 use rtc_ir::Settings;
 
-/// The names of the settings in the text form.
-const NAMES: [&str; 8] = [
-    "mode",
-    "shadows",
-    "maxDepth",
-    "supersampling",
-    "pattern",
-    "lightSamples",
-    "toon",
-    "ambient",
-];
-
 /// Replaces one value, by its name in the text form: a field of the settings, or of the parameters
 /// of the mode. A value that is not JSON is a string.
 ///
@@ -40,7 +28,8 @@ pub fn set(settings: &mut Settings, name: &str, value: &str) -> Result<(), Strin
         .flat_map(|fields| fields.keys().cloned())
         .collect();
     // Replace the field, or the parameter of the mode.
-    if NAMES.contains(&name) {
+    let fields = Settings::names();
+    if fields.iter().any(|field| field == name) {
         json[name] = value;
     } else if parameters.iter().any(|parameter| parameter == name) {
         let mode = json["mode"]
@@ -49,12 +38,7 @@ pub fn set(settings: &mut Settings, name: &str, value: &str) -> Result<(), Strin
         mode.into_iter()
             .for_each(|fields| fields[name] = value.clone());
     } else {
-        let names = NAMES
-            .map(str::to_owned)
-            .into_iter()
-            .chain(parameters)
-            .collect::<Vec<_>>()
-            .join(", ");
+        let names = [fields, parameters].concat().join(", ");
         return Err(format!(
             "there is no setting `{}`; there are {names}",
             clip(name)
@@ -90,7 +74,7 @@ mod tests {
     fn every_field_can_be_set_by_its_name() {
         let json = serde_json::to_value(paths()).unwrap();
         let names: Vec<_> = json.as_object().unwrap().keys().collect();
-        assert_eq!(names, NAMES);
+        assert_eq!(names, Settings::names().iter().collect::<Vec<_>>());
         let mut settings = paths();
         let values = [
             ("multipleScattering", "false"),
