@@ -177,7 +177,7 @@ macro_rules! ranged {
     ($(#[doc = $doc:literal])+ $name:ident($inner:ty), $decode:expr, $schema:tt) => {
         $(#[doc = $doc])+
         #[derive(Clone, Copy, Debug)]
-        pub(in crate::course) struct $name(pub(in crate::course) $inner);
+        pub(crate) struct $name(pub(crate) $inner);
 
         impl Decode for $name {
             fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {

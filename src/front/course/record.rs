@@ -68,14 +68,14 @@ macro_rules! record {
         $(lowered_variants { $([$($lowered:ident)+])+ })?
     ) => {
         $(#[doc = $doc])+
-        pub(in crate::course) struct $name {
-            $($(#[doc = $field_doc])+ pub(in crate::course)
+        pub(crate) struct $name {
+            $($(#[doc = $field_doc])+ pub(crate)
                 $field: record!(@type $requirement $type),)+
         }
 
         impl $name {
             /// The declaration.
-            pub(in crate::course) const RECORD: $crate::course::record::Record =
+            pub(crate) const RECORD: $crate::course::record::Record =
                 $crate::course::record::Record {
                 name: $record_name,
                 doc: concat!($($doc),+),

@@ -15,7 +15,7 @@ use std::io::Read;
 use std::ops::Range;
 
 /// The first bytes of a KTX2 file.
-pub(in super::super) const MAGIC: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";
+pub(crate) const MAGIC: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";
 
 /// Bytes of a UASTC block.
 const UASTC_BLOCK: usize = 16;

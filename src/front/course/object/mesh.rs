@@ -75,7 +75,7 @@ record! {
 
 /// The values of `materials`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::course) enum LibraryKind {
+pub(crate) enum LibraryKind {
     /// The MTL file that the mesh file names.
     Mtl,
 }
@@ -86,7 +86,7 @@ impl Keyword for LibraryKind {
 
 /// The name of a material in a mesh file, which may be empty.
 #[derive(Clone, Debug)]
-pub(in crate::course) struct PartName(String);
+pub(crate) struct PartName(String);
 
 impl Decode for PartName {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {

@@ -65,7 +65,7 @@ record! {
 
 /// The outline of a bounded plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::course) enum Outline {
+pub(crate) enum Outline {
     Square,
     Circle,
 }

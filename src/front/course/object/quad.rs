@@ -14,7 +14,7 @@ use rtc_ir as ir;
 use rtc_math::{Vec3, unit};
 
 /// The spellings of four corners.
-pub(in crate::course) const FOUR_CORNERS: Spellings = &[
+pub(crate) const FOUR_CORNERS: Spellings = &[
     &["v0", "v1", "v2", "v3"],
     &["v1", "v2", "v3", "v4"],
     &["a", "b", "c", "d"],
@@ -29,7 +29,7 @@ pub(in crate::course) const FOUR_CORNERS: Spellings = &[
 ];
 
 /// The spellings of the two edges from a corner: upward, and to the side.
-pub(in crate::course) const EDGES: Spellings = &[&["up", "side"], &["edge1", "edge2"]];
+pub(crate) const EDGES: Spellings = &[&["up", "side"], &["edge1", "edge2"]];
 
 record! {
     /// A two-sided quadrilateral: four corners in order around it, or one corner and its two edges.

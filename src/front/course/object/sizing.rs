@@ -8,7 +8,7 @@ use rtc_source::Span;
 
 /// A change of the size of a mesh instance, applied after its file is loaded.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::course) enum Sizing {
+pub(crate) enum Sizing {
     /// Scale the mesh to the size in the transform of this surface.
     Fit(usize),
     /// Keep this surface, which is scaled by this factor, unless it fills the view.
@@ -16,7 +16,7 @@ pub(in crate::course) enum Sizing {
 }
 
 /// Applies the sizing of a mesh instance; its mesh is loaded.
-pub(in crate::course) fn apply(sizing: Sizing, lowered: &mut Lowered, sink: &mut Sink) {
+pub(crate) fn apply(sizing: Sizing, lowered: &mut Lowered, sink: &mut Sink) {
     // The instance and the bounds of its mesh.
     let (surface, factor_of) = match sizing {
         Sizing::Fit(surface) => (surface, None),

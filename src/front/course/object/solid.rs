@@ -118,7 +118,7 @@ const PRISM: &[Face] = &[
 
 /// The third edge of a box: a vector or a length.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::course) enum ThirdEdge {
+pub(crate) enum ThirdEdge {
     Edge([f64; 3]),
     Length(f64),
 }

@@ -44,9 +44,9 @@ record! {
 
 /// A radius, with or without the axis of the texture.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::course) struct Radius {
-    pub(in crate::course) length: f64,
-    pub(in crate::course) axis: Option<Spanned<Vector>>,
+pub(crate) struct Radius {
+    pub(crate) length: f64,
+    pub(crate) axis: Option<Spanned<Vector>>,
 }
 
 impl Decode for Radius {

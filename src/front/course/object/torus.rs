@@ -102,7 +102,7 @@ impl Lower for Torus {
 }
 
 /// A torus with an inner and an outer radius, which programs interpret in two ways.
-pub(in crate::course) struct AmbiguousTorus {
+pub(crate) struct AmbiguousTorus {
     surface: usize,
     radii: [Spanned<Positive>; 2],
 }
@@ -118,7 +118,7 @@ const MAX_OTHERS: usize = 64;
 impl Lowering {
     /// Chooses between the two interpretations of each ambiguous torus: the one that contains fewer
     /// points of other entities. Call it after all of these are lowered.
-    pub(in crate::course) fn resolve_tori(&mut self, context: &mut Context<'_>) {
+    pub(crate) fn resolve_tori(&mut self, context: &mut Context<'_>) {
         for AmbiguousTorus {
             surface,
             radii: [inner, outer],

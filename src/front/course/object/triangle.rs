@@ -9,7 +9,7 @@ use crate::course::value::{AnyScalar, Point, Uv};
 use rtc_ir as ir;
 
 /// The spellings of three corners.
-pub(in crate::course) const CORNERS: Spellings = &[
+pub(crate) const CORNERS: Spellings = &[
     &["v0", "v1", "v2"],
     &["v1", "v2", "v3"],
     &["a", "b", "c"],
@@ -43,7 +43,7 @@ record! {
 }
 
 /// The paths of the corners in the IR.
-pub(in crate::course) const VERTICES: [&str; 3] = ["vertices/0", "vertices/1", "vertices/2"];
+pub(crate) const VERTICES: [&str; 3] = ["vertices/0", "vertices/1", "vertices/2"];
 
 impl Lower for Triangle {
     fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {

@@ -123,14 +123,14 @@ macro_rules! material {
         $field:ident: $kind:ident = $default:expr, $omitted:literal;
     )*) => {
         /// The material of glTF.
-        pub(in crate::course) struct StandardMaterial {
+        pub(crate) struct StandardMaterial {
             name: FieldOutcome<Spanned<DisplayName>>,
             $($field: FieldOutcome<Spanned<written!($kind)>>,)*
         }
 
         impl StandardMaterial {
             /// The declaration.
-            pub(in crate::course) const RECORD: Record = Record {
+            pub(crate) const RECORD: Record = Record {
                 name: "standard material",
                 doc: " A material: that of glTF 2.0 and of its extensions `KHR_materials_*`. \
                       Colours are linear; a texture multiplies the number or colour beside it, \

@@ -33,7 +33,7 @@ record! {
 }
 
 /// A texture, or the name of its file alone.
-pub(in crate::course) struct MapOrFile(pub(super) TextureMap);
+pub(crate) struct MapOrFile(pub(super) TextureMap);
 
 impl Decode for MapOrFile {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
@@ -58,7 +58,7 @@ impl Decode for MapOrFile {
 
 /// The wrap modes along u and v.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::course) struct WrapModes([Wrap; 2]);
+pub(crate) struct WrapModes([Wrap; 2]);
 
 /// The keywords of wrap modes.
 const WRAPS: &[(&str, Wrap)] = &[

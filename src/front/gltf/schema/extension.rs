@@ -10,14 +10,14 @@ use super::{Bounds, FACTOR, FREE, IndexTarget, Key, Object, POSITIVE, UNIT, opti
 
 /// An extension.
 #[derive(Debug)]
-pub(in super::super) struct Extension {
+pub(crate) struct Extension {
     pub(super) name: &'static str,
     /// The kinds of objects that carry it, and what they carry.
     pub(super) places: &'static [(&'static str, &'static Object)],
 }
 
 /// The extension of this name.
-pub(in super::super) fn find(name: &str) -> Option<&'static Extension> {
+pub(crate) fn find(name: &str) -> Option<&'static Extension> {
     all().find(|extension| extension.name == name)
 }
 
@@ -28,7 +28,7 @@ pub(super) fn all() -> impl Iterator<Item = &'static Extension> {
 
 /// A row of Markdown for each extension, by their names: what carries it, and the properties that
 /// are read.
-pub(in super::super) fn rows() -> String {
+pub(crate) fn rows() -> String {
     let mut sorted: Vec<_> = all().collect();
     sorted.sort_unstable_by_key(|extension| extension.name);
     sorted.into_iter().map(row).collect()

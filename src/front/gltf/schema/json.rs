@@ -11,7 +11,7 @@ use serde_json::{Map, Value as Json, json};
 const ABOUT: &str = include_str!("about.txt");
 
 /// The schema of an asset.
-pub(in super::super) fn schema() -> Json {
+pub(crate) fn schema() -> Json {
     let mut writer = JsonWriter::default();
     let root = writer.object(&ROOT, ROOT.name);
     let mut root = root.as_object().cloned().unwrap_or_default();

@@ -13,10 +13,7 @@ const HEADER: [&str; 3] = ["asset", "extensionsUsed", "extensionsRequired"];
 
 /// Checks the shape of the whole asset, and that its references lead somewhere; only of its header
 /// if the rest `is_known` not.
-pub(in super::super) fn traverse(
-    is_known: bool,
-    report: &mut AssetReport<'_, '_>,
-) -> BTreeSet<String> {
+pub(crate) fn traverse(is_known: bool, report: &mut AssetReport<'_, '_>) -> BTreeSet<String> {
     let root = report.json.root();
     if report.json.kind(root) != NodeKind::Map {
         let kind = report.json.kind(root).name();

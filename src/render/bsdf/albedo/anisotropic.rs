@@ -19,14 +19,14 @@ pub(super) static STORED: [u8; 2 * 2 * WIDTHS * WIDTHS * COSINES * TURNS] =
     *include_bytes!("anisotropic.bin");
 
 /// The albedo seen from a direction.
-pub(in crate::bsdf) fn albedo(surface: Ggx, w: Vec3) -> Split {
+pub(crate) fn albedo(surface: Ggx, w: Vec3) -> Split {
     let [x, y] = [w.x * w.x, w.y * w.y];
     let turn = if x + y > 0.0 { x / (x + y) } else { 0.0 };
     look_up(surface, w.z, turn)
 }
 
 /// Its mean over the hemisphere, weighted by the cosine.
-pub(in crate::bsdf) fn mean(surface: Ggx) -> Split {
+pub(crate) fn mean(surface: Ggx) -> Split {
     static MEANS: LazyLock<Vec<[f32; 2]>> = LazyLock::new(means);
     let [e0, e90] = interpolate(&MEANS, surface.widths().map(|width| (width.sqrt(), WIDTHS)));
     Split { e0, e90 }

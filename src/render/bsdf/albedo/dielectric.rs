@@ -21,7 +21,7 @@ pub(super) static STORED: [u8; 7 * 2 * INDICES * ROUGHNESSES * COSINES] =
 
 /// What is reflected and transmitted from inside: `total + f0·e0 + f90·e90`.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::bsdf) struct InsideAlbedo {
+pub(crate) struct InsideAlbedo {
     total: f64,
     split: Split,
 }
@@ -29,21 +29,21 @@ pub(in crate::bsdf) struct InsideAlbedo {
 impl InsideAlbedo {
     /// By the reflectances at normal and at grazing incidence.
     #[must_use]
-    pub(in crate::bsdf) fn at(self, f0: f64, f90: f64) -> f64 {
+    pub(crate) fn at(self, f0: f64, f90: f64) -> f64 {
         self.total + self.split.at(f0, f90)
     }
 }
 
 /// What is reflected, and what would be refracted if nothing were reflected, by the terms of f0 and
 /// f90.
-pub(in crate::bsdf) fn outside(ior: f64, roughness: f64, cosine: f64) -> [Split; 2] {
+pub(crate) fn outside(ior: f64, roughness: f64, cosine: f64) -> [Split; 2] {
     let [r0, r90, t0, t90, ..] = look_up(ior, roughness, cosine);
     let split = |e0, e90| Split { e0, e90 };
     [split(r0, r90), split(t0, t90)]
 }
 
 /// What is reflected and transmitted from inside.
-pub(in crate::bsdf) fn inside(ior: f64, roughness: f64, cosine: f64) -> InsideAlbedo {
+pub(crate) fn inside(ior: f64, roughness: f64, cosine: f64) -> InsideAlbedo {
     let [.., total, e0, e90] = look_up(ior, roughness, cosine);
     let split = Split { e0, e90 };
     InsideAlbedo { total, split }

@@ -14,7 +14,7 @@ use rtc_source::{Resource, Span};
 use std::collections::BTreeMap;
 
 /// A texture to bake once its images are loaded.
-pub(in super::super) struct Bake {
+pub(crate) struct Bake {
     pub(super) material: MaterialId,
     pub(super) baked: BakedMap,
     pub(super) placement: MapPlacement,
@@ -70,7 +70,7 @@ impl ScaledImage<'_> {
 
 /// Bakes the textures. `image_of` maps pending images to loaded ones; without its images a texture
 /// is left out.
-pub(in super::super) fn bake(
+pub(crate) fn bake(
     bakes: Vec<Bake>,
     image_of: &BTreeMap<u32, Option<ImageId>>,
     lowered: &mut Lowered,

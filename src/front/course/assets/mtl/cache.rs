@@ -16,10 +16,10 @@ use std::collections::BTreeMap;
 
 /// The MTL materials added so far, with their pending images.
 #[derive(Default)]
-pub(in super::super) struct MtlCache {
-    pub(in super::super) pending_assets: Vec<PendingAsset>,
+pub(crate) struct MtlCache {
+    pub(crate) pending_assets: Vec<PendingAsset>,
     /// The textures to bake once the images are loaded.
-    pub(in super::super) bakes: Vec<Bake>,
+    pub(crate) bakes: Vec<Bake>,
     images: BTreeMap<(String, bool), ImageId>,
     textures: BTreeMap<(u32, Option<bool>), TextureId>,
     /// Statements without effect: the span of the first, the reason, and their number.
