@@ -2,7 +2,7 @@
 
 use super::Scene;
 use arbitrary::Arbitrary;
-use rtc_math::Shared;
+use rtc_math::{Shared, to_u32};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -37,7 +37,7 @@ impl Scene {
     /// Adds an image and returns its index.
     pub fn add_image(&mut self, image: Image) -> ImageId {
         self.images.push(image);
-        ImageId(u32::try_from(self.images.len() - 1).unwrap_or(u32::MAX))
+        ImageId(to_u32(self.images.len() - 1))
     }
 }
 

@@ -1,6 +1,7 @@
 //! Source spans of the values of a scene. They are stored beside the scene and never serialised.
 
 use super::ShapeKind;
+use rtc_math::to_u32;
 use rtc_source::Span;
 use std::fmt;
 
@@ -112,7 +113,7 @@ impl ValuePath {
     pub fn new(entity: EntityKind, index: usize, field: Field) -> Self {
         Self {
             entity,
-            index: u32::try_from(index).unwrap_or(u32::MAX),
+            index: to_u32(index),
             field,
         }
     }

@@ -5,6 +5,7 @@
 mod basis;
 mod bounds;
 mod column;
+mod count;
 mod direction;
 mod double;
 mod exact;
@@ -20,6 +21,7 @@ mod weight;
 pub use basis::{BasisFault, camera_basis, fallback_up, view_basis};
 pub use bounds::Bounds;
 pub use column::{Column, Shared};
+pub use count::to_u32;
 pub use direction::{length, unit, unit_scale};
 pub use double::DoubleDouble;
 pub use exact::{

@@ -6,6 +6,7 @@
 
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{EntityKind, Field, Light, Lowered, Material, Mode, ValuePath};
+use rtc_math::to_u32;
 use rtc_render::{Crop, Step};
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, AtomicUsize, Ordering};
 
@@ -189,7 +190,7 @@ impl RayCounter {
             total_so_far = total_so_far.saturating_add(rays.load(Ordering::Relaxed) & !DONE);
             total_so_far > self.limit
         })?;
-        let at = u32::try_from(at).unwrap_or(u32::MAX);
+        let at = to_u32(at);
         Some([
             self.crop.x + at % self.crop.width,
             self.crop.y + at / self.crop.width,

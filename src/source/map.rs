@@ -2,6 +2,7 @@
 
 use super::memory::resolved;
 use super::{Budget, EditedFiles, Folder, Found, Limits, MemoryFiles};
+use rtc_math::to_u32;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -181,7 +182,7 @@ impl SourceMap {
             "the loader refuses files of 4 GiB and more"
         );
         self.budget.read(bytes.len());
-        let id = FileId(u32::try_from(self.files.len()).unwrap_or(u32::MAX));
+        let id = FileId(to_u32(self.files.len()));
         self.files.push(SourceFile {
             name,
             folder,
@@ -331,10 +332,6 @@ fn marks(bytes: &[u8]) -> Vec<ColumnMark> {
     }
     advance(0);
     marks
-}
-
-fn to_u32(count: usize) -> u32 {
-    u32::try_from(count).unwrap_or(u32::MAX)
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::protocol::{Position, PositionEncodingKind, Range};
 use ropey::Rope;
+use rtc_math::to_u32;
 
 /// The units of columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -171,10 +172,6 @@ impl<'t> TextLines<'t> {
         let rest = self.text.get(offset..).unwrap_or_default();
         offset + rest.find(['\n', '\r']).unwrap_or(rest.len())
     }
-}
-
-fn to_u32(count: usize) -> u32 {
-    u32::try_from(count).unwrap_or(u32::MAX)
 }
 
 #[cfg(test)]

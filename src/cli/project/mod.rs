@@ -8,6 +8,7 @@ mod trust;
 use super::Failure;
 use super::args::Reading;
 use rtc_diag::{Code, Diagnostic, DiagnosticLevels, clip_path, codes};
+use rtc_math::to_u32;
 use rtc_passes::Overrides;
 use rtc_pipeline::Input;
 use rtc_source::{Limits, LoadError, Loader, Resource, Span};
@@ -119,7 +120,6 @@ impl Project {
         let file = input.add_text(&self.path, self.bytes.clone());
         let message = format!("settings from `{}`", clip_path(&path));
         input.push(Diagnostic::new(&codes::SETTINGS_READ, message));
-        let to_u32 = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
         for fault in &self.faults {
             let span = Span::new(file, to_u32(fault.at.start), to_u32(fault.at.end));
             let found = Diagnostic::new(fault.code, fault.message.clone()).at(span, "");

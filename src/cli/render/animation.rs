@@ -8,6 +8,7 @@ use super::super::{Failure, args, reporter};
 use super::RenderSetup;
 use super::checkpoint::RunContext;
 use rtc_image::{AnimatedGif, AnimatedPng, FileFormat, Picture, PictureHead};
+use rtc_math::to_u32;
 use rtc_pipeline::RenderSubject;
 use std::ffi::OsStr;
 use std::fs::File;
@@ -68,7 +69,7 @@ impl RenderSetup {
         file: &mut File,
     ) -> Result<(), FrameError> {
         let table = Turntable::new(&subject.validated.lowered.scene, self.up, views.count);
-        let frames = u32::try_from(views.shown.len()).unwrap_or(u32::MAX);
+        let frames = to_u32(views.shown.len());
         let mut begun: Option<FrameAnimation<'_>> = None;
         let mut file = Some(file);
         for frame in views.shown.clone() {

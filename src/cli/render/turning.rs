@@ -5,6 +5,7 @@ use super::super::output::Output;
 use super::super::turntable::{self, Turntable, Views};
 use super::RenderSetup;
 use super::checkpoint::{RunContext, Saving};
+use rtc_math::to_u32;
 use rtc_pipeline::{RenderSubject, hash_of_file};
 use rtc_source::{Loader, SourceMap};
 use std::ops::Range;
@@ -33,7 +34,7 @@ impl RenderSetup {
             Ok::<(), Failure>(())
         };
         let finished = saving.finished.clone();
-        let begun = u32::try_from(finished.len()).unwrap_or(u32::MAX);
+        let begun = to_u32(finished.len());
         let begun = start.saturating_add(begun);
         if begun >= end {
             let count = end - start;

@@ -3,6 +3,7 @@
 //!
 //! Properties with default values are omitted. The order of the fields is that of the file.
 
+use rtc_math::to_u32;
 use serde::Serialize;
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
@@ -43,7 +44,7 @@ impl<T> Index<T> {
     /// Adds an object to its array.
     pub(super) fn push(list: &mut Vec<T>, part: T) -> Self {
         list.push(part);
-        let last = u32::try_from(list.len() - 1).unwrap_or(u32::MAX);
+        let last = to_u32(list.len() - 1);
         Self(last, PhantomData)
     }
 

@@ -5,7 +5,7 @@ use super::document::{self, Accessor, Attributes, Index, Node, Primitive};
 use super::writer::{GltfWriter, extras, single};
 use rtc_diag::codes;
 use rtc_ir::{Column, EntityKind, Field, Instance, Mesh, MeshId, Shape, ValuePath};
-use rtc_math::{Vec3, cross, unit};
+use rtc_math::{Vec3, cross, to_u32, unit};
 use rtc_source::Resource;
 use std::collections::BTreeMap;
 
@@ -240,7 +240,7 @@ impl GltfWriter<'_> {
             match unit(vector) {
                 Some(vector) => *normal = vector.to_array().map(single),
                 None => {
-                    without_direction.insert(u32::try_from(at).unwrap_or(u32::MAX), Vec3::Z);
+                    without_direction.insert(to_u32(at), Vec3::Z);
                 }
             }
         }

@@ -10,7 +10,7 @@ use rtc_ir::{
     BoundingSphere, Column, Cylinder, Disc, EntityKind, Field, Instance, Mesh, MeshId, Shape,
     Sphere, Surface, ValuePath,
 };
-use rtc_math::{Basis, Vec3, is_flat, shortest, unit};
+use rtc_math::{Basis, Vec3, is_flat, shortest, to_u32, unit};
 use xxhash_rust::xxh3::xxh3_64;
 
 /// Bytes of a PLY header, and of a triangle.
@@ -26,7 +26,7 @@ pub(super) struct TriangleSoup {
 
 impl TriangleSoup {
     fn add(&mut self, corners: &[Vec3], triangles: &[[u32; 3]]) {
-        let first = u32::try_from(self.corners.len()).unwrap_or(u32::MAX);
+        let first = to_u32(self.corners.len());
         self.corners.extend(corners.iter().map(Vec3::to_array));
         let moved = triangles
             .iter()

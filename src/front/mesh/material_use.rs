@@ -3,6 +3,7 @@
 
 use super::WordSpan;
 use crate::words::Word;
+use rtc_math::to_u32;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -127,8 +128,4 @@ pub(super) fn name(words: &[Word<'_>], file: &[u8]) -> Option<Named> {
         text: String::from_utf8_lossy(bytes).into_owned(),
         at: whole.place(),
     })
-}
-
-fn to_u32(count: usize) -> u32 {
-    u32::try_from(count).expect("the loader refuses files of 4 GiB and more")
 }

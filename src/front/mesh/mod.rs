@@ -87,11 +87,6 @@ fn columns(mesh: &Mesh) -> u64 {
         + column(!mesh.colors.is_empty(), 2)
 }
 
-/// A count of what a file holds.
-fn to_u32(count: usize) -> u32 {
-    u32::try_from(count).unwrap_or(u32::MAX)
-}
-
 /// Charges what a mesh holds, and frees what it has no use for.
 fn charge(mesh: &mut Mesh, budget: &Budget) -> Result<(), Exceeded> {
     let Mesh {

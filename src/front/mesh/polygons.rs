@@ -1,9 +1,10 @@
 //! The polygons of a file until its vertices are there; then their triangles.
 
+use super::Parsed;
 use super::polygon::EarClipper;
-use super::{Parsed, to_u32};
 use crate::words::WordFault;
 use rtc_ir::Mesh;
+use rtc_math::to_u32;
 use rtc_source::{Budget, Exceeded, Resource};
 
 /// Polygons, each a run of corners, some with a colour of their own or texture coordinates of their

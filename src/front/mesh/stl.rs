@@ -4,9 +4,10 @@
 //! The normals of the file are not read: the order of the corners says the same.
 
 use super::tint::decoded;
-use super::{MAX_FAULTS, ParseFault, Parsed, first_lines, to_u32};
+use super::{MAX_FAULTS, ParseFault, Parsed, first_lines};
 use crate::words::{Lines, Word, WordFault, numbers};
 use rtc_ir::Mesh;
+use rtc_math::to_u32;
 use rtc_source::{Budget, Resource};
 
 /// What stands before the triangles of a binary file: 80 bytes of any kind, and their count.

@@ -1,10 +1,10 @@
 //! The points and lines of mesh files, drawn as those of glTF are.
 
-use super::{columns, to_u32};
+use super::columns;
 use crate::glyph::{Glyph, radius, thin_glyphs};
 use glam::DAffine3;
 use rtc_ir::{BoundingSphere, Column, Mesh};
-use rtc_math::Vec3;
+use rtc_math::{Vec3, to_u32};
 use rtc_source::{Budget, Exceeded, Resource};
 
 /// Bytes of the offset of a corner and its place, beside its columns, and of a triangle until it is

@@ -5,7 +5,7 @@
 
 use crate::accel::bounds::Slabs;
 use crate::ray::Ray;
-use rtc_math::Bounds;
+use rtc_math::{Bounds, to_u32};
 
 /// Boxes in one leaf at most, where splitting helps.
 const LEAF: usize = 4;
@@ -227,10 +227,6 @@ fn partition(items: &mut [Item], first: impl Fn(&Item) -> bool) -> usize {
     items[..front.len()].copy_from_slice(&front);
     items[front.len()..].copy_from_slice(&back);
     front.len()
-}
-
-pub(crate) fn to_u32(count: usize) -> u32 {
-    u32::try_from(count).unwrap_or(u32::MAX)
 }
 
 fn to_axis(axis: usize) -> u8 {

@@ -12,7 +12,7 @@ use super::partial::{FilmError, FilmLayout, PartialFilm, SumNode, Summation, ins
 use super::pixel::PixelSum;
 use super::tiled::tiles_of;
 use super::{Counts, Crop, Values};
-use rtc_math::Vec3;
+use rtc_math::{Vec3, to_u32};
 
 /// What the bytes of a film begin with.
 const MAGIC: [u8; 8] = *b"rtc film";
@@ -107,7 +107,7 @@ impl SumNode {
 
 /// A number of entities as bytes: a picture has fewer than 2³² of each.
 fn length(count: usize) -> [u8; 4] {
-    u32::try_from(count).unwrap_or(u32::MAX).to_le_bytes()
+    to_u32(count).to_le_bytes()
 }
 
 /// The bytes that are still to be read.

@@ -2,6 +2,7 @@
 //! compares the two pictures.
 
 use crate::film::{Film, Job};
+use rtc_math::to_u32;
 use rtc_plan::{Effect, Plan, Rule};
 use std::sync::{Mutex, PoisonError};
 
@@ -76,9 +77,8 @@ pub(crate) fn first_difference(
         index / planned.image.width as usize,
         index % planned.image.width as usize,
     );
-    let offset = |place: usize| u32::try_from(place).unwrap_or(u32::MAX);
     Some((
-        [x + offset(column), y + offset(row)],
+        [x + to_u32(column), y + to_u32(row)],
         naive.image.pixels[index],
     ))
 }

@@ -21,7 +21,7 @@ use crate::sampler::discrete::DiscreteDistribution;
 use crate::shape::geometry::AttributeRequest;
 use crate::shape::geometry::Intersect;
 use crate::world::World;
-use rtc_math::{Bounds, Vec3};
+use rtc_math::{Bounds, Vec3, to_u32};
 use rtc_plan::LightUse;
 use std::f64::consts::PI;
 
@@ -90,7 +90,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
             let triangles = surface.shape.triangles();
             if shines && triangles > 0 && is_room_for(triangles, lights.len()) {
                 first_light_of_surface[index] = Some(lights.len());
-                let parts = u32::try_from(triangles).unwrap_or(u32::MAX);
+                let parts = to_u32(triangles);
                 let corners = (0..parts)
                     .filter_map(|prim_id| Some((prim_id, surface.shape.corners(prim_id)?)));
                 lights.extend(corners.map(|(prim_id, corners)| {

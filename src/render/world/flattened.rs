@@ -7,6 +7,7 @@ use crate::ray::Ray;
 use crate::shape::geometry::{Intersect, LocalRay};
 use crate::shape::mesh::FEW;
 use crate::shape::triangle::{self, WatertightRay};
+use rtc_math::to_u32;
 use rtc_valid::{self as valid, MAX_MESH_TRIANGLES, ValidScene};
 
 /// The triangles of all flattened instances, numbered surface by surface.
@@ -124,7 +125,7 @@ impl Flattened {
         let shape = |surface: u32| &surfaces[surface as usize].shape;
         let mut count = 0;
         let start = |surface: &u32| {
-            let start = (*surface, u32::try_from(count).unwrap_or(u32::MAX));
+            let start = (*surface, to_u32(count));
             count += shape(*surface).triangles();
             start
         };

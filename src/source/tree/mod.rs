@@ -73,6 +73,7 @@ pub mod yaml;
 use super::{FileId, Span};
 use keys::KeyIndex;
 use pointer::PointerStep;
+use rtc_math::to_u32;
 use std::ops::Range;
 
 /// The index of a node in a [`Tree`].
@@ -444,9 +445,4 @@ impl<'s> Tree<'s> {
 /// The byte range between the quotes of a string.
 fn inside_quotes(start: u32, end: u32) -> Range<u32> {
     start + 1..end.saturating_sub(1)
-}
-
-/// An offset or index as `u32`; the loader rejects files of 4 GiB and more.
-fn to_u32(count: usize) -> u32 {
-    u32::try_from(count).expect("the loader refuses files of 4 GiB and more")
 }

@@ -1,7 +1,7 @@
 //! Builds meshes from grids of vertices with normals.
 
 use rtc_ir::{Column, Mesh};
-use rtc_math::{Vec3, cos_sin_revolutions};
+use rtc_math::{Vec3, cos_sin_revolutions, to_u32};
 
 /// A vertex.
 #[derive(Clone, Copy)]
@@ -99,9 +99,4 @@ pub(super) fn circle_point(step: u32, steps: u32) -> [f64; 2] {
 /// `step` of `steps`, from 0 to 1.
 pub(super) fn fraction(step: u32, steps: u32) -> f64 {
     f64::from(step) / f64::from(steps.max(1))
-}
-
-/// A vertex count, which was charged to the budget.
-fn to_u32(count: usize) -> u32 {
-    u32::try_from(count).unwrap_or(u32::MAX)
 }

@@ -22,7 +22,7 @@ use rtc_ir::{
     BoundingSphere, EntityKind, Field, Instance, Mesh, MeshId, Scene, Shape, ShapeKind, Surface,
     ValuePath,
 };
-use rtc_math::shortest;
+use rtc_math::{shortest, to_u32};
 use rtc_source::{Budget, Resource};
 use std::collections::BTreeMap;
 use tolerance::Tessellation;
@@ -135,7 +135,7 @@ impl Tessellator<'_> {
 
     fn add(&mut self, mesh: Mesh) -> MeshId {
         self.meshes.push(mesh);
-        MeshId(u32::try_from(self.meshes.len() - 1).unwrap_or(u32::MAX))
+        MeshId(to_u32(self.meshes.len() - 1))
     }
 
     /// Charges vertices; `None` if they exceed the budget, which is reported.

@@ -5,7 +5,6 @@ use super::super::field::Fields;
 use super::super::pointer::AnimatedValues;
 use super::super::primitive::Primitive;
 use super::super::report::AssetReport;
-use super::mesh::to_u32;
 use super::texture::LoweredTextures;
 use super::uv::TexCoordSets;
 use rtc_diag::codes;
@@ -13,6 +12,7 @@ use rtc_ir::{
     self as ir, Alpha, Bump, EntityKind, Field, Map, MaterialId, Phong, Scene, SourceSpans,
     Standard, ValuePath,
 };
+use rtc_math::to_u32;
 use rtc_source::tree::Tree;
 use std::collections::BTreeMap;
 

@@ -12,6 +12,7 @@ use crate::glyph::pick;
 use rtc_ir::{
     self as ir, Column, EntityKind, Field, Mesh, MeshId, Scene, Shared, SourceSpans, ValuePath,
 };
+use rtc_math::to_u32;
 use rtc_source::Resource;
 use rtc_source::tree::NodeId;
 use std::cmp::Ordering;
@@ -290,9 +291,4 @@ fn colors(elements: &AccessorReader<'_>) -> Column<4> {
 /// Colours, each channel kept from 0 to 1.
 pub(super) fn clamped(colors: impl Iterator<Item = [f64; 4]>) -> Column<4> {
     Column::rounded(colors.map(|color| color.map(|channel| channel.clamp(0.0, 1.0))))
-}
-
-/// A count of a scene, which is far below 2^32.
-pub(super) fn to_u32(count: usize) -> u32 {
-    u32::try_from(count).unwrap_or(u32::MAX)
 }

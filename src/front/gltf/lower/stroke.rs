@@ -6,7 +6,7 @@
 use super::super::document::Document;
 use super::super::primitive::{Primitive, TRIANGLES};
 use super::super::report::AssetReport;
-use super::mesh::{self, MeshKey, WantedMesh, to_u32};
+use super::mesh::{self, MeshKey, WantedMesh};
 use super::topology;
 use super::transform::InstanceTransforms;
 use crate::glyph::{Glyph, radius, thin_glyphs};
@@ -14,7 +14,7 @@ use glam::DAffine3;
 use rtc_ir::{
     BoundingSphere, Column, EntityKind, Field, Mesh, MeshId, Scene, SourceSpans, ValuePath,
 };
-use rtc_math::Vec3;
+use rtc_math::{Vec3, to_u32};
 use rtc_source::Resource;
 use std::collections::BTreeMap;
 

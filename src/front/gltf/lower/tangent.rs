@@ -5,11 +5,10 @@
 //! MikkTSpace compares all corners at a place with each other. So a place of very many counts as
 //! several side by side, each with its part of them.
 
-use super::mesh::to_u32;
 use crate::glyph::pick;
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
 use rtc_ir::{Column, Mesh};
-use rtc_math::Vec3;
+use rtc_math::{Vec3, to_u32};
 
 /// A mesh whose tangents are asked for, one a corner.
 struct Corners<'m> {

@@ -8,7 +8,7 @@ use rtc_ir::{
     self as ir, EntityKind, Field, Filter, ImageId, Map, Sampled, Scene, SourceSpans, TextureId,
     ValuePath, Wrap,
 };
-use rtc_math::{cos, sin};
+use rtc_math::{cos, sin, to_u32};
 use std::collections::BTreeMap;
 
 /// What became of the textures and images of the asset.
@@ -71,7 +71,7 @@ impl LoweredTextures {
         }
         let texture = doc.textures.get(index)?;
         let image = self.image(doc, texture.source?, scene, source_spans, report)?;
-        let id = TextureId(super::mesh::to_u32(scene.textures.len()));
+        let id = TextureId(to_u32(scene.textures.len()));
         let place = ValuePath::new(EntityKind::Texture, scene.textures.len(), Field::Whole);
         source_spans.record(place, report.json.span(texture.at));
         scene.textures.push(ir::Texture::Image(image));
@@ -127,7 +127,7 @@ impl LoweredTextures {
                 wrap,
                 filter,
             }));
-            TextureId(super::mesh::to_u32(at))
+            TextureId(to_u32(at))
         });
         self.textures[index] = Some(id);
         id
@@ -154,7 +154,7 @@ impl LoweredTextures {
                 name: image.name.clone(),
                 ..doc.pictures[picture].clone()
             });
-            ImageId(super::mesh::to_u32(at))
+            ImageId(to_u32(at))
         }))
     }
 }

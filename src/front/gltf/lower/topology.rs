@@ -4,6 +4,7 @@
 use super::super::accessor_reader::AccessorReader;
 use super::super::document::Document;
 use super::super::primitive::Primitive;
+use rtc_math::to_u32;
 
 const POINTS: u64 = 0;
 const LINES: u64 = 1;
@@ -61,7 +62,7 @@ fn join(indices: &[u32], mode: u64) -> Option<Vec<[u32; 2]>> {
 fn indices(doc: &Document<'_>, primitive: &Primitive, vertices: usize) -> Option<Vec<u32>> {
     match primitive.indices {
         Some(index) => Some(AccessorReader::of(doc, doc.accessors.get(index)?)?.integers()),
-        None => Some((0..super::mesh::to_u32(vertices)).collect()),
+        None => Some((0..to_u32(vertices)).collect()),
     }
 }
 
@@ -117,7 +118,7 @@ pub(super) fn compact(
     for corner in triangles.iter().flatten() {
         let slot = &mut renamed[*corner as usize];
         if *slot == UNUSED {
-            *slot = super::mesh::to_u32(kept.len());
+            *slot = to_u32(kept.len());
             kept.push(*corner);
         }
     }

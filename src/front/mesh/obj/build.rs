@@ -5,10 +5,10 @@ use super::smooth::Smoothing;
 use super::{Check, Vertices, is_face, part_of};
 use crate::mesh::polygon::EarClipper;
 use crate::mesh::stroke::{Segments, StrokeMesher, join};
-use crate::mesh::{Named, ParseFault, to_u32};
+use crate::mesh::{Named, ParseFault};
 use crate::words::Lines;
 use rtc_ir::Mesh;
-use rtc_math::Column;
+use rtc_math::{Column, to_u32};
 use rtc_source::{Budget, Exceeded, Resource};
 
 impl Check {

@@ -3,9 +3,8 @@
 //! from polygonal facets", Journal of Graphics Tools 3, 1998).
 
 use super::corner::Corner;
-use crate::mesh::to_u32;
 use crate::words::Word;
-use rtc_math::{Vec3, acos, unit};
+use rtc_math::{Vec3, acos, to_u32, unit};
 
 /// The normals of the corners of all groups.
 #[derive(Default)]

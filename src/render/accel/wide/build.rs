@@ -14,7 +14,7 @@ use crate::accel::pages::Pages;
 use crate::accel::simd::SimdLevel;
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
-use rtc_math::{Bounds, Vec3};
+use rtc_math::{Bounds, Vec3, to_u32};
 
 /// A link to a leaf counts no more triangles, which would take 21 GB.
 pub(crate) const MOST: usize = 1 << 29;
@@ -244,8 +244,4 @@ fn node(children: &[BuildRange<'_>]) -> WideNode {
     }
     node[LINKS..][..WIDTH].fill(f32::from_bits(NONE));
     node
-}
-
-fn to_u32(count: usize) -> u32 {
-    u32::try_from(count).unwrap_or(u32::MAX)
 }

@@ -3,8 +3,9 @@
 mod text;
 
 use super::pointer::PointerStep;
-use super::{NodeId, Syntax, Tree, TreeNode, keys, to_u32};
+use super::{NodeId, Syntax, Tree, TreeNode, keys};
 use crate::FileId;
+use rtc_math::to_u32;
 
 /// The maximum nesting depth.
 const MAX_DEPTH: usize = 512;

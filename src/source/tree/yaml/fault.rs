@@ -1,9 +1,10 @@
 //! Converts errors of the YAML parser to messages for the author of the text.
 
-use super::super::{NodeId, Tree, to_u32};
+use super::super::{NodeId, Tree};
 use super::{Mistake, comma, lookalike, typo};
 use crate::Span;
 use granit_parser::{ErrorKind, ScanError};
+use rtc_math::to_u32;
 
 /// The mistake in an invalid text; `bracket` is the innermost open bracket.
 pub(super) fn syntax(

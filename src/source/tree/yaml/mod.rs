@@ -12,9 +12,10 @@ mod typo;
 pub use layout::{LayoutFault, layout};
 pub use mistake::{Mistake, Separator};
 
-use super::{NodeId, Syntax, Tree, TreeNode, inside_quotes, keys, to_u32};
+use super::{NodeId, Syntax, Tree, TreeNode, inside_quotes, keys};
 use crate::{FileId, Span};
 use granit_parser::{Event, Parser, ScalarStyle, StructureStyle};
+use rtc_math::to_u32;
 use std::borrow::Cow;
 use std::ops::Range;
 use text::{MAX_WORD, text, too_long};

@@ -1,9 +1,9 @@
 //! Checks that bytes are text fit to parse: UTF-8, no control characters, no scalar that is too
 //! long.
 
-use super::super::to_u32;
 use super::Mistake;
 use crate::{FileId, Span};
+use rtc_math::to_u32;
 
 /// The maximum length in bytes of a run without separators, and of a scalar.
 pub(super) const MAX_WORD: usize = 1 << 20;

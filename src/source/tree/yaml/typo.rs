@@ -1,10 +1,11 @@
 //! Detects typos that the YAML parser reports late or in its own terms, from the text around the
 //! error, with the suggested text.
 
-use super::super::{Tree, to_u32};
+use super::super::Tree;
 use super::Mistake;
 use crate::Span;
 use granit_parser::ErrorKind;
+use rtc_math::to_u32;
 
 /// The typo that explains a syntax error, if one is found.
 pub(super) fn find(tree: &Tree<'_>, at: usize, kind: &ErrorKind) -> Option<Mistake<'static>> {
