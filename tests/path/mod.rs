@@ -6,6 +6,7 @@
 mod agreement;
 mod closed;
 mod coverage;
+mod emitters;
 mod hierarchy;
 mod layers;
 mod leaves;

@@ -74,7 +74,7 @@ const OF_MATERIALS: [OfMaterial; 24] = [
     (
         "emission",
         |m| m.emissive = [1.0; 3],
-        &[Effect::Emission],
+        &[Effect::Emission, Effect::Mis],
         LIT,
     ),
     (

@@ -87,7 +87,7 @@ const OF_SCENES: [OfScene; 30] = [
     (
         "one bounce, after which a ball shines",
         |s| (s.settings.max_depth, material(s).emissive) = (1, [1.0; 3]),
-        [&[Effect::Emission], &[]],
+        [&[Effect::Emission, Effect::Mis], &[]],
         LIT,
     ),
     (

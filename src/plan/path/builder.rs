@@ -266,26 +266,41 @@ impl PlanBuilder<'_> {
     }
 
     /// Whether there is a light that both light sampling and BSDF sampling can hit: an environment
-    /// image or emissive triangles.
+    /// image or an emissive surface.
     pub(super) fn has_extended_light(&self) -> bool {
         let shines = self.environment != EnvironmentUse::Nothing;
-        (shines && self.has_environment_image()) || self.has_emissive_mesh()
+        (shines && self.has_environment_image()) || self.has_emissive_surface()
     }
 
     fn has_environment_image(&self) -> bool {
         self.scene.environment().image.is_some()
     }
 
-    /// Whether a mesh has an emissive material.
-    fn has_emissive_mesh(&self) -> bool {
+    /// Whether a surface that lights are sampled on has an emissive material.
+    fn has_emissive_surface(&self) -> bool {
         let shines = |material: usize| {
             let material = &self.materials[material];
             !material.unlit && material.emissive != Vec3::ZERO
         };
-        self.used_surfaces().any(|surface| {
-            let has_triangles = matches!(surface.shape, Shape::Instance(_) | Shape::Triangle(_));
-            shines(surface.material) && has_triangles
-        })
+        self.used_surfaces()
+            .any(|surface| shines(surface.material) && is_sampled(&surface.shape))
+    }
+}
+
+/// Whether light sampling finds an emissive shape: it is bounded and no curved patch.
+fn is_sampled(shape: &Shape) -> bool {
+    match shape {
+        Shape::Plane(_) | Shape::InfiniteCylinder(_) => false,
+        Shape::Quad(quad) => rtc_math::is_flat(quad.vertices),
+        Shape::Sphere(_)
+        | Shape::Triangle(_)
+        | Shape::Disc(_)
+        | Shape::Cylinder(_)
+        | Shape::Cone(_)
+        | Shape::Paraboloid(_)
+        | Shape::Torus(_)
+        | Shape::Instance(_)
+        | Shape::Ellipsoid(_) => true,
     }
 }
 

@@ -16,7 +16,7 @@ mod sheen;
 mod side;
 pub(crate) mod standard;
 mod thin_film;
-mod warp;
+pub(crate) mod warp;
 
 pub use fresnel::dispersed;
 

@@ -1,4 +1,4 @@
-//! The lights for next-event estimation: punctual lights, emissive triangles and the environment. A
+//! The lights for next-event estimation: punctual lights, emissive surfaces and the environment. A
 //! light is sampled in proportion to its power, or by a light tree if there are many local lights.
 //!
 //! A light of zero weight is never sampled; only BSDF sampling finds it.
@@ -6,18 +6,21 @@
 pub(crate) mod course;
 pub(crate) mod environment;
 pub(crate) mod punctual;
+mod shape;
 mod tree;
 mod triangle;
 
 use crate::integrator::path::Strategy;
 use crate::light::environment::EnvironmentRadiance;
 use crate::light::punctual::Punctual;
+use crate::light::shape::ShapeLight;
 use crate::light::tree::{LightTree, TreeLight};
 use crate::light::triangle::TriangleLight;
-use crate::material::point::uvs;
-use crate::material::standard::StandardMaterial;
+use crate::material::point::MaterialPoint;
+use crate::material::standard::{Alpha, StandardMaterial};
 use crate::ray::{Interaction, Ray};
 use crate::sampler::discrete::DiscreteDistribution;
+use crate::shape::emitter::{Emitter, EmitterPoint};
 use crate::shape::geometry::AttributeRequest;
 use crate::shape::geometry::Intersect;
 use crate::world::World;
@@ -50,6 +53,7 @@ pub(crate) struct Lights<'world, S> {
 enum Light {
     Punctual(Punctual, LightUse),
     Triangle(TriangleLight),
+    Shape(Box<ShapeLight>),
     Environment,
 }
 
@@ -87,8 +91,15 @@ impl<'world, S: Intersect> Lights<'world, S> {
         for (index, surface) in world.surfaces.iter().enumerate() {
             let material = &world.standards[surface.material];
             let shines = !material.is_unlit && material.emission.factor != Vec3::ZERO;
+            if !shines {
+                continue;
+            }
+            if let Some(light) = ShapeLight::new(index, &surface.shape) {
+                first_light_of_surface[index] = Some(lights.len());
+                lights.push(Light::Shape(Box::new(light)));
+            }
             let triangles = surface.shape.triangles();
-            if shines && triangles > 0 && is_room_for(triangles, lights.len()) {
+            if triangles > 0 && is_room_for(triangles, lights.len()) {
                 first_light_of_surface[index] = Some(lights.len());
                 let parts = to_u32(triangles);
                 let corners = (0..parts)
@@ -140,6 +151,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
         let (bounds, normal) = match &self.lights[light] {
             Light::Punctual(light, _) => (Bounds::around(light.place_of_falloff()?, 0.0), None),
             Light::Triangle(triangle) => (Bounds::of(triangle.corners), Some(triangle.normal())),
+            Light::Shape(shape) => (shape.bounds, shape.emitter.flat_normal()),
             Light::Environment => return None,
         };
         (power > 0.0).then_some(TreeLight {
@@ -156,7 +168,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
             // A light without size needs no numbers, if it is the only one.
             let u = match self.lights[only] {
                 Light::Punctual(..) => [0.0; 2],
-                Light::Triangle(_) | Light::Environment => u(),
+                Light::Triangle(_) | Light::Shape(_) | Light::Environment => u(),
             };
             return Some((only, self.probabilities[only], u));
         }
@@ -204,6 +216,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
             Light::Triangle(triangle) => {
                 2.0 * PI * triangle.area() * self.mean_emission(triangle).max_element()
             }
+            Light::Shape(shape) => shape.power(self.mean_emission_of_shape(shape)),
             // BSDF sampling is best for a uniform environment.
             Light::Environment
                 if self.world.lights.environment.is_uniform() && strategy != Strategy::Nee =>
@@ -227,40 +240,59 @@ impl<'world, S: Intersect> Lights<'world, S> {
             return emission.factor;
         }
         let [a, b, c] = triangle.corners;
-        let at = |[u, v, w]: [f64; 3]| a * u + b * v + c * w;
+        let at = |[u, v, w]: [f64; 3]| triangle.at(a * u + b * v + c * w);
+        let emission = |weights| self.point(triangle.surface, &at(weights)).emission();
         // Add in pairs, so that the mean of equal numbers is exact.
-        let [a, b, c, d] = WEIGHTS.map(|weights| self.emission(triangle, at(weights)));
+        let [a, b, c, d] = WEIGHTS.map(emission);
         ((a + b) + (c + d)) / 4.0
     }
 
-    /// The emitted radiance at a point of a triangle.
-    fn emission(&self, triangle: &TriangleLight, point: Vec3) -> Vec3 {
-        let emission = &self.material(triangle.surface).emission;
+    /// The mean radiance of a shape, estimated at 16 points.
+    fn mean_emission_of_shape(&self, light: &ShapeLight) -> Vec3 {
+        /// The points are the middles of so many cells, squared.
+        const CELLS: u32 = 4;
+        let emission = &self.material(light.surface).emission;
         if emission.map.is_none() {
             return emission.factor;
         }
-        let normal = triangle.normal();
-        let ray = Ray {
-            origin: point,
-            direction: normal,
+        let middle = |cell: u32| (f64::from(cell) + 0.5) / f64::from(CELLS);
+        let at = |cell: u32| {
+            let u = [middle(cell % CELLS), middle(cell / CELLS)];
+            let at = light.emitter.sample(light.bounds.center(), u);
+            self.point(light.surface, &at).emission()
         };
-        let at = Interaction {
-            point,
-            normal,
+        (0..CELLS * CELLS).map(at).sum::<Vec3>() / f64::from(CELLS * CELLS)
+    }
+
+    /// The material at a point of a surface.
+    fn point(&self, surface: usize, at: &EmitterPoint) -> MaterialPoint<'world> {
+        let ray = Ray {
+            origin: at.point,
+            direction: at.normal,
+        };
+        let interaction = Interaction {
+            point: at.point,
+            normal: at.normal,
             offset: 0.0,
-            back: -normal,
+            back: -at.normal,
         };
         let asked = AttributeRequest {
             uv: true,
             tangent: false,
         };
-        let shape = &self.world.surfaces[triangle.surface].shape;
-        emission.at(&uvs(&shape.shading_attributes(
-            &ray,
-            &at,
-            triangle.prim_id,
-            asked,
-        )))
+        let shape = &self.world.surfaces[surface].shape;
+        let attributes = shape.shading_attributes(&ray, &interaction, at.prim_id, asked);
+        MaterialPoint::new(self.material(surface), &attributes)
+    }
+
+    /// The radiance that a point of a surface emits on average: alpha leaves out the rest.
+    fn emission(&self, surface: usize, at: &EmitterPoint) -> Vec3 {
+        let material = self.material(surface);
+        if material.emission.map.is_none() && material.alpha == Alpha::Opaque {
+            return material.emission.factor;
+        }
+        let point = self.point(surface, at);
+        point.emission() * point.opacity()
     }
 
     fn material(&self, surface: usize) -> &'world StandardMaterial {
@@ -279,7 +311,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
                 let point = triangle.point(u);
                 let wi = (point - from).try_normalize()?;
                 let pdf = probability * triangle.pdf(wi, point.distance_squared(from));
-                let radiance = self.emission(triangle, point) / pdf;
+                let radiance = self.emission(triangle.surface, &triangle.at(point)) / pdf;
                 (pdf > 0.0 && pdf.is_finite()).then_some(Incident {
                     wi,
                     radiance,
@@ -287,6 +319,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
                     place: Some(point),
                 })
             }
+            Light::Shape(light) => self.sample_shape(light, from, probability, u),
             Light::Environment => {
                 let (wi, EnvironmentRadiance { radiance, pdf }) =
                     self.world.lights.environment.sample(u);
@@ -301,25 +334,52 @@ impl<'world, S: Intersect> Lights<'world, S> {
         }
     }
 
+    /// Samples a shape that is chosen with a probability.
+    fn sample_shape(
+        &self,
+        light: &ShapeLight,
+        from: Vec3,
+        probability: f64,
+        u: [f64; 2],
+    ) -> Option<Incident> {
+        let at = light.emitter.sample(from, u);
+        let wi = (at.point - from).try_normalize()?;
+        let square = at.point.distance_squared(from);
+        let pdf = probability * light.emitter.pdf(from, wi, &at, square);
+        let radiance = self.emission(light.surface, &at) / pdf;
+        (pdf > 0.0 && pdf.is_finite()).then_some(Incident {
+            wi,
+            radiance,
+            pdf: Some(pdf),
+            place: Some(Emitter::end(&at, &light.bounds, from)),
+        })
+    }
+
     /// The density with which [`Lights::sample`] samples the direction `wi` to a point of a
-    /// primitive of a surface, from a point at the given distance.
+    /// primitive of a surface, where the normal is given, from a point at the given distance.
     pub(crate) fn pdf_of_surface(
         &self,
         (surface, prim_id): (usize, u32),
-        place: Vec3,
+        (place, normal): (Vec3, Vec3),
         wi: Vec3,
         distance: f64,
     ) -> f64 {
         let Some(first) = self.first_light_of_surface[surface] else {
             return 0.0;
         };
+        let (from, square) = (place - wi * distance, distance * distance);
+        if let Light::Shape(light) = &self.lights[first] {
+            let at = EmitterPoint {
+                point: place,
+                normal,
+                prim_id,
+            };
+            return self.probability(first, from) * light.emitter.pdf(from, wi, &at, square);
+        }
         let index = first + prim_id as usize;
         match &self.lights[index] {
-            Light::Triangle(triangle) => {
-                let probability = self.probability(index, place - wi * distance);
-                probability * triangle.pdf(wi, distance * distance)
-            }
-            Light::Punctual(..) | Light::Environment => 0.0,
+            Light::Triangle(triangle) => self.probability(index, from) * triangle.pdf(wi, square),
+            Light::Shape(_) | Light::Punctual(..) | Light::Environment => 0.0,
         }
     }
 

@@ -1,5 +1,6 @@
 //! An emissive triangle.
 
+use crate::shape::emitter::EmitterPoint;
 use rtc_math::Vec3;
 
 /// A triangle of a surface with an emissive material.
@@ -31,6 +32,15 @@ impl TriangleLight {
     /// Its unit normal.
     pub(super) fn normal(&self) -> Vec3 {
         self.cross.normalize_or(Vec3::Z)
+    }
+
+    /// A point of it.
+    pub(super) fn at(&self, point: Vec3) -> EmitterPoint {
+        EmitterPoint {
+            point,
+            normal: self.normal(),
+            prim_id: self.prim_id,
+        }
     }
 
     /// The density per solid angle of [`Self::point`], in the direction `wi` at a squared distance:

@@ -13,6 +13,7 @@ use crate::shape::baseline::real::{Real, Vector};
 use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::disc::BaselineDisc;
+use crate::shape::emitter::Emitter;
 use crate::shape::geometry::Intersect;
 use crate::shape::interval::{Interval, between_planes, roots};
 use crate::shape::mesh::BaselineMesh;
@@ -250,6 +251,23 @@ impl Intersect for Cone {
     }
 
     /// A box around the cone.
+    fn emitter(&self) -> Option<Emitter> {
+        let Self {
+            base,
+            axis,
+            height,
+            radius,
+            ..
+        } = *self;
+        Some(Emitter::Frustum {
+            base,
+            axis,
+            height,
+            radii: [radius, 0.0],
+            is_capped: true,
+        })
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         let apex = Bounds::around(self.base + self.axis * self.height, 0.0);
         Some(Bounds::around_disc(self.base, self.axis, self.radius).union(apex))

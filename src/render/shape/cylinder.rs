@@ -11,6 +11,7 @@ use crate::shape::baseline::real::{Real, Vector};
 use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::disc::BaselineDisc;
+use crate::shape::emitter::Emitter;
 use crate::shape::geometry::Intersect;
 use crate::shape::interval::{Interval, between_planes, roots};
 use crate::shape::mesh::BaselineMesh;
@@ -141,6 +142,22 @@ impl Intersect for Cylinder {
     }
 
     /// A box around the cylinder.
+    fn emitter(&self) -> Option<Emitter> {
+        let Self {
+            base,
+            axis,
+            height,
+            radius,
+        } = *self;
+        Some(Emitter::Frustum {
+            base,
+            axis,
+            height,
+            radii: [radius; 2],
+            is_capped: true,
+        })
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         let disc = |center| Bounds::around_disc(center, self.axis, self.radius);
         Some(disc(self.base).union(disc(self.base + self.axis * self.height)))
@@ -176,6 +193,10 @@ impl Intersect for InfiniteCylinder {
 
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
         self.0.interaction_on(CylinderFace::Side, ray, t)
+    }
+
+    fn emitter(&self) -> Option<Emitter> {
+        None
     }
 
     fn bounds(&self) -> Option<Bounds> {

@@ -4,6 +4,7 @@ use crate::ray::{Interaction, Ray};
 use crate::shape::baseline::ray::BaselineRay;
 use crate::shape::baseline::real::{Real, Vector};
 use crate::shape::baseline::{Baseline, HasBaseline};
+use crate::shape::emitter::Emitter;
 use crate::shape::geometry::Intersect;
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::plane::{BaselinePlane, Plane};
@@ -59,6 +60,16 @@ impl Intersect for Disc {
 
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
         self.interaction(ray, t)
+    }
+
+    fn emitter(&self) -> Option<Emitter> {
+        Some(Emitter::Frustum {
+            base: self.center,
+            axis: self.plane.normal(),
+            height: 0.0,
+            radii: [self.radius, 0.0],
+            is_capped: false,
+        })
     }
 
     fn bounds(&self) -> Option<Bounds> {

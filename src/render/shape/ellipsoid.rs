@@ -8,6 +8,7 @@ use crate::shape::baseline::ray::BaselineRay;
 use crate::shape::baseline::real::{Real, Vector};
 use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
+use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::sphere::{Sphere, TexturedSphere};
@@ -107,6 +108,19 @@ impl Intersect for Ellipsoid {
             tangent: attributes.tangent.and_then(to_world),
             ..attributes
         }
+    }
+
+    fn emitter(&self) -> Option<Emitter> {
+        let Self {
+            center,
+            axes,
+            inverse,
+        } = *self;
+        Some(Emitter::Ellipsoid {
+            center,
+            axes,
+            inverse,
+        })
     }
 
     fn bounds(&self) -> Option<Bounds> {

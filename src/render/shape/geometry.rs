@@ -2,6 +2,7 @@
 
 use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
+use crate::shape::emitter::Emitter;
 use crate::shape::four::Shape4;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, Vec3};
@@ -96,6 +97,11 @@ pub trait Intersect: Sized + Send + Sync {
     fn corners(&self, _prim_id: u32) -> Option<[Vec3; 3]> {
         None
     }
+
+    /// How light sampling samples it; `None` for triangles, which are sampled one by one, and for
+    /// shapes that only BSDF sampling finds.
+    #[must_use]
+    fn emitter(&self) -> Option<Emitter>;
 
     /// A bound on the rounding error of the corners.
     #[must_use]

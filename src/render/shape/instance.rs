@@ -7,6 +7,7 @@ use crate::shape::baseline::ray::BaselineRay;
 use crate::shape::baseline::real::{Real, Vector};
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::corners::{blend, corner_values, handedness, interpolate};
+use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, LocalRay, ShadingAttributes};
 use crate::shape::mesh::{BaselineMesh, PreparedMesh};
 use crate::shape::tie::{self, Nearest, Tie};
@@ -316,6 +317,10 @@ impl Intersect for Instance {
 
     fn is_in_place(&self) -> bool {
         self.axes == Vec3::AXES && self.origin == Vec3::ZERO
+    }
+
+    fn emitter(&self) -> Option<Emitter> {
+        None
     }
 
     fn bounds(&self) -> Option<Bounds> {

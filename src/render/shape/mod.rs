@@ -103,6 +103,12 @@ macro_rules! dispatch {
                 }
             }
 
+            fn emitter(&self) -> Option<Emitter> {
+                match self {
+                    $(Self::$Name(shape) => <$Name as Intersect>::emitter(shape),)*
+                }
+            }
+
             fn error_bound(&self) -> f64 {
                 match self {
                     $(Self::$Name(shape) => <$Name as Intersect>::error_bound(shape),)*
@@ -170,6 +176,7 @@ mod corners;
 pub(crate) mod cylinder;
 pub(crate) mod disc;
 pub(crate) mod ellipsoid;
+pub(crate) mod emitter;
 #[cfg_attr(
     not(target_arch = "x86_64"),
     allow(dead_code, reason = "lanes gain with AVX-512 alone")
@@ -206,6 +213,7 @@ pub(crate) mod kinds {
 
 use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
+use crate::shape::emitter::Emitter;
 use crate::shape::four::Shape4;
 use crate::shape::geometry::{AttributeRequest, Intersect, LocalRay, ShadingAttributes};
 use crate::shape::triangle::WatertightRay;

@@ -14,6 +14,7 @@ use crate::shape::baseline::real::{Real, Vector};
 use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::disc::BaselineDisc;
+use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
 use crate::shape::interval::{Interval, between_planes, roots};
 use crate::shape::mesh::BaselineMesh;
@@ -294,6 +295,22 @@ impl Intersect for Paraboloid {
 
     /// A box around the paraboloid: its profile is a parabola, which lies between the rim, and the
     /// vertex and half the radius beside it.
+    fn emitter(&self) -> Option<Emitter> {
+        let Self {
+            base,
+            axis,
+            height,
+            radius,
+            ..
+        } = *self;
+        Some(Emitter::Paraboloid {
+            base,
+            axis,
+            height,
+            radius,
+        })
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         let disc = |center, radius| Bounds::around_disc(center, self.axis, radius);
         let top = self.base + self.axis * self.height;

@@ -5,6 +5,7 @@ use crate::ray::{Interaction, Ray};
 use crate::shape::baseline::ray::BaselineRay;
 use crate::shape::baseline::real::{Real, Vector};
 use crate::shape::baseline::{Baseline, HasBaseline};
+use crate::shape::emitter::Emitter;
 use crate::shape::four::Shape4;
 use crate::shape::geometry::Intersect;
 use crate::shape::mesh::BaselineMesh;
@@ -219,6 +220,10 @@ impl Intersect for Plane {
     fn shape4(&self) -> Option<Shape4<'_>> {
         let axis = self.normal.axis()?;
         Some(Shape4::Plane(self, axis))
+    }
+
+    fn emitter(&self) -> Option<Emitter> {
+        None
     }
 
     fn bounds(&self) -> Option<Bounds> {

@@ -9,6 +9,7 @@ use crate::shape::baseline::ray::BaselineRay;
 use crate::shape::baseline::real::{Real, Vector};
 use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
+use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::triangle::{BaselineTriangle, Triangle, WatertightRay};
@@ -252,6 +253,18 @@ impl Intersect for Quad {
             tangent: self.tangent(v),
             ..ShadingAttributes::default()
         }
+    }
+
+    fn emitter(&self) -> Option<Emitter> {
+        let Self::Flat { vertices, halves } = self else {
+            return None;
+        };
+        let corners = |half: &Option<(Triangle, [usize; 3])>| {
+            half.as_ref()
+                .map_or([vertices[0]; 3], |(_, half)| half.map(|k| vertices[k]))
+        };
+        let triangles = halves.each_ref().map(corners);
+        Some(Emitter::Triangles(triangles)).filter(|emitter| emitter.area() > 0.0)
     }
 
     fn bounds(&self) -> Option<Bounds> {

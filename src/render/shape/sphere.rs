@@ -11,6 +11,7 @@ use crate::shape::baseline::ray::BaselineRay;
 use crate::shape::baseline::real::{Real, Vector};
 use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
+use crate::shape::emitter::Emitter;
 use crate::shape::four::Shape4;
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
 use crate::shape::mesh::BaselineMesh;
@@ -224,6 +225,11 @@ impl Intersect for TexturedSphere {
     #[inline(always)]
     fn shape4(&self) -> Option<Shape4<'_>> {
         Some(Shape4::Sphere(&self.sphere))
+    }
+
+    fn emitter(&self) -> Option<Emitter> {
+        let Sphere { center, radius } = self.sphere;
+        Some(Emitter::Sphere { center, radius })
     }
 
     fn bounds(&self) -> Option<Bounds> {

@@ -13,6 +13,7 @@ use crate::shape::baseline::ray::BaselineRay;
 use crate::shape::baseline::real::{Real, Vector};
 use crate::shape::baseline::roots::quartic;
 use crate::shape::baseline::{Baseline, HasBaseline};
+use crate::shape::emitter::Emitter;
 use crate::shape::four::Shape4;
 use crate::shape::geometry::Intersect;
 use crate::shape::mesh::BaselineMesh;
@@ -312,6 +313,22 @@ impl Intersect for Torus {
     #[inline(always)]
     fn shape4(&self) -> Option<Shape4<'_>> {
         Some(Shape4::Torus(self))
+    }
+
+    fn emitter(&self) -> Option<Emitter> {
+        let Self {
+            center,
+            axis,
+            major,
+            minor,
+            ..
+        } = *self;
+        Some(Emitter::Torus {
+            center,
+            axis,
+            major,
+            minor,
+        })
     }
 
     fn bounds(&self) -> Option<Bounds> {

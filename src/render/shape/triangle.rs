@@ -10,6 +10,7 @@ use crate::shape::baseline::ray::BaselineRay;
 use crate::shape::baseline::real::{Real, Vector};
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::corners::interpolate;
+use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::plane::Normal;
@@ -250,6 +251,10 @@ impl Intersect for TexturedTriangle {
 
     fn corners(&self, _: u32) -> Option<[Vec3; 3]> {
         Some(*self.triangle.vertices())
+    }
+
+    fn emitter(&self) -> Option<Emitter> {
+        None
     }
 
     fn bounds(&self) -> Option<Bounds> {

@@ -97,7 +97,8 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         }
         let (hit, wo) = (vertex.hit, -state.ray.direction);
         let (lights, part) = (self.lights, (hit.surface, hit.prim_id));
-        let light_pdf = || lights.pdf_of_surface(part, vertex.at.point, -wo, state.travelled);
+        let place = (vertex.at.point, vertex.at.normal);
+        let light_pdf = || lights.pdf_of_surface(part, place, -wo, state.travelled);
         let weight = self.weight_of_scattering(state.pdf, light_pdf);
         state.radiance += state.beta * emission * weight;
     }

@@ -12,6 +12,7 @@ pub(crate) mod roots;
 use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
 use crate::shape::Shape;
+use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
 use crate::shape::kinds::*;
 use crate::shape::mesh::BaselineMesh;
@@ -156,6 +157,10 @@ impl<R: Real> Intersect for BaselineShape<R> {
 
     fn corners(&self, prim_id: u32) -> Option<[Vec3; 3]> {
         self.robust.corners(prim_id)
+    }
+
+    fn emitter(&self) -> Option<Emitter> {
+        self.robust.emitter()
     }
 
     fn bounds(&self) -> Option<Bounds> {
