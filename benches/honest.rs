@@ -14,6 +14,7 @@ mod patterns;
 mod scenes;
 
 use families::{Family, Truth};
+use std::sync::LazyLock;
 
 /// The promised fraction of pictures that keep the bound.
 const PROMISE: f64 = 0.9;
@@ -49,10 +50,8 @@ impl Tally {
 
     /// Renders a scene once for each seed.
     fn of(scene: &families::Case, target: f64, seeds: u64) -> Self {
-        let references = match scene.reference {
-            Truth::Known(_) => None,
-            Truth::Rendered(_) => Some(scenes::references(scene.scene(), target)),
-        };
+        // Pictures without a bound need no references.
+        let references = LazyLock::new(|| scenes::references(scene.scene(), target));
         let mut tally = Self::default();
         for seed in 1..=seeds {
             let reached = scenes::render(scene.scene(), target, seed);
@@ -60,10 +59,9 @@ impl Tally {
                 tally.unbounded += 1;
                 continue;
             }
-            let error = match (&scene.reference, &references) {
-                (Truth::Known(pattern), _) => pattern.error(&reached),
-                (Truth::Rendered(_), Some(references)) => scenes::error(&reached, references),
-                (Truth::Rendered(_), None) => f64::NAN,
+            let error = match &scene.reference {
+                Truth::Known(pattern) => pattern.error(&reached),
+                Truth::Rendered(_) => scenes::error(&reached, &references),
             };
             tally.add(&Self {
                 pictures: 1,

@@ -269,7 +269,35 @@ fn a_target_error_is_reached_and_said() {
     let words = ["--size", "40", "--target-error", "2"];
     assert!(picture.encode().unwrap() == by_command(&scene, "x.png", &words));
     assert_eq!(ball().render(&Options::new()).unwrap().error(), None);
+    assert!(refusal(&Options::new().layer(Aov::Error)).contains("`error`"));
     assert!(refusal(&Options::new().target_error(0.0)).contains("above 0"));
+}
+
+/// The layers add up to what is said of the whole picture.
+#[test]
+fn the_error_of_each_pixel_is_a_layer() {
+    let layers = [Aov::Depth, Aov::Error, Aov::Samples, Aov::Undersampled];
+    let options = Options::new().size(40, 40).target_error(2.0);
+    let options = layers.into_iter().fold(options, Options::layer);
+    let mut scene = Scene::open(path("scenes/mirrors.yaml")).unwrap();
+    let picture = scene.render(&options).unwrap();
+    let [depth, error, samples, unmet] = layers.map(|aov| picture.layer(aov).unwrap());
+    // The mean square of the errors is the noise, which the bound covers.
+    let squares = error
+        .iter()
+        .map(|error| f64::from(*error) * f64::from(*error));
+    let noise = 255.0 * (squares.sum::<f64>() / error.len() as f64).sqrt();
+    let bound = picture.error().unwrap();
+    assert!(noise > 0.3 * bound && noise <= bound, "{noise} {bound}");
+    // Three hits are missed in 5 % of all pictures (the rule of three); no sample is above white.
+    assert_eq!([depth.len(), samples.len(), unmet.len()], [1600; 3]);
+    for (samples, unmet) in samples.iter().zip(&unmet) {
+        assert!(
+            *unmet >= 3.0 / samples && *unmet <= 3.75 / samples,
+            "{samples} {unmet}"
+        );
+    }
+    assert!(samples.iter().any(|count| *count > samples[0]) || samples[0] > 8.0);
 }
 
 #[test]

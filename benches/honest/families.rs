@@ -61,7 +61,7 @@ pub(crate) fn all() -> Vec<Family> {
         family("checkers", 4.0, checkers()),
         family("rare-light", 1.0, rare()),
         family("caustics", 8.0, caustics()),
-        family("lamps-through-rough-glass", 2.0, lamps()),
+        family("lamps-through-rough-glass", 8.0, lamps()),
     ]
 }
 
@@ -262,7 +262,7 @@ fn room(roughness: f64, lamp: &str) -> Scene {
         wall("[2, -2, -2]", y, z),
     ];
     let text = format!(
-        "Camera: {{eye: [0, 0, 8], center: [0, 0, 0], up: [0, 0.11, 0], viewSize: [40, 40]}}\n\
+        "Camera: {{eye: [0, 0, 8], center: [0, 0, 0], up: [0, 0.1833, 0], viewSize: [24, 24]}}\n\
          RenderMode: path\nMaxRecursionDepth: 5\n\
          Lights: [{{{lamp}, position: [0, 1.7, 0], intensity: 2}}]\n\
          Objects:\n{}\

@@ -145,23 +145,29 @@ impl Scene {
             setup.check_memory(&mut subject, window)?;
             // Render, to a target error if there is one.
             let order = (window, rays);
-            let (film, error) = if options.target_error.is_some() {
+            setup.check_layers()?;
+            let (film, quality, error) = if options.target_error.is_some() {
                 let grown = setup.approach(&mut subject, order, &observer)?;
                 let film = Film {
                     image: grown.image,
                     coverage: grown.coverage,
                     counts: grown.counts,
                 };
-                (film, grown.undersampled.is_none().then_some(grown.error))
+                (
+                    film,
+                    grown.quality,
+                    grown.undersampled.is_none().then_some(grown.error),
+                )
             } else {
                 let Traced { film, probed } = setup.trace(&mut subject, order, &observer)?;
                 let verified = probed.filter(|probed| probed.undersampled.is_none());
-                (film, verified.map(|probed| probed.error))
+                (film, Vec::new(), verified.map(|probed| probed.error))
             };
             // Develop the film to a picture.
             let counts = film.counts;
             let film = (film.image, film.coverage, &counts);
-            let picture = setup.develop(&mut subject, film, &mut self.input, is_stopped)?;
+            let picture =
+                setup.develop(&mut subject, film, &quality, &mut self.input, is_stopped)?;
             Ok((picture, counts, error))
         });
         // Attach what describes the picture.

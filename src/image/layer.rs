@@ -7,14 +7,15 @@ use rtc_color::srgb_encoded;
 /// Distances from so far on are those of no surface.
 const FAR: f32 = 1e10;
 
-/// A layer as a picture.
+/// A layer as a picture. Errors and numbers of samples are shown from 0 to the greatest of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LayerPicture {
     /// What is shown, in [0, 1].
     pub image: Image,
     /// Whether it shows colours; else numbers as colours.
     pub is_color: bool,
-    /// What 0 and 1 stand for, of distances and places: of each channel, the least and the most.
+    /// What 0 and 1 stand for, of distances, places, errors and numbers of samples: of each
+    /// channel, the least and the most.
     pub ranges: Vec<[f32; 2]>,
 }
 
@@ -30,6 +31,7 @@ impl Picture {
         let values = pixels.map(|pixel| &pixel[start..start + channels.len()]);
         let ranges = match kind {
             "depth" | "position" => ranges(values.clone(), channels.len()),
+            "error" | "samples" => vec![[0.0, greatest(values.clone())]; channels.len()],
             _ => Vec::new(),
         };
         Some(LayerPicture {
@@ -61,6 +63,12 @@ fn ranges<'v>(pixels: impl Iterator<Item = &'v [f32]>, channels: usize) -> Vec<[
         .collect()
 }
 
+/// The greatest finite value of all channels; 0 without one.
+fn greatest<'v>(pixels: impl Iterator<Item = &'v [f32]>) -> f32 {
+    let values = pixels.flatten().copied();
+    values.filter(|value| value.is_finite()).fold(0.0, f32::max)
+}
+
 /// Whether these are values of a surface: a distance that is near, or a place that is not that of
 /// no hit.
 fn is_surface(values: &[f32]) -> bool {
@@ -80,6 +88,9 @@ fn shown(kind: &str, values: &[f32], ranges: &[[f32; 2]]) -> [f64; 3] {
     match kind {
         "albedo" => all.map(|at| srgb_encoded(value(at).clamp(0.0, 1.0))),
         "normal" => all.map(|at| 0.5 * value(at) + 0.5),
+        "error" => all.map(within),
+        "samples" => [within(0); 3],
+        "unmet" => [value(0).clamp(0.0, 1.0); 3],
         "uv" => all.map(|at| value(at) - value(at).floor()),
         "position" if is_surface(values) => all.map(within),
         "depth" if is_surface(values) => [nearness(value(0), ranges[0].map(f64::from)); 3],

@@ -60,7 +60,8 @@ impl Picture {
 /// Whether a channel has floats of 16 bits. Distances, places and numbers of surfaces want more.
 pub(super) fn is_half(form: FileFormat, channel: &str) -> bool {
     let layer = channel.split('.').next();
-    form == FileFormat::ExrHalf && !matches!(layer, Some("depth" | "position" | "instance"))
+    form == FileFormat::ExrHalf
+        && !matches!(layer, Some("depth" | "position" | "instance" | "samples"))
 }
 
 /// The largest float of 16 or 32 bits.

@@ -14,7 +14,7 @@ use rtc_ir::{EntityKind, Field, Mode, Scene, ValuePath};
 use rtc_passes::{self as passes, Framing, Overrides};
 use rtc_plan::{self as plan, Plan, Rules};
 use rtc_render::{Aov, Counts, Crop, Job, SimdLevel, Step};
-use rtc_study::{Goal, RenderOrder, TargetResult, Watch};
+use rtc_study::{Goal, PixelQuality, RenderOrder, TargetResult, Watch, with_quality};
 use rtc_valid::ValidScene;
 use std::time::Duration;
 
@@ -247,7 +247,8 @@ impl PictureSetup {
         traced.ok_or(RenderError::Stopped)?.map_err(rejected)
     }
 
-    /// The picture of a film. Diagnostics about it go to `input`.
+    /// The picture of a film, of whose pixels the quality is known if it grew towards a goal.
+    /// Diagnostics about it go to `input`.
     ///
     /// # Errors
     /// If it was stopped.
@@ -255,6 +256,7 @@ impl PictureSetup {
         &self,
         subject: &mut RenderSubject,
         (image, coverage, counts): (Image, Vec<f32>, &Counts),
+        quality: &[PixelQuality],
         input: &mut Input,
         is_stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Picture, RenderError> {
@@ -264,6 +266,7 @@ impl PictureSetup {
             ..Job::default()
         };
         let layers = self.layers(subject, &job, is_stopped)?;
+        let layers = with_quality(layers, &self.look.aovs, quality);
         let look = self.look.resolve(&subject.validated.scene.settings().mode);
         let film = (image, coverage, counts.unnumbered);
         let (picture, found) = look.finish(film, layers, self.arithmetic);
@@ -287,18 +290,36 @@ impl PictureSetup {
         }
     }
 
-    /// The requested layers, for the pixels of a job.
+    /// Refuses layers that tell of samples where no goal is set.
+    ///
+    /// # Errors
+    /// If there is such a layer.
+    pub fn check_layers(&self) -> Result<(), RenderError> {
+        let mut of_samples = self.look.aovs.iter().filter(|aov| aov.is_of_samples());
+        match of_samples.next() {
+            Some(aov) if self.goal == Goal::default() => Err(RenderError::Refused(format!(
+                "the layer `{}` is of pictures to a target error or within a time; give \
+                 `--target-error LEVELS` or `--time-budget SECONDS`",
+                aov.name()
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    /// The requested layers of first hits, for the pixels of a job.
     pub(super) fn layers(
         &self,
         subject: &mut RenderSubject,
         job: &Job,
         is_stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Layers, RenderError> {
-        if self.look.aovs.is_empty() {
+        let mut aovs = self.look.aovs.clone();
+        aovs.retain(|aov| !aov.is_of_samples());
+        if aovs.is_empty() {
             return Ok(Layers::default());
         }
         let (_, renderer) = self.renderer(subject)?;
-        let layers = renderer.layers(&self.look.aovs, job, &|| !is_stopped());
+        let layers = renderer.layers(&aovs, job, &|| !is_stopped());
         layers.ok_or(RenderError::Stopped)
     }
 

@@ -137,9 +137,10 @@ impl TimedRender<'_, '_> {
     /// Reserves the time that the output of the picture takes after the last sample.
     fn reserve_output_time(&mut self, order: &RenderOrder) {
         let start = self.elapsed();
-        let noise = Noise::of(&self.progressive.film, &order.undersampled(self.world));
+        let undersampled = order.undersampled(self.world);
+        let noise = Noise::of(&self.progressive.film, &undersampled);
         let bound = noise.bound(TAIL, order.goal.error);
-        drop(self.progressive.result(bound, order.values));
+        drop(self.progressive.result(bound, &undersampled, order.values));
         let took = self.elapsed().saturating_sub(start);
         self.time = self.time.saturating_sub(took);
     }
@@ -182,7 +183,7 @@ impl TimedRender<'_, '_> {
         }
         let noise = Noise::of(&self.progressive.film, &undersampled);
         let bound = noise.bound(tail(self.progressive.rounds), order.goal.error);
-        Ok(self.progressive.result(bound, order.values))
+        Ok(self.progressive.result(bound, &undersampled, order.values))
     }
 
     /// The coarse picture: pixels without a sample get the value of the sampled pixel of their
@@ -206,10 +207,17 @@ impl TimedRender<'_, '_> {
             error: f64::INFINITY,
             undersampled: None,
         };
-        let mut reached = self.progressive.result(nothing, order.values);
+        let undersampled = order.undersampled(self.world);
+        let mut reached = self
+            .progressive
+            .result(nothing, &undersampled, order.values);
         for (index, block) in blocks.iter().enumerate() {
             reached.image.pixels[index] = reached.image.pixels[corner(index, *block)];
             reached.coverage[index] = reached.coverage[corner(index, *block)];
+            if *block > 1 {
+                let quality = &mut reached.quality[index];
+                (quality.error, quality.undersampled) = ([1.0; 3], 1.0);
+            }
         }
         let block = blocks.into_iter().max().unwrap_or(1);
         reached.coarse = Some(CoarsePicture {

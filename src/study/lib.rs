@@ -58,6 +58,7 @@ mod pareto;
 mod precision;
 mod probe;
 mod progressive;
+mod quality;
 mod reference;
 #[cfg(feature = "cli")]
 mod report;
@@ -92,6 +93,7 @@ pub use parameter::{Parameter, arithmetic, not_applicable};
 pub use precision::PrecisionCost;
 pub use probe::{ProbedError, probe};
 pub use progressive::{CheckpointSink, ProgressiveRender};
+pub use quality::{PixelQuality, with_quality};
 pub use reference::{DepthEnd, ParameterLevel};
 #[cfg(feature = "cli")]
 pub use report::{

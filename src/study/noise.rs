@@ -14,7 +14,7 @@ pub(super) struct Noise {
     /// The degrees of freedom of the error, and of the estimate `square`.
     freedom: f64,
     /// The error of features that no sample may have hit.
-    undersampled: UndersampledError,
+    pub(super) undersampled: UndersampledError,
 }
 
 impl Noise {
@@ -71,7 +71,7 @@ impl Noise {
             };
         Bound {
             error: all.sqrt() * LEVELS,
-            undersampled: (!is_whole).then_some(self.undersampled.brightest),
+            undersampled: (!is_whole).then_some(self.undersampled.source.brightest),
         }
     }
 

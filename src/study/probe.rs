@@ -77,7 +77,7 @@ pub fn probe(
     Some(ProbedError {
         estimate: square.max(0.0).sqrt() * LEVELS,
         error: all.sqrt() * LEVELS,
-        undersampled: (!is_whole).then_some(undersampled.brightest),
+        undersampled: (!is_whole).then_some(undersampled.source.brightest),
         probes: probes.count,
         samples: 2 * length,
         counts: film.counts,

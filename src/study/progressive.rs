@@ -4,6 +4,7 @@
 use super::batch::WorkBatch;
 use super::noise::Bound;
 use super::target::{RenderOrder, Samples, TargetResult};
+use super::undersampled::Undersampled;
 use rtc_render::{AnyWorld, FilmError, OnPixel, ProgressiveFilm, Replicates, Tiles, Values};
 use std::time::Duration;
 
@@ -115,10 +116,17 @@ impl ProgressiveRender {
     }
 
     /// The current picture with a bound on its error.
-    pub(super) fn result(&self, bound: Bound, values: Values) -> TargetResult {
+    pub(super) fn result(
+        &self,
+        bound: Bound,
+        undersampled: &Undersampled,
+        values: Values,
+    ) -> TargetResult {
+        let quality = |pixel| undersampled.quality(pixel);
         TargetResult {
             image: self.film.image(values),
             coverage: self.film.coverage(),
+            quality: self.film.pixels().map(quality).collect(),
             counts: self.film.counts,
             error: bound.error,
             undersampled: bound.undersampled,

@@ -4,34 +4,54 @@ use super::metrics::LEVELS;
 use super::noise::{Noise, SampleAllocation, doubled_if};
 use rtc_render::{ProgressiveFilm, Replicates};
 
-/// A target is abandoned at this multiple of the samples that its noise needs: where few pixels
-/// have most of the noise, a valid bound would need many more.
-const ABANDON_FACTOR: f64 = 4.0;
+/// The largest multiple of the samples that its noise needs that a render takes for a valid bound.
+const MAX_SAFETY: f64 = 3.0;
+
+/// Where few pixels have most of the noise, a valid bound would need more. Then a render ends at
+/// this multiple; a last round may double it.
+const ABANDON_FACTOR: f64 = 1.5;
 
 /// The minimum number of samples per replicate to accept a target without a bound, if light much
 /// brighter than white may be undersampled.
 const MIN_UNBOUNDED: u32 = 64;
+
+/// The number of samples per replicate up to which all pixels are refined so that the bound counts
+/// undersampled light. Where that many would not do, [`MIN_UNBOUNDED`] are taken.
+const MAX_UNBOUNDED: u32 = 1 << 14;
+
+/// Where all pixels get samples, a replicate has at least this many for each one of its pilot.
+const PILOT_SHARE: u32 = 8;
 
 /// What a render lacks for its target.
 enum MissingSamples {
     Nothing,
     /// The noise must fall below this mean square.
     Samples(f64),
-    /// All pixels need more samples: some bright light may be undersampled.
-    RareLight,
+    /// All pixels need so many samples per replicate: some bright light may be undersampled.
+    RareLight(u32),
 }
 
 impl MissingSamples {
+    /// Where bright light may be undersampled, all pixels come first: pilots that have not met it
+    /// would leave out some of them.
     fn of(film: &ProgressiveFilm, noise: &Noise, tail: f64, error: f64) -> Self {
         let bound = noise.bound(tail, Some(error));
-        let enough = error * error / (LEVELS * LEVELS * ABANDON_FACTOR);
         let is_open = bound.undersampled.is_some_and(|white| white > 1.0);
-        if bound.error > error && noise.square > enough {
-            return Self::Samples(noise.remaining(tail, error).max(enough));
-        }
+        let source = noise.undersampled.source;
+        let most = source
+            .closing(error, MAX_UNBOUNDED)
+            .unwrap_or(MIN_UNBOUNDED);
         let shown = film.pixels().map(|pixel| pixel.counts()[0]).min();
-        match is_open && shown.is_some_and(|count| count < MIN_UNBOUNDED) {
-            true => Self::RareLight,
+        if is_open && shown.is_some_and(|count| count < most) {
+            return Self::RareLight(most);
+        }
+        let multiple = match noise.safety_factor(tail) <= MAX_SAFETY {
+            true => MAX_SAFETY,
+            false => ABANDON_FACTOR,
+        };
+        let enough = error * error / (LEVELS * LEVELS * multiple);
+        match bound.error > error && noise.square > enough {
+            true => Self::Samples(noise.remaining(tail, error).max(enough)),
             false => Self::Nothing,
         }
     }
@@ -53,10 +73,13 @@ pub(super) fn next_round(
     let missing = goal.map(|error| MissingSamples::of(film, noise, tail, error));
     let mut square = match missing {
         Some(MissingSamples::Nothing) => return None,
-        Some(MissingSamples::RareLight) => return doubled(film, max_samples),
+        Some(MissingSamples::RareLight(most)) if film.samples() as f64 <= max_samples => {
+            return doubled(film, most, max_samples);
+        }
         _ if noise.square == 0.0 => return None,
         Some(MissingSamples::Samples(square)) => square,
-        None => noise.square / 4.0,
+        // In the second case the time ends first.
+        None | Some(MissingSamples::RareLight(_)) => noise.square / 4.0,
     };
     // Allocate samples; lower the noise until something changes.
     let allocation = SampleAllocation::of(film, noise);
@@ -73,7 +96,7 @@ pub(super) fn next_round(
     while more == 0.0 {
         if goal.is_some() {
             // The pilots missed what the replicates differ by.
-            return doubled(film, max_samples);
+            return doubled(film, u32::MAX, max_samples);
         }
         if square < f64::MIN_POSITIVE {
             return None;
@@ -89,9 +112,13 @@ pub(super) fn next_round(
     (more > 0.0).then_some(requested)
 }
 
-/// Doubles the samples of all pixels, if that takes at most `max_samples` samples.
-fn doubled(film: &ProgressiveFilm, max_samples: f64) -> Option<Vec<[u32; 2]>> {
-    let twice = |pixel: &Replicates| pixel.counts().map(|count| doubled_if(count, true));
+/// Doubles the samples of all pixels with fewer than `most` per replicate, if that takes at most `max_samples` samples.
+fn doubled(film: &ProgressiveFilm, most: u32, max_samples: f64) -> Option<Vec<[u32; 2]>> {
+    let twice = |pixel: &Replicates| {
+        let [shown, pilot] = pixel.counts();
+        let shown = doubled_if(shown, shown < most);
+        [shown, doubled_if(pilot, PILOT_SHARE * pilot <= shown)]
+    };
     let requested: Vec<_> = film.pixels().map(twice).collect();
     let grows = film
         .pixels()

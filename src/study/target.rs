@@ -9,6 +9,7 @@ use super::budget::{self, CoarsePicture};
 use super::noise::Noise;
 use super::parameter::{Parameter, not_applicable};
 use super::progressive::{CheckpointSink, Checkpointer, ProgressiveRender};
+use super::quality::PixelQuality;
 use super::rounds::next_round;
 use super::subject::Stopped;
 use super::undersampled::Undersampled;
@@ -89,6 +90,8 @@ pub struct TargetResult {
     pub image: Image,
     /// For each pixel, the fraction of samples that hit a surface.
     pub coverage: Vec<f32>,
+    /// The quality of each pixel.
+    pub quality: Vec<PixelQuality>,
     /// Its rays, including those for choosing light samples, without those of an unfinished round.
     pub counts: Counts,
     /// The bound on the root mean square error in grey levels, which holds in 90 % of all renders,
@@ -196,7 +199,7 @@ fn in_rounds(
             checkpointer
                 .iter()
                 .for_each(|checkpointer| checkpointer.save(&progressive));
-            return Ok(progressive.result(bound, order.values));
+            return Ok(progressive.result(bound, &undersampled, order.values));
         };
         (progressive.requested, error) = (requested, Some(bound.error));
         progressive.rounds += 1;
@@ -277,7 +280,13 @@ fn render_unsampled(
         coverage,
         counts,
     } = film;
+    let exact = PixelQuality {
+        error: [0.0; 3],
+        samples: 1,
+        undersampled: 0.0,
+    };
     Ok(TargetResult {
+        quality: vec![exact; image.pixels.len()],
         image,
         coverage,
         counts,

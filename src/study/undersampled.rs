@@ -2,14 +2,15 @@
 //! but the number of samples bounds it (the rule of three).
 
 use super::metrics::LEVELS;
-use rtc_render::ProgressiveFilm;
+use super::quality::PixelQuality;
+use rtc_render::{ProgressiveFilm, Replicates};
 
 /// The expected number of hits of features that are missed with a probability of only 5 %.
 const EXPECTED_HITS: f64 = 3.0;
 
 /// The fraction of the squared target that undersampled features may take. Where noise needs many
 /// samples, the actual fraction soon is far lower.
-const TARGET_FRACTION: f64 = 0.25;
+const TARGET_FRACTION: f64 = 0.5;
 
 /// The maximum number of samples per replicate that are taken only for undersampled features.
 const MAX_SAMPLES: u32 = 256;
@@ -19,8 +20,8 @@ const MAX_SAMPLES: u32 = 256;
 pub(super) struct UndersampledError {
     /// Its mean square, for a white of 1.
     pub(super) square: f64,
-    /// As in [`Undersampled`].
-    pub(super) brightest: f64,
+    /// What it is the error of.
+    pub(super) source: Undersampled,
 }
 
 impl UndersampledError {
@@ -30,7 +31,7 @@ impl UndersampledError {
     pub(super) fn is_included(&self, sampled: f64, target: Option<f64>) -> bool {
         match target {
             Some(target) => self.square <= allowance(target),
-            None => self.brightest <= 1.0 || self.square <= sampled,
+            None => self.source.brightest <= 1.0 || self.square <= sampled,
         }
     }
 }
@@ -62,13 +63,33 @@ impl Undersampled {
     /// The mean square error of undersampled features, for a white of 1, if the replicates of each
     /// pixel have at least `count` samples.
     fn square(&self, count: u32) -> f64 {
-        let changed = EXPECTED_HITS * self.brightest / (2.0 * f64::from(count.max(1)));
+        let changed = self.changed(count);
         let squares = if changed < 1.0 {
             changed * changed
         } else {
             changed
         };
         squares / self.pixels.max(1) as f64
+    }
+
+    /// The change of a pixel, in multiples of white, by a feature that is missed by `count` samples
+    /// in each of two replicates.
+    fn changed(&self, count: u32) -> f64 {
+        EXPECTED_HITS * self.brightest / (2.0 * f64::from(count.max(1)))
+    }
+
+    /// The quality of a pixel.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "rounds to the nearest float"
+    )]
+    pub(super) fn quality(&self, pixel: &Replicates) -> PixelQuality {
+        let [shown, _] = pixel.counts();
+        PixelQuality {
+            error: pixel.standard_error().map(|error| error as f32),
+            samples: pixel.samples(),
+            undersampled: self.changed(shown).min(1.0) as f32,
+        }
     }
 
     /// The bound for a film with samples in all pixels.
@@ -81,18 +102,22 @@ impl Undersampled {
     pub(super) fn within(&self, count: u32) -> UndersampledError {
         UndersampledError {
             square: self.square(count),
-            brightest: self.brightest,
+            source: *self,
         }
     }
 
     /// The minimum number of samples per replicate for a bound in grey levels; 1 if that is too
     /// many.
     pub(super) fn least(&self, error: f64) -> u32 {
-        let counts = std::iter::successors(Some(1), |count| Some(2 * count));
-        let mut counts = counts.take_while(|count| *count <= MAX_SAMPLES);
-        counts
-            .find(|count| self.square(*count) <= allowance(error))
-            .unwrap_or(1)
+        self.closing(error, MAX_SAMPLES).unwrap_or(1)
+    }
+
+    /// The minimum number of samples per replicate, a power of two of at most `most`, for a bound in
+    /// grey levels.
+    pub(super) fn closing(&self, error: f64, most: u32) -> Option<u32> {
+        let counts = std::iter::successors(Some(1_u32), |count| count.checked_mul(2));
+        let mut counts = counts.take_while(|count| *count <= most);
+        counts.find(|count| self.square(*count) <= allowance(error))
     }
 }
 
@@ -113,17 +138,14 @@ mod tests {
     }
 
     #[test]
-    fn the_minimum_leaves_a_quarter_of_the_squared_target() {
+    fn the_minimum_leaves_half_of_the_squared_target() {
         let undersampled = Undersampled {
             brightest: 1.0,
             pixels: 1600,
         };
-        let remaining = |count| undersampled.square(count).sqrt() * LEVELS;
+        let square = |count| undersampled.square(count) * LEVELS * LEVELS;
         let least = undersampled.least(1.0);
-        assert!(
-            remaining(least) <= 0.5 && remaining(least / 2) > 0.5,
-            "{least}"
-        );
+        assert!(square(least) <= 0.5 && square(least / 2) > 0.5, "{least}");
         assert_eq!(undersampled.least(1e-9), 1, "too many");
     }
 

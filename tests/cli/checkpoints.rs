@@ -50,7 +50,13 @@ fn a_render_that_is_saved_on_its_way_has_the_bytes_of_one_that_is_not() {
     let goals: [(&[&str], &str); 3] = [
         (&["ball.json", "--target-error", "1.5"], "g.png"),
         (
-            &["paths.json", "--target-error", "4", "--aov", "depth"],
+            &[
+                "paths.json",
+                "--target-error",
+                "4",
+                "--aov",
+                "error,depth,samples,unmet",
+            ],
             "h.exr",
         ),
         (&["depth.json", "--target-error", "1"], "i.png"),

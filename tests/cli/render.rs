@@ -131,8 +131,20 @@ fn layers_are_pictures_beside_a_png() {
         let ranged = layer == "depth" || layer == "position";
         assert_eq!(text.contains("\"ranges\":[["), ranged, "{layer}");
     }
+    let goal = ["--target-error", "8", "-o", "c.png"];
+    let made = render(&[&goal[..], &["--aov", "error,samples,unmet"]].concat());
+    assert_eq!(code(&made), 0, "{}", stderr(&made));
+    for layer in ["error", "samples", "unmet"] {
+        let bytes = fs::read(folder.path().join(format!("c.{layer}.png"))).unwrap();
+        let text = String::from_utf8_lossy(&bytes);
+        assert_eq!(text.contains("\"ranges\":[["), layer != "unmet", "{layer}");
+    }
     for (args, why) in [
-        (&["-o", "b.jpg", "--aov", "uv"][..], "within an EXR"),
+        (
+            &["-o", "b.png", "--aov", "unmet"][..],
+            "`--target-error LEVELS`",
+        ),
+        (&["-o", "b.jpg", "--aov", "uv"], "within an EXR"),
         (&["-o", "-", "--aov", "uv"], "name the picture .exr"),
         (
             &["-o", "b.png", "--aov", "uv", "--strips"],

@@ -96,3 +96,12 @@ fn a_render_goes_on_while_much_brighter_light_than_white_may_be_unmet() {
         reached.samples
     );
 }
+
+/// Small lamps that the first samples miss: all pixels are refined until the bound counts them.
+#[test]
+fn lamps_that_a_bound_can_count_are_not_given_up() {
+    let reached = render(&lamps([8, 7]), 8.0, 0);
+    let samples = reached.samples;
+    assert!(reached.undersampled.is_none(), "{samples:?}");
+    assert!(samples.min >= 2048 && samples.mean <= 4096.0, "{samples:?}");
+}

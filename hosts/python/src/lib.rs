@@ -247,13 +247,16 @@ fn aov(name: &str) -> PyResult<Aov> {
         Aov::Uv,
         Aov::Instance,
         Aov::Position,
+        Aov::Error,
+        Aov::Samples,
+        Aov::Undersampled,
     ];
     let found = all.into_iter().find(|aov| aov.name() == name);
     found.ok_or_else(|| {
         unknown(
             "layer",
             name,
-            "albedo, normal, depth, uv, instance, position",
+            "albedo, normal, depth, uv, instance, position, error, samples, unmet",
         )
     })
 }

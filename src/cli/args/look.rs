@@ -40,8 +40,8 @@ pub(crate) struct OutputTransformArgs {
     pub(crate) background: BackgroundArg,
     /// Write layers beside the colours: albedo, normal, depth, …
     ///
-    /// Each value is the mean over the first hits of a pixel. An EXR holds the numbers; for a PNG
-    /// each layer is a picture of its own, as `picture.depth.png`.
+    /// Each value is the mean over the first hits of a pixel, or tells of its samples. An EXR holds
+    /// the numbers; for a PNG each layer is a picture of its own, as `picture.depth.png`.
     #[arg(
         long,
         value_enum,
@@ -110,6 +110,15 @@ pub(crate) enum Layer {
     Instance,
     /// Channels position.X, .Y, .Z: places in the world
     Position,
+    /// Channels error.R, .G, .B: standard errors, of display values, of a picture with
+    /// `--target-error` or `--time-budget`
+    Error,
+    /// Channel samples.X: the number of samples of such a picture
+    Samples,
+    /// Channel unmet.X: the largest change by light that no sample may have met, in multiples of
+    /// white; 1 where no bound can be given
+    #[value(name = "unmet")]
+    Undersampled,
 }
 
 impl From<Layer> for Aov {
@@ -121,6 +130,9 @@ impl From<Layer> for Aov {
             Layer::Uv => Self::Uv,
             Layer::Instance => Self::Instance,
             Layer::Position => Self::Position,
+            Layer::Error => Self::Error,
+            Layer::Samples => Self::Samples,
+            Layer::Undersampled => Self::Undersampled,
         }
     }
 }

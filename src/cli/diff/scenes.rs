@@ -142,7 +142,7 @@ impl DiffSide {
             counts,
         } = film.map_err(|error| ended(error, input, reporter))?.film;
         let film = (image, coverage, &counts);
-        let picture = setup.develop(subject, film, input, observer.is_stopped)?;
+        let picture = setup.develop(subject, film, &[], input, observer.is_stopped)?;
         input::tell(input, reporter)?;
         let Picture { image, .. } = picture;
         Ok(ShownPicture::of(image))

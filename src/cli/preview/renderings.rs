@@ -112,7 +112,7 @@ pub(super) fn rendering(
     } = film;
     let full = [image.width, image.height];
     let film = (image, coverage, &counts);
-    let picture = setup.develop(subject, film, input, observer.is_stopped)?;
+    let picture = setup.develop(subject, film, &[], input, observer.is_stopped)?;
     Ok(RenderedPicture {
         png: Arc::new(setup.encode(&picture, subject)?),
         full,

@@ -224,7 +224,9 @@ impl RenderSetup {
             MadePicture::new(&saving.output, &self.picture, size, work).with(rendering.quality);
         let film = (rendering.image, rendering.coverage, &rendering.counts);
         let is_stopped = || interrupt.is_raised();
-        let picture = self.picture.develop(subject, film, input, &is_stopped)?;
+        let picture = self
+            .picture
+            .develop(subject, film, &rendering.pixels, input, &is_stopped)?;
         Ok((picture, made))
     }
 

@@ -125,6 +125,7 @@ impl RenderSetup {
             clamp: args.clamp,
             ..wanted(&args.wanted, &args.look, picture)?
         };
+        picture.check_layers()?;
         let is_one_file = args.strips.is_some()
             || rate.is_some()
             || part.is_some()
@@ -299,7 +300,9 @@ impl RenderSetup {
         let made = MadePicture::new(path, &self.picture, size, work).with(rendering.quality);
         let film = (rendering.image, rendering.coverage, &rendering.counts);
         let is_stopped = || interrupt.is_raised();
-        let picture = self.picture.develop(subject, film, input, &is_stopped)?;
+        let picture = self
+            .picture
+            .develop(subject, film, &rendering.pixels, input, &is_stopped)?;
         let time = self.picture.goal.time;
         let found = self.clock.stop(time, (coarse, window));
         found

@@ -10,8 +10,8 @@ use rtc_image::Image;
 use rtc_pipeline::{Observer, RayCounter, RenderError, RenderSubject, Traced};
 use rtc_render::{Counts, Crop, Film};
 use rtc_study::{
-    CheckpointSink, CoarsePicture, Goal, ProgressiveRender, RenderOrder, Stopped, TargetResult,
-    Watch,
+    CheckpointSink, CoarsePicture, Goal, PixelQuality, ProgressiveRender, RenderOrder, Stopped,
+    TargetResult, Watch,
 };
 use std::time::Duration;
 
@@ -19,6 +19,8 @@ use std::time::Duration;
 pub(super) struct Rendered {
     pub(super) image: Image,
     pub(super) coverage: Vec<f32>,
+    /// The quality of each pixel, if it grew towards a goal.
+    pub(super) pixels: Vec<PixelQuality>,
     pub(super) counts: Counts,
     pub(super) elapsed: Duration,
     /// How good it is, if that was asked.
@@ -31,6 +33,7 @@ impl Rendered {
         let TargetResult {
             image,
             coverage,
+            quality: pixels,
             counts,
             samples,
             error,
@@ -45,6 +48,7 @@ impl Rendered {
         Self {
             image,
             coverage,
+            pixels,
             counts,
             elapsed,
             quality: Some(Quality {
@@ -129,6 +133,7 @@ impl RenderSetup {
         Ok(Rendered {
             image,
             coverage,
+            pixels: Vec::new(),
             counts,
             elapsed,
             quality: probed.as_ref().map(Quality::probed),

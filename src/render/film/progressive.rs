@@ -151,12 +151,22 @@ impl Replicates {
     /// channels.
     #[must_use]
     pub fn variance(&self) -> f64 {
+        self.apart().length_squared() / 12.0
+    }
+
+    /// The standard error of the mean of the replicates in each channel, of display values.
+    #[must_use]
+    pub fn standard_error(&self) -> [f64; 3] {
+        (0.5 * self.apart().abs()).to_array()
+    }
+
+    /// The difference of the replicates, of display values.
+    fn apart(&self) -> Vec3 {
         let (n, [a, b, _]) = (f64::from(self.counts[SHOWN].max(1)), self.sums);
-        let apart = match self.tone {
+        match self.tone {
             None => (a - b) / n,
             Some(tone) => shown(tone, a / n) - shown(tone, b / n),
-        };
-        apart.length_squared() / 12.0
+        }
     }
 
     /// The square error of a value of the pixel that is independent of the replicates, as it is

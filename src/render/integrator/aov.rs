@@ -28,6 +28,15 @@ pub enum Aov {
     Instance,
     /// The position in the world.
     Position,
+    /// The standard error of each channel, of display values: half the difference of the two
+    /// replicates; of pictures to a target error or within a time.
+    Error,
+    /// The number of samples, those of the pilot included; of the same pictures.
+    Samples,
+    /// The largest change of the pixel, in multiples of white, by light that no sample may have
+    /// met (95 %): 1 where there is no bound; of the same pictures.
+    #[serde(rename = "unmet")]
+    Undersampled,
 }
 
 /// The depth without a hit, as in other renderers.
@@ -44,6 +53,9 @@ impl Aov {
             Self::Uv => "uv",
             Self::Instance => "instance",
             Self::Position => "position",
+            Self::Error => "error",
+            Self::Samples => "samples",
+            Self::Undersampled => "unmet",
         }
     }
 
@@ -57,7 +69,16 @@ impl Aov {
             Self::Uv => &["uv.U", "uv.V"],
             Self::Instance => &["instance.X"],
             Self::Position => &["position.X", "position.Y", "position.Z"],
+            Self::Error => &["error.R", "error.G", "error.B"],
+            Self::Samples => &["samples.X"],
+            Self::Undersampled => &["unmet.X"],
         }
+    }
+
+    /// Whether it tells of the samples of a pixel that grows towards a goal, not of first hits.
+    #[must_use]
+    pub fn is_of_samples(self) -> bool {
+        matches!(self, Self::Error | Self::Samples | Self::Undersampled)
     }
 }
 
@@ -228,6 +249,7 @@ impl FirstHitSums {
             Aov::Uv => mean(self.uv, self.hits_with_uv).to_array(),
             Aov::Instance => [self.instance as f64; 3],
             Aov::Position => mean(self.point, self.hits).to_array(),
+            Aov::Error | Aov::Samples | Aov::Undersampled => [0.0; 3],
         }
     }
 }

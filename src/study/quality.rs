@@ -1,0 +1,52 @@
+//! The quality of each pixel of a picture that grew towards a goal, and its layers.
+
+use rtc_image::Layers;
+use rtc_render::Aov;
+
+/// What is known of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PixelQuality {
+    /// The standard error of each channel, of display values, for a white of 1.
+    pub error: [f32; 3],
+    /// The number of samples, those of the pilot included.
+    pub samples: u64,
+    /// The largest change, in multiples of white, by light that no sample may have met, with a
+    /// probability of 95 %; 1 where there is no bound.
+    pub undersampled: f32,
+}
+
+impl PixelQuality {
+    /// The values of the channels of a layer; none if it tells of first hits.
+    #[expect(clippy::cast_precision_loss, reason = "rounds to the nearest float")]
+    fn values(&self, aov: Aov) -> Vec<f32> {
+        match aov {
+            Aov::Error => self.error.to_vec(),
+            Aov::Samples => vec![self.samples as f32],
+            Aov::Undersampled => vec![self.undersampled],
+            Aov::Albedo | Aov::Normal | Aov::Depth | Aov::Uv | Aov::Instance | Aov::Position => {
+                Vec::new()
+            }
+        }
+    }
+}
+
+/// Adds those of the layers wanted that tell of the quality to others of the same pixels.
+#[must_use]
+pub fn with_quality(layers: Layers, wanted: &[Aov], quality: &[PixelQuality]) -> Layers {
+    let wanted = || wanted.iter().filter(|aov| aov.is_of_samples());
+    let Layers { mut names, values } = layers;
+    if wanted().next().is_none() {
+        return Layers { names, values };
+    }
+    let width = names.len();
+    names.extend(wanted().flat_map(|aov| aov.channels()));
+    let mut joined = Vec::with_capacity(quality.len() * names.len());
+    for (index, pixel) in quality.iter().enumerate() {
+        joined.extend_from_slice(&values[index * width..][..width]);
+        joined.extend(wanted().flat_map(|aov| pixel.values(*aov)));
+    }
+    Layers {
+        names,
+        values: joined,
+    }
+}
