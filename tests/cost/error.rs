@@ -272,7 +272,7 @@ fn a_quarter_of_the_paths_is_denoised(study: &Study) {
 #[test]
 fn paths_have_a_ladder_and_a_law_of_their_own() {
     let scene = decoded(include_str!("../honest/paths.json").to_owned());
-    let study = study_of(&scene, 18_000_000, 0);
+    let study = study_of(&scene, 60_000_000, 0);
     let table = study::table(&study);
     assert_eq!(
         study.used(),

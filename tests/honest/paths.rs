@@ -18,12 +18,12 @@ pub(super) fn balls() -> Scene {
 #[test]
 fn the_error_said_is_kept_by_paths() {
     let scene = balls();
-    let references = references(&scene, 6.0);
+    let references = references(&scene, 2.0);
     let mut kept = 0;
     for seed in 1..=8 {
-        let reached = render(&scene, 6.0, seed);
+        let reached = render(&scene, 2.0, seed);
         assert!(
-            reached.error <= 6.0 && reached.error > 0.5,
+            reached.error <= 2.0 && reached.error > 0.2,
             "{}",
             reached.error
         );
