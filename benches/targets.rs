@@ -14,7 +14,7 @@ use rtc::internals::image::Image;
 use rtc::internals::ir::{Pattern, Scene};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::render::{AnyWorld, Crop, ProgressiveFilm, Values};
-use rtc::internals::source::SourceMap;
+use rtc::internals::source::{Loader, SourceMap};
 use rtc::internals::study::Goal;
 use std::path::Path;
 
@@ -23,8 +23,9 @@ const SEEDS: u64 = 8;
 
 fn load(path: &Path, height: u32) -> Scene {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
-    let text = std::fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    let file = map.add_from(path, text);
+    let file = Loader
+        .file(path, &mut map)
+        .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     let lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink);
     let mut scene = lowered.unwrap_or_else(|| panic!("{:?}", sink.kept())).scene;
     let [wide, high] = scene.camera.size;

@@ -154,11 +154,15 @@ fn lookalike(
 
 /// The comment at the start of a text in the syntax of another language.
 fn comment(tree: &Tree<'_>, at: usize, text: &str) -> Option<Mistake<'static>> {
+    // The line is looked at only if a comment starts here, so that a line of many words takes time
+    // in proportion to its length.
+    let opener = ["//", "/*"]
+        .into_iter()
+        .find(|opener| text.starts_with(opener))?;
     let line = text.split(['\n', '\r']).next()?;
-    let (opener, end) = match text.get(..2)? {
-        "//" => ("//", line.len()),
-        "/*" => ("/*", text.find("*/").map_or(line.len(), |end| end + 2)),
-        _ => return None,
+    let end = match opener {
+        "/*" => text.find("*/").map_or(line.len(), |end| end + 2),
+        _ => line.len(),
     };
     let span = span(tree, at, at + end);
     let comment_text = text.get(2..end)?.trim_end_matches("*/").trim();
