@@ -13,7 +13,7 @@ use rtc::internals::diag::Sink;
 use rtc::internals::image::Image;
 use rtc::internals::ir::{Pattern, Scene};
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::render::{AnyWorld, Crop, ProgressiveFilm, Values};
+use rtc::internals::render::{AnyWorld, ProgressiveFilm, Values};
 use rtc::internals::source::{Loader, SourceMap};
 use rtc::internals::study::Goal;
 use std::path::Path;
@@ -38,14 +38,7 @@ fn load(path: &Path, height: u32) -> Scene {
 /// A picture of a number of samples in each replicate of all pixels.
 fn uniform(world: &AnyWorld, scene: &Scene, count: u32, seed: u64) -> Image {
     let order = scenes::order(scene, Goal::default(), seed);
-    let [width, height] = scene.camera.size;
-    let crop = Crop {
-        x: 0,
-        y: 0,
-        width,
-        height,
-    };
-    let mut film = ProgressiveFilm::new(crop, seed);
+    let mut film = ProgressiveFilm::new(order.crop, seed);
     (film.background, film.display) = (order.background, order.display);
     assert!(world.grow(&mut film, &|_| [count, 2], &|_| true));
     film.image(Values::Display)

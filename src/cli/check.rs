@@ -13,10 +13,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
         false => Reporter::as_result(&args.reporter),
     };
     let mut worst = Ok(());
-    let scenes = match args.skip_others {
-        true => files::scenes_only(&args.files)?,
-        false => files::scenes(&args.files)?,
-    };
+    let scenes = files::scenes(&args.files, args.skip_others)?;
     for path in &scenes.paths {
         let read = input::read(path, &args.reading)?;
         let mut input = match fix::run(path, read, args, &reporter) {
@@ -39,7 +36,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
         }
     }
     let is_in_doubt = reporter.left_in_doubt();
-    reporter.skipped(&scenes);
+    scenes.report_skipped(reporter.is_quiet());
     reporter.finish()?;
     if worst.is_ok() && is_in_doubt {
         reporter::say(&nothing_found(scenes.paths.len()));

@@ -6,7 +6,7 @@
 //! No link is followed but the one that the command line names: it may lead round in circles, or to
 //! what is no matter of the folder.
 
-use super::Failure;
+use super::{Failure, reporter};
 use globset::{GlobBuilder, GlobMatcher};
 use rtc_front::{is_scene_name, is_scene_text_name};
 use rtc_pipeline::is_scene;
@@ -35,39 +35,28 @@ pub(super) struct SceneFiles {
 }
 
 impl SceneFiles {
-    /// The skipped files, for the summary of a command; empty if there are none.
-    pub(super) fn skipped_words(&self) -> String {
+    /// Says how many files were skipped, if any, unless only errors are wanted.
+    pub(super) fn report_skipped(&self, is_quiet: bool) {
         match self.skipped {
-            0 => String::new(),
-            1 => "1 file skipped that is no scene".to_owned(),
-            skipped => format!("{skipped} files skipped that are no scenes"),
+            _ if is_quiet => {}
+            0 => {}
+            1 => reporter::say("1 file skipped that is no scene"),
+            skipped => reporter::say(&format!("{skipped} files skipped that are no scenes")),
         }
     }
 }
 
 /// The scenes that are meant: each path as it is; of a folder all scenes below it; of a pattern
 /// that is no file by itself, the scenes that fit it. What is found comes in the order of its
-/// names, without hidden files and without links, and once.
-pub(super) fn scenes(paths: &[PathBuf]) -> Result<SceneFiles, Failure> {
-    named(paths, is_scene_name)
-}
-
-/// The same, where named files that do not look like scenes are skipped, too.
-pub(super) fn scenes_only(paths: &[PathBuf]) -> Result<SceneFiles, Failure> {
-    let named = scenes(paths)?;
-    let (paths, others): (Vec<_>, Vec<_>) = named
-        .paths
-        .into_iter()
-        .partition(|path| looks_like_scene(path));
-    Ok(SceneFiles {
-        paths,
-        skipped: named.skipped + others.len(),
-    })
+/// names, without hidden files and without links, and once. With `skip_others` a path that does not
+/// look like a scene is skipped, too.
+pub(super) fn scenes(paths: &[PathBuf], skip_others: bool) -> Result<SceneFiles, Failure> {
+    named(paths, is_scene_name, skip_others)
 }
 
 /// The same for scenes that are texts of people.
 pub(super) fn texts(paths: &[PathBuf]) -> Result<SceneFiles, Failure> {
-    named(paths, is_scene_text_name)
+    named(paths, is_scene_text_name, false)
 }
 
 /// Whether a file is a scene as far as its name and its first look tell. A file that can't be read
@@ -81,13 +70,16 @@ fn looks_like_scene(path: &Path) -> bool {
     !is_shared || bytes().map_or(true, |bytes| is_scene(&path.to_string_lossy(), &bytes))
 }
 
-fn named(paths: &[PathBuf], is_meant: NameTest) -> Result<SceneFiles, Failure> {
+fn named(paths: &[PathBuf], is_meant: NameTest, skip_others: bool) -> Result<SceneFiles, Failure> {
     let (mut scenes, mut known, mut skipped) = (Vec::new(), BTreeSet::new(), 0);
     for path in paths {
         let found = if path.is_dir() {
             below(path, is_meant)?
         } else if is_pattern(path) {
             fitting(path, is_meant)?
+        } else if skip_others && !looks_like_scene(path) {
+            skipped += 1;
+            continue;
         } else {
             known.insert(path.clone());
             scenes.push(path.clone());

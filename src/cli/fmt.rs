@@ -27,7 +27,7 @@ pub(super) fn run(args: &Fmt) -> Result<(), Failure> {
             Ok(()) => {}
         }
     }
-    reporter.skipped(&scenes);
+    scenes.report_skipped(reporter.is_quiet());
     reporter.finish()?;
     worst
 }
@@ -35,14 +35,11 @@ pub(super) fn run(args: &Fmt) -> Result<(), Failure> {
 fn one(path: &Path, args: &Fmt, reporter: &mut Reporter) -> Result<(), Failure> {
     let mut input = input::open(path, None, Options::default());
     let laid_out = input.lay_out();
-    if let Err(LayoutError::NoScene) = laid_out {
-        // Not a mistake: a hook names all YAML files of a repository.
-        let name = input.name();
-        reporter.note(&format!("`{name}` is unchanged: it has no key of a scene"));
-        return Ok(());
-    }
     input::tell(&mut input, reporter)?;
-    let text = laid_out.map_err(|fault| refusal(&input, fault))?;
+    let text = match laid_out {
+        Ok(text) => text,
+        Err(fault) => return unformatted(&input, fault, reporter.is_quiet()),
+    };
     let before = input.text().unwrap_or_default();
     let is_stdin = path.as_os_str() == "-";
     let is_same = before == text;
@@ -64,17 +61,23 @@ fn one(path: &Path, args: &Fmt, reporter: &mut Reporter) -> Result<(), Failure> 
     }
 }
 
-/// Why a scene is left as it is.
-fn refusal(input: &Input, fault: LayoutError) -> Failure {
+/// The outcome of a file that is left as it is. The YAML of another program is no mistake, as hooks
+/// name all YAML files of a repository.
+fn unformatted(input: &Input, fault: LayoutError, is_quiet: bool) -> Result<(), Failure> {
     let name = input.name();
-    Failure::Input(match fault {
-        LayoutError::Findings => return Failure::Findings,
-        LayoutError::NoScene => format!("`{name}` is no scene"),
+    Err(Failure::Input(match fault {
+        LayoutError::Findings => return Err(Failure::Findings),
+        LayoutError::NoScene => {
+            if !is_quiet {
+                reporter::say(&format!("`{name}` is unchanged: it has no key of a scene"));
+            }
+            return Ok(());
+        }
         LayoutError::NoText => {
             format!("`{name}` is left as it is: only scene texts, YAML and JSON, are laid out")
         }
         LayoutError::Differs => {
             format!("`{name}` is left as it is: laid out, it would say something else")
         }
-    })
+    }))
 }

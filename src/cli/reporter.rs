@@ -1,7 +1,6 @@
 //! What is said, and on which stream: findings for people on standard error, those for programs on
 //! standard output.
 
-use super::files::SceneFiles;
 use super::render::MadePicture;
 use super::{Failure, args, output};
 use anstream::{AutoStream, ColorChoice};
@@ -95,20 +94,6 @@ impl Reporter {
     /// True if a person at a terminal was told nothing, and did not ask for that.
     pub(super) fn left_in_doubt(&self) -> bool {
         !self.has_told && !self.to_stdout && !self.quiet && io::stderr().is_terminal()
-    }
-
-    /// Says something on standard error, unless only errors are wanted.
-    pub(super) fn note(&self, words: &str) {
-        if !self.quiet {
-            say(words);
-        }
-    }
-
-    /// Says how many files were skipped, if any.
-    pub(super) fn skipped(&self, scenes: &SceneFiles) {
-        if scenes.skipped > 0 {
-            self.note(&scenes.skipped_words());
-        }
     }
 
     /// True if only errors are wanted.

@@ -9,7 +9,7 @@ use super::standard::is_default;
 use super::{MaterialId, MeshId};
 use arbitrary::Arbitrary;
 use glam::DAffine3;
-use rtc_math::{Vec3, unit};
+use rtc_math::{Bounds, Vec3, unit};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -368,10 +368,9 @@ pub struct Ellipsoid {
 impl Bounded for Ellipsoid {
     fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self { center, axes } = self;
-        let [x, y, z] = axes.map(Vec3::from_array);
-        let half = Vec3::from_array((x * x + y * y + z * z).to_array().map(f64::sqrt));
-        let center = Vec3::from_array(*center);
-        box_corners([center - half, center + half])
+        let axes = axes.map(Vec3::from_array);
+        let Bounds { min, max } = Bounds::around_ellipsoid(Vec3::from_array(*center), axes);
+        box_corners([min, max])
             .into_iter()
             .for_each(|corner| visit(corner, 0.0));
     }

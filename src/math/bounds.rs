@@ -55,6 +55,15 @@ impl Bounds {
         Self::around(center - half_size, 0.0).union(Self::around(center + half_size, 0.0))
     }
 
+    /// The box around the image of the unit sphere under the map with these images of the axes,
+    /// rounded outward.
+    #[must_use]
+    pub fn around_ellipsoid(center: Vec3, [x, y, z]: [Vec3; 3]) -> Self {
+        let half = |square: f64| square.sqrt() * (1.0 + 16.0 * U);
+        let half_size = (x * x + y * y + z * z).map(half);
+        Self::around(center - half_size, 0.0).union(Self::around(center + half_size, 0.0))
+    }
+
     /// The box with all points nearer to it than a distance along an axis, rounded outward; the
     /// same box for 0.
     #[must_use]

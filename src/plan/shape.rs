@@ -264,9 +264,8 @@ impl ShapeFacts for Torus {
 
 impl ShapeFacts for Ellipsoid {
     fn bounds(&self, _: &[Bounds]) -> SurfaceBounds {
-        let [x, y, z] = self.axes;
-        let half = Vec3::from_array((x * x + y * y + z * z).to_array().map(f64::sqrt));
-        SurfaceBounds::within(Bounds::about(self.center, half), ShapeClass::Convex)
+        let bounds = Bounds::around_ellipsoid(self.center, self.axes);
+        SurfaceBounds::within(bounds, ShapeClass::Convex)
     }
 
     /// A bound of the least singular value of the map of the unit sphere, from its determinant and

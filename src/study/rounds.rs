@@ -112,7 +112,8 @@ pub(super) fn next_round(
     (more > 0.0).then_some(requested)
 }
 
-/// Doubles the samples of all pixels with fewer than `most` per replicate, if that takes at most `max_samples` samples.
+/// Doubles the samples of all pixels with fewer than `most` per replicate, if that takes at most
+/// `max_samples` samples.
 fn doubled(film: &ProgressiveFilm, most: u32, max_samples: f64) -> Option<Vec<[u32; 2]>> {
     let twice = |pixel: &Replicates| {
         let [shown, pilot] = pixel.counts();

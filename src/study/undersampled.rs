@@ -112,8 +112,8 @@ impl Undersampled {
         self.closing(error, MAX_SAMPLES).unwrap_or(1)
     }
 
-    /// The minimum number of samples per replicate, a power of two of at most `most`, for a bound in
-    /// grey levels.
+    /// The minimum number of samples per replicate, a power of two of at most `most`, for a bound
+    /// in grey levels.
     pub(super) fn closing(&self, error: f64, most: u32) -> Option<u32> {
         let counts = std::iter::successors(Some(1_u32), |count| count.checked_mul(2));
         let mut counts = counts.take_while(|count| *count <= most);

@@ -3,35 +3,12 @@
 use super::{
     add_light, add_quad, add_sphere, add_square, lambert, mean, render, render_by, scene, validate,
 };
-use rtc::internals::ir::{
-    Cone, Cylinder, Disc, Ellipsoid, Emitter, Environment, Image, ImageId, Material, MaterialId,
-    Paraboloid, Pixels, Punctual, Quad, Scene, Shape, Sphere, Standard, Surface, Torus,
-};
+use rtc::internals::ir::{Emitter, Environment, Image, ImageId, Pixels, Punctual, Scene, Standard};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Job, Strategy};
 
 /// A glossy floor and a ball under a shining square, all kinds of scattering among them.
 fn room(samples: u32) -> Scene {
-    let mut scene = dark_room(samples);
-    let light = Standard {
-        emissive: [4.0, 3.0, 2.0],
-        ..lambert([0.0; 3])
-    };
-    add_quad(
-        &mut scene,
-        [
-            [-3.0, 1.5, 2.0],
-            [3.0, 1.5, 2.0],
-            [3.0, 1.5, 0.0],
-            [-3.0, 1.5, 0.0],
-        ],
-        light,
-    );
-    scene
-}
-
-/// The room without a light.
-fn dark_room(samples: u32) -> Scene {
     let mut scene = scene(samples);
     add_square(
         &mut scene,
@@ -52,6 +29,20 @@ fn dark_room(samples: u32) -> Scene {
             roughness: 0.6,
             ..lambert([0.8; 3])
         },
+    );
+    let light = Standard {
+        emissive: [4.0, 3.0, 2.0],
+        ..lambert([0.0; 3])
+    };
+    add_quad(
+        &mut scene,
+        [
+            [-3.0, 1.5, 2.0],
+            [3.0, 1.5, 2.0],
+            [3.0, 1.5, 0.0],
+            [-3.0, 1.5, 0.0],
+        ],
+        light,
     );
     scene
 }
@@ -95,83 +86,6 @@ fn assert_agree(scene: &Scene, tolerance: f64) {
 #[test]
 fn aiming_and_scattering_agree_on_a_shining_square() {
     assert_agree(&room(1024), 0.01);
-}
-
-/// A shape that shines over the floor.
-fn shining(shape: Shape) -> Scene {
-    let mut scene = dark_room(1024);
-    scene.materials.push(Material::Standard(Box::new(Standard {
-        emissive: [4.0, 3.0, 2.0],
-        ..lambert([0.3; 3])
-    })));
-    let last = u32::try_from(scene.materials.len() - 1).unwrap();
-    scene.surfaces.push(Surface {
-        shape,
-        material: MaterialId(last),
-        casts_no_shadow: false,
-    });
-    scene
-}
-
-#[test]
-fn aiming_and_scattering_agree_on_every_shape_that_shines() {
-    let center = [-0.7, 0.3, 0.6];
-    let axis = [0.5, 1.0, 0.3];
-    let shapes = [
-        Shape::Sphere(Sphere {
-            center,
-            radius: 0.5,
-            texture_from_world: None,
-        }),
-        // The camera and all surfaces are inside.
-        Shape::Sphere(Sphere {
-            center,
-            radius: 9.0,
-            texture_from_world: None,
-        }),
-        Shape::Disc(Disc {
-            center,
-            normal: axis,
-            radius: 0.7,
-        }),
-        Shape::Cylinder(Cylinder {
-            base: center,
-            axis,
-            height: 0.9,
-            radius: 0.4,
-        }),
-        Shape::Cone(Cone {
-            base: center,
-            up: axis,
-            radius: 0.6,
-        }),
-        Shape::Paraboloid(Paraboloid {
-            base: center,
-            up: axis,
-            radius: 0.6,
-        }),
-        Shape::Torus(Torus {
-            center,
-            axis,
-            major: 0.5,
-            minor: 0.2,
-        }),
-        Shape::Ellipsoid(Ellipsoid {
-            center,
-            axes: [[0.6, 0.1, 0.0], [-0.05, 0.3, 0.1], [0.0, -0.1, 0.3]],
-        }),
-        Shape::Quad(Quad {
-            vertices: [
-                [-1.5, 1.5, 1.0],
-                [1.0, 1.5, 1.0],
-                [1.0, 1.5, 0.0],
-                [-2.0, 1.5, 0.0],
-            ],
-        }),
-    ];
-    for shape in shapes {
-        assert_agree(&shining(shape), 0.02);
-    }
 }
 
 #[test]

@@ -23,7 +23,7 @@ use rtc::internals::ir::{
 };
 use rtc::internals::math::Vec3;
 use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Background, Film, Job, Strategy, World};
+use rtc::internals::render::{Background, Basic, Film, Job, Strategy, World};
 use rtc::internals::valid::{self, ValidScene};
 
 /// A scene of paths: 16 × 16 pixels that look down −z from (0, 0, 4) and see a square of side 2 at
@@ -145,7 +145,7 @@ const JOB: Job = crate::small::WHOLE;
 
 fn render_by(scene: &Scene, strategy: Strategy) -> Film {
     let proof = validate(scene);
-    <World>::prepare(&proof, &Plan::new(&proof, Rules::ALL))
+    World::<Basic>::prepare(&proof, &Plan::new(&proof, Rules::ALL))
         .render_paths(strategy, &JOB, &|_| true)
         .unwrap()
 }

@@ -85,6 +85,10 @@ fn mirrors() {
                 changed(&busy(), |scene| all(scene, |phong| phong.ks = 0.0)),
             ),
             (
+                "kr is 0",
+                changed(&busy(), |scene| all(scene, |phong| phong.kr = Some(0.0))),
+            ),
+            (
                 "no bounce",
                 changed(&busy(), |scene| scene.settings.max_depth = 0),
             ),
@@ -100,6 +104,26 @@ fn mirrors() {
             ),
         ],
     );
+}
+
+#[test]
+fn the_reason_names_the_weight_that_is_0() {
+    let reason = |change: fn(&mut rtc::internals::ir::Phong)| {
+        let scene = changed(&busy(), |scene| all(scene, change));
+        let lowered = Lowered {
+            scene,
+            source_spans: SourceSpans::default(),
+        };
+        let validated =
+            pipeline::validate(&lowered, &Options::default(), &mut Sink::default()).unwrap();
+        let plan = Plan::new(&validated, Rules::ALL);
+        let status = plan.statuses.iter().find(|s| s.effect == Effect::Mirror);
+        status.unwrap().reason.to_string()
+    };
+    let kr = reason(|phong| phong.kr = Some(0.0));
+    assert!(kr.contains("kr or else ks"), "{kr}");
+    let ks = reason(|phong| phong.ks = 0.0);
+    assert_eq!(ks, "ks is 0 on all visible surfaces");
 }
 
 #[test]

@@ -51,6 +51,9 @@ fn a_little_ks_makes_a_highlight_and_a_mirror() {
     turns(Effect::Mirror, Rule::MirrorKs, &two_balls(), |scene| {
         material(scene, 0).ks = 1e-3
     });
+    turns(Effect::Mirror, Rule::MirrorKs, &two_balls(), |scene| {
+        material(scene, 0).kr = Some(1e-3)
+    });
 }
 
 #[test]

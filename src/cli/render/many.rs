@@ -20,10 +20,8 @@ pub(super) struct RenderJob {
 
 /// The scenes and their pictures; `None` of one scene whose picture has a name of its own.
 pub(super) fn jobs(args: &args::Render) -> Result<Option<Vec<RenderJob>>, Failure> {
-    let found = files::scenes(&args.files)?;
-    if found.skipped > 0 && !args.reporter.quiet {
-        reporter::say(&found.skipped_words());
-    }
+    let found = files::scenes(&args.files, false)?;
+    found.report_skipped(args.reporter.quiet);
     let scenes = found.paths;
     let place = Destination::new(args.output.as_deref());
     if scenes == args.files && scenes.len() == 1 && !place.is_for_many() {

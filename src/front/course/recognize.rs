@@ -10,27 +10,38 @@ const SCHEMA: &str = "scene.schema.json";
 /// Shorter keys have to be spelt exactly: they are near too many words.
 const SHORTEST_MISSPELT: usize = 5;
 
-/// Whether a text looks like a scene of the course: a top-level key is one of the format, or nearly
-/// so, or the text names the schema of scenes. Takes time linear in the length of the text.
+/// So many keys may be misspelt: comparing words takes long, and scenes have few top-level keys.
+const MOST_MISSPELT: usize = 256;
+
+/// Whether a text looks like a scene of the course: a top-level key is one of the format, or one of
+/// the first 256 nearly so, or the text names the schema of scenes. Takes time linear in the length
+/// of the text.
 #[must_use]
 pub fn is_scene_text(bytes: &[u8]) -> bool {
     let Ok(text) = std::str::from_utf8(bytes) else {
         return false;
     };
     let text = text.trim_start_matches('\u{feff}').trim_start();
-    text.contains(SCHEMA) || top_level_keys(text).iter().any(|key| is_scene_key(key))
+    let keys = top_level_keys(text);
+    let mut first = keys.iter().take(MOST_MISSPELT);
+    text.contains(SCHEMA)
+        || keys
+            .iter()
+            .any(|key| scene_keys().any(|known| known == *key))
+        || first.any(|key| is_nearly_scene_key(key))
 }
 
-/// Whether the key is one of a scene, or nearly so.
-fn is_scene_key(key: &str) -> bool {
-    let keys = || {
-        let fields = Scene::RECORD.fields.iter();
-        let fields = fields.filter(|field| field.name != "_schema");
-        fields.flat_map(|field| field.spellings.iter().copied().flatten().copied())
-    };
-    let long = || keys().filter(|known| known.len() >= SHORTEST_MISSPELT);
-    keys().any(|known| known == key)
-        || key.len() >= SHORTEST_MISSPELT && nearest(key, long()).is_some()
+/// The top-level keys of a scene, without that of its schema, which other formats have.
+fn scene_keys() -> impl Iterator<Item = &'static str> {
+    let fields = Scene::RECORD.fields.iter();
+    let fields = fields.filter(|field| field.name != "_schema");
+    fields.flat_map(|field| field.spellings.iter().copied().flatten().copied())
+}
+
+/// Whether a key is nearly one of a scene.
+fn is_nearly_scene_key(key: &str) -> bool {
+    let is_long = |known: &&str| known.len() >= SHORTEST_MISSPELT;
+    is_long(&key) && nearest(key, scene_keys().filter(is_long)).is_some()
 }
 
 /// The top-level keys of a text in block or flow style. The text begins with what is no blank.
@@ -112,6 +123,19 @@ mod tests {
         ] {
             assert!(is_scene_text(text.as_bytes()), "{text}");
         }
+    }
+
+    #[test]
+    fn spelling_is_compared_for_the_first_keys_alone() {
+        let keys = |count: usize| {
+            (0..count)
+                .map(|k| format!("entry{k}: 0\n"))
+                .collect::<String>()
+        };
+        let is_scene = |text: String| is_scene_text(text.as_bytes());
+        assert!(is_scene(keys(MOST_MISSPELT - 1) + "Objcts: []\n"));
+        assert!(!is_scene(keys(MOST_MISSPELT) + "Objcts: []\n"));
+        assert!(is_scene(keys(MOST_MISSPELT) + "Objects: []\n"));
     }
 
     #[test]

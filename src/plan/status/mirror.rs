@@ -4,8 +4,9 @@ use super::{MAX_DETAILS, first_n, settings};
 use crate::effect::{Effect, EffectStatus};
 use crate::rules::Rule;
 use crate::{Findings, MaterialSummary};
-use rtc_ir::Field;
+use rtc_ir::{Field, ValuePath};
 use rtc_valid::Phong;
+use std::collections::BTreeSet;
 
 pub(super) fn statuses(findings: &Findings<'_>) -> Vec<EffectStatus> {
     let mut all = vec![depth(findings), mirror(findings)];
@@ -55,7 +56,7 @@ fn no_visible_reflection(findings: &Findings<'_>, effect: Effect, requested: boo
     if let Some(mirror) = findings.first(MaterialSummary::has_bounce) {
         let facts = vec![
             findings.surface(mirror, Field::Whole),
-            findings.material(mirror, Field::Ks),
+            mirror_weight(findings, mirror).1,
         ];
         let is_alone = findings.facts.surface_bounds.len() == 1;
         let (rule, reason) = if is_alone {
@@ -82,20 +83,31 @@ fn no_visible_reflection(findings: &Findings<'_>, effect: Effect, requested: boo
     let facts = first_n(
         findings
             .visible()
-            .map(|surface| findings.material(surface, Field::Ks)),
+            .map(|surface| mirror_weight(findings, surface).1),
     );
-    EffectStatus::pruned(effect, Rule::MirrorKs, NO_MIRROR, facts)
+    no_mirror(findings, effect, facts)
 }
 
-/// Where no visible surface reflects.
-const NO_MIRROR: &str = "ks is 0 on all visible surfaces";
+/// The status where no visible surface reflects.
+fn no_mirror(findings: &Findings<'_>, effect: Effect, facts: Vec<ValuePath>) -> EffectStatus {
+    let keys = findings
+        .visible()
+        .map(|surface| mirror_weight(findings, surface).0)
+        .collect::<BTreeSet<_>>();
+    let reason = match keys.contains("kr") {
+        true => "the weight of the reflected ray, kr or else ks, is 0 on all visible surfaces",
+        false => "ks is 0 on all visible surfaces",
+    };
+    EffectStatus::pruned(effect, Rule::MirrorKs, reason, facts)
+}
 
-/// The key of the weight of the reflected ray.
-fn weight_key(material: &Phong) -> &'static str {
-    match material.kr {
-        Some(_) => "kr",
-        None => "ks",
-    }
+/// The key of the weight of the reflected ray of a surface, and its value in the scene.
+fn mirror_weight(findings: &Findings<'_>, surface: usize) -> (&'static str, ValuePath) {
+    let (key, field) = match findings.phong(surface).kr {
+        Some(_) => ("kr", Field::Kr),
+        None => ("ks", Field::Ks),
+    };
+    (key, findings.material(surface, field))
 }
 
 /// The number of bounces after the first hit.
@@ -135,22 +147,16 @@ fn mirror(findings: &Findings<'_>) -> EffectStatus {
     }
     match findings.first(MaterialSummary::has_bounce) {
         Some(surface) => {
-            let facts = vec![
-                findings.material(surface, Field::Ks),
-                findings.surface(surface, Field::Whole),
-            ];
-            let mirrors = findings.facts.summaries[surface].mirrors;
-            let reason = if mirrors {
-                format!(
-                    "{} > 0 on a visible surface",
-                    weight_key(findings.phong(surface))
-                )
+            let (key, weight) = mirror_weight(findings, surface);
+            let facts = vec![weight, findings.surface(surface, Field::Whole)];
+            let reason = if findings.facts.summaries[surface].mirrors {
+                format!("{key} > 0 on a visible surface")
             } else {
                 "total internal reflection is possible".to_owned()
             };
             EffectStatus::needed(effect, reason, facts)
         }
-        None => EffectStatus::pruned(effect, Rule::MirrorKs, NO_MIRROR, vec![]),
+        None => no_mirror(findings, effect, vec![]),
     }
 }
 
@@ -161,9 +167,9 @@ fn materials_without_mirror(findings: &Findings<'_>) -> impl Iterator<Item = Eff
         .materials_without(MaterialSummary::has_bounce)
         .filter(move |_| is_needed);
     surfaces.map(|surface| {
-        let facts = vec![findings.material(surface, Field::Ks)];
-        let reason = format!("its {} is 0", weight_key(findings.phong(surface)));
-        let status = EffectStatus::pruned(Effect::Mirror, Rule::MirrorKs, reason, facts);
+        let (key, weight) = mirror_weight(findings, surface);
+        let reason = format!("its {key} is 0");
+        let status = EffectStatus::pruned(Effect::Mirror, Rule::MirrorKs, reason, vec![weight]);
         status.of(findings.material(surface, Field::Whole))
     })
 }

@@ -151,17 +151,17 @@ impl Replicates {
     /// channels.
     #[must_use]
     pub fn variance(&self) -> f64 {
-        self.apart().length_squared() / 12.0
+        self.difference().length_squared() / 12.0
     }
 
     /// The standard error of the mean of the replicates in each channel, of display values.
     #[must_use]
     pub fn standard_error(&self) -> [f64; 3] {
-        (0.5 * self.apart().abs()).to_array()
+        (0.5 * self.difference().abs()).to_array()
     }
 
     /// The difference of the replicates, of display values.
-    fn apart(&self) -> Vec3 {
+    fn difference(&self) -> Vec3 {
         let (n, [a, b, _]) = (f64::from(self.counts[SHOWN].max(1)), self.sums);
         match self.tone {
             None => (a - b) / n,

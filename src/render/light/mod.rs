@@ -75,6 +75,19 @@ fn is_room_for(triangles: usize, listed: usize) -> bool {
     listed.saturating_add(triangles) <= MOST_LISTED
 }
 
+/// The mean of some vectors, a power of two of them. They are added in pairs, so that the mean of
+/// equal ones is exact.
+fn mean(values: &[Vec3]) -> Vec3 {
+    match values {
+        [] => Vec3::ZERO,
+        [value] => *value,
+        _ => {
+            let (first, second) = values.split_at(values.len() / 2);
+            0.5 * (mean(first) + mean(second))
+        }
+    }
+}
+
 impl<'world, S: Intersect> Lights<'world, S> {
     /// The lights of a world.
     pub(crate) fn new(world: &'world World<S>, strategy: Strategy) -> Self {
@@ -242,9 +255,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
         let [a, b, c] = triangle.corners;
         let at = |[u, v, w]: [f64; 3]| triangle.at(a * u + b * v + c * w);
         let emission = |weights| self.point(triangle.surface, &at(weights)).emission();
-        // Add in pairs, so that the mean of equal numbers is exact.
-        let [a, b, c, d] = WEIGHTS.map(emission);
-        ((a + b) + (c + d)) / 4.0
+        mean(&WEIGHTS.map(emission))
     }
 
     /// The mean radiance of a shape, estimated at 16 points.
@@ -261,7 +272,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
             let at = light.emitter.sample(light.bounds.center(), u);
             self.point(light.surface, &at).emission()
         };
-        (0..CELLS * CELLS).map(at).sum::<Vec3>() / f64::from(CELLS * CELLS)
+        mean(&(0..CELLS * CELLS).map(at).collect::<Vec<_>>())
     }
 
     /// The material at a point of a surface.
@@ -396,6 +407,14 @@ impl<'world, S: Intersect> Lights<'world, S> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_mean_of_equal_emission_is_exact() {
+        for count in [1, 4, 16] {
+            let value = Vec3::new(0.1, 0.7, 1.0 / 3.0);
+            assert_eq!(mean(&vec![value; count]), value, "{count}");
+        }
+    }
 
     #[test]
     fn instances_do_not_fill_memory_with_lights() {

@@ -250,24 +250,17 @@ impl Intersect for Cone {
         )
     }
 
-    /// A box around the cone.
     fn emitter(&self) -> Option<Emitter> {
-        let Self {
-            base,
-            axis,
-            height,
-            radius,
-            ..
-        } = *self;
         Some(Emitter::Frustum {
-            base,
-            axis,
-            height,
-            radii: [radius, 0.0],
+            base: self.base,
+            axis: self.axis,
+            height: self.height,
+            radii: [self.radius, 0.0],
             is_capped: true,
         })
     }
 
+    /// A box around the cone.
     fn bounds(&self) -> Option<Bounds> {
         let apex = Bounds::around(self.base + self.axis * self.height, 0.0);
         Some(Bounds::around_disc(self.base, self.axis, self.radius).union(apex))

@@ -141,23 +141,17 @@ impl Intersect for Cylinder {
         self.interaction_on(part, ray, t)
     }
 
-    /// A box around the cylinder.
     fn emitter(&self) -> Option<Emitter> {
-        let Self {
-            base,
-            axis,
-            height,
-            radius,
-        } = *self;
         Some(Emitter::Frustum {
-            base,
-            axis,
-            height,
-            radii: [radius; 2],
+            base: self.base,
+            axis: self.axis,
+            height: self.height,
+            radii: [self.radius; 2],
             is_capped: true,
         })
     }
 
+    /// A box around the cylinder.
     fn bounds(&self) -> Option<Bounds> {
         let disc = |center| Bounds::around_disc(center, self.axis, self.radius);
         Some(disc(self.base).union(disc(self.base + self.axis * self.height)))

@@ -57,8 +57,14 @@ impl Ellipsoid {
         }
     }
 
+    /// A vector of the unit sphere in the world.
+    fn to_world(self, v: Vec3) -> Vec3 {
+        let [x, y, z] = self.axes;
+        x * v.x + y * v.y + z * v.z
+    }
+
     /// A normal of the unit sphere, of any length, as one of the ellipsoid.
-    fn normal_to_world(&self, n: Vec3) -> Vec3 {
+    fn normal_to_world(self, n: Vec3) -> Vec3 {
         let [x, y, z] = self.inverse;
         x * n.x + y * n.y + z * n.z
     }
@@ -75,8 +81,7 @@ impl Intersect for Ellipsoid {
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
         let local = self.to_unit(ray);
         let direction = local.outward(local.origin + local.direction * t);
-        let [x, y, z] = self.axes;
-        let point = self.center + (x * direction.x + y * direction.y + z * direction.z);
+        let point = self.center + self.to_world(direction);
         let normal = ray.outward(self.normal_to_world(direction));
         let sizes = self.axes.map(|axis| axis.abs().element_sum());
         let extent = 2.0 * sizes.iter().sum::<f64>();
@@ -103,7 +108,7 @@ impl Intersect for Ellipsoid {
             ..*at
         };
         let attributes = UNIT_SPHERE.shading_attributes(ray, &at, prim_id, asked);
-        let to_world = |v: Vec3| (x * v.x + y * v.y + z * v.z).try_normalize();
+        let to_world = |tangent| self.to_world(tangent).try_normalize();
         ShadingAttributes {
             tangent: attributes.tangent.and_then(to_world),
             ..attributes
@@ -111,22 +116,15 @@ impl Intersect for Ellipsoid {
     }
 
     fn emitter(&self) -> Option<Emitter> {
-        let Self {
-            center,
-            axes,
-            inverse,
-        } = *self;
         Some(Emitter::Ellipsoid {
-            center,
-            axes,
-            inverse,
+            center: self.center,
+            axes: self.axes,
+            inverse: self.inverse,
         })
     }
 
     fn bounds(&self) -> Option<Bounds> {
-        let [x, y, z] = self.axes;
-        let half = Vec3::from_array((x * x + y * y + z * z).to_array().map(f64::sqrt));
-        Some(Bounds::about(self.center, half))
+        Some(Bounds::around_ellipsoid(self.center, self.axes))
     }
 }
 

@@ -293,24 +293,17 @@ impl Intersect for Paraboloid {
         }
     }
 
-    /// A box around the paraboloid: its profile is a parabola, which lies between the rim, and the
-    /// vertex and half the radius beside it.
     fn emitter(&self) -> Option<Emitter> {
-        let Self {
-            base,
-            axis,
-            height,
-            radius,
-            ..
-        } = *self;
         Some(Emitter::Paraboloid {
-            base,
-            axis,
-            height,
-            radius,
+            base: self.base,
+            axis: self.axis,
+            height: self.height,
+            radius: self.radius,
         })
     }
 
+    /// A box around the paraboloid: its profile is a parabola, which lies between the rim, and the
+    /// vertex and half the radius beside it.
     fn bounds(&self) -> Option<Bounds> {
         let disc = |center, radius| Bounds::around_disc(center, self.axis, radius);
         let top = self.base + self.axis * self.height;

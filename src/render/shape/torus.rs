@@ -316,18 +316,11 @@ impl Intersect for Torus {
     }
 
     fn emitter(&self) -> Option<Emitter> {
-        let Self {
-            center,
-            axis,
-            major,
-            minor,
-            ..
-        } = *self;
         Some(Emitter::Torus {
-            center,
-            axis,
-            major,
-            minor,
+            center: self.center,
+            axis: self.axis,
+            major: self.major,
+            minor: self.minor,
         })
     }
 

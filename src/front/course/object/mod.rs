@@ -6,8 +6,8 @@
 //! flag, span), then `Lowering::add_surface` adds each surface with the spans of its values.
 //!
 //! * `sphere`, `plane`, `triangle`, `quad`, `disc`, `cylinder` (with the one without ends), `cone`
-//!   (with the paraboloid), `torus` and `ellipsoid` become the shape of the same name in the IR. `cone` has the keys of a base and
-//!   an axis, which cylinders share.
+//!   (with the paraboloid), `torus` and `ellipsoid` become the shape of the same name in the IR.
+//!   `cone` has the keys of a base and an axis, which cylinders share.
 //! * `solid` (box, tetrahedron, prism) and `cube` become triangles.
 //! * `mesh` becomes an instance of a mesh that is loaded later; `sizing` scales it after that.
 //! * `gltf` becomes a pending asset only.
