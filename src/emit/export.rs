@@ -2,7 +2,7 @@
 
 use super::reporter::ExportReporter;
 use rtc_diag::codes;
-use rtc_ir::{EntityKind, Field, Material, Scene, Shape, ShapeKind, ValuePath};
+use rtc_ir::{EntityKind, Field, Material, Scene, Shape, ShapeKind, Surface, ValuePath};
 use rtc_math::shortest;
 use rtc_source::{Budget, Resource};
 use std::collections::{BTreeMap, BTreeSet};
@@ -46,6 +46,33 @@ pub(super) fn used_materials(scene: &Scene) -> impl Iterator<Item = (usize, &Mat
     used_materials.into_iter().filter_map(material)
 }
 
+/// How many surfaces from the first on are parts of one solid made of solids; 1 for another shape.
+pub(super) fn parts_of_one(surfaces: &[Surface]) -> usize {
+    let Some(Shape::Csg(first)) = surfaces.first().map(|surface| &surface.shape) else {
+        return 1;
+    };
+    let mut faces = BTreeSet::new();
+    let mut is_part = |surface: &&Surface| {
+        let Shape::Csg(csg) = &surface.shape else {
+            return false;
+        };
+        csg.is_of_one_solid(first) && csg.faces.iter().all(|face| faces.insert(*face))
+    };
+    let count = surfaces
+        .iter()
+        .take_while(|surface| is_part(surface))
+        .count();
+    count.max(1)
+}
+
+/// The surface among the parts of a solid made of solids that shows an operand.
+pub(super) fn part_of(parts: &[Surface], operand: usize) -> Option<&Surface> {
+    let shows = |face: &u32| usize::try_from(*face) == Ok(operand);
+    parts
+        .iter()
+        .find(|part| matches!(&part.shape, Shape::Csg(csg) if csg.faces.iter().any(shows)))
+}
+
 /// The shortest decimals of numbers that read back exactly, with a separator; −0 as 0.
 pub(super) fn joined(numbers: impl IntoIterator<Item = f64>, separator: &str) -> String {
     let displayed: Vec<_> = numbers
@@ -59,6 +86,9 @@ pub(super) fn joined(numbers: impl IntoIterator<Item = f64>, separator: &str) ->
 pub(super) fn shape_name(shape: &Shape) -> &'static str {
     if shape.kind() == ShapeKind::Quad {
         return "bilinear patch";
+    }
+    if shape.kind() == ShapeKind::Csg {
+        return "union, intersection or difference";
     }
     shape.kind().name()
 }

@@ -12,7 +12,7 @@
 //! error.
 //!
 //! Shared parts: `approximation` (the Phong model as a glTF material), `flat` (planes as squares),
-//! `ply` (meshes as PLY files), `sidecar` (names of sidecar files), `export` (helpers for other
+//! `tessellate` (meshes in place of shapes), `ply` (meshes as PLY files), `sidecar` (names of sidecar files), `export` (helpers for other
 //! renderers).
 
 mod approximation;
@@ -25,5 +25,6 @@ mod ply;
 pub mod pov;
 mod reporter;
 mod sidecar;
+mod tessellate;
 
 pub use export::ExportedScene;

@@ -31,6 +31,8 @@
 
 mod bounds;
 mod camera;
+mod contains;
+mod csg;
 mod display;
 mod environment;
 mod image;
@@ -45,6 +47,7 @@ mod texture;
 
 pub use bounds::BoundingSphere;
 pub use camera::{Camera, Lens, Projection};
+pub use csg::{Csg, Solid};
 pub use display::Display;
 pub use environment::Environment;
 pub use image::{Image, ImageId, Pixels};
@@ -52,7 +55,7 @@ pub use light::{Emitter, Light, Photometry, PointLight, Punctual, Spelling};
 pub use material::{Bump, Material, MaterialId, Phong};
 pub use mesh::{Mesh, MeshId};
 pub use origin::{EntityKind, Field, SourceSpans, ValuePath};
-pub use rtc_math::{Column, Shared};
+pub use rtc_math::{Column, SetStep, Shared};
 pub use settings::{Ambient, Gooch, Mode, PathSettings, Pattern, Settings};
 pub use shape::*;
 pub use standard::{Alpha, Map, Standard};

@@ -95,6 +95,13 @@ impl Phong {
         self.kr.unwrap_or(self.ks)
     }
 
+    /// Whether a texture is looked up at a point.
+    #[must_use]
+    pub fn has_texture(&self) -> bool {
+        let maps = [self.color_map, self.specular_map, self.normal_map];
+        maps.iter().any(Option::is_some) || self.bump.is_some()
+    }
+
     /// A white, opaque, purely diffuse material.
     pub const MATT: Self = Self {
         color: [1.0; 3],

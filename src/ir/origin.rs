@@ -226,6 +226,15 @@ impl SourceSpans {
         self.lists[entity as usize] = List::default();
     }
 
+    /// Removes the last spans that were recorded, of entities of a kind from an index on.
+    pub fn forget_from(&mut self, entity: EntityKind, first: usize) {
+        let spans = &mut self.lists[entity as usize].spans;
+        let first = u32::try_from(first).unwrap_or(u32::MAX);
+        while spans.last().is_some_and(|(index, ..)| *index >= first) {
+            spans.pop();
+        }
+    }
+
     /// Sorts the table; call it after the last `record`.
     pub fn finish(&mut self) {
         for list in self.lists.iter_mut().filter(|list| list.unsorted) {

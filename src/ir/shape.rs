@@ -5,6 +5,7 @@
 //! `impl`.
 
 use super::bounds::box_corners;
+use super::csg::Csg;
 use super::standard::is_default;
 use super::{MaterialId, MeshId};
 use arbitrary::Arbitrary;

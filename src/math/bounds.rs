@@ -1,6 +1,6 @@
 //! Axis-aligned boxes. A box that is rounded outward contains the exact box.
 
-use super::{U, Vec3};
+use super::{SetStep, U, Vec3};
 
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,6 +17,55 @@ impl Bounds {
         min: Vec3::INFINITY,
         max: Vec3::NEG_INFINITY,
     };
+
+    /// The box that holds everything.
+    pub const EVERYTHING: Self = Self {
+        min: Vec3::NEG_INFINITY,
+        max: Vec3::INFINITY,
+    };
+
+    /// The box of the half-space behind the plane through `center`: bounded only where the normal
+    /// leads along an axis.
+    #[must_use]
+    pub fn of_half_space(center: Vec3, normal: Vec3) -> Self {
+        let mut bounds = Self::EVERYTHING;
+        for axis in 0..3 {
+            if normal.abs().element_sum() != normal[axis].abs() {
+                continue;
+            }
+            if normal[axis] > 0.0 {
+                bounds.max[axis] = center[axis].next_up();
+            } else {
+                bounds.min[axis] = center[axis].next_down();
+            }
+        }
+        bounds
+    }
+
+    /// The box of an expression of sets, by the boxes of its operands; `None` if it is unbounded.
+    #[must_use]
+    pub fn of_set(steps: &[SetStep], operands: impl IntoIterator<Item = Self>) -> Option<Self> {
+        let mut operands = operands.into_iter();
+        let mut stack = Vec::new();
+        for step in steps {
+            if *step == SetStep::Operand {
+                stack.push(operands.next()?);
+                continue;
+            }
+            let (b, a): (Self, Self) = (stack.pop()?, stack.pop()?);
+            stack.push(match step {
+                SetStep::Union => a.union(b),
+                // Of boxes that do not meet, a box between them.
+                SetStep::Intersection => Self {
+                    min: a.min.max(b.min).min(a.max.min(b.max)),
+                    max: a.max.min(b.max).max(a.min.max(b.min)),
+                },
+                SetStep::Operand | SetStep::Difference => a,
+            });
+        }
+        let bounds = stack.pop()?;
+        (bounds.min.is_finite() && bounds.max.is_finite()).then_some(bounds)
+    }
 
     /// The box of some points.
     #[must_use]

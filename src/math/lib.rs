@@ -15,6 +15,7 @@ mod hash;
 mod number;
 mod onb;
 mod rotation;
+mod set;
 mod turns;
 mod weight;
 
@@ -35,6 +36,7 @@ pub use hash::{GAMMA, fraction, mix};
 pub use number::{NonNegative, Positive, UnitInterval, shortest};
 pub use onb::Basis;
 pub use rotation::{axis_and_angle, rotated_about, rotated_to_z};
+pub use set::{MAX_SET_OPERANDS, SetStep, evaluate_set, is_set_expression};
 pub use turns::{cos_sin_revolutions, golden_revolutions};
 pub use weight::Weight;
 

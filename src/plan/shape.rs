@@ -9,8 +9,8 @@ use super::surface_bounds::{
 };
 use rtc_math::{Basis, Bounds, Vec3, cos_sin_revolutions, unit};
 use rtc_valid::{
-    Cone, Cylinder, Disc, Ellipsoid, InfiniteCylinder, Instance, Paraboloid, Plane, Quad, Shape,
-    Sphere, Torus, Triangle, ValidScene,
+    Cone, Csg, Cylinder, Disc, Ellipsoid, InfiniteCylinder, Instance, Paraboloid, Plane, Quad,
+    Shape, Sphere, Torus, Triangle, ValidScene,
 };
 
 /// The facts that rules need about a shape.
@@ -300,6 +300,39 @@ impl ShapeFacts for InfiniteCylinder {
         let (axis, eye) = (unit(self.axis).unwrap_or(Vec3::Z), scene.camera().eye);
         let nearest = self.center + axis * axis.dot(eye - self.center);
         (nearest, EquationKind::Quadratic(self.radius.get()))
+    }
+}
+
+impl ShapeFacts for Csg {
+    /// The boxes of the operands, through the operations.
+    fn bounds(&self, meshes: &[Bounds]) -> SurfaceBounds {
+        let operands = self.operands.iter().map(|operand| {
+            if let Shape::Plane(plane) = operand {
+                return Bounds::of_half_space(plane.center, plane.normal);
+            }
+            let bounds = shape_facts(operand).bounds(meshes);
+            bounds.aabb().copied().unwrap_or(Bounds::EVERYTHING)
+        });
+        let whole = Bounds::of_set(&self.steps, operands);
+        SurfaceBounds {
+            extent: whole.map_or(Extent::Anywhere, Extent::Within),
+            class: ShapeClass::Other,
+        }
+    }
+
+    fn thickness(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    fn formula(&self, scene: &ValidScene) -> (Vec3, EquationKind) {
+        shape_facts(&self.operands[0]).formula(scene)
+    }
+
+    fn has_uv(&self, scene: &ValidScene) -> bool {
+        let operands = self.operands.iter();
+        operands
+            .map(shape_facts)
+            .any(|operand| operand.has_uv(scene))
     }
 }
 

@@ -72,6 +72,7 @@ pub use shape::baseline::BaselineShape;
 pub use shape::baseline::real::Real;
 pub use shape::basic::Basic;
 pub use shape::cone::Cone;
+pub use shape::csg::Csg;
 pub use shape::cylinder::{Cylinder, InfiniteCylinder};
 pub use shape::disc::Disc;
 pub use shape::ellipsoid::Ellipsoid;

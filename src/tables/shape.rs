@@ -74,6 +74,8 @@ macro_rules! shapes {
                 axis: direction "direction" "axis of a cylinder";
                 radius: length "radius" "radius";
             }
+            /// A solid made of solids.
+            Csg csg Box custom { "operands" }
         }
     };
 }

@@ -14,7 +14,7 @@
 use super::check::Checker;
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityKind, Field, Shape, ValuePath};
-use rtc_math::{Vec3, atan2, unit};
+use rtc_math::{Vec3, atan2};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -89,7 +89,7 @@ impl<'s> Solids<'s> {
         let surfaces = self.surfaces(solid);
         let shape = &surfaces[0].shape;
         if !is_flat(shape) {
-            return contains_point(shape, point);
+            return shape.contains(point);
         }
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for surface in surfaces {
@@ -257,75 +257,4 @@ pub(super) fn eye(scene: &ir::Scene, check: &mut Checker<'_>) {
         "every ray starts in there",
         diagnostic,
     );
-}
-
-/// Whether a solid given by one formula contains a point; false for other shapes.
-fn contains_point(shape: &ir::Shape, point: Vec3) -> bool {
-    match shape {
-        ir::Shape::Sphere(sphere) => {
-            point.distance(Vec3::from_array(sphere.center)) < sphere.radius
-        }
-        ir::Shape::Cylinder(cylinder) => {
-            let ir::Cylinder {
-                base,
-                axis,
-                height,
-                radius,
-            } = cylinder;
-            let up = unit(Vec3::from_array(*axis)).map(|axis| axis * *height);
-            let from_base = point - Vec3::from_array(*base);
-            along(from_base, up).is_some_and(|(_, off)| off < *radius)
-        }
-        ir::Shape::Cone(ir::Cone { base, up, radius }) => {
-            let from_base = point - Vec3::from_array(*base);
-            let coordinates = along(from_base, Some(Vec3::from_array(*up)));
-            coordinates.is_some_and(|(fraction, off)| off < radius * (1.0 - fraction))
-        }
-        ir::Shape::Paraboloid(ir::Paraboloid { base, up, radius }) => {
-            let from_base = point - Vec3::from_array(*base);
-            let coordinates = along(from_base, Some(Vec3::from_array(*up)));
-            coordinates.is_some_and(|(fraction, off)| off < radius * (1.0 - fraction).sqrt())
-        }
-        ir::Shape::Torus(torus) => {
-            let ir::Torus {
-                center,
-                axis,
-                major,
-                minor,
-            } = torus;
-            let Some(axis) = unit(Vec3::from_array(*axis)) else {
-                return false;
-            };
-            let from_center = point - Vec3::from_array(*center);
-            let above = axis.dot(from_center);
-            let off = (from_center - axis * above).length();
-            Vec3::new(off - major, above, 0.0).length() < *minor
-        }
-        ir::Shape::Ellipsoid(ir::Ellipsoid { center, axes }) => {
-            let [x, y, z] = axes.map(Vec3::from_array);
-            let from_center = point - Vec3::from_array(*center);
-            let rows = [y.cross(z), z.cross(x), x.cross(y)];
-            let local = rows.map(|row| row.dot(from_center) / x.dot(rows[0]));
-            Vec3::from_array(local).length() < 1.0
-        }
-        ir::Shape::InfiniteCylinder(cylinder) => {
-            let from_center = point - Vec3::from_array(cylinder.center);
-            unit(Vec3::from_array(cylinder.axis))
-                .is_some_and(|axis| from_center.cross(axis).length() < cylinder.radius)
-        }
-        ir::Shape::Plane(_)
-        | ir::Shape::Triangle(_)
-        | ir::Shape::Quad(_)
-        | ir::Shape::Disc(_)
-        | ir::Shape::Instance(_) => false,
-    }
-}
-
-/// The position of a point along the axis of a solid: the fraction of the height above the base,
-/// and the distance from the axis. `None` below the base or above the top.
-fn along(from_base: Vec3, up: Option<Vec3>) -> Option<(f64, f64)> {
-    let up = up?;
-    let (axis, height) = (unit(up)?, up.length());
-    let above = axis.dot(from_base);
-    (above > 0.0 && above < height).then(|| (above / height, (from_base - axis * above).length()))
 }

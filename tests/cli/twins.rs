@@ -101,8 +101,8 @@ fn what_has_no_twin_is_told_part_by_part() {
     let (_, text, reported) = written(&scene, "scene.xml");
     let words = [
         "a spot is left out",
-        "Mitsuba has no torus: it is left out",
-        "Mitsuba has no bilinear patch: it is left out",
+        "Mitsuba has no torus: what is written is a mesh",
+        "Mitsuba has no bilinear patch: what is written is a mesh",
         "Mitsuba has no plane: a square",
         "without one-sidedness for the camera and its layers, volume or dispersion",
         "`principled` stands for the metallic-roughness material",

@@ -147,6 +147,8 @@ impl Vocabulary {
                 .into_iter()
                 .flatten()
             {
+                let is_for_all = rule.get("if").is_none();
+                open.extend(is_for_all.then_some(rule));
                 open.extend(rule.get("then").filter(|_| is_meant(rule, tree, node)));
             }
             plain.push(map);

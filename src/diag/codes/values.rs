@@ -41,4 +41,5 @@ super::codes! { VA:
     FLAT_SOLID = "VA107", Error, "a box, prism or tetrahedron has no volume";
     CROSSED_QUAD = "VA108", Warning, "the edges of a quad cross";
     OTHER_UNIT = "VA109", Warning, "an angle looks as if it were in another unit";
+    BAD_OPERAND = "VA110", Error, "an operand of solids has no inside, or there are too many";
 }

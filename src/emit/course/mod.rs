@@ -5,6 +5,7 @@
 //! ones. `files` names them. Lowering the text gives the same scene.
 
 mod camera;
+mod csg;
 mod files;
 mod light;
 mod material;
@@ -13,10 +14,10 @@ mod standard;
 
 pub use files::Attachment;
 
+use crate::export::parts_of_one;
 use files::FileNames;
 use rtc_ir::{
-    Ambient, Display, Gooch, Light, MaterialId, Mode, PathSettings, Pattern, Scene, Settings,
-    Shape, Surface,
+    Ambient, Display, Gooch, Light, Mode, PathSettings, Pattern, Scene, Settings, Shape, Surface,
 };
 use rtc_math::shortest;
 use std::fmt::Write as _;
@@ -145,31 +146,26 @@ impl<'s> SceneWriter<'s> {
     }
 
     fn objects(&mut self, scene: &'s Scene) -> Result<(), String> {
-        // Count the surfaces of each material.
         if scene.surfaces.is_empty() {
             self.line(0, "Objects: []");
         } else {
             self.line(0, "Objects:");
         }
-        let mut uses = vec![0_usize; scene.materials.len()];
-        for surface in &scene.surfaces {
-            *uses
-                .get_mut(surface.material.0 as usize)
-                .ok_or("a surface refers to a material that does not exist")? += 1;
-        }
-        // The number of each material in the order of first use; unused materials have none.
-        let mut numbers: Vec<Option<usize>> = vec![None; uses.len()];
-        let mut next = 0;
-        for (index, surface) in scene.surfaces.iter().enumerate() {
-            // Shape and name.
-            let Surface {
-                shape,
-                material: MaterialId(id),
-                casts_no_shadow,
-            } = surface;
-            self.shape(shape, scene)?;
+        let mut materials = MaterialNames::of(scene)?;
+        let mut index = 0;
+        while let Some(surface) = scene.surfaces.get(index) {
+            let parts = &scene.surfaces[index..][..parts_of_one(&scene.surfaces[index..])];
             let name = scene.names.get(index).filter(|name| !name.is_empty());
-            match (name, shape) {
+            index += parts.len();
+            if let Shape::Csg(csg) = &surface.shape {
+                self.csg(csg, parts, scene, &mut materials)?;
+                if name.is_none() {
+                    continue;
+                }
+            } else {
+                self.shape(&surface.shape, scene)?;
+            }
+            match (name, &surface.shape) {
                 (Some(name), Shape::Instance(_)) => {
                     self.line(4, &format!("label: {}", quoted(name)))
                 }
@@ -181,23 +177,38 @@ impl<'s> SceneWriter<'s> {
                 }
                 (None, _) => {}
             }
-            // Material: an anchor at its first use, if it is used again.
-            let at = *id as usize;
-            let material = &scene.materials[at];
-            match numbers[at] {
-                Some(number) => self.line(4, &format!("material: *m{number}")),
-                None if uses[at] > 1 => {
-                    self.material(&format!("material: &m{next}"), material, scene)?
-                }
-                None => self.material("material:", material, scene)?,
+            self.surface_look(surface, scene, &mut materials)?;
+        }
+        Ok(())
+    }
+
+    /// The material of a surface, an anchor at its first use if it is used again; and its shadow.
+    fn surface_look(
+        &mut self,
+        surface: &Surface,
+        scene: &'s Scene,
+        materials: &mut MaterialNames,
+    ) -> Result<(), String> {
+        let at = surface.material.0 as usize;
+        let material = &scene.materials[at];
+        let MaterialNames {
+            uses,
+            numbers,
+            next,
+        } = materials;
+        match numbers[at] {
+            Some(number) => self.line(4, &format!("material: *m{number}")),
+            None if uses[at] > 1 => {
+                self.material(&format!("material: &m{next}"), material, scene)?
             }
-            if numbers[at].is_none() {
-                numbers[at] = Some(next);
-                next += 1;
-            }
-            if *casts_no_shadow {
-                self.line(4, "shadow: false");
-            }
+            None => self.material("material:", material, scene)?,
+        }
+        if numbers[at].is_none() {
+            numbers[at] = Some(*next);
+            *next += 1;
+        }
+        if surface.casts_no_shadow {
+            self.line(4, "shadow: false");
         }
         Ok(())
     }
@@ -276,6 +287,37 @@ impl<'s> SceneWriter<'s> {
         self.line(2, &format!("samples: {samples}"));
         self.line(2, &format!("multipleScattering: {multiple_scattering}"));
         supersampling
+    }
+}
+
+/// The numbers of materials in the text.
+struct MaterialNames {
+    /// How many surfaces, or operands, have each.
+    uses: Vec<usize>,
+    /// The number of each in the order of first use.
+    numbers: Vec<Option<usize>>,
+    next: usize,
+}
+
+impl MaterialNames {
+    fn of(scene: &Scene) -> Result<Self, String> {
+        let mut uses = vec![0_usize; scene.materials.len()];
+        for surface in &scene.surfaces {
+            let count = if let Shape::Csg(csg) = &surface.shape {
+                csg.faces.len()
+            } else {
+                1
+            };
+            *uses
+                .get_mut(surface.material.0 as usize)
+                .ok_or("a surface refers to a material that does not exist")? += count;
+        }
+        let numbers = vec![None; uses.len()];
+        Ok(Self {
+            uses,
+            numbers,
+            next: 0,
+        })
     }
 }
 

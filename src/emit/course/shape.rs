@@ -1,7 +1,7 @@
 //! Writes the shapes.
 
 use super::{SceneWriter, quoted, triple};
-use rtc_ir::{self as ir, Ellipsoid, Instance, Quad, Scene, Shape, Sphere, Triangle};
+use rtc_ir::{self as ir, Csg, Ellipsoid, Instance, Quad, Scene, Shape, Sphere, Triangle};
 use rtc_math::{Vec3, axis_and_angle, rotated_to_z, shortest, unit};
 
 /// A shape that the scene format can express.
@@ -171,6 +171,12 @@ impl WriteShape for Ellipsoid {
         text.point("position", center);
         text.numbers("radius", &[x[0], y[1], z[2]], 4);
         Ok(())
+    }
+}
+
+impl WriteShape for Csg {
+    fn emit<'s>(&self, _: &mut SceneWriter<'s>, _: &'s Scene) -> Result<(), String> {
+        Err("a part of a solid made of solids is written with all its parts".to_owned())
     }
 }
 

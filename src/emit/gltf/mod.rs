@@ -15,11 +15,11 @@ mod light;
 mod material;
 mod mesh;
 mod settings;
-mod tessellate;
 mod texture;
 mod writer;
 
 use super::reporter::ExportReporter;
+use super::tessellate::{TargetFormat, with_meshes};
 use document::{Asset, Buffer, Index};
 use rtc_diag::{Sink, codes};
 use rtc_ir::{EntityKind, Field, Scene, SourceSpans, ValuePath};
@@ -39,6 +39,12 @@ pub struct GltfAsset {
     is_binary: bool,
 }
 
+const FORMAT: TargetFormat = TargetFormat {
+    name: "glTF",
+    approximated: &codes::GLTF_NEARLY,
+    has: |_| false,
+};
+
 /// Converts a valid scene to glTF. `tolerance` is the maximum distance between a mesh and its shape
 /// in scene units; by default it is a thousandth of the radius of each shape. With `folder`, a path
 /// relative to the asset, vertices and images become files there and the asset is JSON text.
@@ -54,7 +60,7 @@ pub fn emit(
     sink: &mut Sink,
 ) -> Option<GltfAsset> {
     let mut reporter = ExportReporter::new(source_spans, sink);
-    let scene = tessellate::only_meshes(scene, tolerance, budget, &mut reporter)?;
+    let scene = with_meshes(scene, &FORMAT, tolerance, budget, &mut reporter)?;
     charge_pictures(&scene, budget, &mut reporter)?;
     let mut writer = GltfWriter::new(&scene, folder, budget, reporter);
     for index in 0..scene.surfaces.len() {

@@ -9,7 +9,8 @@ mod shape;
 use super::ExportedScene;
 use super::export::joined;
 use super::reporter::ExportReporter;
-use rtc_diag::Sink;
+use super::tessellate::{TargetFormat, with_meshes};
+use rtc_diag::{Sink, codes};
 use rtc_ir::{
     Display, EntityKind, Environment, Field, Mode, PathSettings, Scene, SourceSpans, ValuePath,
 };
@@ -17,6 +18,12 @@ use rtc_source::Budget;
 use shape::TriangleSoup;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+
+const FORMAT: TargetFormat = TargetFormat {
+    name: "Mitsuba",
+    approximated: &codes::NO_TWIN,
+    has: shape::is_written,
+};
 
 /// Exports a valid scene; meshes become files in `folder`, a path relative to the text.
 ///
@@ -29,11 +36,13 @@ pub fn emit(
     budget: &Budget,
     sink: &mut Sink,
 ) -> Option<ExportedScene> {
+    let mut reporter = ExportReporter::new(source_spans, sink);
+    let scene = &with_meshes(scene, &FORMAT, None, budget, &mut reporter)?;
     let mut writer = MitsubaWriter {
         scene,
         folder,
         budget,
-        reporter: ExportReporter::new(source_spans, sink),
+        reporter,
         text: String::new(),
         files: BTreeMap::new(),
         meshes: BTreeMap::new(),

@@ -3,7 +3,7 @@
 
 use super::MitsubaWriter;
 use super::material::standard;
-use crate::export::{joined, shape_name};
+use crate::export::joined;
 use crate::flat::{around, finite, side, split, square};
 use crate::{ply, sidecar};
 use rtc_ir::{
@@ -16,6 +16,25 @@ use xxhash_rust::xxh3::xxh3_64;
 /// Bytes of a PLY header, and of a triangle.
 const HEAD: u64 = 512;
 const TRIANGLE: u64 = 13;
+
+/// Whether a shape is written as it is, or as Mitsuba's nearest; a mesh stands for others.
+pub(super) fn is_written(shape: &Shape) -> bool {
+    match shape {
+        Shape::Quad(quad) => is_flat(quad.vertices.map(Vec3::from_array)),
+        Shape::Sphere(_)
+        | Shape::Cylinder(_)
+        | Shape::InfiniteCylinder(_)
+        | Shape::Disc(_)
+        | Shape::Plane(_)
+        | Shape::Triangle(_)
+        | Shape::Instance(_) => true,
+        Shape::Cone(_)
+        | Shape::Paraboloid(_)
+        | Shape::Torus(_)
+        | Shape::Ellipsoid(_)
+        | Shape::Csg(_) => false,
+    }
+}
 
 /// A triangle soup in world coordinates.
 #[derive(Default)]
@@ -92,18 +111,13 @@ impl MitsubaWriter<'_> {
                 self.reporter.unsupported(&message, path);
                 self.cylinder_side(&finite, material);
             }
+            // Meshes stand for these.
             Shape::Quad(_)
             | Shape::Cone(_)
             | Shape::Paraboloid(_)
             | Shape::Torus(_)
-            | Shape::Ellipsoid(_) => {
-                let message = format!(
-                    "Mitsuba has no {}: it is left out",
-                    shape_name(&surface.shape)
-                );
-                self.reporter.unsupported(&message, path);
-                return Some(());
-            }
+            | Shape::Ellipsoid(_)
+            | Shape::Csg(_) => return Some(()),
         }
         self.report_two_sided_emission(material, path);
         Some(())

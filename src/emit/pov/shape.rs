@@ -1,13 +1,13 @@
 //! Writes surfaces: all shapes except bilinear patches and paraboloids; meshes with all vertices.
 
 use super::{PovWriter, vector};
-use crate::export::shape_name;
+use crate::export::{part_of, parts_of_one, shape_name};
 use crate::flat::split;
 use rtc_ir::{
-    Column, Cone, Cylinder, Disc, Ellipsoid, EntityKind, Field, InfiniteCylinder, Instance, Mesh,
-    Plane, Quad, Shape, Sphere, Surface, Torus, Triangle, ValuePath,
+    Column, Cone, Csg, Cylinder, Disc, Ellipsoid, EntityKind, Field, InfiniteCylinder, Instance,
+    MaterialId, Mesh, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle, ValuePath,
 };
-use rtc_math::{Basis, Vec3, is_flat, shortest, unit};
+use rtc_math::{Basis, SetStep, Vec3, is_flat, shortest, unit};
 use std::fmt::Write as _;
 
 /// The maximum number of bytes of three numbers, or three indices, as text.
@@ -18,7 +18,11 @@ impl PovWriter<'_> {
     pub(super) fn surfaces(&mut self) -> Option<()> {
         let scene = self.scene;
         let mut declared = vec![false; scene.meshes.len()];
-        for (index, surface) in scene.surfaces.iter().enumerate() {
+        let mut next = 0;
+        while let Some(surface) = scene.surfaces.get(next) {
+            let index = next;
+            let parts = &scene.surfaces[index..][..parts_of_one(&scene.surfaces[index..])];
+            next += parts.len();
             let path = ValuePath::new(EntityKind::Surface, index, Field::Whole);
             if let Shape::Instance(Instance { mesh, .. }) = &surface.shape {
                 let at = mesh.0 as usize;
@@ -26,7 +30,11 @@ impl PovWriter<'_> {
                     self.declare(at, &scene.meshes[at])?;
                 }
             }
-            self.surface(surface, path);
+            if let Shape::Csg(csg) = &surface.shape {
+                self.csg(csg, parts, path);
+            } else {
+                self.surface(surface, path);
+            }
         }
         Some(())
     }
@@ -51,6 +59,46 @@ impl PovWriter<'_> {
             "{shape_text} texture {{ M{} }}{shadow} }}",
             material.0
         ));
+    }
+
+    /// Writes a solid made of solids, by the surfaces that are its parts.
+    fn csg(&mut self, csg: &Csg, parts: &[Surface], path: ValuePath) {
+        let Some(text) = self.csg_text(csg, parts) else {
+            let message = "POV-Ray has no paraboloid: what is made of one is left out";
+            self.reporter.unsupported(message, path);
+            return;
+        };
+        let casts = |part: &Surface| self.scene.settings.shadows && !part.casts_no_shadow;
+        let casting = parts.iter().filter(|part| casts(part)).count();
+        if casting > 0 && casting < parts.len() {
+            let message = "POV-Ray lets a solid cast its shadow with all of its operands";
+            self.reporter.unsupported(message, path);
+        }
+        let shadow = if casting > 0 { "" } else { " no_shadow" };
+        self.line(&format!("object {{ {text}{shadow} }}"));
+    }
+
+    /// The operations over the operands, each with its texture.
+    fn csg_text(&self, csg: &Csg, parts: &[Surface]) -> Option<String> {
+        let mut operands = csg.operands.iter().enumerate();
+        let mut stack: Vec<String> = Vec::new();
+        for step in &csg.steps {
+            let operation = match step {
+                SetStep::Operand => {
+                    let (index, operand) = operands.next()?;
+                    let shape_text = self.shape_text(&operand.shape())?;
+                    let MaterialId(material) = part_of(parts, index).unwrap_or(&parts[0]).material;
+                    stack.push(format!("{shape_text} texture {{ M{material} }} }}"));
+                    continue;
+                }
+                SetStep::Union => "merge",
+                SetStep::Intersection => "intersection",
+                SetStep::Difference => "difference",
+            };
+            let (b, a) = (stack.pop()?, stack.pop()?);
+            stack.push(format!("{operation} {{ {a} {b} }}"));
+        }
+        stack.pop()
     }
 
     /// Whether it is an instance of a mesh without triangles.
@@ -106,7 +154,7 @@ impl PovWriter<'_> {
                 format!("sphere {{ <0, 0, 0>, 1 matrix {columns}")
             }
             Shape::InfiniteCylinder(cylinder) => infinite_cylinder(cylinder),
-            Shape::Paraboloid(_) => return None,
+            Shape::Paraboloid(_) | Shape::Csg(_) => return None,
         })
     }
 

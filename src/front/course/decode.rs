@@ -180,6 +180,8 @@ pub(super) struct Context<'a> {
     pub(super) key: ValueKey<'a>,
     /// The entries of the maps being read, innermost last.
     pub(super) entries: Vec<MapEntry<'a>>,
+    /// The material of operands that have none of their own.
+    pub(super) operand_material: Option<MapEntry<'a>>,
     /// The spellings that are not canonical, each with the span of its first use.
     pub(super) spellings: Vec<(&'a str, &'static str, Span)>,
     /// The first key in another case of letters.
@@ -211,6 +213,7 @@ impl<'a> Context<'a> {
                 span: None,
             },
             entries: Vec::new(),
+            operand_material: None,
             spellings: Vec::new(),
             other_case: None,
             typos: Vec::new(),

@@ -153,6 +153,12 @@ impl Lowering {
             .record(ValuePath::new(entity, index, field), span);
     }
 
+    /// Forgets the spans of the surfaces from an index on.
+    pub(super) fn forget_surfaces(&mut self, first: usize) {
+        self.source_spans.forget_from(EntityKind::Surface, first);
+        self.scene.names.truncate(first);
+    }
+
     fn scene(&mut self, context: &mut Context<'_>) {
         let root = context.tree.root();
         context.key = ValueKey {

@@ -22,7 +22,7 @@ const MAX_GROUP: usize = 6;
 pub(super) const COMMENT: &str = "comment";
 
 /// The key of the material of an object.
-const MATERIAL: &str = "material";
+pub(super) const MATERIAL: &str = "material";
 
 /// Reads one map, field by field in the order of the declaration.
 pub(super) struct MapReader {
@@ -50,6 +50,14 @@ impl MapReader {
         collect_entries(node, context);
         if !context.options.strict {
             fold_case(record, first_entry, context);
+        }
+        let takes_material = || record.fields.iter().any(|field| field.name == MATERIAL);
+        let is_own = |entry: &MapEntry<'_>| entry.key == MATERIAL;
+        if let Some(material) = context.operand_material
+            && takes_material()
+            && !context.entries[first_entry..].iter().any(is_own)
+        {
+            context.entries.push(material);
         }
         Some(Self {
             record,

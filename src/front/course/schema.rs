@@ -4,7 +4,8 @@
 //! beside `Camera`.
 
 use super::decode::Decode;
-use super::reader::COMMENT;
+use super::object::{KINDS, ObjectKind};
+use super::reader::{COMMENT, MATERIAL};
 use super::record::{FieldDeclaration, Record, Requirement};
 use super::settings::Scene;
 use serde_json::{Map, Value as Json, json};
@@ -31,12 +32,67 @@ pub fn schema() -> Json {
 /// A reference to the schema of a record. The schema is generated at the first reference.
 pub(super) fn record(record: &Record, definitions: &mut Definitions) -> Json {
     let name = record.name.replace('`', "").replace(' ', "-");
-    if !definitions.schemas.contains_key(&name) {
-        definitions.schemas.insert(name.clone(), Json::Null);
-        let record_schema = record_schema(record, definitions);
-        definitions.schemas.insert(name.clone(), record_schema);
+    definition(&name, definitions, |definitions| {
+        record_schema(record, definitions)
+    })
+}
+
+/// A reference to a schema, which may hold references to itself. It is generated at the first
+/// reference.
+fn definition(
+    name: &str,
+    definitions: &mut Definitions,
+    generate: impl FnOnce(&mut Definitions) -> Json,
+) -> Json {
+    if !definitions.schemas.contains_key(name) {
+        definitions.schemas.insert(name.to_owned(), Json::Null);
+        let schema = generate(definitions);
+        definitions.schemas.insert(name.to_owned(), schema);
     }
     json!({ "$ref": format!("#/$defs/{name}") })
+}
+
+/// A reference to the schema of an object within another, whose material it has if it has none.
+pub(super) fn operand(definitions: &mut Definitions) -> Json {
+    definition("operand", definitions, |definitions| {
+        let mut kinds = Vec::new();
+        for ObjectKind { names, schema, .. } in KINDS {
+            let schema = schema(definitions);
+            kinds.extend(names.iter().map(|name| (*name, schema.clone())));
+        }
+        tagged("type", "What kind of object this is.", &kinds)
+    })
+}
+
+/// A reference to the schema of an object. Without a material it must be of a type that needs none;
+/// the objects within it need theirs then.
+pub(super) fn object(definitions: &mut Definitions) -> Json {
+    let operand = operand(definitions);
+    definition("object", definitions, |_| {
+        let needs_none = |kind: &&ObjectKind| !kind.record.fields.iter().any(is_own_material);
+        let names = KINDS.iter().filter(needs_none).flat_map(|kind| kind.names);
+        let mut properties = Map::new();
+        properties.insert(
+            "type".to_owned(),
+            json!({ "enum": names.collect::<Vec<_>>() }),
+        );
+        let object = json!({ "$ref": "#/$defs/object" });
+        for field in KINDS.iter().flat_map(|kind| kind.record.fields) {
+            let within = match field.name {
+                "both" => object.clone(),
+                "of" => json!({ "items": object }),
+                _ => continue,
+            };
+            properties.extend(keys(field).map(|key| (key.to_owned(), within.clone())));
+        }
+        let has_material = json!({ "required": [MATERIAL] });
+        json!({ "allOf": [operand, { "if": has_material, "else": { "properties": properties } }] })
+    })
+}
+
+/// Whether this is the material that an object must have, or the object around it.
+fn is_own_material(field: &FieldDeclaration) -> bool {
+    field.name == MATERIAL && matches!(field.requirement, Requirement::Required)
 }
 
 /// The schema of a map whose key `tag` selects one of `kinds`.
@@ -71,6 +127,9 @@ fn record_schema(record: &Record, definitions: &mut Definitions) -> Json {
     let mut required = Vec::new();
     let mut rules = Vec::new();
     for field in record.fields.iter().filter(|field| !in_variant(field)) {
+        if is_own_material(field) {
+            continue;
+        }
         match (&field.requirement, field.spellings) {
             (Requirement::Required, [[key]]) => required.push(*key),
             (Requirement::Required, _) => rules.push(one_row(field)),

@@ -83,7 +83,13 @@ fn of_first_version(json: &Tree<'_>) -> Option<NodeId> {
     }
     let parts = ["accessors", "bufferViews", "buffers", "meshes", "nodes"];
     let named = parts.iter().filter_map(|key| json.get(root, key));
-    let mut named = named.filter(|at| json.kind(*at) == NodeKind::Map);
+    let is_named = |at: &NodeId| {
+        json.kind(*at) == NodeKind::Map
+            && json
+                .pairs(*at)
+                .all(|(_, part)| json.kind(part) == NodeKind::Map)
+    };
+    let mut named = named.filter(is_named);
     let profile = json.at(root, &["asset", "profile"]);
     if version.is_none() {
         profile.or(named.next())

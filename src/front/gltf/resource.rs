@@ -4,6 +4,7 @@
 use super::buffer::Bytes;
 use super::document::Document;
 use super::field::Fields;
+use super::image::ImageCoding;
 use super::report::{AssetReport, shown};
 use super::uri::{self, Uri, UriFault};
 use crate::pixels::PICTURES;
@@ -112,6 +113,14 @@ impl<'m> Resources<'m> {
             let Some((bytes, media)) = self.fetch((at, Some(&PICTURES)), is_glb, report) else {
                 continue;
             };
+            let is_image = media
+                .as_deref()
+                .is_some_and(|media| media.starts_with("image/"));
+            if is_image && ImageCoding::of(&bytes).is_none() {
+                let message = "the image is not what the media type of its URI says".to_owned();
+                report.add(&codes::GLTF_URI, "INVALID_URI", at, message);
+                continue;
+            }
             image.media = image
                 .media
                 .take()

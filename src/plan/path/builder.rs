@@ -287,10 +287,11 @@ impl PlanBuilder<'_> {
     }
 }
 
-/// Whether light sampling finds an emissive shape: it is bounded and no curved patch.
+/// Whether light sampling finds an emissive shape: it is bounded, no curved patch, and no solid
+/// made of solids.
 fn is_sampled(shape: &Shape) -> bool {
     match shape {
-        Shape::Plane(_) | Shape::InfiniteCylinder(_) => false,
+        Shape::Plane(_) | Shape::InfiniteCylinder(_) | Shape::Csg(_) => false,
         Shape::Quad(quad) => rtc_math::is_flat(quad.vertices),
         Shape::Sphere(_)
         | Shape::Triangle(_)

@@ -14,7 +14,7 @@ use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::disc::BaselineDisc;
 use crate::shape::emitter::Emitter;
-use crate::shape::geometry::Intersect;
+use crate::shape::geometry::{Intersect, SolidCrossing};
 use crate::shape::interval::{Interval, between_planes, roots};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::triangle::WatertightRay;
@@ -41,6 +41,10 @@ enum ConeFace {
     Side,
     Base,
     Apex,
+}
+
+impl ConeFace {
+    const ALL: [Self; 3] = [Self::Side, Self::Base, Self::Apex];
 }
 
 /// A ray in the frame of the cone: along it ρ = ‖w + x·t‖, and the cone's own radius is g = σ −
@@ -136,6 +140,11 @@ impl Cone {
 
     /// The first root above 0, and its part.
     fn intersection(&self, ray: &Ray) -> Option<(f64, ConeFace)> {
+        self.stretch(ray)?.first_in_front()
+    }
+
+    /// The stretch of the ray inside.
+    fn stretch(&self, ray: &Ray) -> Option<Interval<ConeFace>> {
         let d = ray.direction;
         let start = ray.origin - self.base;
         let nearest = (self.axis * (0.5 * self.height) - start).dot(d) / d.dot(d);
@@ -155,7 +164,7 @@ impl Cone {
             d,
             [ConeFace::Base, ConeFace::Apex],
         )?;
-        inside.and(ends)?.first_in_front()
+        inside.and(ends)
     }
 
     /// The ray from a point, given from the base, along `d`.
@@ -168,7 +177,7 @@ impl Cone {
         }
     }
 
-    /// As [`Self::intersection`] for a cone far wider than high, and a ray that meets the plane of
+    /// As [`Self::stretch`] for a cone far wider than high, and a ray that meets the plane of
     /// its base.
     fn crossing_flat(
         &self,
@@ -176,7 +185,7 @@ impl Cone {
         d: Vec3,
         nearest: f64,
         tau: f64,
-    ) -> Option<(f64, ConeFace)> {
+    ) -> Option<Interval<ConeFace>> {
         let x = cross(d, self.axis);
         let at_base = -dot(self.axis, start) / dot(self.axis, d);
         // Move a ray steeper than the side to the base, and any other ray to the point closest to
@@ -208,11 +217,8 @@ impl Cone {
                 leave: base,
             }
         };
-        profile
-            .inside()?
-            .and(ends)?
-            .map(|s| moved + s / pace)
-            .first_in_front()
+        let inside = profile.inside()?.and(ends)?;
+        Some(inside.map(|s| moved + s / pace))
     }
 }
 
@@ -221,11 +227,21 @@ impl Intersect for Cone {
         self.intersection(ray).map(|(t, _)| (t, 0))
     }
 
-    /// The point at `t`, moved onto the part that was hit; at the apex the normal is the axis.
+    fn visit_crossings(&self, ray: &Ray, visit: &mut dyn FnMut(SolidCrossing)) {
+        if let Some(inside) = self.stretch(ray) {
+            inside.visit(|part| part as u32, visit);
+        }
+    }
+
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
-        let part = self
-            .intersection(ray)
-            .map_or(ConeFace::Side, |(_, part)| part);
+        let hit = self.intersection(ray);
+        let part = hit.map_or(ConeFace::Side, |(_, part)| part);
+        self.interaction_on(ray, t, part as u32)
+    }
+
+    /// The point at `t`, moved onto the part that was hit; at the apex the normal is the axis.
+    fn interaction_on(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
+        let part = ConeFace::ALL[part as usize];
         let local = (ray.origin - self.base) + ray.direction * t;
         let along = dot(local, self.axis);
         let radial = (local - self.axis * along).normalize_or_zero();

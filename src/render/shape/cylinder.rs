@@ -12,7 +12,7 @@ use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::disc::BaselineDisc;
 use crate::shape::emitter::Emitter;
-use crate::shape::geometry::Intersect;
+use crate::shape::geometry::{Intersect, SolidCrossing};
 use crate::shape::interval::{Interval, between_planes, roots};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::triangle::WatertightRay;
@@ -36,6 +36,10 @@ enum CylinderFace {
     Top,
 }
 
+impl CylinderFace {
+    const ALL: [Self; 3] = [Self::Side, Self::Base, Self::Top];
+}
+
 impl Cylinder {
     /// The cylinder over the disc around `base`, `height` along `direction`, which must not be
     /// zero.
@@ -51,6 +55,11 @@ impl Cylinder {
 
     /// The first root above 0, and its part.
     fn intersection(&self, ray: &Ray) -> Option<(f64, CylinderFace)> {
+        self.inside(ray)?.first_in_front()
+    }
+
+    /// The stretch of the ray inside.
+    fn inside(&self, ray: &Ray) -> Option<Interval<CylinderFace>> {
         let f = ray.origin - self.base;
         let caps = between_planes(
             self.axis,
@@ -59,9 +68,7 @@ impl Cylinder {
             ray.direction,
             [CylinderFace::Base, CylinderFace::Top],
         )?;
-        self.inside_side(f, ray.direction, &caps)?
-            .and(caps)?
-            .first_in_front()
+        self.inside_side(f, ray.direction, &caps)?.and(caps)
     }
 
     /// The interval of t inside the infinite cylinder, accurate between the caps.
@@ -133,6 +140,16 @@ impl Intersect for Cylinder {
         self.intersection(ray).map(|(t, _)| (t, 0))
     }
 
+    fn visit_crossings(&self, ray: &Ray, visit: &mut dyn FnMut(SolidCrossing)) {
+        if let Some(inside) = self.inside(ray) {
+            inside.visit(|part| part as u32, visit);
+        }
+    }
+
+    fn interaction_on(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
+        self.interaction_on(CylinderFace::ALL[part as usize], ray, t)
+    }
+
     /// The point at `t`, moved onto the part that was hit.
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
         let part = self
@@ -183,6 +200,12 @@ impl InfiniteCylinder {
 impl Intersect for InfiniteCylinder {
     fn intersect(&self, ray: &Ray, _: &WatertightRay, _: f64) -> Option<(f64, u32)> {
         self.inside(ray)?.first_in_front().map(|(t, _)| (t, 0))
+    }
+
+    fn visit_crossings(&self, ray: &Ray, visit: &mut dyn FnMut(SolidCrossing)) {
+        if let Some(inside) = self.inside(ray) {
+            inside.visit(|part| part as u32, visit);
+        }
     }
 
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {

@@ -9,7 +9,7 @@ use crate::shape::baseline::real::{Real, Vector};
 use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::emitter::Emitter;
-use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
+use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes, SolidCrossing};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::sphere::{Sphere, TexturedSphere};
 use crate::shape::triangle::WatertightRay;
@@ -75,6 +75,13 @@ impl Intersect for Ellipsoid {
         let (local, factor) = self.to_unit(ray).rescaled();
         let t = UNIT_SPHERE.sphere.intersect(&local)? * factor;
         (t > 0.0 && t.is_finite()).then_some((t, 0))
+    }
+
+    fn visit_crossings(&self, ray: &Ray, visit: &mut dyn FnMut(SolidCrossing)) {
+        let (local, factor) = self.to_unit(ray).rescaled();
+        if let Some([enter, leave]) = UNIT_SPHERE.sphere.stretch(&local) {
+            SolidCrossing::visit_both((enter * factor, 0), (leave * factor, 0), visit);
+        }
     }
 
     /// The point at `t`, moved onto the unit sphere along its radius.

@@ -57,6 +57,16 @@ pub trait Intersect: Sized + Send + Sync {
         0.0
     }
 
+    /// Visits where the ray enters and leaves a solid, over the whole line; nothing for a shape
+    /// that has no inside. On a surface that the ray starts off, no crossing is ahead.
+    fn visit_crossings(&self, _ray: &Ray, _visit: &mut dyn FnMut(SolidCrossing)) {}
+
+    /// As [`Intersect::interaction`], of a crossing of a part.
+    #[must_use]
+    fn interaction_on(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
+        self.interaction(ray, t, part)
+    }
+
     /// What is known of the point at `t`, a root on `prim_id` of this shape.
     #[must_use]
     fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction;
@@ -154,6 +164,26 @@ pub trait Intersect: Sized + Send + Sync {
             center: min * 0.5 + max * 0.5,
             radius: (max - min).length() * 0.5,
         })
+    }
+}
+
+/// Where a ray enters or leaves a solid.
+#[derive(Clone, Copy, Debug)]
+pub struct SolidCrossing {
+    /// Its place on the ray, of either sign; −∞ where the ray has been inside for ever.
+    pub t: f64,
+    /// Whether the ray enters there.
+    pub enters: bool,
+    /// The part of the solid.
+    pub part: u32,
+}
+
+impl SolidCrossing {
+    /// Visits both ends of a stretch inside a solid, each with its part.
+    pub(crate) fn visit_both(enter: (f64, u32), leave: (f64, u32), visit: &mut dyn FnMut(Self)) {
+        for ((t, part), enters) in [(enter, true), (leave, false)] {
+            visit(Self { t, enters, part });
+        }
     }
 }
 

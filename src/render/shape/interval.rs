@@ -1,6 +1,7 @@
 //! The t-interval of a ray inside a convex region. A capped solid is the intersection of such
 //! intervals, so there is no gap between its side and its caps.
 
+use crate::shape::geometry::SolidCrossing;
 use rtc_math::{Vec3, dot};
 
 /// The interval of t inside a region, with the part crossed at either end.
@@ -45,6 +46,12 @@ impl<Part: Copy> Interval<Part> {
             self.leave.0 = self.leave.0.min(0.0);
         }
         self
+    }
+
+    /// Visits both ends, each with the number of its part.
+    pub(crate) fn visit(self, number: impl Fn(Part) -> u32, visit: &mut dyn FnMut(SolidCrossing)) {
+        let [enter, leave] = [self.enter, self.leave].map(|(t, part)| (t, number(part)));
+        SolidCrossing::visit_both(enter, leave, visit);
     }
 
     /// The first end with t > 0.

@@ -56,6 +56,22 @@ macro_rules! dispatch {
                 }
             }
 
+            fn visit_crossings(
+                &self,
+                ray: &Ray,
+                visit: &mut dyn FnMut($crate::shape::geometry::SolidCrossing),
+            ) {
+                match self {
+                    $(Self::$Name(shape) => <$Name as Intersect>::visit_crossings(shape, ray, visit),)*
+                }
+            }
+
+            fn interaction_on(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
+                match self {
+                    $(Self::$Name(shape) => <$Name as Intersect>::interaction_on(shape, ray, t, part),)*
+                }
+            }
+
             fn error(&self, ray: &Ray, t: f64, prim_id: u32) -> f64 {
                 tie::error(ray, t, &self.interaction(ray, t, prim_id))
             }
@@ -173,6 +189,7 @@ pub(crate) mod baseline;
 pub(crate) mod basic;
 pub(crate) mod cone;
 mod corners;
+pub(crate) mod csg;
 pub(crate) mod cylinder;
 pub(crate) mod disc;
 pub(crate) mod ellipsoid;
@@ -199,6 +216,7 @@ pub(crate) mod triangle;
 /// What stands for each row of the table of shapes, by the name in its row.
 pub(crate) mod kinds {
     pub(crate) use super::cone::Cone;
+    pub(crate) use super::csg::Csg;
     pub(crate) use super::cylinder::{Cylinder, InfiniteCylinder};
     pub(crate) use super::disc::Disc;
     pub(crate) use super::ellipsoid::Ellipsoid;

@@ -15,7 +15,7 @@ use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::disc::BaselineDisc;
 use crate::shape::emitter::Emitter;
-use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
+use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes, SolidCrossing};
 use crate::shape::interval::{Interval, between_planes, roots};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::triangle::WatertightRay;
@@ -54,6 +54,10 @@ enum ParaboloidFace {
     Base,
 }
 
+impl ParaboloidFace {
+    const ALL: [Self; 2] = [Self::Side, Self::Base];
+}
+
 /// F along a ray, `a·t² − 2·b·t + c`, and what it is made of: the cross products of its start and
 /// its direction with the axis.
 #[derive(Clone, Copy)]
@@ -86,12 +90,17 @@ impl Paraboloid {
 
     /// The first root above 0, and its part.
     fn intersection(&self, ray: &Ray) -> Option<(f64, ParaboloidFace)> {
+        self.stretch(ray)?.first_in_front()
+    }
+
+    /// The stretch of the ray inside.
+    fn stretch(&self, ray: &Ray) -> Option<Interval<ParaboloidFace>> {
         let start = ray.origin - self.base;
         let parts = [ParaboloidFace::Base, ParaboloidFace::Side];
         let ends = between_planes(self.axis, self.height, start, ray.direction, parts)?;
         let inside = self.inside(ray, start, &ends)?;
         let Coefficients { b, c, .. } = self.coefficients(start, ray.direction);
-        inside.seen_from(c, -b).and(ends)?.first_in_front()
+        inside.seen_from(c, -b).and(ends)
     }
 
     /// The stretch inside the infinite paraboloid, accurate between the base and the vertex.
@@ -242,11 +251,21 @@ impl Intersect for Paraboloid {
         self.intersection(ray).map(|(t, _)| (t, 0))
     }
 
-    /// The point at `t`, moved onto the part that was hit.
+    fn visit_crossings(&self, ray: &Ray, visit: &mut dyn FnMut(SolidCrossing)) {
+        if let Some(inside) = self.stretch(ray) {
+            inside.visit(|part| part as u32, visit);
+        }
+    }
+
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
-        let part = self
-            .intersection(ray)
-            .map_or(ParaboloidFace::Side, |(_, part)| part);
+        let hit = self.intersection(ray);
+        let part = hit.map_or(ParaboloidFace::Side, |(_, part)| part);
+        self.interaction_on(ray, t, part as u32)
+    }
+
+    /// The point at `t`, moved onto the part that was hit.
+    fn interaction_on(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
+        let part = ParaboloidFace::ALL[part as usize];
         let local = (ray.origin - self.base) + ray.direction * t;
         let along = dot(local, self.axis);
         let (local, normal) = match part {

@@ -7,7 +7,7 @@ use crate::shape::baseline::real::{Real, Vector};
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::emitter::Emitter;
 use crate::shape::four::Shape4;
-use crate::shape::geometry::Intersect;
+use crate::shape::geometry::{Intersect, SolidCrossing};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, U, Vec3, cross, dot, two_difference, unit_scale};
@@ -178,6 +178,12 @@ impl Plane {
         }
     }
 
+    /// A point of it.
+    #[must_use]
+    pub(super) fn anchor(&self) -> Vec3 {
+        self.anchor
+    }
+
     /// The unit normal.
     #[must_use]
     pub fn normal(&self) -> Vec3 {
@@ -210,6 +216,20 @@ impl Intersect for Plane {
     #[inline]
     fn intersect(&self, ray: &Ray, _: &WatertightRay, _: f64) -> Option<(f64, u32)> {
         self.intersect(ray).map(|t| (t, 0))
+    }
+
+    /// Those of the half-space behind the plane.
+    fn visit_crossings(&self, ray: &Ray, visit: &mut dyn FnMut(SolidCrossing)) {
+        let rise = self.normal.raw.dot(ray.direction);
+        let is_behind = self.normal.raw.dot(ray.origin - self.anchor) < 0.0;
+        let (enter, leave) = match self.intersect(ray) {
+            Some(t) if rise < 0.0 => (t, f64::INFINITY),
+            Some(t) => (f64::NEG_INFINITY, t),
+            // The crossing lies behind the origin, or at it.
+            None if rise < 0.0 || (rise == 0.0 && is_behind) => (f64::NEG_INFINITY, f64::INFINITY),
+            None => return,
+        };
+        SolidCrossing::visit_both((enter, 0), (leave, 0), visit);
     }
 
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {

@@ -13,7 +13,7 @@ use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::emitter::Emitter;
 use crate::shape::four::Shape4;
-use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
+use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes, SolidCrossing};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, DoubleDouble, U, Vec3, acos, atan2};
@@ -151,6 +151,22 @@ impl Sphere {
         (t > 0.0).then_some(t)
     }
 
+    /// The stretch of the ray inside, over the whole line. What is ahead is as
+    /// [`Self::intersect`] has it; the other end lies as far from the foot of the perpendicular.
+    #[must_use]
+    pub(super) fn stretch(&self, ray: &Ray) -> Option<[f64; 2]> {
+        let t = self.intersect(ray)?;
+        let (f, d) = (ray.origin - self.center, ray.direction);
+        let (b, a) = (-f.dot(d), d.dot(d));
+        let other = 2.0 * (b / a) - t;
+        let starts_outside = f.dot(f) > self.radius * self.radius;
+        Some(if starts_outside && b > 0.0 {
+            [t, other.max(t)]
+        } else {
+            [other.min(0.0), t]
+        })
+    }
+
     /// The point at `t`: along the ray or moved onto the sphere in its own frame, whichever rounds
     /// less.
     #[inline(always)]
@@ -188,6 +204,12 @@ impl Intersect for TexturedSphere {
     #[inline]
     fn intersect(&self, ray: &Ray, _: &WatertightRay, _: f64) -> Option<(f64, u32)> {
         self.sphere.intersect(ray).map(|t| (t, 0))
+    }
+
+    fn visit_crossings(&self, ray: &Ray, visit: &mut dyn FnMut(SolidCrossing)) {
+        if let Some([enter, leave]) = self.sphere.stretch(ray) {
+            SolidCrossing::visit_both((enter, 0), (leave, 0), visit);
+        }
     }
 
     #[inline]

@@ -15,7 +15,7 @@ use crate::shape::baseline::roots::quartic;
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::emitter::Emitter;
 use crate::shape::four::Shape4;
-use crate::shape::geometry::Intersect;
+use crate::shape::geometry::{Intersect, SolidCrossing};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::plane::Normal;
 use crate::shape::triangle::WatertightRay;
@@ -64,6 +64,22 @@ struct TorusRay {
     turn: Vec3,
     major: f64,
     minor: f64,
+}
+
+/// What of a ray may meet the torus.
+struct TorusStretch {
+    line: TorusRay,
+    low: f64,
+    high: f64,
+    /// The t of the point nearest to the centre, and what a step adds to it.
+    nearest: f64,
+    pace: f64,
+}
+
+impl TorusStretch {
+    fn t(&self, s: f64) -> f64 {
+        self.nearest + s * self.pace
+    }
 }
 
 impl TorusRay {
@@ -118,23 +134,22 @@ impl TorusRay {
         (k - square * x.dot(x), -square * w.dot(x))
     }
 
-    /// The first `s` in `(low, high)` at which the distance changes sign from that at `low`, in
-    /// brackets of the quartic's critical points.
-    fn first_root(&self, low: f64, high: f64) -> Option<f64> {
+    /// The `s` in `(low, high)` at which the distance changes sign, from that at `low` on, in
+    /// brackets of the quartic's critical points; each with whether the ray was inside before it.
+    fn roots(&self, low: f64, high: f64) -> impl Iterator<Item = (f64, bool)> {
         let (linear, constant) = self.derivative();
         let borders = cubic_roots(linear, constant, low, high).chain(std::iter::once(high));
         let mut before = (low, self.start_distance(low));
-        for split_plane in borders {
+        borders.filter_map(move |split_plane| {
             let there = (split_plane, self.distance(split_plane));
+            let last = std::mem::replace(&mut before, there);
+            let was_inside = last.1 < 0.0;
             if there.1 == 0.0 && split_plane > low {
-                return Some(split_plane);
+                return Some((split_plane, was_inside));
             }
-            if (there.1 < 0.0) != (before.1 < 0.0) {
-                return Some(self.root(before, there));
-            }
-            before = there;
-        }
-        None
+            let root = || (self.root(last, there), was_inside);
+            ((there.1 < 0.0) != was_inside).then(root)
+        })
     }
 
     /// The root between two points given with their distances, which have opposite signs: steps of
@@ -248,6 +263,15 @@ impl Torus {
     /// The first root above 0.
     #[must_use]
     pub fn intersect(&self, ray: &Ray) -> Option<f64> {
+        let stretch = self.stretch(ray)?;
+        let (s, _) = stretch.line.roots(stretch.low, stretch.high).next()?;
+        let t = stretch.t(s);
+        (t > 0.0).then_some(t)
+    }
+
+    /// The way of a ray near the torus; `None` if it passes.
+    #[inline]
+    fn stretch(&self, ray: &Ray) -> Option<TorusStretch> {
         let f = ray.origin - self.center;
         let d = ray.direction;
         let length2 = d.dot(d);
@@ -277,8 +301,13 @@ impl Torus {
         if low >= half || line.passes(low, half) {
             return None;
         }
-        let t = nearest + line.first_root(low, half)? * (unit / length);
-        (t > 0.0).then_some(t)
+        Some(TorusStretch {
+            line,
+            low,
+            high: half,
+            nearest,
+            pace: unit / length,
+        })
     }
 
     /// The point at `t`, moved onto the tube in its own frame.
@@ -304,6 +333,26 @@ impl Torus {
 impl Intersect for Torus {
     fn intersect(&self, ray: &Ray, _: &WatertightRay, _: f64) -> Option<(f64, u32)> {
         self.intersect(ray).map(|t| (t, 0))
+    }
+
+    fn visit_crossings(&self, ray: &Ray, visit: &mut dyn FnMut(SolidCrossing)) {
+        let Some(stretch) = self.stretch(ray) else {
+            return;
+        };
+        if stretch.line.start_distance(stretch.low) < 0.0 {
+            visit(SolidCrossing {
+                t: f64::NEG_INFINITY,
+                enters: true,
+                part: 0,
+            });
+        }
+        for (s, was_inside) in stretch.line.roots(stretch.low, stretch.high) {
+            visit(SolidCrossing {
+                t: stretch.t(s),
+                enters: !was_inside,
+                part: 0,
+            });
+        }
     }
 
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {

@@ -149,6 +149,17 @@ impl PrepareShape for valid::Ellipsoid {
     }
 }
 
+impl PrepareShape for valid::Csg {
+    type Prepared = Csg;
+
+    fn prepared(&self, meshes: &[Arc<PreparedMesh>]) -> Option<Csg> {
+        let operands = self.operands.iter();
+        let operands = operands.map(|operand| prepared(operand, meshes));
+        let operands = operands.collect::<Option<_>>()?;
+        Some(Csg::new(operands, self.steps.clone(), self.faces))
+    }
+}
+
 impl PrepareShape for valid::Instance {
     type Prepared = Instance;
 

@@ -1,11 +1,11 @@
 //! Validates each shape.
 
 use super::area::has_area;
-use super::{Ellipsoid, Instance, Quad, Shape, Sphere, Surface, Triangle};
+use super::{Csg, Ellipsoid, Instance, Quad, Shape, Sphere, Surface, Triangle};
 use crate::check::{Checker, EntityCounts, SMALLEST};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityKind, Field, ShapeKind, ValuePath};
-use rtc_math::{Positive, Vec3, unit};
+use rtc_math::{Positive, Vec3, is_set_expression, unit};
 
 /// Validates a surface. `Some(None)` for a face without an area: no ray can hit it, so it is
 /// dropped with a warning.
@@ -54,6 +54,10 @@ struct SurfaceCheck<'a, 'run> {
 impl SurfaceCheck<'_, '_> {
     /// The path of a value of the shape.
     fn at(&self, path: &str) -> ValuePath {
+        // The values of operands have no paths of their own.
+        if self.kind == ShapeKind::Csg {
+            return self.whole();
+        }
         let field = Field::of_shape(self.kind, path);
         ValuePath::new(EntityKind::Surface, self.index, field)
     }
@@ -240,6 +244,35 @@ impl Validate for ir::Ellipsoid {
         }
         let center = center?;
         Some(Some(Shape::Ellipsoid(Box::new(Ellipsoid { center, axes }))))
+    }
+}
+
+impl Validate for ir::Csg {
+    fn validate(&self, surface_check: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
+        let Self {
+            operands,
+            steps,
+            faces,
+        } = self;
+        let count = operands.len();
+        let is_face = |face: &u32| usize::try_from(*face).is_ok_and(|face| face < count);
+        if !is_set_expression(steps, count) || !faces.iter().all(is_face) {
+            let message = "the operations over solids are no expression of 1 to 64 operands";
+            let diagnostic = Diagnostic::new(&codes::BAD_OPERAND, message);
+            let at = surface_check.whole();
+            surface_check.check.report(at, "", diagnostic);
+            return None;
+        }
+        let operands: Vec<_> = operands
+            .iter()
+            .map(|operand| operand.shape().validate(surface_check).flatten())
+            .collect();
+        let csg = Csg {
+            operands: operands.into_iter().collect::<Option<_>>()?,
+            steps: steps.clone(),
+            faces: faces.iter().fold(0, |bits, face| bits | 1 << face),
+        };
+        Some(Some(Shape::Csg(Box::new(csg))))
     }
 }
 

@@ -6,7 +6,7 @@ mod check;
 pub(super) use area::has_area;
 pub(super) use check::surface;
 
-use rtc_math::{Positive, Vec3, is_flat};
+use rtc_math::{Positive, SetStep, Vec3, is_flat};
 
 /// A shape and the index of its material.
 #[derive(Clone, Debug)]
@@ -113,6 +113,17 @@ pub struct Ellipsoid {
     pub center: Vec3,
     /// The images of the axes of the unit sphere, linearly independent.
     pub axes: [Vec3; 3],
+}
+
+/// A part of the boundary of a solid made of solids.
+#[derive(Clone, Debug)]
+pub struct Csg {
+    /// The operands, at most 64, each a solid.
+    pub operands: Vec<Shape>,
+    /// An expression of them.
+    pub steps: Vec<SetStep>,
+    /// A bit for each operand on which this part lies.
+    pub faces: u64,
 }
 
 /// A mesh placed in the world.

@@ -8,6 +8,7 @@
 //! * `sphere`, `plane`, `triangle`, `quad`, `disc`, `cylinder` (with the one without ends), `cone`
 //!   (with the paraboloid), `torus` and `ellipsoid` become the shape of the same name in the IR.
 //!   `cone` has the keys of a base and an axis, which cylinders share.
+//! * `csg` (union, intersection, difference) makes one solid of the surfaces of its operands.
 //! * `solid` (box, tetrahedron, prism) and `cube` become triangles.
 //! * `mesh` becomes an instance of a mesh that is loaded later; `sizing` scales it after that.
 //! * `gltf` becomes a pending asset only.
@@ -16,6 +17,7 @@
 //! with keys of no variant, is omitted after these have been reported.
 
 mod cone;
+mod csg;
 mod cube;
 mod cylinder;
 mod disc;
@@ -30,11 +32,11 @@ mod sphere;
 pub(super) mod torus;
 mod triangle;
 
-use super::decode::{Context, Decode, SharedValue, Spanned, ValueKey};
+use super::decode::{Context, Decode, MapEntry, SharedValue, Spanned, ValueKey};
 use super::lower::Lowering;
 use super::material::Material;
 use super::number::NonNegative;
-use super::reader::{look_up, missing_keys};
+use super::reader::{MATERIAL, look_up, missing_keys};
 use super::record::Record;
 use super::schema::{self, Definitions};
 use super::spelling::quoted_list;
@@ -52,7 +54,7 @@ pub(super) struct ObjectKind {
     pub(super) names: &'static [&'static str],
     pub(super) record: &'static Record,
     decode: fn(NodeId, &mut Context<'_>) -> Option<Object>,
-    schema: fn(&mut Definitions) -> Json,
+    pub(super) schema: fn(&mut Definitions) -> Json,
 }
 
 /// Lowers an object to surfaces of the IR.
@@ -102,6 +104,9 @@ kinds! {
     torus Torus "torus";
     ellipsoid Ellipsoid "ellipsoid";
     cylinder InfiniteCylinder "infiniteCylinder";
+    csg Union "union";
+    csg Intersection "intersection";
+    csg Difference "difference";
     solid Cuboid "box";
     solid Tetrahedron "tetrahedron";
     cube Cube "cube";
@@ -150,17 +155,32 @@ impl Decode for Object {
             return None;
         };
         context.record_spelling(name, kind.names[0], span);
-        (kind.decode)(node, context)
+        // Operands without a material have that of the object around them.
+        let outer = context.operand_material;
+        if kind.record.fields.iter().any(|field| field.name == "of") {
+            context.operand_material = own_material(node, context).or(outer);
+        }
+        let object = (kind.decode)(node, context);
+        context.operand_material = outer;
+        object
     }
 
     fn schema(definitions: &mut Definitions) -> Json {
-        let mut kinds = Vec::new();
-        for ObjectKind { names, schema, .. } in KINDS {
-            let schema = schema(definitions);
-            kinds.extend(names.iter().map(|name| (*name, schema.clone())));
-        }
-        schema::tagged("type", "What kind of object this is.", &kinds)
+        schema::object(definitions)
     }
+}
+
+/// The entry of the material of an object.
+fn own_material<'a>(node: NodeId, context: &Context<'a>) -> Option<MapEntry<'a>> {
+    let tree = context.tree;
+    let mut pairs = tree.pairs(node);
+    let (key_node, value) = pairs.find(|(key, _)| tree.text(*key) == Some(MATERIAL))?;
+    Some(MapEntry {
+        key: MATERIAL,
+        key_node,
+        value,
+        claimed: false,
+    })
 }
 
 /// Reports an object whose type is written as a key, as in `- sphere:`.
@@ -340,6 +360,7 @@ fn zero_size_field(shape: &ir::Shape) -> Option<&'static str> {
         | ir::Shape::Triangle(_)
         | ir::Shape::Quad(_)
         | ir::Shape::Ellipsoid(_)
+        | ir::Shape::Csg(_)
         | ir::Shape::Instance(_) => return None,
     };
     (size == 0.0).then_some(path)

@@ -1,23 +1,26 @@
-//! Tessellation: converts shapes that glTF lacks to meshes, within a tolerance.
+//! Tessellation: converts shapes that a format lacks to meshes, within a tolerance.
 //!
 //! A round shape becomes a mesh in object coordinates that depends only on its kind and number of
 //! steps; the instance has its position and size. So all spheres share one mesh.
 //!
 //! - [`Tessellator`] converts shape by shape and charges vertices to the budget.
 //! - [`Tessellation`] computes the numbers of steps from the tolerance.
+//! - `csg` cuts the meshes of the operands of a solid made of solids.
 //! - [`UnitShape`] is a round shape of radius 1; `round` and `flat` build the meshes with
 //!   `MeshBuilder`.
 
 mod builder;
+mod csg;
 mod flat;
 mod round;
 mod tolerance;
 
+use crate::export::shape_name;
 use crate::flat::{around, finite, side};
 use crate::reporter::ExportReporter;
 use glam::DAffine3;
 use round::UnitShape;
-use rtc_diag::codes;
+use rtc_diag::{Code, codes};
 use rtc_ir::{
     BoundingSphere, EntityKind, Field, Instance, Mesh, MeshId, Scene, Shape, ShapeKind, Surface,
     ValuePath,
@@ -39,15 +42,26 @@ enum ShapeMesh {
     World(Box<Mesh>),
 }
 
-/// The scene with meshes in place of all shapes; `None` if they exceed the budget, which is
-/// reported.
-pub(super) fn only_meshes(
+/// The format that meshes are for: what its diagnostics say.
+pub(super) struct TargetFormat {
+    pub(super) name: &'static str,
+    /// The code of shapes that a mesh stands for.
+    pub(super) approximated: &'static Code,
+    /// Whether it has a shape, which stays as it is.
+    pub(super) has: fn(&Shape) -> bool,
+}
+
+/// The scene with meshes in place of all shapes that the format lacks; `None` if they exceed the
+/// budget, which is reported.
+pub(super) fn with_meshes(
     scene: &Scene,
+    format: &TargetFormat,
     tolerance: Option<f64>,
     budget: &Budget,
     reporter: &mut ExportReporter<'_>,
 ) -> Option<Scene> {
     let mut tessellator = Tessellator {
+        format,
         tessellation: Tessellation::new(tolerance),
         around: around(scene),
         budget,
@@ -57,9 +71,13 @@ pub(super) fn only_meshes(
     let mut surfaces = Vec::with_capacity(scene.surfaces.len());
     for (index, surface) in scene.surfaces.iter().enumerate() {
         let path = ValuePath::new(EntityKind::Surface, index, Field::Whole);
-        let instance = tessellator.instance(&surface.shape, path, reporter)?;
+        let shape = if (format.has)(&surface.shape) {
+            surface.shape.clone()
+        } else {
+            Shape::Instance(tessellator.instance(&surface.shape, path, reporter)?)
+        };
         surfaces.push(Surface {
-            shape: Shape::Instance(instance),
+            shape,
             ..surface.clone()
         });
     }
@@ -72,6 +90,7 @@ pub(super) fn only_meshes(
 
 /// Converts shapes to meshes.
 struct Tessellator<'m> {
+    format: &'m TargetFormat,
     tessellation: Tessellation,
     around: BoundingSphere,
     budget: &'m Budget,
@@ -89,6 +108,39 @@ impl Tessellator<'_> {
     ) -> Option<Instance> {
         let shape_mesh = match shape {
             Shape::Instance(instance) => return Some(instance.clone()),
+            Shape::Csg(csg) => self.csg(csg, path, reporter)?,
+            Shape::Sphere(_)
+            | Shape::Plane(_)
+            | Shape::Triangle(_)
+            | Shape::Quad(_)
+            | Shape::Disc(_)
+            | Shape::Cylinder(_)
+            | Shape::Cone(_)
+            | Shape::Paraboloid(_)
+            | Shape::Torus(_)
+            | Shape::Ellipsoid(_)
+            | Shape::InfiniteCylinder(_) => self.simple(shape, path, reporter)?,
+        };
+        self.report(shape, path, reporter);
+        let (mesh, world) = match shape_mesh {
+            ShapeMesh::World(mesh) => (self.add(*mesh), DAffine3::IDENTITY),
+            ShapeMesh::Round(unit_shape, world) => (self.round(unit_shape, path, reporter)?, world),
+        };
+        Some(Instance {
+            mesh,
+            world_from_object: world.to_cols_array_2d(),
+        })
+    }
+
+    /// The mesh of a shape that is no instance and not made of others.
+    fn simple(
+        &self,
+        shape: &Shape,
+        path: ValuePath,
+        reporter: &mut ExportReporter<'_>,
+    ) -> Option<ShapeMesh> {
+        Some(match shape {
+            Shape::Instance(_) | Shape::Csg(_) => return None,
             Shape::Sphere(sphere) => round::sphere(sphere, &self.tessellation),
             Shape::Cylinder(cylinder) => round::cylinder(cylinder, &self.tessellation),
             Shape::Cone(cone) => round::cone(cone, &self.tessellation),
@@ -106,15 +158,6 @@ impl Tessellator<'_> {
                 self.charge(u64::from(steps + 1).pow(2), path, reporter)?;
                 flat::quad(quad, steps)
             }
-        };
-        self.report(shape.kind(), path, reporter);
-        let (mesh, world) = match shape_mesh {
-            ShapeMesh::World(mesh) => (self.add(*mesh), DAffine3::IDENTITY),
-            ShapeMesh::Round(unit_shape, world) => (self.round(unit_shape, path, reporter)?, world),
-        };
-        Some(Instance {
-            mesh,
-            world_from_object: world.to_cols_array_2d(),
         })
     }
 
@@ -151,8 +194,11 @@ impl Tessellator<'_> {
         match charged {
             Ok(()) if u32::try_from(vertices).is_ok() => return Some(()),
             Ok(()) => {
-                let message = "the shape takes more vertices than a mesh of glTF counts";
-                reporter.report_error(&codes::GLTF_UNSAID, message, path);
+                let message = format!(
+                    "the shape takes more vertices than a mesh of {} counts",
+                    self.format.name
+                );
+                reporter.report_error(&codes::OVER_LIMIT, &message, path);
             }
             Err(error) => {
                 let message = format!("the shape takes too many triangles: {error}");
@@ -162,16 +208,25 @@ impl Tessellator<'_> {
         None
     }
 
-    fn report(&self, kind: ShapeKind, path: ValuePath, reporter: &mut ExportReporter<'_>) {
-        let message = match kind {
+    fn report(&self, shape: &Shape, path: ValuePath, reporter: &mut ExportReporter<'_>) {
+        let format = self.format.name;
+        let side = || shortest(2.0 * side(self.around));
+        let message = match shape.kind() {
             ShapeKind::Triangle | ShapeKind::Instance => return,
-            ShapeKind::Plane => format!(
-                "glTF has no plane: what is written is a square {} wide",
-                shortest(2.0 * side(self.around))
+            ShapeKind::Csg => format!(
+                "{format} has no union, intersection or difference: what is written is a mesh \
+                 whose edges lie within {} of its size",
+                shortest(csg::FINEST)
             ),
+            ShapeKind::Plane => {
+                format!(
+                    "{format} has no plane: what is written is a square {} wide",
+                    side()
+                )
+            }
             ShapeKind::InfiniteCylinder => format!(
-                "glTF has no infinite cylinder: what is written is one {} long",
-                shortest(2.0 * side(self.around))
+                "{format} has no infinite cylinder: what is written is one {} long",
+                side()
             ),
             ShapeKind::Sphere
             | ShapeKind::Ellipsoid
@@ -181,11 +236,11 @@ impl Tessellator<'_> {
             | ShapeKind::Cone
             | ShapeKind::Paraboloid
             | ShapeKind::Torus => format!(
-                "glTF has no {}: what is written is a mesh {}",
-                kind.name(),
+                "{format} has no {}: what is written is a mesh {}",
+                shape_name(shape),
                 self.tessellation.describe()
             ),
         };
-        reporter.report(&codes::GLTF_NEARLY, &message, path);
+        reporter.report(self.format.approximated, &message, path);
     }
 }

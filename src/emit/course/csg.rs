@@ -1,0 +1,112 @@
+//! Writes solids made of solids, as objects within objects.
+
+use super::{MaterialNames, SceneWriter};
+use crate::export::part_of;
+use rtc_ir::{Csg, Scene, Surface};
+use rtc_math::SetStep;
+use std::fmt::Write as _;
+
+/// An operand, or an operation over others. Operations that are the first operand of the same one
+/// are merged with it.
+enum Node {
+    Operand(usize),
+    Operation(SetStep, Vec<Node>),
+}
+
+impl Node {
+    /// The tree of an expression.
+    fn of(steps: &[SetStep]) -> Option<Self> {
+        let (mut stack, mut operands) = (Vec::new(), 0..);
+        for step in steps {
+            if *step == SetStep::Operand {
+                stack.push(Self::Operand(operands.next()?));
+                continue;
+            }
+            let (b, a) = (stack.pop()?, stack.pop()?);
+            stack.push(match a {
+                Self::Operation(operation, mut nodes) if operation == *step => {
+                    nodes.push(b);
+                    Self::Operation(operation, nodes)
+                }
+                a @ (Self::Operand(_) | Self::Operation(..)) => Self::Operation(*step, vec![a, b]),
+            });
+        }
+        stack.pop()
+    }
+}
+
+/// What the operands of a solid are written by.
+struct OperandLooks<'a, 's> {
+    csg: &'s Csg,
+    parts: &'s [Surface],
+    scene: &'s Scene,
+    materials: &'a mut MaterialNames,
+}
+
+impl<'s> SceneWriter<'s> {
+    /// Writes a solid made of solids, of which some surfaces are the parts.
+    pub(super) fn csg(
+        &mut self,
+        csg: &'s Csg,
+        parts: &'s [Surface],
+        scene: &'s Scene,
+        materials: &mut MaterialNames,
+    ) -> Result<(), String> {
+        let node = match Node::of(&csg.steps).ok_or("the operations over solids do not fit")? {
+            // A solid on its own is a union of one.
+            node @ Node::Operand(_) => Node::Operation(SetStep::Union, vec![node]),
+            node @ Node::Operation(..) => node,
+        };
+        let mut operands = OperandLooks {
+            csg,
+            parts,
+            scene,
+            materials,
+        };
+        self.node(&node, 0, &mut operands)
+    }
+
+    fn node(
+        &mut self,
+        node: &Node,
+        indent: usize,
+        operands: &mut OperandLooks<'_, 's>,
+    ) -> Result<(), String> {
+        match node {
+            Node::Operand(index) => self.operand(*index, indent, operands),
+            Node::Operation(operation, nodes) => {
+                let word = match operation {
+                    SetStep::Operand | SetStep::Union => "union",
+                    SetStep::Intersection => "intersection",
+                    SetStep::Difference => "difference",
+                };
+                self.line(indent + 2, &format!("- type: {word}"));
+                self.line(indent + 4, "of:");
+                let mut nodes = nodes.iter();
+                nodes.try_for_each(|node| self.node(node, indent + 4, operands))
+            }
+        }
+    }
+
+    /// Writes an operand as an object, then moves its lines to the right.
+    fn operand(
+        &mut self,
+        index: usize,
+        indent: usize,
+        operands: &mut OperandLooks<'_, 's>,
+    ) -> Result<(), String> {
+        let start = self.text.len();
+        let solid = operands.csg.operands.get(index);
+        let part = part_of(operands.parts, index);
+        let (Some(solid), Some(part)) = (solid, part) else {
+            return Err("an operand of a solid made of solids has no surface".to_owned());
+        };
+        self.shape(&solid.shape(), operands.scene)?;
+        self.surface_look(part, operands.scene, operands.materials)?;
+        for line in self.text.split_off(start).lines() {
+            writeln!(self.text, "{:indent$}{line}", "")
+                .expect("a string takes all that is written to it");
+        }
+        Ok(())
+    }
+}

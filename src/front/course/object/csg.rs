@@ -1,0 +1,470 @@
+//! Solids made of solids: union, intersection and difference.
+//!
+//! The operands are lowered as objects are; then their surfaces are taken from the scene again, and
+//! become the operands of one expression. A polyhedron is the intersection of half-spaces. The
+//! result is one surface for each material, or more than one where some cast no shadow.
+
+use super::{Lower, Object};
+use crate::course::decode::{Context, Decode, SharedValue, Spanned};
+use crate::course::lower::Lowering;
+use crate::course::material::Material;
+use crate::course::number::{Degrees, Positive};
+use crate::course::object::SurfaceProps;
+use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::rotation::{Rotation, RotationKeys};
+use crate::course::schema::{self, Definitions};
+use crate::course::synonym::{POSITION, ROTATION, ROTATION_ANGLE, ROTATION_AXIS, with_canonical};
+use crate::course::value::{Angles, AnyScalar, Point, Vector};
+use rtc_diag::codes;
+use rtc_ir::{self as ir, MaterialId, Shape, Solid};
+use rtc_math::{MAX_SET_OPERANDS, SetStep, Vec3, cross, unit};
+use rtc_source::Span;
+use rtc_source::tree::NodeId;
+use serde_json::{Value as Json, json};
+
+/// An operand: an object of any type.
+pub(in crate::course) struct Operand(Box<Object>);
+
+impl Decode for Operand {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        Object::decode(node, context).map(|object| Self(Box::new(object)))
+    }
+
+    fn schema(definitions: &mut Definitions) -> Json {
+        schema::operand(definitions)
+    }
+}
+
+/// A list of operands.
+pub(in crate::course) struct Operands(Vec<Spanned<Operand>>);
+
+impl Decode for Operands {
+    const IS_LIST: bool = true;
+
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        let tree = context.tree;
+        if !tree.is_list(node) {
+            return context.expected(node, "a list of objects");
+        }
+        let operands: Vec<_> = tree
+            .items(node)
+            .take(MAX_SET_OPERANDS + 1)
+            .map(|item| {
+                let span = Some(context.head(item));
+                Operand::decode(item, context).map(|value| Spanned { value, span })
+            })
+            .collect();
+        operands.into_iter().collect::<Option<_>>().map(Self)
+    }
+
+    fn schema(definitions: &mut Definitions) -> Json {
+        let item = Operand::schema(definitions);
+        json!({ "type": "array", "items": item, "minItems": 1, "maxItems": MAX_SET_OPERANDS })
+    }
+}
+
+/// Declares the record of an operation.
+macro_rules! set_record {
+    ($(#[doc = $doc:literal])+ $name:ident, $word:literal) => {
+        record! {
+            $(#[doc = $doc])+
+            struct $name, $word {
+                /// The type of the object.
+                kind: Spanned<AnyScalar>, required, keys!["type"];
+                /// The two operands: objects with an inside, of any of these types, too.
+                both: [Spanned<Operand>; 2], optional, &[&["a", "b"], &["left", "right"]];
+                /// The operands in place of `a` and `b`, at most 64.
+                of: Spanned<Operands>, optional,
+                    keys!["of" "operands" "objects" "children" "shapes"];
+                /// The material of operands that have none.
+                material: Spanned<SharedValue<Material>>, optional, keys!["material"];
+                /// The position of the origin of the operands' coordinates.
+                position: Spanned<Point>, default(Point([0.0; 3])),
+                    &with_canonical(POSITION, "position");
+                /// The scale factor of the operands, above 0.
+                scale: Spanned<Positive>, default(Positive(1.0)),
+                    keys!["uniformScale" "scale" "scaleFactor" "scaling"];
+                /// The rotation of the operands about their origin by angles in radians: first
+                /// about x, then y, then z; beside `angle` the axis of rotation.
+                rotation: Spanned<Rotation<Angles>>, optional, &ROTATION;
+                /// The axis of a rotation by `angle`.
+                axis: Spanned<Vector>, optional,
+                    &with_canonical(ROTATION_AXIS, "rotationAxis");
+                /// The angle of rotation about the axis, in degrees.
+                angle: Spanned<Degrees>, optional, &ROTATION_ANGLE;
+                /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores
+                /// `false`.
+                shadow: Spanned<bool>, default(true), keys!["shadow"];
+            }
+            variants { [both] [of] }
+        }
+
+        impl Lower for $name {
+            fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+                let Self {
+                    kind, both, of, material, position, scale, rotation, axis, angle, shadow,
+                } = self;
+                let operands = match (both, of) {
+                    (FieldOutcome::Read(both), _) => &both[..],
+                    (_, FieldOutcome::Read(of)) => &of.value.0,
+                    _ => return,
+                };
+                let rotation = RotationKeys { rotation, axis, angle }.axes(context);
+                let expression = lowering.expression(SetStep::$name, operands, kind, context);
+                // What is shared is lowered in the order of decoding: after the operands. Errors in
+                // a material that none of them has are found, too.
+                if let FieldOutcome::Read(material) = material
+                    && lowering.material(material, context).is_none()
+                {
+                    return;
+                }
+                let (Some(axes), Some(mut expression)) = (rotation, expression) else {
+                    return;
+                };
+                let placement =
+                    OperandPlacement { axes, scale: scale.value.0, position: position.value.0 };
+                if !placement.is_identity() {
+                    for operand in &mut expression.operands {
+                        placement.place(&mut operand.solid);
+                        lowering.drop_unused_rotation(operand);
+                    }
+                }
+                lowering.dependent.record_shadow(shadow);
+                lowering.add_expression(expression, kind.span, shadow.value);
+            }
+        }
+    };
+}
+
+set_record! {
+    /// The union of solids: what is in any of them.
+    Union, "union"
+}
+
+set_record! {
+    /// The intersection of solids: what is in all of them.
+    Intersection, "intersection"
+}
+
+set_record! {
+    /// The difference of solids: what is in the first and in none of the others.
+    Difference, "difference"
+}
+
+/// A solid with what its surface has.
+struct PlacedSolid {
+    solid: Solid,
+    material: MaterialId,
+    casts_no_shadow: bool,
+}
+
+/// Operands, and the operations over them.
+#[derive(Default)]
+struct Expression {
+    operands: Vec<PlacedSolid>,
+    steps: Vec<SetStep>,
+}
+
+impl Lowering {
+    /// Lowers operands to an expression. `None` if one is invalid, which is reported.
+    fn expression(
+        &mut self,
+        operation: SetStep,
+        operands: &[Spanned<Operand>],
+        kind: &Spanned<AnyScalar>,
+        context: &mut Context<'_>,
+    ) -> Option<Expression> {
+        let mut whole = Expression::default();
+        let mut is_valid = true;
+        for (index, operand) in operands.iter().enumerate() {
+            let Some(part) = self.operand(operand, context) else {
+                is_valid = false;
+                continue;
+            };
+            whole.operands.extend(part.operands);
+            whole.steps.extend(part.steps);
+            whole.steps.extend((index > 0).then_some(operation));
+        }
+        let count = whole.operands.len();
+        if count > MAX_SET_OPERANDS {
+            let message = format!("a {} of more than 64 solids", word(operation));
+            report(kind.span, &message, "too many", context);
+            return None;
+        }
+        (is_valid && count > 0).then_some(whole)
+    }
+
+    /// Lowers an operand. `None` if it is invalid, which is reported.
+    fn operand(
+        &mut self,
+        operand: &Spanned<Operand>,
+        context: &mut Context<'_>,
+    ) -> Option<Expression> {
+        let Operand(object) = &operand.value;
+        if matches!(**object, Object::Mesh(_) | Object::Gltf(_)) {
+            report(operand.span, "a mesh is no operand", "no solid", context);
+            return None;
+        }
+        let (first, tori) = (self.scene.surfaces.len(), self.ambiguous_tori.len());
+        self.object(object, context);
+        let surfaces = self.scene.surfaces.split_off(first);
+        self.forget_surfaces(first);
+        self.ambiguous_tori.truncate(tori);
+        if surfaces.is_empty() {
+            return None;
+        }
+        let expression = Expression::of(&surfaces);
+        if expression.is_none() {
+            let name = surfaces[0].shape.kind().name();
+            let message = format!("a {name} has no inside");
+            report(operand.span, &message, "no solid", context);
+        }
+        expression
+    }
+
+    /// Without a texture, how a sphere is turned does not matter.
+    fn drop_unused_rotation(&self, operand: &mut PlacedSolid) {
+        let MaterialId(index) = operand.material;
+        let material = self.scene.materials.get(index as usize);
+        let has_texture = material
+            .and_then(ir::Material::phong)
+            .is_none_or(ir::Phong::has_texture);
+        if let Solid::Sphere(sphere) = &mut operand.solid
+            && !has_texture
+        {
+            sphere.texture_from_world = None;
+        }
+    }
+
+    /// Adds the surfaces of an expression, one for each material.
+    fn add_expression(&mut self, expression: Expression, span: Option<Span>, casts_shadow: bool) {
+        let Expression { operands, steps } = expression;
+        let mut looks: Vec<((MaterialId, bool), Vec<u32>)> = Vec::new();
+        let materials = &self.scene.materials;
+        let is_same = |MaterialId(a): MaterialId, MaterialId(b): MaterialId| {
+            a == b || materials.get(a as usize) == materials.get(b as usize)
+        };
+        for (index, operand) in (0..).zip(&operands) {
+            let is_known = |((material, casts_no_shadow), _): &&mut ((MaterialId, bool), _)| {
+                *casts_no_shadow == operand.casts_no_shadow && is_same(*material, operand.material)
+            };
+            match looks.iter_mut().find(is_known) {
+                Some((_, faces)) => faces.push(index),
+                None => looks.push(((operand.material, operand.casts_no_shadow), vec![index])),
+            }
+        }
+        let operands: Vec<_> = operands.into_iter().map(|operand| operand.solid).collect();
+        for ((material, casts_no_shadow), faces) in looks {
+            let props = SurfaceProps {
+                object_span: span,
+                material,
+                span,
+                casts_shadow: casts_shadow && !casts_no_shadow,
+            };
+            let shape = ir::Csg {
+                operands: operands.clone(),
+                steps: steps.clone(),
+                faces,
+            };
+            self.add_surface(&props, Shape::Csg(shape), &[]);
+        }
+    }
+}
+
+impl Expression {
+    /// The expression of the surfaces of one object; `None` if they have no inside.
+    fn of(surfaces: &[ir::Surface]) -> Option<Self> {
+        let placed = |solid, surface: &ir::Surface| PlacedSolid {
+            solid,
+            material: surface.material,
+            casts_no_shadow: surface.casts_no_shadow,
+        };
+        let first = surfaces.first()?;
+        // An expression: each of its surfaces says what its operands look like.
+        if let Shape::Csg(csg) = &first.shape {
+            let looks = |index: u32| {
+                let shows = |surface: &&ir::Surface| {
+                    let is_face = |csg: &ir::Csg| csg.faces.contains(&index);
+                    matches!(&surface.shape, Shape::Csg(csg) if is_face(csg))
+                };
+                surfaces.iter().find(shows)
+            };
+            let operands = (0..).zip(&csg.operands);
+            let operands =
+                operands.map(|(index, solid)| Some(placed(solid.clone(), looks(index)?)));
+            return Some(Self {
+                operands: operands.collect::<Option<_>>()?,
+                steps: csg.steps.clone(),
+            });
+        }
+        let solids = match Solid::of(first.shape.clone()) {
+            Some(solid) => vec![solid],
+            None => half_spaces(surfaces)?,
+        };
+        let steps = [SetStep::Operand].into_iter();
+        let more = [SetStep::Operand, SetStep::Intersection].repeat(solids.len() - 1);
+        Some(Self {
+            steps: steps.chain(more).collect(),
+            operands: solids
+                .into_iter()
+                .map(|solid| placed(solid, first))
+                .collect(),
+        })
+    }
+}
+
+/// The half-spaces behind the faces of a convex polyhedron, whose intersection it is; `None` for
+/// other surfaces.
+fn half_spaces(surfaces: &[ir::Surface]) -> Option<Vec<Solid>> {
+    /// A corner may be so far outside, of the size of the polyhedron.
+    const SLACK: f64 = 1e-9;
+    let corners = |surface: &ir::Surface| {
+        let Shape::Triangle(triangle) = &surface.shape else {
+            return None;
+        };
+        Some(triangle.vertices.map(Vec3::from_array))
+    };
+    let faces: Vec<_> = surfaces.iter().map(corners).collect::<Option<_>>()?;
+    let mut planes: Vec<(Vec3, Vec3)> = Vec::new();
+    for [a, b, c] in &faces {
+        let normal = unit(cross(*b - *a, *c - *a))?;
+        if !planes
+            .iter()
+            .any(|(_, known)| known.dot(normal) > 1.0 - 1e-12)
+        {
+            planes.push((*a, normal));
+        }
+    }
+    let [a, ..] = faces.first()?;
+    let points = || faces.iter().flatten();
+    let size = points().fold(0.0, |most: f64, point| most.max(point.distance(*a)));
+    let holds = |(center, normal): &(Vec3, Vec3)| {
+        points().all(|point| normal.dot(*point - *center) <= SLACK * size)
+    };
+    let solid = |(center, normal): &(Vec3, Vec3)| {
+        Solid::Plane(ir::Plane {
+            center: center.to_array(),
+            normal: normal.to_array(),
+        })
+    };
+    let is_polyhedron = planes.len() >= 4 && planes.iter().all(holds);
+    is_polyhedron.then(|| planes.iter().map(solid).collect())
+}
+
+/// Where the coordinates of operands are: scaled, turned, then moved.
+struct OperandPlacement {
+    /// The images of the axes, of length 1.
+    axes: [Vec3; 3],
+    scale: f64,
+    position: [f64; 3],
+}
+
+impl OperandPlacement {
+    fn is_identity(&self) -> bool {
+        self.axes == Vec3::AXES && self.scale == 1.0 && self.position == [0.0; 3]
+    }
+
+    fn turn(&self, direction: &mut [f64; 3]) {
+        let [x, y, z] = self.axes;
+        let [u, v, w] = *direction;
+        *direction = (x * u + y * v + z * w).to_array();
+    }
+
+    fn step(&self, step: &mut [f64; 3]) {
+        self.turn(step);
+        *step = step.map(|component| component * self.scale);
+    }
+
+    fn point(&self, point: &mut [f64; 3]) {
+        self.step(point);
+        *point = (Vec3::from_array(*point) + Vec3::from_array(self.position)).to_array();
+    }
+
+    fn length(&self, length: &mut f64) {
+        *length *= self.scale;
+    }
+
+    fn place(&self, solid: &mut Solid) {
+        match solid {
+            Solid::Sphere(ir::Sphere {
+                center,
+                radius,
+                texture_from_world,
+            }) => {
+                self.point(center);
+                self.length(radius);
+                if self.axes != Vec3::AXES {
+                    let rows = texture_from_world.get_or_insert(Vec3::AXES.map(|v| v.to_array()));
+                    rows.iter_mut().for_each(|row| self.turn(row));
+                }
+            }
+            Solid::Plane(ir::Plane { center, normal }) => {
+                self.point(center);
+                self.turn(normal);
+            }
+            Solid::Cylinder(ir::Cylinder {
+                base,
+                axis,
+                height,
+                radius,
+            }) => {
+                self.point(base);
+                self.turn(axis);
+                self.length(height);
+                self.length(radius);
+            }
+            Solid::InfiniteCylinder(ir::InfiniteCylinder {
+                center,
+                axis,
+                radius,
+            }) => {
+                self.point(center);
+                self.turn(axis);
+                self.length(radius);
+            }
+            Solid::Cone(ir::Cone { base, up, radius })
+            | Solid::Paraboloid(ir::Paraboloid { base, up, radius }) => {
+                self.point(base);
+                self.step(up);
+                self.length(radius);
+            }
+            Solid::Torus(ir::Torus {
+                center,
+                axis,
+                major,
+                minor,
+            }) => {
+                self.point(center);
+                self.turn(axis);
+                self.length(major);
+                self.length(minor);
+            }
+            Solid::Ellipsoid(ir::Ellipsoid { center, axes }) => {
+                self.point(center);
+                axes.iter_mut().for_each(|axis| self.step(axis));
+            }
+        }
+    }
+}
+
+/// The word of an operation.
+fn word(operation: SetStep) -> &'static str {
+    match operation {
+        SetStep::Operand | SetStep::Union => "union",
+        SetStep::Intersection => "intersection",
+        SetStep::Difference => "difference",
+    }
+}
+
+/// Reports an operand that is none.
+fn report(span: Option<Span>, message: &str, label: &str, context: &mut Context<'_>) {
+    const HINT: &str = "the operands are spheres, ellipsoids, boxes and other convex polyhedra, \
+                        cylinders, cones, paraboloids, tori, half-spaces (`plane`), and unions, \
+                        intersections and differences of these";
+    if let Some(span) = span {
+        let message = || message.to_owned();
+        context.report(&codes::BAD_OPERAND, span, message, |d| {
+            d.at(span, label).hint(HINT)
+        });
+    }
+}
