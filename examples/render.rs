@@ -10,7 +10,7 @@ fn main() -> Result<(), Error> {
 }
 
 pub(crate) fn render(from: &str, to: &str) -> Result<(), Error> {
-    let mut scene = Scene::open(from)?;
+    let scene = Scene::open(from)?;
     for finding in scene.check() {
         eprintln!("{finding}\n");
     }

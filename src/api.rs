@@ -3,30 +3,47 @@
 //! It contains no rules about scenes. Like the command line it calls [`rtc_pipeline`], so both
 //! report the same diagnostics and render the same bytes.
 //!
-//! - [`Scene`] is a scene that was read; [`Reading`] has the options of reading it.
+//! - [`Scene`] is a scene that was read or built; [`Reading`] has the options of reading it.
+//! - [`SceneBuilder`] builds a scene in code, and changes one: [`Camera`], [`Shape`], [`Mesh`],
+//!   [`Material`], [`Texture`], [`Light`], [`Environment`]. [`Tree`] shows what a scene consists of.
 //! - [`Diagnostic`] is an error, a warning or a note about a scene, with [`Label`]s and [`Hint`]s.
-//! - [`Options`] has the options of rendering, [`Picture`] is the result.
+//! - [`Options`] has the options of rendering, [`Progress`] says how far it is, [`Picture`] is the
+//!   result.
 //! - [`Effect`] says whether a picture needs an effect such as shadows, and why not.
 //! - [`Error`] is returned if there is no scene or no picture.
 
+mod builder;
+mod camera;
+mod clock;
 mod diagnostic;
 mod effect;
 mod error;
 mod light;
+mod mesh;
 mod options;
+mod path;
 mod picture;
+mod progress;
+mod reexports;
 mod scene;
+mod shape;
+mod texture;
+mod tree;
 
+pub use builder::{MaterialRef, ObjectId, SceneBuilder};
+pub use camera::Camera;
 #[allow(deprecated, reason = "the alias is handed out for one more version")]
 pub use diagnostic::Finding;
 pub use diagnostic::{Diagnostic, Hint, Label, Location};
 pub use effect::Effect;
 pub use error::Error;
 pub use light::Light;
+pub use mesh::{Mesh, Vertices};
 pub use options::{Format, Options, Reading};
 pub use picture::{Picture, Statistics};
-pub use rtc_color::Tone;
-pub use rtc_diag::Severity;
-pub use rtc_plan::EffectState;
-pub use rtc_render::Aov;
+pub use progress::Progress;
+pub use reexports::*;
 pub use scene::Scene;
+pub use shape::{Shape, Transform};
+pub use texture::{Environment, Texture};
+pub use tree::{Object, Tree};

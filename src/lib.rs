@@ -18,7 +18,7 @@
 //!   radius: 1
 //!   material: {color: [1, 0.2, 0.1], ka: 0.2, kd: 0.8, ks: 0, n: 1}
 //! ";
-//! let mut scene = Scene::from_files("ball.yaml", [("ball.yaml".to_owned(), text.into())])?;
+//! let scene = Scene::from_files("ball.yaml", [("ball.yaml".to_owned(), text.into())])?;
 //! for diagnostic in scene.check() {
 //!     println!("{diagnostic}");
 //! }
@@ -30,8 +30,9 @@
 //! ```
 //!
 //! `Scene::open("scene.yaml")` reads a file and the files it refers to, `picture.save("scene.png")`
-//! writes one. The library does not print, exit, read the clock or the environment, and the number
-//! of threads does not change a picture. The cargo feature `cli`, on by default, adds the command
+//! writes one. [`SceneBuilder`] builds a scene in code, and [`Scene::edit`] changes one. The library
+//! does not print, exit or read the environment; it reads the clock only for what is asked in
+//! seconds. The number of threads does not change a picture. The cargo feature `cli`, on by default, adds the command
 //! line (`run`); `default-features = false` leaves it out. The library builds for
 //! `wasm32-unknown-unknown`, where scenes come from memory, one thread renders, and there is no
 //! `Picture::save`.
@@ -61,8 +62,10 @@ mod api;
 #[allow(deprecated, reason = "the alias is handed out for one more version")]
 pub use api::Finding;
 pub use api::{
-    Aov, Diagnostic, Effect, EffectState, Error, Format, Hint, Label, Light, Location, Options,
-    Picture, Reading, Scene, Severity, Statistics, Tone,
+    Alpha, Aov, Bump, Camera, Diagnostic, Effect, EffectState, Environment, Error, Filter, Format,
+    Hint, Label, Light, Location, Material, MaterialId, MaterialRef, Mesh, MeshId, Object,
+    ObjectId, Options, Phong, Picture, Progress, Reading, Scene, SceneBuilder, Severity, Shape,
+    Standard, Statistics, Texture, TextureId, TextureMap, Tone, Transform, Tree, Vertices, Wrap,
 };
 #[cfg(feature = "cli")]
 pub use rtc_cli::run;

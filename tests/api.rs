@@ -129,7 +129,7 @@ fn the_examples_do_what_they_say() {
 fn findings_say_what_and_where_and_errors_hold_them() {
     let broken = "Eye: [0, 0, 9]\nObjects:\n- {type: sphere, position: [0, 0, 0], raduis: 1}\n";
     let files = [("a/b.yaml".to_owned(), broken.as_bytes().to_vec())];
-    let mut scene = Scene::from_files("a/b.yaml", files).unwrap();
+    let scene = Scene::from_files("a/b.yaml", files).unwrap();
     let findings = scene.check();
     let typo = findings.iter().find(|found| found.code == "SC001").unwrap();
     let place = &typo.primary.as_ref().unwrap().location;
@@ -164,8 +164,8 @@ fn what_is_found_does_not_add_up() {
 
 #[test]
 fn effects_are_those_of_the_scene_as_it_is_asked_for() {
-    let mut scene = ball();
-    let mut states = |options: &Options| {
+    let scene = ball();
+    let states = |options: &Options| {
         let effects = scene.effects(options).unwrap();
         let state = |name: &str| {
             let mut all = effects.iter();
@@ -203,7 +203,7 @@ fn a_scene_in_memory_is_that_on_disk_and_reads_no_other_file() {
     ] {
         let options = Options::new().size(16, 12).supersampling(1).samples(1);
         let on_disk = Scene::open(path("scenes").join(name)).unwrap();
-        let rendered = |mut scene: Scene| scene.render(&options).unwrap().encode().unwrap();
+        let rendered = |scene: Scene| scene.render(&options).unwrap().encode().unwrap();
         let all = files(&[&[name][..], &others].concat());
         let main = format!("deep/in/{name}");
         let in_memory = Scene::from_files(&main, all).unwrap();
@@ -233,7 +233,7 @@ fn a_name_that_leads_up_finds_what_lies_there_in_memory() {
         ("./scenes/globe.yaml".to_owned(), text.into_bytes()),
         ("maps/tiles.png".to_owned(), tiles),
     ];
-    let mut scene = Reading::new()
+    let scene = Reading::new()
         .from_files("scenes/globe.yaml", files)
         .unwrap();
     let found = scene.check();
@@ -245,7 +245,7 @@ fn a_name_that_leads_up_finds_what_lies_there_in_memory() {
 
 #[test]
 fn a_denoised_picture_says_its_error() {
-    let mut scene = ball();
+    let scene = ball();
     let options = Options::new().size(40, 40).trace_paths(true).samples(4);
     let plain = scene.render(&options).unwrap();
     let denoised = scene.render(&options.clone().denoise(true)).unwrap();
@@ -279,7 +279,7 @@ fn the_error_of_each_pixel_is_a_layer() {
     let layers = [Aov::Depth, Aov::Error, Aov::Samples, Aov::Undersampled];
     let options = Options::new().size(40, 40).target_error(2.0);
     let options = layers.into_iter().fold(options, Options::layer);
-    let mut scene = Scene::open(path("scenes/mirrors.yaml")).unwrap();
+    let scene = Scene::open(path("scenes/mirrors.yaml")).unwrap();
     let picture = scene.render(&options).unwrap();
     let [depth, error, samples, unmet] = layers.map(|aov| picture.layer(aov).unwrap());
     // The mean square of the errors is the noise, which the bound covers.
@@ -302,7 +302,7 @@ fn the_error_of_each_pixel_is_a_layer() {
 
 #[test]
 fn a_render_is_stopped_and_limited() {
-    let mut scene = ball();
+    let scene = ball();
     let stopped = scene.render_until(&Options::new(), &|| true).unwrap_err();
     assert!(matches!(stopped, Error::Stopped), "{stopped}");
     let error = scene.render(&Options::new().max_rays(10)).unwrap_err();
@@ -363,8 +363,8 @@ fn two(picture: &Picture) -> [[u8; 4]; 2] {
 
 #[test]
 fn bytes_are_those_of_the_file_and_values_those_of_the_scene() {
-    let mut scene = ball();
-    let mut rendered = |options: Options| scene.render(&options).unwrap();
+    let scene = ball();
+    let rendered = |options: Options| scene.render(&options).unwrap();
     let shown = rendered(Options::new());
     assert_eq!(
         (shown.width(), shown.height(), shown.alpha()),

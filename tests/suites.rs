@@ -13,6 +13,7 @@ mod api;
 mod assets;
 mod book;
 mod bsdf;
+mod builder;
 mod camera;
 mod cli;
 mod codec;

@@ -1,7 +1,9 @@
 //! Diagnostics about a scene, as owned values.
 
 use super::Severity;
+use super::path::path;
 use rtc_diag as diag;
+use rtc_ir::Scene;
 use rtc_source::{SourceMap, Span};
 use std::fmt;
 use std::ops::Range;
@@ -25,6 +27,9 @@ pub struct Diagnostic {
     pub hints: Vec<Hint>,
     /// A JSON pointer to the value, for input that is JSON or has no text.
     pub pointer: Option<String>,
+    /// In a scene that was built or edited in code: the value, for example
+    /// `objects[3].material.ior`.
+    pub path: Option<String>,
     text: String,
 }
 
@@ -70,7 +75,14 @@ pub struct Hint {
 const WIDTH: usize = 100;
 
 impl Diagnostic {
-    pub(super) fn new(found: &diag::Diagnostic, map: &SourceMap) -> Self {
+    /// A diagnostic about files, or about a scene that was built.
+    pub(super) fn new(found: &diag::Diagnostic, map: &SourceMap, built: Option<&Scene>) -> Self {
+        let of_pointer = |scene| path(found.pointer.as_deref()?, scene);
+        let path = built.and_then(of_pointer);
+        let text = match (&path, &found.primary) {
+            (Some(path), None) => diag::one(&found.clone().pointer(path), map, WIDTH),
+            _ => diag::one(found, map, WIDTH),
+        };
         let diag::Diagnostic {
             code,
             severity,
@@ -98,15 +110,18 @@ impl Diagnostic {
             secondary: secondary.iter().map(label).collect(),
             hints: hints.iter().map(hint).collect(),
             pointer: pointer.clone(),
-            text: diag::one(found, map, WIDTH),
+            path,
+            text,
         }
     }
 
-    /// Position, code and message in one line, for example `scene.yaml:3:5: error[VA003]: …`.
+    /// Position, code and message in one line, for example `scene.yaml:3:5: error[VA003]: …`, or
+    /// `objects[3].radius: error[VA003]: …`.
     #[must_use]
     pub fn short(&self) -> String {
         let place = self.primary.as_ref().map(|label| &label.location);
-        let place = place.map_or_else(String::new, |at| match (at.line, at.column) {
+        let path = || self.path.iter().map(|path| format!("{path}: ")).collect();
+        let place = place.map_or_else(path, |at| match (at.line, at.column) {
             (Some(line), Some(column)) => format!("{}:{line}:{column}: ", at.file),
             _ => format!("{}: ", at.file),
         });
@@ -123,16 +138,22 @@ impl fmt::Display for Diagnostic {
 
 impl Label {
     fn new(span: Span, text: &str, map: &SourceMap) -> Self {
+        Self {
+            location: Location::new(span, map),
+            text: text.to_owned(),
+        }
+    }
+}
+
+impl Location {
+    pub(super) fn new(span: Span, map: &SourceMap) -> Self {
         let Span { file, start, end } = span;
         let at = map.is_text(file).then(|| map.line_column(file, start));
         Self {
-            location: Location {
-                file: map.name(file).to_owned(),
-                bytes: start as usize..end as usize,
-                line: at.map(|at| at.line),
-                column: at.map(|at| at.column),
-            },
-            text: text.to_owned(),
+            file: map.name(file).to_owned(),
+            bytes: start as usize..end as usize,
+            line: at.map(|at| at.line),
+            column: at.map(|at| at.column),
         }
     }
 }

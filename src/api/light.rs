@@ -1,10 +1,18 @@
-//! Lights that a caller adds to a scene.
+//! Lights.
 
-use rtc_ir::{self as ir, Emitter, PointLight, Punctual};
+use rtc_ir::{self as ir, Emitter, Photometry, PointLight, Punctual};
 
 /// A light. Colours are linear red, green and blue, each at least 0; lengths are in scene units.
 ///
-/// A scene with a physical light (any except [`Light::plain`]) is rendered by path tracing.
+/// A scene with a physical light (any except [`Light::plain`]) is rendered by path tracing. Light of
+/// an area is a surface whose material is emissive.
+///
+/// ```
+/// use rtc::Light;
+///
+/// let lamp = Light::point([0.0, 3.0, 0.0], [40.0; 3]).range(10.0);
+/// assert_eq!((lamp.kind(), lamp.position()), ("point", Some([0.0, 3.0, 0.0])));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light(pub(super) ir::Light);
 
@@ -51,6 +59,90 @@ impl Light {
             color,
             radius,
         }))
+    }
+
+    /// A lamp with a measured distribution (type C of LM-63): `candela` is the intensity at each of
+    /// the `vertical` angles from the axis `direction`, in degrees, ascending within 0 to 180; for
+    /// the first of the `horizontal` angles about it, then for the next. These ascend from 0 to 360
+    /// and count from the direction `start`; only 0 is a lamp that is the same all around.
+    #[must_use]
+    pub fn measured(
+        position: [f64; 3],
+        [direction, start]: [[f64; 3]; 2],
+        [vertical, horizontal]: [&[f64]; 2],
+        candela: &[f64],
+    ) -> Self {
+        let photometry = Photometry {
+            name: String::new(),
+            vertical: vertical.to_vec(),
+            horizontal: horizontal.to_vec(),
+            candela: candela.to_vec(),
+        };
+        let emitter = Emitter::Photometric {
+            position,
+            direction,
+            horizontal: start,
+            photometry: Box::new(photometry),
+        };
+        Self::physical(emitter, [1.0; 3])
+    }
+
+    /// The distance at which a point or a spot light fades to 0; other lights have none.
+    #[must_use]
+    pub fn range(mut self, distance: f64) -> Self {
+        if let ir::Light::Punctual(light) = &mut self.0
+            && let Emitter::Point { range, .. } | Emitter::Spot { range, .. } = &mut light.emitter
+        {
+            *range = Some(distance);
+        }
+        self
+    }
+
+    /// The same light with another colour: the irradiance of a directional light, the radiant
+    /// intensity of a point or a spot light, a factor of measured candelas.
+    #[must_use]
+    pub fn color(mut self, color: [f64; 3]) -> Self {
+        match &mut self.0 {
+            ir::Light::Point(light) => light.color = color,
+            ir::Light::Punctual(light) => light.intensity = color,
+        }
+        self
+    }
+
+    /// The kind of the light, as scene texts name it: `point`, `sun`, `spot` or `ies`.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match &self.0 {
+            ir::Light::Point(_) => "point",
+            ir::Light::Punctual(light) => light.emitter.spelling().kind,
+        }
+    }
+
+    /// The position; `None` for a directional light.
+    #[must_use]
+    pub fn position(&self) -> Option<[f64; 3]> {
+        match &self.0 {
+            ir::Light::Point(light) => Some(light.position),
+            ir::Light::Punctual(light) => light.emitter.position(),
+        }
+    }
+
+    /// The direction to a directional light, or the axis of another; `None` for a point light.
+    #[must_use]
+    pub fn direction(&self) -> Option<[f64; 3]> {
+        match &self.0 {
+            ir::Light::Point(_) => None,
+            ir::Light::Punctual(light) => light.emitter.direction(),
+        }
+    }
+
+    /// The colour that [`Light::color`] sets.
+    #[must_use]
+    pub fn intensity(&self) -> [f64; 3] {
+        match &self.0 {
+            ir::Light::Point(light) => light.color,
+            ir::Light::Punctual(light) => light.intensity,
+        }
     }
 
     fn physical(emitter: Emitter, intensity: [f64; 3]) -> Self {

@@ -1,6 +1,7 @@
 //! Options of reading a scene and of rendering a picture.
 
-use super::{Aov, Error, Scene, Tone};
+use super::progress::OnProgress;
+use super::{Aov, Error, Progress, Scene, Tone};
 use rtc_image::BackgroundFill;
 use rtc_image::FileFormat;
 use rtc_passes::{EnvironmentOverride, IntegratorChoice, Orbit, Overrides, View, ViewAndLight};
@@ -8,6 +9,8 @@ use rtc_pipeline::{self as pipeline, Exposure, Input, OutputTransform, PictureSe
 use rtc_render::Crop;
 use rtc_source::MemoryFiles;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
 
 /// Options of reading a scene.
 #[derive(Clone, Debug, Default)]
@@ -152,8 +155,10 @@ pub struct Options {
     view: View,
     environment: Option<[f64; 3]>,
     integrator: Option<IntegratorChoice>,
-    pub(super) target_error: Option<f64>,
+    target_error: Option<f64>,
+    time_budget: Option<Duration>,
     denoise: bool,
+    pub(super) on_progress: Option<OnProgress>,
 }
 
 impl Options {
@@ -203,6 +208,22 @@ impl Options {
     /// the error reached.
     pub fn target_error(mut self, levels: f64) -> Self {
         self.target_error = Some(levels);
+        self
+    }
+
+    /// Takes samples where they lower the error most until the time is over; with a target error,
+    /// whichever is reached first. The picture depends on the machine.
+    /// [`Picture::error`](super::Picture::error) is the error reached.
+    #[cfg(not(target_family = "wasm"))]
+    pub fn time_budget(mut self, time: Duration) -> Self {
+        self.time_budget = Some(time);
+        self
+    }
+
+    /// Calls `on_progress` about a hundred times during a render, from any of its threads but one
+    /// at a time, and once at its end.
+    pub fn on_progress(mut self, on_progress: impl Fn(Progress) + Send + Sync + 'static) -> Self {
+        self.on_progress = Some(OnProgress(Arc::new(on_progress)));
         self
     }
 
@@ -318,8 +339,10 @@ impl Options {
         if let Some(fault) = self.fault() {
             return Err(refused(fault));
         }
-        if self.denoise && self.target_error.is_some() {
-            return Err(refused("a denoised picture has no target error"));
+        if self.denoise && (self.target_error.is_some() || self.time_budget.is_some()) {
+            return Err(refused(
+                "a denoised picture has no target error or time budget",
+            ));
         }
         let kind = self.format.kind();
         let look =
@@ -329,6 +352,7 @@ impl Options {
         setup.crop = self.crop;
         setup.threads = self.threads;
         setup.goal.error = self.target_error;
+        setup.goal.time = self.time_budget;
         setup.denoise = self.denoise;
         Ok(setup)
     }

@@ -1,23 +1,54 @@
-//! A scene that was read.
+//! A scene that was read or built.
 
-use super::{Diagnostic, Effect, Error, Light, Options, Picture, Reading};
-use rtc_diag::Sink;
-use rtc_passes as passes;
+use super::clock::Stopwatch;
+use super::progress::{ProgressCounter, ProgressMeasure};
+use super::{
+    Diagnostic, Effect, Error, Light, Options, Picture, Reading, SceneBuilder, Severity, Tree,
+};
 use rtc_pipeline::{
-    self as pipeline, Input, Loaded, Observer, PictureSetup, RenderSubject, Traced,
+    self as pipeline, Input, Loaded, Observer, PictureSetup, RenderSubject, Rounds, Traced,
 };
 use rtc_plan::{Plan, Rules};
-use rtc_render::Film;
+use rtc_render::{Counts, Crop, Film};
+use rtc_study::{Goal, PixelQuality};
 use std::fmt;
 use std::path::Path;
+use std::sync::Arc;
 
-/// A scene that was read from any format: YAML or JSON of the course, glTF, a mesh, or the IR.
+/// A scene that was read from any format (YAML or JSON of the course, glTF, a mesh, Mitsuba or the
+/// IR), or built with a [`SceneBuilder`].
+///
+/// Copies are cheap and share what they can. Several threads may render one scene at once.
+///
+/// ```
+/// use rtc::{Camera, Light, Options, Phong, SceneBuilder, Shape};
+///
+/// let mut builder = SceneBuilder::new(Camera::look_at([0.0, 0.0, 6.0], [0.0; 3]).size(16, 16));
+/// builder.light(Light::plain([5.0, 5.0, 9.0], [1.0; 3], 0.0));
+/// let ball = builder.add(Shape::sphere([0.0; 3], 1.0), Phong::default());
+/// let white = builder.build().unwrap();
+///
+/// let mut red = white.clone();
+/// red.edit(|builder| {
+///     let material = builder.material_of(ball).and_then(|id| builder.material_mut(id));
+///     material.unwrap().set_color([1.0, 0.0, 0.0]);
+/// })
+/// .unwrap();
+/// let pictures = std::thread::scope(|scope| {
+///     let renders = [&white, &red].map(|scene| scope.spawn(|| scene.render(&Options::new())));
+///     renders.map(|render| render.join().unwrap())
+/// });
+/// let [white, red] = pictures.map(|picture| picture.unwrap().rgba8());
+/// assert_ne!(white, red);
+/// ```
+#[derive(Clone)]
 pub struct Scene {
-    input: Input,
+    /// The files, with the diagnostics of reading; not changed any more.
+    input: Arc<Input>,
     /// The scene with its changes; `None` if it has errors.
-    loaded: Option<Loaded>,
-    /// The diagnostics of reading.
-    found: Sink,
+    loaded: Option<Arc<Loaded>>,
+    /// Whether some of its values are not from files.
+    is_built: bool,
 }
 
 impl fmt::Debug for Scene {
@@ -54,28 +85,64 @@ impl Scene {
     }
 
     pub(super) fn new(mut input: Input) -> Result<Self, Error> {
-        let loaded = input.load();
-        let found = input.take_diagnostics();
-        if !input.is_read() {
-            let diagnostics = found.kept().iter();
-            let diagnostics = diagnostics.map(|found| Diagnostic::new(found, input.map()));
-            return Err(Error::Invalid(diagnostics.collect()));
-        }
-        Ok(Self {
-            input,
+        let loaded = input.load().map(Arc::new);
+        let scene = Self {
+            input: Arc::new(input),
             loaded,
-            found,
-        })
+            is_built: false,
+        };
+        if !scene.input.is_read() {
+            return Err(Error::Invalid(scene.run().diagnostics()));
+        }
+        Ok(scene)
+    }
+
+    /// The scene of a builder, validated, in place of `loaded`.
+    pub(super) fn of_builder(
+        input: Arc<Input>,
+        mut loaded: Loaded,
+        builder: SceneBuilder,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let (lowered, faults, has_camera) = builder.finish();
+        loaded.replace(lowered, has_camera);
+        let scene = Self {
+            input,
+            loaded: Some(Arc::new(loaded)),
+            is_built: true,
+        };
+        let mut run = scene.run();
+        faults.into_iter().for_each(|fault| run.input.push(fault));
+        let found = run.check();
+        let is_wrong = found.iter().any(|found| found.severity == Severity::Error);
+        if is_wrong { Err(found) } else { Ok(scene) }
     }
 
     /// All diagnostics, in the order of the text. A scene with errors can't be rendered.
-    pub fn check(&mut self) -> Vec<Diagnostic> {
-        self.restart();
-        if let Some(loaded) = self.loaded.clone() {
-            self.input.unstage();
-            self.input.validate(loaded, |_, _| ());
-        }
-        self.diagnostics()
+    #[must_use]
+    pub fn check(&self) -> Vec<Diagnostic> {
+        self.run().check()
+    }
+
+    /// What the scene consists of; `None` if it can't be read.
+    #[must_use]
+    pub fn tree(&self) -> Option<Tree<'_>> {
+        let loaded = self.loaded.as_ref()?;
+        Some(Tree::new(&loaded.lowered, self.input.map()))
+    }
+
+    /// Changes the scene if it is valid after the change; copies of it stay as they are.
+    ///
+    /// # Errors
+    /// All diagnostics if there is an error; then nothing is changed.
+    pub fn edit(&mut self, change: impl FnOnce(&mut SceneBuilder)) -> Result<(), Vec<Diagnostic>> {
+        let Some(loaded) = &self.loaded else {
+            return Err(self.check());
+        };
+        let mut builder = SceneBuilder::of(loaded.lowered.clone());
+        change(&mut builder);
+        let input = Arc::clone(&self.input);
+        *self = Self::of_builder(input, Loaded::clone(loaded), builder)?;
+        Ok(())
     }
 
     /// The effects of the picture, which are rendered and which omitted, each with the reason:
@@ -83,8 +150,8 @@ impl Scene {
     ///
     /// # Errors
     /// As [`Scene::render`].
-    pub fn effects(&mut self, options: &Options) -> Result<Vec<Effect>, Error> {
-        let subject = self.validate(options, &mut options.setup()?)?;
+    pub fn effects(&self, options: &Options) -> Result<Vec<Effect>, Error> {
+        let subject = self.run().validate(options, &mut options.setup()?)?;
         let plan = Plan::new(&subject.validated.scene, Rules::ALL);
         Ok(plan.statuses.iter().map(Effect::new).collect())
     }
@@ -93,21 +160,30 @@ impl Scene {
     /// errors.
     #[must_use]
     pub fn lights(&self) -> usize {
-        let loaded = self.loaded.as_ref();
-        loaded.map_or(0, |loaded| loaded.lowered.scene.lights.len())
+        self.tree().map_or(0, |tree| tree.lights().len())
     }
 
     /// Adds a light; [`Scene::check`] validates it. Does nothing if the scene has errors.
     pub fn add_light(&mut self, light: Light) {
-        if let Some(loaded) = &mut self.loaded {
-            passes::add_light(&mut loaded.lowered.scene, light.0);
-        }
+        self.change(|builder| {
+            builder.light(light);
+        });
     }
 
     /// Removes all lights except the environment and emissive surfaces.
     pub fn remove_lights(&mut self) {
+        self.change(SceneBuilder::remove_lights);
+    }
+
+    /// Changes the scene without validating it.
+    fn change(&mut self, change: impl FnOnce(&mut SceneBuilder)) {
         if let Some(loaded) = &mut self.loaded {
-            passes::remove_lights(&mut loaded.lowered);
+            let loaded = Arc::make_mut(loaded);
+            let mut builder = SceneBuilder::of(loaded.lowered.clone());
+            change(&mut builder);
+            let (lowered, _, has_camera) = builder.finish();
+            loaded.replace(lowered, has_camera);
+            self.is_built = true;
         }
     }
 
@@ -116,7 +192,7 @@ impl Scene {
     /// # Errors
     /// [`Error::Invalid`] if the scene has errors, [`Error::Refused`] if an option is invalid or
     /// memory is too small, [`Error::TooManyRays`] if it needs more rays than allowed.
-    pub fn render(&mut self, options: &Options) -> Result<Picture, Error> {
+    pub fn render(&self, options: &Options) -> Result<Picture, Error> {
         self.render_until(options, &|| false)
     }
 
@@ -126,50 +202,71 @@ impl Scene {
     /// # Errors
     /// As [`Scene::render`], and [`Error::Stopped`].
     pub fn render_until(
-        &mut self,
+        &self,
         options: &Options,
         is_stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Picture, Error> {
-        // Validate the scene with the options.
+        self.run().render(options, is_stopped)
+    }
+
+    pub(super) fn run(&self) -> Run<'_> {
+        Run {
+            input: Input::clone(&self.input),
+            scene: self,
+        }
+    }
+}
+
+/// One check or one render of a scene, with the diagnostics of reading and its own.
+pub(super) struct Run<'a> {
+    pub(super) input: Input,
+    scene: &'a Scene,
+}
+
+/// A film, the quality of its pixels if it grew towards a goal, and its error if that is known.
+type Rendered = (Film, Vec<PixelQuality>, Option<f64>);
+
+impl Run<'_> {
+    fn check(mut self) -> Vec<Diagnostic> {
+        if let Some(loaded) = &self.scene.loaded {
+            self.input.unstage();
+            self.input.validate(Loaded::clone(loaded), |_, _| ());
+        }
+        self.diagnostics()
+    }
+
+    /// Validates the scene with these options.
+    pub(super) fn validate(
+        &mut self,
+        options: &Options,
+        setup: &mut PictureSetup,
+    ) -> Result<RenderSubject, Error> {
+        self.input.stage(options.stage());
+        let validated = match &self.scene.loaded {
+            Some(loaded) => setup.validate(Loaded::clone(loaded), &mut self.input),
+            None => Ok(None),
+        };
+        let validated = validated.map_err(|error| self.error(error))?;
+        validated.ok_or_else(|| Error::Invalid(self.diagnostics()))
+    }
+
+    fn render(
+        mut self,
+        options: &Options,
+        is_stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Picture, Error> {
         let mut setup = options.setup()?;
         let mut subject = self.validate(options, &mut setup)?;
-        let observer = Observer {
-            on_step: &|_| (),
-            is_stopped,
-        };
-        let rays = options.rays.unwrap_or(self.input.rays());
-        // Measure the light, then check window and memory.
-        let made = setup.light(&mut subject, &mut self.input, &observer);
-        let made = made.and_then(|()| {
-            let window = setup.window(&subject.validated.lowered.scene)?;
-            setup.check_memory(&mut subject, window)?;
-            // Render, to a target error if there is one.
-            let order = (window, rays);
-            setup.check_layers()?;
-            let (film, quality, error) = if options.target_error.is_some() {
-                let grown = setup.approach(&mut subject, order, &observer)?;
-                let film = Film {
-                    image: grown.image,
-                    coverage: grown.coverage,
-                    counts: grown.counts,
-                };
-                (
-                    film,
-                    grown.quality,
-                    grown.undersampled.is_none().then_some(grown.error),
-                )
-            } else {
-                let Traced { film, probed } = setup.trace(&mut subject, order, &observer)?;
-                let verified = probed.filter(|probed| probed.undersampled.is_none());
-                (film, Vec::new(), verified.map(|probed| probed.error))
-            };
-            // Develop the film to a picture.
-            let counts = film.counts;
-            let film = (film.image, film.coverage, &counts);
-            let picture =
-                setup.develop(&mut subject, film, &quality, &mut self.input, is_stopped)?;
-            Ok((picture, counts, error))
-        });
+        // Measure the light, render the film, develop it to a picture.
+        let made = self
+            .film(options, &mut setup, &mut subject, is_stopped)
+            .and_then(|(film, quality, error)| {
+                let counts = film.counts;
+                let film = (film.image, film.coverage, &counts);
+                let input = &mut self.input;
+                let picture = setup.develop(&mut subject, film, &quality, input, is_stopped)?;
+                Ok((picture, counts, error))
+            });
         // Attach what describes the picture.
         let (picture, counts, error) = made.map_err(|error| self.error(error))?;
         let origin = setup.origin(&subject.validated.lowered.scene);
@@ -182,37 +279,96 @@ impl Scene {
         ))
     }
 
-    /// Validates the scene with these options.
-    fn validate(
+    /// Measures the light, checks window and memory, and renders.
+    fn film(
         &mut self,
         options: &Options,
         setup: &mut PictureSetup,
-    ) -> Result<RenderSubject, Error> {
-        self.restart();
-        self.input.stage(options.stage());
-        let validated = match self.loaded.clone() {
-            Some(loaded) => setup.validate(loaded, &mut self.input),
-            None => Ok(None),
+        subject: &mut RenderSubject,
+        is_stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Rendered, pipeline::RenderError> {
+        let stopwatch = Stopwatch::start();
+        let observer = |on_step| Observer {
+            on_step,
+            is_stopped,
         };
-        let validated = validated.map_err(|error| self.error(error))?;
-        validated.ok_or_else(|| Error::Invalid(self.diagnostics()))
-    }
-
-    /// Discards the diagnostics that are not from reading.
-    fn restart(&mut self) {
-        self.input.take_diagnostics();
-        self.input.restore_diagnostics(self.found.clone());
+        setup.light(subject, &mut self.input, &observer(&|_| ()))?;
+        let window = setup.window(&subject.validated.lowered.scene)?;
+        setup.check_memory(subject, window)?;
+        setup.check_layers()?;
+        let has_goal = setup.goal != Goal::default();
+        let measure = match setup.goal.time {
+            Some(time) => ProgressMeasure::Time(&stopwatch, time),
+            None if has_goal => ProgressMeasure::Error,
+            None => ProgressMeasure::Pixels,
+        };
+        let pixels = window.pixels() as u64;
+        let counter = ProgressCounter::new(options.on_progress.as_ref(), pixels, measure);
+        let on_step = |step| counter.step(step);
+        let order = (window, options.rays.unwrap_or(self.input.rays()));
+        let rendered = if has_goal {
+            let progress = (&counter, &stopwatch);
+            approach(setup, subject, order, &observer(&on_step), progress)?
+        } else {
+            let Traced { film, probed } = setup.trace(subject, order, &observer(&on_step))?;
+            let verified = probed.filter(|probed| probed.undersampled.is_none());
+            (film, Vec::new(), verified.map(|probed| probed.error))
+        };
+        let counts: &Counts = &rendered.0.counts;
+        counter.finish(counts.rays());
+        Ok(rendered)
     }
 
     /// The diagnostics so far.
     fn diagnostics(&mut self) -> Vec<Diagnostic> {
         let mut found = self.input.take_diagnostics();
         found.sort();
-        let public = |found: &rtc_diag::Diagnostic| Diagnostic::new(found, self.input.map());
-        found.kept().iter().map(public).collect()
+        let found = found.kept().iter();
+        found.map(|found| self.public(found)).collect()
     }
 
-    fn error(&self, error: pipeline::RenderError) -> Error {
-        Error::of_render(error, |found| Diagnostic::new(&found, self.input.map()))
+    fn public(&self, found: &rtc_diag::Diagnostic) -> Diagnostic {
+        let Scene {
+            loaded, is_built, ..
+        } = self.scene;
+        let built = loaded.as_ref().filter(|_| *is_built);
+        let built = built.map(|loaded| &loaded.lowered.scene);
+        Diagnostic::new(found, self.input.map(), built)
     }
+
+    pub(super) fn error(&self, error: pipeline::RenderError) -> Error {
+        Error::of_render(error, |found| self.public(&found))
+    }
+}
+
+/// Renders towards a target error, or within a time.
+fn approach(
+    setup: &PictureSetup,
+    subject: &mut RenderSubject,
+    order: (Crop, u64),
+    observer: &Observer<'_>,
+    (counter, stopwatch): (&ProgressCounter<'_>, &Stopwatch),
+) -> Result<Rendered, pipeline::RenderError> {
+    let Goal { error, time } = setup.goal;
+    let elapsed = || stopwatch.elapsed();
+    let begin = |progress: rtc_study::Progress| {
+        // The error falls with the square root of the samples.
+        let by_error = error
+            .zip(progress.error)
+            .map_or(0.0, |(target, bound)| (target / bound) * (target / bound));
+        let of_time = |time: std::time::Duration| elapsed().as_secs_f64() / time.as_secs_f64();
+        counter.reach(time.map_or(0.0, of_time).max(by_error));
+    };
+    let rounds = Rounds {
+        elapsed: &elapsed,
+        begin: &begin,
+    };
+    let grown = setup.approach(subject, order, observer, &rounds)?;
+    let is_bounded = grown.undersampled.is_none() && grown.coarse.is_none();
+    let film = Film {
+        image: grown.image,
+        coverage: grown.coverage,
+        counts: grown.counts,
+    };
+    Ok((film, grown.quality, is_bounded.then_some(grown.error)))
 }

@@ -30,12 +30,35 @@ impl Material {
         }
     }
 
+    /// Sets the colour of the surface: of a standard material the base colour, whose alpha stays.
+    pub fn set_color(&mut self, [r, g, b]: [f64; 3]) {
+        match self {
+            Self::Phong(phong) => phong.color = [r, g, b],
+            Self::Standard(standard) => {
+                let [.., alpha] = standard.base_color;
+                standard.base_color = [r, g, b, alpha];
+            }
+        }
+    }
+
     /// The Phong material, mutably.
     pub fn phong_mut(&mut self) -> Option<&mut Phong> {
         match self {
             Self::Phong(phong) => Some(phong),
             Self::Standard(_) => None,
         }
+    }
+}
+
+impl From<Phong> for Material {
+    fn from(phong: Phong) -> Self {
+        Self::Phong(phong)
+    }
+}
+
+impl From<Standard> for Material {
+    fn from(standard: Standard) -> Self {
+        Self::Standard(Box::new(standard))
     }
 }
 
@@ -118,6 +141,45 @@ impl Phong {
         normal_map: None,
         bump: None,
     };
+}
+
+impl Default for Phong {
+    fn default() -> Self {
+        Self::MATT
+    }
+}
+
+/// Declares a setter for each field; of an optional one it takes the value.
+macro_rules! setters {
+    ($($field:ident: $type:ty $(=> $wrap:path)?;)*) => {
+        /// Setters, one for each field.
+        impl Phong {
+            $(
+                #[doc = concat!("Sets [`", stringify!($field), "`](Self#structfield.",
+                    stringify!($field), ").")]
+                #[must_use]
+                pub fn $field(self, $field: $type) -> Self {
+                    Self { $field: $($wrap)? ($field), ..self }
+                }
+            )*
+        }
+    };
+}
+
+setters! {
+    color: [f64; 3];
+    ka: f64;
+    kd: f64;
+    ks: f64;
+    kr: f64 => Some;
+    n: f64;
+    kt: f64;
+    ior: f64;
+    glossy_samples: u32;
+    color_map: TextureId => Some;
+    specular_map: TextureId => Some;
+    normal_map: TextureId => Some;
+    bump: Bump => Some;
 }
 
 /// A height field (Blinn, "Simulation of wrinkled surfaces", SIGGRAPH 1978).

@@ -1,6 +1,6 @@
 //! Source spans of the values of a scene. They are stored beside the scene and never serialised.
 
-use super::ShapeKind;
+use super::{ShapeKind, Standard};
 use rtc_math::to_u32;
 use rtc_source::Span;
 use std::fmt;
@@ -80,6 +80,9 @@ pub enum Field {
     Bump,
     /// A value of a shape: its index in the shape's row of the table of shapes.
     Shape(ShapeKind, u8),
+    /// A parameter of a standard material: its row in the table of parameters.
+    Parameter(u8),
+    Intensity,
     Material,
 }
 
@@ -104,6 +107,17 @@ impl Field {
         let at = kind.values().iter().position(|known| *known == path);
         let at = at.and_then(|at| u8::try_from(at).ok());
         Self::Shape(kind, at.expect("the row of the shape has this value"))
+    }
+
+    /// The parameter of a standard material of this name in the IR, for example `ior`.
+    ///
+    /// # Panics
+    /// If there is no such parameter.
+    #[must_use]
+    pub fn of_parameter(name: &str) -> Self {
+        let at = Standard::PARAMETERS.iter().position(|known| *known == name);
+        let at = at.and_then(|at| u8::try_from(at).ok());
+        Self::Parameter(at.expect("the table has this parameter"))
     }
 }
 
@@ -137,13 +151,16 @@ impl fmt::Display for ValuePath {
             let path = kind.values()[usize::from(value)];
             return write!(f, "/shape/{}/{path}", kind.name());
         }
+        if let Field::Parameter(row) = self.field {
+            return write!(f, "/standard/{}", Standard::PARAMETERS[usize::from(row)]);
+        }
         f.write_str(pointer_tail(self.entity, self.field))
     }
 }
 
 fn pointer_tail(entity: EntityKind, field: Field) -> &'static str {
     match field {
-        Field::Whole | Field::Shape(..) => "",
+        Field::Whole | Field::Shape(..) | Field::Parameter(_) => "",
         Field::Eye => "/eye",
         Field::Center => "/center",
         Field::Right => "/right",
@@ -161,7 +178,9 @@ fn pointer_tail(entity: EntityKind, field: Field) -> &'static str {
         Field::LightSamples => "/lightSamples",
         Field::Position => "/point/position",
         Field::LightRadius => "/point/radius",
+        Field::Intensity => "/punctual/intensity",
         Field::Color if entity == EntityKind::Light => "/point/color",
+        Field::Color if entity == EntityKind::Environment => "/radiance",
         Field::Color => "/phong/color",
         Field::Ka => "/phong/ka",
         Field::Kd => "/phong/kd",
@@ -233,6 +252,13 @@ impl SourceSpans {
         while spans.last().is_some_and(|(index, ..)| *index >= first) {
             spans.pop();
         }
+    }
+
+    /// Removes the spans of one entity, because it was replaced.
+    pub fn forget_one(&mut self, entity: EntityKind, index: usize) {
+        let index = to_u32(index);
+        let spans = &mut self.lists[entity as usize].spans;
+        spans.retain(|(recorded, ..)| *recorded != index);
     }
 
     /// Sorts the table; call it after the last `record`.

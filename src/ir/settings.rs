@@ -34,6 +34,22 @@ pub struct Settings {
     pub ambient: Ambient,
 }
 
+impl Default for Settings {
+    /// Phong shading without shadows and reflections, one sub-sample per pixel.
+    fn default() -> Self {
+        Self {
+            mode: Mode::Phong,
+            shadows: false,
+            max_depth: 0,
+            supersampling: 1,
+            pattern: Pattern::Grid,
+            light_samples: 1,
+            toon: false,
+            ambient: Ambient::PerLight,
+        }
+    }
+}
+
 impl Settings {
     /// The names of the fields in the text form, in order.
     #[must_use]

@@ -2,7 +2,7 @@
 
 use super::TextureId;
 use arbitrary::Arbitrary;
-use rtc_tables::{map_of, parameters};
+use rtc_tables::{camel_case, map_of, parameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -20,6 +20,35 @@ pub struct Map {
     /// c`; absent for the identity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub texture_from_surface: Option<[[f64; 3]; 2]>,
+}
+
+impl Map {
+    /// Another set of texture coordinates, 0 or 1.
+    #[must_use]
+    pub fn set(self, set: u32) -> Self {
+        Self { set, ..self }
+    }
+
+    /// An affine map from surface to texture coordinates, by its rows.
+    #[must_use]
+    pub fn texture_from_surface(self, rows: [[f64; 3]; 2]) -> Self {
+        let texture_from_surface = Some(rows);
+        Self {
+            texture_from_surface,
+            ..self
+        }
+    }
+}
+
+impl From<TextureId> for Map {
+    /// The texture, over the first set of texture coordinates.
+    fn from(texture: TextureId) -> Self {
+        Self {
+            texture,
+            set: 0,
+            texture_from_surface: None,
+        }
+    }
 }
 
 /// The alpha mode: how a surface covers what is behind it.
@@ -51,6 +80,38 @@ macro_rules! stored {
     (flag) => { bool };
     (alpha) => { Alpha };
     (map) => { Option<Map> };
+}
+
+/// The setter of a parameter of each kind of the table: of an optional one it takes the value.
+macro_rules! setter {
+    (map, $(#[$about:meta])* $field:ident) => {
+        $(#[$about])*
+        #[must_use]
+        pub fn $field(self, map: impl Into<Map>) -> Self {
+            Self { $field: Some(map.into()), ..self }
+        }
+    };
+    (distance, $(#[$about:meta])* $field:ident) => {
+        $(#[$about])*
+        #[must_use]
+        pub fn $field(self, $field: f64) -> Self {
+            Self { $field: Some($field), ..self }
+        }
+    };
+    (some_fractions, $(#[$about:meta])* $field:ident) => {
+        $(#[$about])*
+        #[must_use]
+        pub fn $field(self, $field: [f64; 4]) -> Self {
+            Self { $field: Some($field), ..self }
+        }
+    };
+    ($kind:ident, $(#[$about:meta])* $field:ident) => {
+        $(#[$about])*
+        #[must_use]
+        pub fn $field(self, $field: stored!($kind)) -> Self {
+            Self { $field, ..self }
+        }
+    };
 }
 
 /// The texture map of a parameter, mutably; `None` for other kinds.
@@ -93,7 +154,15 @@ macro_rules! material {
             )*
         }
 
+        /// Setters, one for each parameter.
         impl Standard {
+            $(setter!($kind, $(#[doc = $about])* $field);)*
+        }
+
+        impl Standard {
+            /// The names of the parameters in the IR, in the order of the table.
+            pub const PARAMETERS: &'static [&'static str] = &[$(camel_case!($field)),*];
+
             /// All texture maps.
             pub fn maps(&self) -> impl Iterator<Item = &Map> {
                 [$(map_of!($kind, &self.$field)),*].into_iter().flatten()

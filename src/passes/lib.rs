@@ -29,5 +29,5 @@ pub use settings::set;
 pub use studio::fill;
 pub use view_and_light::{
     AppliedViewAndLight, EnvironmentOverride, FillLight, IntegratorChoice, SceneKind, StudioChoice,
-    Sun, View, ViewAndLight, add_light, remove_lights,
+    Sun, View, ViewAndLight, add_light, remove_lights, use_path_integrator,
 };

@@ -298,8 +298,8 @@ impl EnvironmentOverride {
     }
 }
 
-/// Switches to path tracing.
-fn use_path_integrator(scene: &mut Scene) {
+/// Switches to path tracing with the default number of paths and bounces, unless it is used.
+pub fn use_path_integrator(scene: &mut Scene) {
     if !matches!(scene.settings.mode, Mode::Path(_)) {
         scene.settings.mode = Mode::Path(PathSettings::default());
         scene.settings.max_depth = PathSettings::DEPTH;

@@ -5,7 +5,7 @@ use rtc_codec as codec;
 use rtc_diag::{Diagnostic, Sink, codes};
 use rtc_emit::{self as emit, ExportedScene, gltf::GltfAsset};
 use rtc_front::{gltf, mesh, pixels};
-use rtc_ir::{EntityKind, Field, Light, Lowered, Scene, ValuePath};
+use rtc_ir::{EntityKind, Field, Light, Lowered, Scene, SourceSpans, ValuePath};
 use rtc_passes::{EnvironmentOverride, FillLight, Framing, SceneKind, ViewAndLight};
 use rtc_source::{FileId, LoadError, Loader, MemoryFiles, Resource, SourceMap, Span};
 use rtc_valid::ValidScene;
@@ -17,11 +17,16 @@ use std::sync::Arc;
 /// of pixels.
 const MAX_ENVIRONMENT: u64 = 1 << 29;
 
-/// A scene that was read, or could not be read.
+/// Only the first copy of an input reads files.
+const UNSHARED: &str = "files are read before an input is copied";
+
+/// A scene that was read, could not be read, or was built in code. A copy shares the files and has
+/// diagnostics of its own.
+#[derive(Clone)]
 pub struct Input {
     /// The name of the scene in messages.
     name: String,
-    map: SourceMap,
+    map: Arc<SourceMap>,
     sink: Sink,
     file: Option<FileId>,
     options: Options,
@@ -36,6 +41,29 @@ pub struct Loaded {
     pub lowered: Lowered,
     /// Whether it is an asset: glTF, or a mesh.
     is_asset: bool,
+    /// Whether it has a camera of its own, which an asset may lack.
+    has_camera: bool,
+}
+
+impl Loaded {
+    /// A scene that was built in code.
+    #[must_use]
+    pub fn built(scene: Scene) -> Self {
+        Self {
+            lowered: Lowered {
+                scene,
+                source_spans: SourceSpans::default(),
+            },
+            is_asset: false,
+            has_camera: true,
+        }
+    }
+
+    /// Replaces the scene. From now on its camera is its own if `has_camera`.
+    pub fn replace(&mut self, lowered: Lowered, has_camera: bool) {
+        self.lowered = lowered;
+        self.has_camera |= has_camera;
+    }
 }
 
 /// A scene that was validated, with the IR that it was validated from.
@@ -103,9 +131,23 @@ impl Input {
             .ok();
         Self {
             name,
-            map,
+            map: Arc::new(map),
             sink,
             file,
+            options,
+            stage: None,
+        }
+    }
+
+    /// The input of a scene that was built in code: there is no file.
+    #[must_use]
+    pub fn built(name: String, options: Options) -> Self {
+        let map = SourceMap::with_limits(options.valid.limits);
+        Self {
+            name,
+            map: Arc::new(map),
+            sink: options.sink(),
+            file: None,
             options,
             stage: None,
         }
@@ -152,11 +194,18 @@ impl Input {
     pub fn load(&mut self) -> Option<Loaded> {
         // The whole file decides what it is.
         let is_asset = self.is_asset();
-        let lowered = load(self.file?, &mut self.map, &self.options, &mut self.sink)?;
+        let map = Arc::get_mut(&mut self.map).expect(UNSHARED);
+        let lowered = load(self.file?, map, &self.options, &mut self.sink)?;
         // An asset with its own settings is rendered like a scene text.
-        let settings = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
-        let is_asset = is_asset && lowered.source_spans.span(settings).is_none();
-        Some(Loaded { lowered, is_asset })
+        let has_own = |entity| {
+            let whole = ValuePath::new(entity, 0, Field::Whole);
+            lowered.source_spans.span(whole).is_some()
+        };
+        Some(Loaded {
+            is_asset: is_asset && !has_own(EntityKind::Settings),
+            has_camera: has_own(EntityKind::Camera),
+            lowered,
+        })
     }
 
     /// Whether the input is an asset: glTF, or a mesh.
@@ -203,14 +252,22 @@ impl Input {
         let Loaded {
             mut lowered,
             is_asset,
+            has_camera,
         } = loaded;
-        let provenance = self.set_stage(&mut lowered, is_asset);
+        let kind = match (is_asset, has_camera) {
+            (false, _) => SceneKind::Text,
+            (true, true) => SceneKind::Asset,
+            // An asset without a camera gets a default camera.
+            (true, false) => SceneKind::BareAsset,
+        };
+        let provenance = self.set_stage(&mut lowered, kind);
         change(&mut lowered, &provenance);
         let scene = validate(&lowered, &self.options, &mut self.sink)?;
         Some(Validated { lowered, scene })
     }
 
-    fn set_stage(&mut self, lowered: &mut Lowered, is_asset: bool) -> Provenance {
+    fn set_stage(&mut self, lowered: &mut Lowered, kind: SceneKind) -> Provenance {
+        let is_asset = kind != SceneKind::Text;
         let mut provenance = Provenance {
             is_asset,
             is_lit_asset: is_asset && lowered.scene.lights.iter().any(Light::emits),
@@ -220,15 +277,6 @@ impl Input {
         };
         let Some(overrides) = &self.stage else {
             return provenance;
-        };
-        // An asset without a camera gets a default camera.
-        let camera = lowered
-            .source_spans
-            .span(ValuePath::new(EntityKind::Camera, 0, Field::Whole));
-        let kind = match (is_asset, camera) {
-            (false, _) => SceneKind::Text,
-            (true, Some(_)) => SceneKind::Asset,
-            (true, None) => SceneKind::BareAsset,
         };
         provenance.is_lit_asset &= !overrides.without_lights;
         if let Some(staged) = stage(lowered, overrides, kind, &mut self.sink) {
@@ -326,7 +374,8 @@ impl Input {
 
     /// Adds a text that is not part of the scene, for diagnostics about it.
     pub fn add_text(&mut self, path: &Path, bytes: Vec<u8>) -> FileId {
-        self.map.add(path.display().to_string(), bytes)
+        let map = Arc::get_mut(&mut self.map).expect(UNSHARED);
+        map.add(path.display().to_string(), bytes)
     }
 
     /// The file of the scene, if it could be read.

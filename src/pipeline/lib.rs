@@ -46,7 +46,7 @@ pub use input::{Input, Loaded, Provenance, Validated};
 pub use layout::{LayoutError, SourceKind, is_scene};
 pub use output_transform::{Exposure, OutputTransform, ResolvedOutputTransform};
 pub use ray_counter::RayCounter;
-pub use setup::{Observer, PictureSetup, RenderError, RenderSubject};
+pub use setup::{Observer, PictureSetup, RenderError, RenderSubject, Rounds};
 pub use shard::{MAX_SHARES as MAX_SHARDS, RenderShard, ShardError, hash_of_file};
 pub use shard_plan::{ShardBy, ShardPlan};
 

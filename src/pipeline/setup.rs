@@ -14,7 +14,7 @@ use rtc_ir::{EntityKind, Field, Mode, Scene, ValuePath};
 use rtc_passes::{self as passes, Framing, Overrides};
 use rtc_plan::{self as plan, Plan, Rules};
 use rtc_render::{Aov, Counts, Crop, Job, SimdLevel, Step};
-use rtc_study::{Goal, PixelQuality, RenderOrder, TargetResult, Watch, with_quality};
+use rtc_study::{Goal, PixelQuality, Progress, RenderOrder, TargetResult, Watch, with_quality};
 use rtc_valid::ValidScene;
 use std::time::Duration;
 
@@ -66,6 +66,14 @@ pub struct Observer<'a> {
     pub on_step: &'a (dyn Fn(Step) + Sync),
     /// Whether to stop.
     pub is_stopped: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// The clock and the observer of a render that takes samples in rounds.
+pub struct Rounds<'a> {
+    /// The time since the start of the time budget.
+    pub elapsed: &'a (dyn Fn() -> Duration + Sync),
+    /// Called before each round.
+    pub begin: &'a (dyn Fn(Progress) + Sync),
 }
 
 /// Why there is no picture.
@@ -458,8 +466,8 @@ impl PictureSetup {
         }
     }
 
-    /// Takes samples until the target error is reached, with at most `rays` rays; does not read the
-    /// clock.
+    /// Takes samples until the goal is reached, with at most `rays` rays. The time is that of
+    /// `rounds`.
     ///
     /// # Errors
     /// If there is no picture.
@@ -468,8 +476,9 @@ impl PictureSetup {
         subject: &mut RenderSubject,
         (window, rays): (Crop, u64),
         observer: &Observer<'_>,
+        rounds: &Rounds<'_>,
     ) -> Result<TargetResult, RenderError> {
-        let order = self.order(subject, window, None);
+        let order = self.order(subject, window, self.goal.time);
         let counter = RayCounter::new(rays, window);
         let watch = Watch {
             on_pixel: &|step| {
@@ -477,8 +486,11 @@ impl PictureSetup {
                 !(observer.is_stopped)() && counter.step(step)
             },
             is_stopped: observer.is_stopped,
-            elapsed: &|| Duration::ZERO,
-            round: &|_| counter.begin_round(),
+            elapsed: rounds.elapsed,
+            round: &|progress| {
+                (rounds.begin)(progress);
+                counter.begin_round();
+            },
         };
         let (validated, renderer) = self.renderer(subject)?;
         let reached = renderer.approach(&validated.lowered.scene, &order, &watch, None);

@@ -107,8 +107,9 @@ impl MaterialSummary {
 /// The maximum of each channel of a texture.
 fn largest(scene: &ValidScene, texture: Option<usize>) -> Vec3 {
     match texture.map(|texture| &scene.textures()[texture]) {
-        Some(Texture::Uv) => Vec3::INFINITY,
-        Some(Texture::Image(_) | Texture::Sampled(_)) | None => Vec3::ONE,
+        // Texels may be floats of any size.
+        Some(Texture::Uv | Texture::Sampled(_)) => Vec3::INFINITY,
+        Some(Texture::Image(_)) | None => Vec3::ONE,
     }
 }
 

@@ -43,7 +43,8 @@ pub(super) fn environment(
     };
     let at = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
     // Radiance and image.
-    let radiance = check.color(*radiance, at);
+    let of_radiance = ValuePath::new(EntityKind::Environment, 0, Field::Color);
+    let radiance = check.color(*radiance, of_radiance);
     let image = check.optional(image.as_ref(), |check, image| {
         check.handle(image.0, images, "image", at)
     });

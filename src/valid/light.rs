@@ -96,7 +96,8 @@ fn course(light: &ir::PointLight, index: usize, check: &mut Checker<'_>) -> Opti
 fn punctual(light: &ir::Punctual, index: usize, check: &mut Checker<'_>) -> Option<Punctual> {
     let at = ValuePath::new(EntityKind::Light, index, Field::Whole);
     let ir::Punctual { emitter, intensity } = light;
-    let intensity = check.color(*intensity, at);
+    let of_intensity = ValuePath::new(EntityKind::Light, index, Field::Intensity);
+    let intensity = check.color(*intensity, of_intensity);
     let located = emitter.position().map(|position| {
         (
             check.vector(position, at),

@@ -99,8 +99,7 @@ macro_rules! material {
             check: &mut Checker<'_>,
         ) -> Option<Standard> {
             let ir::Standard { name: _, $($field,)* } = material;
-            let at = ValuePath::new(EntityKind::Material, index, Field::Whole);
-            let mut parameters = ParameterCheck { at, counts, check };
+            let mut parameters = ParameterCheck { index, counts, check };
             $(let $field = parameters.$kind($field, camel_case!($field));)*
             Some(Standard { $($field: $field?,)* })
         }
@@ -140,7 +139,7 @@ const ANY: ValueRange = [-LARGEST, LARGEST];
 
 /// The state of validating one material.
 struct ParameterCheck<'a, 'run> {
-    at: ValuePath,
+    index: usize,
     counts: &'a EntityCounts,
     check: &'a mut Checker<'run>,
 }
@@ -162,9 +161,15 @@ impl ParameterCheck<'_, '_> {
             let message =
                 format!("`{name}` of a material is `{value}`, but must be from {low} to {high}");
             let diagnostic = Diagnostic::new(&codes::BAD_FACTOR, message);
-            self.check.report(self.at, "", diagnostic);
+            let at = self.at(name);
+            self.check.report(at, "", diagnostic);
         }
         is_valid.then_some(value)
+    }
+
+    /// The path of a parameter.
+    fn at(&self, name: &str) -> ValuePath {
+        ValuePath::new(EntityKind::Material, self.index, Field::of_parameter(name))
     }
 
     /// Several numbers in a range; all errors are reported.
@@ -265,8 +270,8 @@ impl ParameterCheck<'_, '_> {
         Some(*value)
     }
 
-    fn map(&mut self, map: &Option<ir::Map>, _name: &str) -> Option<Option<Map>> {
-        let (counts, at) = (self.counts, self.at);
+    fn map(&mut self, map: &Option<ir::Map>, name: &str) -> Option<Option<Map>> {
+        let (counts, at) = (self.counts, self.at(name));
         self.check.optional(map.as_ref(), |check, map| {
             texture::map(map, counts, at, check)
         })

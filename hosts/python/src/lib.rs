@@ -21,7 +21,7 @@ const WAIT: Duration = Duration::from_millis(50);
 
 /// A scene that was read.
 #[pyclass]
-struct Scene(Mutex<rtc::Scene>);
+struct Scene(rtc::Scene);
 
 /// How a scene is read, from what Python names it by.
 #[derive(Default, FromPyObject)]
@@ -162,7 +162,7 @@ impl Scene {
 
     /// All that is to be said of it, as dictionaries.
     fn check(&self, py: Python<'_>) -> PyResult<Vec<Py<PyAny>>> {
-        let findings = py.detach(|| self.lock().check());
+        let findings = py.detach(|| self.0.check());
         findings.iter().map(|finding| told(py, finding)).collect()
     }
 
@@ -174,7 +174,7 @@ impl Scene {
         thread::scope(|scope| {
             let (sender, receiver) = channel();
             scope.spawn(|| {
-                let picture = self.lock().render_until(&options, &stop);
+                let picture = self.0.render_until(&options, &stop);
                 // Whoever was stopped by a signal does not wait for it.
                 let _ = sender.send(picture);
                 drop(sender);
@@ -208,13 +208,7 @@ impl Scene {
 
 impl Scene {
     fn new(scene: rtc::Scene) -> Self {
-        Self(Mutex::new(scene))
-    }
-
-    /// The scene, for one thread at a time; each render begins anew, so that one that panicked leaves
-    /// nothing behind.
-    fn lock(&self) -> std::sync::MutexGuard<'_, rtc::Scene> {
-        self.0.lock().unwrap_or_else(|poison| poison.into_inner())
+        Self(scene)
     }
 }
 

@@ -69,19 +69,19 @@ impl Scene {
     }
 
     /// All that is to be said of it, in the order of its text: an array of JSON.
-    pub fn check(&mut self) -> String {
+    pub fn check(&self) -> String {
         told(&self.0.check()).to_string()
     }
 
     /// What its picture needs and what is left out of it, each with the reason: an array of JSON.
-    pub fn effects(&mut self, settings: &Settings) -> Result<String, String> {
+    pub fn effects(&self, settings: &Settings) -> Result<String, String> {
         let effects = self.0.effects(&settings.0);
         let effects = effects.map_err(|error| thrown(&error))?;
         Ok(Value::Array(effects.iter().map(explained).collect()).to_string())
     }
 
     /// Its picture.
-    pub fn render(&mut self, settings: &Settings) -> Result<Picture, String> {
+    pub fn render(&self, settings: &Settings) -> Result<Picture, String> {
         let picture = self.0.render(&settings.0);
         picture.map(Picture).map_err(|error| thrown(&error))
     }

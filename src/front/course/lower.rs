@@ -114,17 +114,7 @@ pub(super) struct Lowering {
 
 impl Lowering {
     fn new() -> Self {
-        let settings = ir::Settings {
-            mode: ir::Mode::Phong,
-            shadows: false,
-            max_depth: 0,
-            supersampling: 1,
-            pattern: ir::Pattern::Grid,
-            light_samples: 1,
-            toon: false,
-            ambient: ir::Ambient::PerLight,
-        };
-        let scene = ir::Scene::new(camera::placeholder(), settings);
+        let scene = ir::Scene::new(camera::placeholder(), ir::Settings::default());
         let (shared, files, sizings) = (BTreeMap::new(), NamedFiles::default(), Vec::new());
         Self {
             scene,

@@ -1,5 +1,6 @@
 //! Texture lookup, normal maps and bump maps by the rules of the course.
 
+use super::sampled::{ColorSpace, sample};
 use super::{Image, Texture};
 use rtc_math::{Vec3, cross};
 
@@ -16,7 +17,14 @@ pub(crate) fn look_up(texture: &Texture, uv: [f64; 2]) -> Vec3 {
     match texture {
         Texture::Uv => Vec3::new(uv[0], 0.0, uv[1]),
         Texture::Image(image) => bilinear(image, uv),
-        Texture::Sampled { .. } => Vec3::ONE,
+        Texture::Sampled {
+            image,
+            wrap,
+            filter,
+        } => {
+            let [r, g, b, _] = sample(image, uv, *wrap, *filter, ColorSpace::Linear);
+            Vec3::new(r, g, b)
+        }
     }
 }
 
@@ -91,8 +99,10 @@ impl TextureFrame {
     /// The normal of a height field, by central differences over a texel.
     pub(crate) fn bumped(&self, bump: &Bump, [u, v]: [f64; 2]) -> Vec3 {
         let [du, dv] = match &bump.texture {
-            Texture::Uv | Texture::Sampled { .. } => [1e-3; 2],
-            Texture::Image(image) => [1.0 / f64::from(image.width), 1.0 / f64::from(image.height)],
+            Texture::Uv => [1e-3; 2],
+            Texture::Image(image) | Texture::Sampled { image, .. } => {
+                [1.0 / f64::from(image.width), 1.0 / f64::from(image.height)]
+            }
         };
         let height = |u: f64, v: f64| look_up(&bump.texture, [u, v]).element_sum() / 3.0;
         let slope_u = 0.5 * (height(u + du, v) - height(u - du, v)) * bump.height;

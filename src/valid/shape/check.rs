@@ -257,7 +257,7 @@ impl Validate for ir::Csg {
         let count = operands.len();
         let is_face = |face: &u32| usize::try_from(*face).is_ok_and(|face| face < count);
         if !is_set_expression(steps, count) || !faces.iter().all(is_face) {
-            let message = "the operations over solids are no expression of 1 to 64 operands";
+            let message = "the operations over solids are no expression of 1 to 64 solids";
             let diagnostic = Diagnostic::new(&codes::BAD_OPERAND, message);
             let at = surface_check.whole();
             surface_check.check.report(at, "", diagnostic);

@@ -1,0 +1,135 @@
+//! How far a render is.
+
+use super::clock::Stopwatch;
+use rtc_render::Step;
+use std::fmt;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// How far a render is, as [`Options::on_progress`](super::Options::on_progress) reports it.
+///
+/// ```
+/// use rtc::{Camera, Options, Phong, SceneBuilder, Shape};
+/// use std::sync::{Arc, Mutex};
+///
+/// let mut builder = SceneBuilder::new(Camera::look_at([0.0, 0.0, 5.0], [0.0; 3]).size(8, 8));
+/// builder.add(Shape::sphere([0.0; 3], 1.0), Phong::default());
+/// let last = Arc::new(Mutex::new(0.0));
+/// let seen = Arc::clone(&last);
+/// let options = Options::new().on_progress(move |progress| *seen.lock().unwrap() = progress.done);
+/// builder.build().unwrap().render(&options)?;
+/// assert_eq!(*last.lock().unwrap(), 1.0);
+/// # Ok::<(), rtc::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Progress {
+    /// The share that is done, from 0 to 1; it never falls, and is 1 once. With a target error it
+    /// is an estimate: the square of the target over the square of the bound so far.
+    pub done: f64,
+    /// The rays so far, also those of rounds that a time budget ends.
+    pub rays: u64,
+}
+
+/// The callback of [`Options::on_progress`](super::Options::on_progress).
+#[derive(Clone)]
+pub(super) struct OnProgress(pub(super) Arc<dyn Fn(Progress) + Send + Sync>);
+
+impl fmt::Debug for OnProgress {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("OnProgress")
+    }
+}
+
+/// The number of reports of a render, or of each of its rounds.
+const REPORTS: u64 = 100;
+
+/// What the share that is done is measured by.
+pub(super) enum ProgressMeasure<'a> {
+    /// Pixels.
+    Pixels,
+    /// The bound on the error after each round.
+    Error,
+    /// Also the time.
+    Time(&'a Stopwatch, Duration),
+}
+
+/// Counts the steps of one render and reports them.
+pub(super) struct ProgressCounter<'a> {
+    on_progress: Option<&'a OnProgress>,
+    /// The pixels of the picture.
+    pixels: u64,
+    measure: ProgressMeasure<'a>,
+    done: AtomicU64,
+    rays: AtomicU64,
+    share: Mutex<f64>,
+}
+
+impl<'a> ProgressCounter<'a> {
+    pub(super) fn new(
+        on_progress: Option<&'a OnProgress>,
+        pixels: u64,
+        measure: ProgressMeasure<'a>,
+    ) -> Self {
+        Self {
+            on_progress,
+            pixels: pixels.max(1),
+            measure,
+            done: AtomicU64::new(0),
+            rays: AtomicU64::new(0),
+            share: Mutex::new(0.0),
+        }
+    }
+
+    /// A step of the render, from any of its threads.
+    pub(super) fn step(&self, step: Step) {
+        let rays = self.rays.fetch_add(step.rays, Relaxed) + step.rays;
+        if self.on_progress.is_none() || !step.is_done {
+            return;
+        }
+        let done = self.done.fetch_add(1, Relaxed) + 1;
+        if done.is_multiple_of(self.pixels.div_ceil(REPORTS)) {
+            self.report(self.share(done), rays);
+        }
+    }
+
+    /// The share that is done, by pixels or by time.
+    fn share(&self, done: u64) -> f64 {
+        match self.measure {
+            ProgressMeasure::Pixels => done as f64 / self.pixels as f64,
+            ProgressMeasure::Error => 0.0,
+            ProgressMeasure::Time(stopwatch, time) => {
+                stopwatch.elapsed().as_secs_f64() / time.as_secs_f64()
+            }
+        }
+    }
+
+    /// A new share that is done, if it is larger than that before.
+    pub(super) fn reach(&self, share: f64) {
+        self.report(share, self.rays.load(Relaxed));
+    }
+
+    /// The end of the render.
+    pub(super) fn finish(&self, rays: u64) {
+        if let Some(OnProgress(on_progress)) = self.on_progress {
+            let rays = rays.max(self.rays.load(Relaxed));
+            on_progress(Progress { done: 1.0, rays });
+        }
+    }
+
+    /// Reports a share below 1; one thread at a time, so that shares and rays never fall.
+    fn report(&self, share: f64, rays: u64) {
+        /// The largest share of a render that goes on.
+        const MOST: f64 = 0.999;
+        let Some(OnProgress(on_progress)) = self.on_progress else {
+            return;
+        };
+        let mut last = self.share.lock().unwrap_or_else(PoisonError::into_inner);
+        *last = share.min(MOST).max(*last);
+        on_progress(Progress {
+            done: *last,
+            rays: rays.max(self.rays.load(Relaxed)),
+        });
+    }
+}

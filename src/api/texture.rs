@@ -1,0 +1,189 @@
+//! Textures and environments of scenes that are built in code.
+
+use super::{Filter, Wrap};
+use rtc_ir::{self as ir, Pixels};
+use rtc_math::{Vec3, rotated_to_z};
+
+/// A texture: an image in memory, or the texture coordinates as colours.
+///
+/// An image is sampled as in glTF: (0, 0) is its upper left corner, it repeats, and is interpolated
+/// linearly. A map of a material says which of its channels count and how they are coded.
+///
+/// ```
+/// use rtc::{Camera, Filter, Phong, SceneBuilder, Shape, Texture};
+///
+/// let mut builder = SceneBuilder::new(Camera::look_at([0.0, 0.0, 5.0], [0.0; 3]));
+/// let board = [[255; 3], [0; 3], [0; 3], [255; 3]].concat();
+/// let board = builder.texture(Texture::rgb8(2, 2, board).filter(Filter::Nearest));
+/// builder.add(Shape::sphere([0.0; 3], 1.0), Phong::default().color_map(board));
+/// assert!(builder.build().is_ok());
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[must_use = "a texture is not seen before it is part of a scene"]
+pub struct Texture {
+    image: Option<ir::Image>,
+    wrap: [Wrap; 2],
+    filter: Filter,
+    /// Whether it is sampled as in scene texts.
+    is_of_text: bool,
+}
+
+impl Texture {
+    /// The colour (u, 0, v), which shows the texture coordinates.
+    pub fn uv() -> Self {
+        Self {
+            image: None,
+            wrap: [Wrap::Repeat; 2],
+            filter: Filter::Linear,
+            is_of_text: false,
+        }
+    }
+
+    /// An image of three bytes a pixel: red, green, blue; rows from the top.
+    pub fn rgb8(width: u32, height: u32, pixels: impl Into<Vec<u8>>) -> Self {
+        Self::image([width, height], Pixels::Rgb8, pixels.into())
+    }
+
+    /// An image of four bytes a pixel: red, green, blue, alpha; rows from the top.
+    pub fn rgba8(width: u32, height: u32, pixels: impl Into<Vec<u8>>) -> Self {
+        Self::image([width, height], Pixels::Rgba8, pixels.into())
+    }
+
+    /// An image of linear red, green and blue, each at least 0; rows from the top.
+    pub fn rgb32f(width: u32, height: u32, pixels: &[[f32; 3]]) -> Self {
+        Self::image([width, height], Pixels::Rgb32f, bytes_of(pixels))
+    }
+
+    fn image([width, height]: [u32; 2], kind: Pixels, pixels: Vec<u8>) -> Self {
+        Self {
+            image: Some(image([width, height], kind, pixels)),
+            ..Self::uv()
+        }
+    }
+
+    /// How it continues outside the unit square, along u and along v.
+    pub fn wrap(mut self, u: Wrap, v: Wrap) -> Self {
+        self.wrap = [u, v];
+        self
+    }
+
+    /// How texels are interpolated.
+    pub fn filter(mut self, filter: Filter) -> Self {
+        self.filter = filter;
+        self
+    }
+
+    /// Samples the image as scene texts do: (0, 0) is its lower left corner, the outermost texel
+    /// centres lie on the edges, and it repeats.
+    pub fn as_in_texts(mut self) -> Self {
+        self.is_of_text = true;
+        self
+    }
+
+    /// The texture of a scene, to which its image is added.
+    pub(super) fn lower(self, scene: &mut ir::Scene) -> ir::Texture {
+        let Self {
+            image,
+            wrap,
+            filter,
+            is_of_text,
+        } = self;
+        match image.map(|image| scene.add_image(image)) {
+            None => ir::Texture::Uv,
+            Some(image) if is_of_text => ir::Texture::Image(image),
+            Some(image) => ir::Texture::Sampled(ir::Sampled {
+                image,
+                wrap,
+                filter,
+            }),
+        }
+    }
+}
+
+/// The light that arrives from infinity, for path tracing.
+///
+/// ```
+/// use rtc::{Camera, Environment, SceneBuilder, Shape, Standard};
+///
+/// let mut builder = SceneBuilder::new(Camera::look_at([0.0, 0.0, 5.0], [0.0; 3]));
+/// builder.environment(Environment::uniform([0.4, 0.5, 0.7]));
+/// builder.add(Shape::sphere([0.0; 3], 1.0), Standard::default().metallic(0.0));
+/// assert!(builder.build().is_ok());
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[must_use = "an environment lights nothing without a scene"]
+pub struct Environment {
+    radiance: [f64; 3],
+    image: Option<ir::Image>,
+    image_from_world: Option<[[f64; 3]; 3]>,
+}
+
+impl Environment {
+    /// The same linear radiance from everywhere, each channel at least 0.
+    pub fn uniform(radiance: [f64; 3]) -> Self {
+        Self {
+            radiance,
+            image: None,
+            image_from_world: None,
+        }
+    }
+
+    /// An equirectangular image of all directions: linear red, green and blue, each at least 0;
+    /// longitude across, latitude down, +y up, its centre towards −z.
+    pub fn image(width: u32, height: u32, pixels: &[[f32; 3]]) -> Self {
+        let pixels = bytes_of(pixels);
+        Self {
+            image: Some(image([width, height], Pixels::Rgb32f, pixels)),
+            ..Self::uniform([1.0; 3])
+        }
+    }
+
+    /// Multiplies an image by a colour, each channel at least 0.
+    pub fn tint(mut self, factor: [f64; 3]) -> Self {
+        self.radiance = factor;
+        self
+    }
+
+    /// Turns an image by an angle in degrees about +y, counterclockwise as seen from above.
+    pub fn turned(mut self, degrees: f64) -> Self {
+        // Rows of a turn about z, whose axes are z, x, y of the world.
+        let rows =
+            rotated_to_z(Vec3::Z, degrees).map(|[[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]]| {
+                [[yy, yz, yx], [zy, zz, zx], [xy, xz, xx]]
+            });
+        self.image_from_world = rows;
+        self
+    }
+
+    /// The environment of a scene, to which its image is added.
+    pub(super) fn lower(self, scene: &mut ir::Scene) -> ir::Environment {
+        let Self {
+            radiance,
+            image,
+            image_from_world,
+        } = self;
+        ir::Environment {
+            radiance,
+            image: image.map(|image| scene.add_image(image)),
+            image_from_world,
+        }
+    }
+}
+
+fn image([width, height]: [u32; 2], kind: Pixels, pixels: Vec<u8>) -> ir::Image {
+    ir::Image {
+        name: String::new(),
+        width,
+        height,
+        kind,
+        pixels: pixels.into(),
+    }
+}
+
+fn bytes_of(pixels: &[[f32; 3]]) -> Vec<u8> {
+    pixels
+        .iter()
+        .flatten()
+        .flat_map(|channel| channel.to_le_bytes())
+        .collect()
+}
