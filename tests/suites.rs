@@ -11,6 +11,7 @@
 
 mod api;
 mod assets;
+mod audit;
 mod book;
 mod bsdf;
 mod builder;
@@ -44,6 +45,7 @@ mod scene_laws;
 mod schema;
 mod shapes;
 mod small;
+mod tampered;
 mod texts;
 mod tidy;
 mod unseen;

@@ -4,6 +4,7 @@
 //! reported as ours.
 
 mod args;
+mod audit;
 mod batch;
 mod check;
 mod compile;
@@ -134,6 +135,7 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Farm(args) => batch::run(&args),
         Command::Cost(args) => cost::run(&args),
         Command::Diff(args) => diff::run(&args),
+        Command::Audit(args) => audit::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Schema(args) => tell::schema(&args),

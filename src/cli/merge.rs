@@ -1,14 +1,15 @@
 //! `rtc merge`: parts of a picture to the picture, or to a larger part.
 
 use super::args::Merge;
+use super::audit::{self, AuditScene, AuditedScene};
 use super::interrupt::Interrupt;
 use super::output::Output;
 use super::render::kind;
 use super::reporter::{self, Reporter};
 use super::{Failure, progress};
 use rtc_diag::Sink;
-use rtc_pipeline::{RenderShard, ShardError};
-use rtc_source::{Limits, Loader, Resource, SourceMap};
+use rtc_pipeline::{AuditDraw, RenderShard, ShardError};
+use rtc_source::{Loader, Resource, SourceMap};
 use std::fmt;
 use std::path::Path;
 
@@ -17,12 +18,15 @@ const MAX_BYTES: u64 = 1 << 36;
 
 /// Merges the parts and writes what they become.
 pub(super) fn run(args: &Merge) -> Result<(), Failure> {
-    let limits = match args.allow_huge {
-        true => Limits::NONE,
-        false => Limits::default(),
-    };
+    let limits = args.reading.limits(|_| ());
     let map = SourceMap::with_limits(limits);
-    let merged = merged(args, &map)?;
+    let mut reporter = Reporter::beside_result(&args.reporter);
+    let merged = merged(args, &map, &mut reporter);
+    if merged.is_err() {
+        reporter.finish()?;
+        return merged.map(drop);
+    }
+    let merged = merged?;
     let output = Output::apart_from(&args.output, &map)?;
     let interrupt = Interrupt::listen()?;
     let (shares, count) = merged.shares();
@@ -33,7 +37,6 @@ pub(super) fn run(args: &Merge) -> Result<(), Failure> {
     }
     refuse_other_kind(args, &merged)?;
     let (picture, counts, found) = merged.develop().map_err(|error| refused(error, &merged))?;
-    let mut reporter = Reporter::beside_result(&args.reporter);
     let mut sink = Sink::within(&limits);
     found
         .into_iter()
@@ -52,17 +55,47 @@ pub(super) fn run(args: &Merge) -> Result<(), Failure> {
 }
 
 /// All parts as one.
-fn merged(args: &Merge, map: &SourceMap) -> Result<RenderShard, Failure> {
+fn merged(args: &Merge, map: &SourceMap, reporter: &mut Reporter) -> Result<RenderShard, Failure> {
     let max_pixels = map.budget().limit(Resource::Pixels);
-    let mut all: Option<RenderShard> = None;
+    let (mut all, mut audited) = (None::<RenderShard>, None);
     for path in &args.parts {
         let part = read_part(path, max_pixels, map)?;
+        if let Some(tiles) = args.audit {
+            audit_part((path, &part), tiles, args, &mut audited, reporter)?;
+        }
         match &mut all {
             Some(all) => all.add(part).map_err(|error| unfit(path, &error))?,
             None => all = Some(part),
         }
     }
     all.ok_or_else(|| Failure::Trouble("no parts".to_owned()))
+}
+
+/// Audits a part against the scene, which is read in the settings of the first one.
+fn audit_part(
+    (path, part): (&Path, &RenderShard),
+    tiles: u64,
+    args: &Merge,
+    audited: &mut Option<AuditedScene>,
+    reporter: &mut Reporter,
+) -> Result<(), Failure> {
+    let scene = AuditScene {
+        file: args.scene.as_deref().unwrap_or(Path::new("-")),
+        stage: &args.stage,
+        reading: &args.reading,
+        threads: 0,
+    };
+    let audited = match audited {
+        Some(audited) => audited,
+        None => {
+            let setup = part.setup();
+            let setup = setup.map_err(|error| audit::refused(path, error))?;
+            audited.insert(scene.validate(setup, reporter)?)
+        }
+    };
+    let seed = audit::seed(args.seed)?;
+    let result = audited.part((path, part), AuditDraw { tiles, seed }, reporter)?;
+    audit::judge_part(path, args, seed, &result)
 }
 
 /// Reads a part of a picture of at most so many pixels; the map notes the file.
@@ -73,7 +106,12 @@ pub(super) fn read_part(
 ) -> Result<RenderShard, Failure> {
     let bytes = Loader.bytes(path, MAX_BYTES, map);
     let bytes = bytes.map_err(|error| Failure::Trouble(said_of(path, &error)))?;
-    RenderShard::load(&bytes, max_pixels).map_err(|error| unfit(path, &error))
+    part_of(path, &bytes, max_pixels)
+}
+
+/// The part in the bytes of a file, of a picture of at most so many pixels.
+pub(super) fn part_of(path: &Path, bytes: &[u8], max_pixels: u64) -> Result<RenderShard, Failure> {
+    RenderShard::load(bytes, max_pixels).map_err(|error| unfit(path, &error))
 }
 
 /// What to say of a part that is not as it should be.

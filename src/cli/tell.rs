@@ -1,6 +1,7 @@
 //! What rtc tells about itself: `rtc schema`, `rtc completions`, `rtc man`.
 
 use super::args::{Cli, Completions, Man, Schema, SchemaFormat};
+use super::audit::AuditReport;
 use super::diff::DiffReport;
 use super::info::InfoReport;
 use super::versus::VersusReport;
@@ -22,6 +23,7 @@ pub(super) fn schema(args: &Schema) -> Result<(), Failure> {
         SchemaFormat::Info => of_report::<InfoReport<'_>>(),
         SchemaFormat::Cost => of_report::<CostReport<'_>>(),
         SchemaFormat::Diff => of_report::<DiffReport<'_>>(),
+        SchemaFormat::Audit => of_report::<AuditReport>(),
         SchemaFormat::Check => format!("{:#}\n", json_schema(settings()).to_value()),
         SchemaFormat::Page => course::page(),
         SchemaFormat::Limits => budget::page(),

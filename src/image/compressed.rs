@@ -3,6 +3,7 @@
 
 use super::file::{PictureHead, StripSource};
 use super::png::pack;
+use super::xmp;
 use ::png::BitDepth;
 use image_webp::WebPEncoder;
 use jpeg_encoder::{Encoder, SamplingFactor};
@@ -47,7 +48,11 @@ pub(super) fn write(
                 true => image_webp::ColorType::Rgba8,
                 false => image_webp::ColorType::Rgb8,
             };
-            WebPEncoder::new(&mut bytes)
+            let mut encoder = WebPEncoder::new(&mut bytes);
+            if let Some(packet) = xmp::packet(&head.origin, strips.tree(head)) {
+                encoder.set_xmp_metadata(packet.into_bytes());
+            }
+            encoder
                 .encode(&pixels, width, height, color)
                 .map_err(io::Error::other)
         }

@@ -79,6 +79,7 @@ impl DisplayTransform {
             image: film,
             alpha,
             layers: Layers::default(),
+            tiles: Vec::new(),
         }
     }
 }

@@ -1,12 +1,13 @@
 //! EXR: floats of 32 or 16 bits per channel, as they are but finite, in one part, with what colours
 //! the numbers mean, the view, and where the picture came from.
 //!
-//! The encoder keeps free attributes in hashed maps, whose order changes from run to run; each map
-//! here holds one.
+//! The encoder keeps free attributes in hashed maps, whose order changes from run to run: `ordered`
+//! makes them anew until it is the wanted one. The Merkle tree is known last and stands in the
+//! head, where there is room for it.
 
 use super::file::{BLOCK_ROWS, PictureHead, StripSource};
 use super::range::{is_half, narrow};
-use super::{Origin, Picture};
+use super::{FileFormat, MerkleTree, Origin, Picture};
 use ::exr::block::UncompressedBlock;
 use ::exr::block::lines::LineRefMut;
 use ::exr::block::writer::ChunksWriter;
@@ -18,7 +19,7 @@ use ::exr::meta::header::{Header, ImageAttributes, LayerAttributes};
 use ::exr::meta::{BlockDescription, attribute::LineOrder};
 use ::exr::prelude::{Compression, Vec2, f16};
 use std::borrow::Cow;
-use std::io::{self, Seek, Write};
+use std::io::{self, Cursor, Seek, SeekFrom, Write};
 
 /// The primaries of linear sRGB and its white, D65 (ITU-R BT.709-6, table 1, items 1.3 and 1.4).
 const REC_709: Chromaticities = Chromaticities {
@@ -27,6 +28,10 @@ const REC_709: Chromaticities = Chromaticities {
     blue: Vec2(0.15, 0.06),
     white: Vec2(0.3127, 0.3290),
 };
+
+/// The attribute of the Merkle tree, and its type.
+pub(super) const TREE: &str = "rtc:tiles";
+const TREE_TYPE: &str = "rtc:tree";
 
 /// Which number of a pixel a channel holds.
 #[derive(Clone, Copy)]
@@ -42,42 +47,67 @@ enum ChannelSource {
 /// Writes a picture as EXR, block after block, as its strips come.
 pub(super) fn write(
     head: &PictureHead,
-    out: impl Write + Seek,
+    mut out: impl Write + Seek,
     strips: &mut StripSource<'_>,
 ) -> io::Result<()> {
     let sources = channels(head);
     let header = header(head, &sources);
-    let written = ::exr::block::write(out, [header].into_iter().collect(), true, |meta, chunks| {
-        let mut compressor = chunks.sequential_blocks_compressor(&meta);
-        // The strip under way, and the rows it has.
-        let (mut strip, mut rows) = (Cow::Owned(Picture::default()), 0..0);
-        for (index, block) in meta.enumerate_ordered_header_block_indices() {
-            while block.pixel_position.y() >= rows.end {
-                // Two strips are not held at once.
-                drop(strip);
-                strip = strips.next_strip()?;
-                rows = rows.end..rows.end + strip.image.height as usize;
+    let place = place_of_tree(&header);
+    let written = ::exr::block::write(
+        &mut out,
+        [header].into_iter().collect(),
+        true,
+        |meta, chunks| {
+            let mut compressor = chunks.sequential_blocks_compressor(&meta);
+            // The strip under way, and the rows it has.
+            let (mut strip, mut rows) = (Cow::Owned(Picture::default()), 0..0);
+            for (index, block) in meta.enumerate_ordered_header_block_indices() {
+                while block.pixel_position.y() >= rows.end {
+                    // Two strips are not held at once.
+                    drop(strip);
+                    strip = strips.next_strip()?;
+                    rows = rows.end..rows.end + strip.image.height as usize;
+                }
+                let mut filled = Ok(());
+                let channels = &meta.headers[0].channels;
+                let fill = |line: LineRefMut<'_>| {
+                    let (name, source) = sources[line.location.channel];
+                    let is_half = is_half(head.form, name);
+                    let result = fill(&strip, rows.start, (source, is_half), line);
+                    filled = std::mem::replace(&mut filled, Ok(())).and(result);
+                };
+                let data = UncompressedBlock::collect_block_data_from_lines(channels, block, fill);
+                filled?;
+                compressor.compress_block(index, UncompressedBlock { index: block, data })?;
             }
-            let mut filled = Ok(());
-            let channels = &meta.headers[0].channels;
-            let fill = |line: LineRefMut<'_>| {
-                let (name, source) = sources[line.location.channel];
-                let is_half = is_half(head.form, name);
-                let result = fill(&strip, rows.start, (source, is_half), line);
-                filled = std::mem::replace(&mut filled, Ok(())).and(result);
-            };
-            let data = UncompressedBlock::collect_block_data_from_lines(channels, block, fill);
-            filled?;
-            compressor.compress_block(index, UncompressedBlock { index: block, data })?;
-        }
-        Ok(())
-    });
+            Ok(())
+        },
+    );
     written.map_err(|error| match error {
         Error::Io(error) => error,
         other @ (Error::Aborted | Error::NotSupported(_) | Error::Invalid(_)) => {
             io::Error::other(other.to_string())
         }
-    })
+    })?;
+    if let Some((place, tree)) = place.zip(strips.tree(head)) {
+        out.seek(SeekFrom::Start(place))?;
+        out.write_all(&tree.bytes())?;
+    }
+    Ok(())
+}
+
+/// Where in a file with this header the tree goes, if there is room for one.
+fn place_of_tree(header: &Header) -> Option<u64> {
+    // A file that ends with its head.
+    let mut file = Vec::new();
+    let headers = [header.clone()].into_iter().collect();
+    let stop = |_, _: &mut _| Err(Error::Aborted);
+    let _ = ::exr::block::write(Cursor::new(&mut file), headers, true, stop);
+    // Name and type end with a 0; the length has 32 bits.
+    let name = [TREE, "\0", TREE_TYPE, "\0"].concat();
+    let mut starts = file.windows(name.len());
+    let start = starts.position(|window| window == name.as_bytes())?;
+    Some((start + name.len() + 4) as u64)
 }
 
 /// Where the picture comes from, and its channels in blocks of so many rows.
@@ -95,17 +125,22 @@ fn header(head: &PictureHead, sources: &[(&str, ChannelSource)]) -> Header {
     let size = (width, height);
     let other = |name, words: &str| {
         let value = (!words.is_empty()).then(|| AttributeValue::Text(text(words)));
-        value.map(|value| (text(name), value)).into_iter().collect()
+        value.map(|value| (text(name), value))
     };
+    let tree = head.has_tiles.then(|| {
+        let kind = text(TREE_TYPE);
+        let bytes = std::iter::repeat_n(0, MerkleTree::length(head.size)).collect();
+        (text(TREE), AttributeValue::Custom { kind, bytes })
+    });
     let attributes = LayerAttributes {
         software_name: (!software.is_empty()).then(|| text(software)),
         world_to_camera: *world_to_camera,
-        other: other("rtc:settings", settings),
+        other: ordered(other("rtc:settings", settings).into_iter().chain(tree)),
         ..LayerAttributes::default()
     };
     let shared = ImageAttributes {
         chromaticities: Some(REC_709),
-        other: other("rtc:scene", scene),
+        other: ordered(other("rtc:scene", scene)),
         ..ImageAttributes::with_size(size)
     };
     let channels = sources.iter().map(|(name, _)| {
@@ -124,6 +159,24 @@ fn header(head: &PictureHead, sources: &[(&str, ChannelSource)]) -> Header {
         )
         .with_attributes(attributes)
         .with_shared_attributes(shared)
+}
+
+/// A map that hands on its entries in the order in which they are given.
+#[expect(
+    clippy::disallowed_types,
+    reason = "the encoder takes no other map; this one has an order"
+)]
+fn ordered(
+    entries: impl IntoIterator<Item = (Text, AttributeValue)>,
+) -> std::collections::HashMap<Text, AttributeValue> {
+    let entries: Vec<_> = entries.into_iter().collect();
+    loop {
+        // Each map has hash keys of its own.
+        let map: std::collections::HashMap<_, _> = entries.iter().cloned().collect();
+        if map.keys().eq(entries.iter().map(|(name, _)| name)) {
+            return map;
+        }
+    }
 }
 
 /// All channels, in the order of their names, as the format wants them.
@@ -151,22 +204,44 @@ fn fill(
         return Err(Error::Invalid("a strip ends within a block".into()));
     }
     let first = row * strip.image.width as usize;
-    let width = strip.layers.names.len();
-    let value = |column: usize| {
-        let pixel = first + column;
-        let value = match source {
-            ChannelSource::Color(k) => strip.image.pixels[pixel][k],
-            ChannelSource::Alpha => f64::from(strip.alpha.as_ref().map_or(1.0, |a| a[pixel])),
-            ChannelSource::Layer(k) => f64::from(strip.layers.values[pixel * width + k]),
-        };
-        narrow(value, is_half)
-    };
+    let value = |column: usize| value(strip, first + column, (source, is_half));
     if is_half {
         // From 32 bits, as all machines round those alike.
         line.write_samples(|column| f16::from_f32(value(column)))
     } else {
         line.write_samples(value)
     }
+}
+
+/// The value of a pixel in a channel, of floats of 16 bits or not.
+fn value(strip: &Picture, pixel: usize, (source, is_half): (ChannelSource, bool)) -> f32 {
+    let width = strip.layers.names.len();
+    let value = match source {
+        ChannelSource::Color(k) => strip.image.pixels[pixel][k],
+        ChannelSource::Alpha => f64::from(strip.alpha.as_ref().map_or(1.0, |a| a[pixel])),
+        ChannelSource::Layer(k) => f64::from(strip.layers.values[pixel * width + k]),
+    };
+    narrow(value, is_half)
+}
+
+/// The samples of a picture, pixel after pixel, each in the order of its channels, little-endian.
+pub(super) fn samples(picture: &Picture, form: FileFormat) -> Vec<u8> {
+    let head = PictureHead::of(picture, form);
+    let channels: Vec<_> = channels(&head)
+        .into_iter()
+        .map(|(name, source)| (source, is_half(form, name)))
+        .collect();
+    let mut bytes = Vec::new();
+    for pixel in 0..picture.image.pixels.len() {
+        for channel in &channels {
+            let value = value(picture, pixel, *channel);
+            match channel.1 {
+                true => bytes.extend(f16::from_f32(value).to_le_bytes()),
+                false => bytes.extend(value.to_le_bytes()),
+            }
+        }
+    }
+    bytes
 }
 
 /// EXR text is Latin-1; what is not becomes a question mark.
@@ -181,10 +256,9 @@ fn text(words: &str) -> Text {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{FileFormat, Image, Layers};
+    use super::super::{Image, Layers};
     use super::*;
     use ::exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read};
-    use std::io::Cursor;
 
     fn bright() -> (Picture, PictureHead) {
         let pixels = vec![

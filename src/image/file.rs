@@ -2,7 +2,9 @@
 //! what is written is let go. A picture as a whole is one strip, so that the bytes are the same.
 
 use super::compressed::{self, CompressedForm};
-use super::{EncodeError, FileFormat, Image, Layers, Origin, Picture, exr, png};
+use super::{
+    EncodeError, FileFormat, Image, Layers, MerkleTree, Origin, Picture, TileHash, exr, png,
+};
 use ::png::BitDepth;
 use std::borrow::Cow;
 use std::io::{self, Cursor, Seek, Write};
@@ -26,25 +28,43 @@ pub struct PictureHead {
     pub is_color: bool,
     /// What it says of where it came from.
     pub origin: Origin,
+    /// Whether it keeps the hashes of its tiles, which come with its strips.
+    pub has_tiles: bool,
 }
 
 /// Where the strips of a picture come from, from the top. Each has the width and the channels of
 /// its picture.
-pub struct StripSource<'s>(&'s mut dyn FnMut() -> io::Result<Cow<'s, Picture>>);
+pub struct StripSource<'s> {
+    next: &'s mut dyn FnMut() -> io::Result<Cow<'s, Picture>>,
+    /// The hashes of the tiles of the strips so far.
+    tiles: Vec<TileHash>,
+}
 
 impl<'s> StripSource<'s> {
     /// The strips that a closure makes, one at each call.
     pub fn new(next: &'s mut dyn FnMut() -> io::Result<Cow<'s, Picture>>) -> Self {
-        Self(next)
+        Self {
+            next,
+            tiles: Vec::new(),
+        }
     }
 
     /// The next strip; to be asked for while there are rows left.
     pub(super) fn next_strip(&mut self) -> io::Result<Cow<'s, Picture>> {
-        let strip = (self.0)()?;
+        let strip = (self.next)()?;
         if strip.image.height == 0 {
             return Err(io::Error::other("a strip has no rows"));
         }
+        self.tiles.extend(&strip.tiles);
         Ok(strip)
+    }
+}
+
+impl StripSource<'_> {
+    /// The tree over the tiles of all strips, once there are no more; none if the file keeps none.
+    pub(super) fn tree(&mut self, head: &PictureHead) -> Option<MerkleTree> {
+        let tiles = std::mem::take(&mut self.tiles);
+        head.has_tiles.then(|| MerkleTree::new(tiles, &head.origin))
     }
 }
 
@@ -56,6 +76,7 @@ impl PictureHead {
             image: Image { width, height, .. },
             alpha,
             layers: Layers { names, .. },
+            tiles,
         } = picture;
         Self {
             size: [*width, *height],
@@ -64,6 +85,7 @@ impl PictureHead {
             form,
             is_color: true,
             origin: Origin::default(),
+            has_tiles: !tiles.is_empty(),
         }
     }
 
@@ -102,6 +124,7 @@ impl PictureHead {
 
 #[cfg(test)]
 mod tests {
+    use super::super::tile_count;
     use super::*;
 
     /// A picture with opacities and layers, of which no two rows are alike.
@@ -119,6 +142,9 @@ mod tests {
                 names: vec!["uv.U", "depth.Z"],
                 values: (0..2 * pixels).map(f32::from).collect(),
             },
+            tiles: (0..tile_count([width, height]))
+                .map(|tile| TileHash::of_tile(&tile.to_le_bytes()))
+                .collect(),
         }
     }
 
@@ -126,6 +152,8 @@ mod tests {
     fn strip(picture: &Picture, rows: std::ops::Range<u32>) -> Picture {
         let width = picture.image.width as usize;
         let range = rows.start as usize * width..rows.end as usize * width;
+        let before = |rows| tile_count([picture.image.width, rows]);
+        let tiles = before(rows.start)..before(rows.end);
         Picture {
             image: Image {
                 width: picture.image.width,
@@ -140,6 +168,7 @@ mod tests {
                 names: picture.layers.names.clone(),
                 values: picture.layers.values[2 * range.start..2 * range.end].to_vec(),
             },
+            tiles: picture.tiles[tiles].to_vec(),
         }
     }
 

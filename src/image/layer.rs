@@ -145,6 +145,7 @@ mod tests {
                 names: names.to_vec(),
                 values: values.to_vec(),
             },
+            tiles: Vec::new(),
         }
     }
 

@@ -14,7 +14,8 @@
 //! or 32 bits). [`StripSource`] and `file` write the same bytes strip by strip, so a large picture
 //! need not be in memory. [`AnimatedPng`] and `AnimatedGif` write animations. The same picture
 //! gives the same bytes on each platform. [`RangeClipping`] counts the values that a format can't
-//! hold.
+//! hold. A [`MerkleTree`] commits a file to the film that it shows; [`WrittenPicture`] reads a file
+//! back as it was written.
 //!
 //! # Images in between
 //!
@@ -33,6 +34,7 @@ mod format;
 mod gif;
 mod hdr;
 mod layer;
+mod merkle;
 mod png;
 mod radiance;
 mod range;
@@ -40,6 +42,8 @@ mod range;
 mod sheet;
 mod shown;
 mod texels;
+mod written;
+mod xmp;
 
 pub use animation::AnimatedPng;
 pub use decode::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, is_picture};
@@ -49,6 +53,7 @@ pub use file::{BLOCK_ROWS, PictureHead, StripSource};
 #[cfg(feature = "cli")]
 pub use gif::AnimatedGif;
 pub use layer::LayerPicture;
+pub use merkle::{MerkleTree, TILE, TileHash, tile_count, tile_hashes};
 pub use png::png_bytes;
 pub use radiance::{Radiance, RadianceFile, is_radiance};
 pub use range::RangeClipping;
@@ -56,6 +61,7 @@ pub use range::RangeClipping;
 pub use sheet::{contact_sheet, for_sheet, shrunk};
 pub use shown::{ShownFile, ShownPicture};
 pub use texels::{Texel, Texels};
+pub use written::{WrittenFile, WrittenPicture, samples};
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -80,6 +86,9 @@ pub struct Picture {
     pub alpha: Option<Vec<f32>>,
     /// What an EXR holds beside the colours; no other form does.
     pub layers: Layers,
+    /// The hashes of the tiles of the film that it shows, which its file keeps; none, if the file
+    /// is to keep none.
+    pub tiles: Vec<TileHash>,
 }
 
 /// Further numbers of each pixel of a picture.
@@ -130,8 +139,8 @@ impl FileFormat {
     }
 }
 
-/// What a PNG or an EXR says about where it came from: in a PNG as international text (`iTXt`), in
-/// an EXR as attributes of text.
+/// What a file says about where it came from: in a PNG as international text (`iTXt`), in an EXR as
+/// attributes of text, in a WebP as XMP.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Origin {
     /// The program and its version: `Software` in a PNG, the standard attribute `software`.
@@ -193,6 +202,7 @@ impl Picture {
             image,
             alpha: None,
             layers: Layers::default(),
+            tiles: Vec::new(),
         }
     }
 

@@ -1,14 +1,19 @@
 //! PNG of 8 and 16 bits per channel: red, green, blue, and opacity where there is one. A picture
 //! says that its colours are those of sRGB, and where it came from; never when it was made.
 
-use super::Picture;
 use super::file::{PictureHead, StripSource};
+use super::{MerkleTree, Picture};
+use ::png::chunk::ChunkType;
 use ::png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent};
 use rtc_color as color;
 use std::io::{self, Write};
 
 /// Bytes of a chunk of pixels, compressed: so much is held before it is written.
 const CHUNK: usize = 1 << 16;
+
+/// The chunk of the Merkle tree, at the end of the file: it may be left out, is of this program,
+/// and is void for other pixels (PNG, third edition, 5.4).
+pub(super) const TREE: ChunkType = ChunkType(*b"rtMT");
 
 /// Writes a picture in so many bits per channel, row after row, as its strips come.
 pub(super) fn write(
@@ -29,7 +34,7 @@ pub(super) fn write(
                 rows.write_all(&bytes)?;
             }
         }
-        Ok(())
+        Ok(strips.tree(head))
     })
 }
 
@@ -57,19 +62,19 @@ pub(super) fn pack(strip: &Picture, row: usize, depth: BitDepth, bytes: &mut Vec
 pub fn png_bytes(size: [u32; 2], has_alpha: bool, pixels: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let kind = (BitDepth::Eight, has_alpha);
-    png(size, kind, None, &mut bytes, |rows| rows.write_all(pixels))
-        .expect("the pixels are as many as the size says");
+    let write = |rows: &mut dyn Write| rows.write_all(pixels).map(|()| None);
+    png(size, kind, None, &mut bytes, write).expect("the pixels are as many as the size says");
     bytes
 }
 
-/// A PNG of the rows that are written; with a head, of which colours they are and where they came
-/// from.
+/// A PNG of the rows that are written, which end in the tree over their tiles if there is one; with
+/// a head, of which colours they are and where they came from.
 fn png(
     size: [u32; 2],
     kind: (BitDepth, bool),
     head: Option<&PictureHead>,
     out: impl Write,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<Option<MerkleTree>>,
 ) -> io::Result<()> {
     let mut out = CheckedWriter { out, fault: None };
     let written = encode(&mut out, size, kind, head, write);
@@ -81,7 +86,7 @@ fn encode(
     [width, height]: [u32; 2],
     (depth, has_alpha): (BitDepth, bool),
     head: Option<&PictureHead>,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<Option<MerkleTree>>,
 ) -> io::Result<()> {
     let mut encoder = Encoder::new(out, width, height);
     encoder.set_color(if has_alpha {
@@ -98,8 +103,11 @@ fn encode(
     }
     let mut writer = encoder.write_header()?;
     let mut rows = writer.stream_writer_with_size(CHUNK)?;
-    write(&mut rows)?;
+    let tree = write(&mut rows)?;
     rows.finish()?;
+    if let Some(tree) = tree {
+        writer.write_chunk(TREE, &tree.pruned().bytes())?;
+    }
     writer.finish()?;
     Ok(())
 }

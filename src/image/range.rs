@@ -31,6 +31,7 @@ impl Picture {
             image: Image { pixels, .. },
             alpha: _,
             layers: Layers { names, values },
+            tiles: _,
         } = self;
         let width = names.len();
         let layer = |index: usize| &values[index * width..(index + 1) * width];

@@ -11,6 +11,8 @@
 //! - [`RayCounter`] limits the rays of a render, deterministically.
 //! - [`ShardPlan`] divides a picture among several renders; each makes a [`RenderShard`], which can
 //!   be saved, resumed and merged.
+//! - [`PictureAudit`] and [`RenderShard::audit`] make some tiles of a picture, or of a part of one,
+//!   anew, and compare.
 //! - [`fix()`] applies suggested fixes; [`Input::lay_out`] formats a text.
 //! - [`NewFile`] writes files atomically; no other code writes files.
 //! - [`trial`] has the entry points of the fuzz targets.
@@ -20,6 +22,7 @@
 //!   that can't be made.
 //! - A picture has the same bytes for any number of threads, in strips, and merged from shards.
 
+mod audit;
 mod denoise;
 mod exposure;
 #[cfg(not(target_family = "wasm"))]
@@ -37,6 +40,9 @@ mod shard_plan;
 mod strips;
 pub mod trial;
 
+pub use audit::{
+    AuditDraw, AuditFinding, AuditResult, AuditSubject, ODDS as AUDIT_ODDS, PictureAudit,
+};
 pub use denoise::Traced;
 pub use exposure::LightMeasurement;
 #[cfg(not(target_family = "wasm"))]

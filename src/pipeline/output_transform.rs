@@ -36,7 +36,7 @@ pub struct OutputTransform {
     background: BackgroundFill,
     /// The requested layers, without duplicates.
     pub aovs: Vec<Aov>,
-    /// Whether a PNG or an EXR contains metadata about its origin.
+    /// Whether the file contains metadata about its origin.
     pub has_metadata: bool,
 }
 
@@ -101,6 +101,19 @@ impl OutputTransform {
                 self.stops = *exposure;
             }
         }
+    }
+
+    /// The transform of the same form by the display settings of a scene alone.
+    pub(super) fn unasked(&self, display: &Display) -> Self {
+        let mut plain = Self {
+            tone: None,
+            requested: None,
+            stops: 0.0,
+            background: BackgroundFill::Film,
+            ..self.clone()
+        };
+        plain.show_as(display);
+        plain
     }
 
     /// The current exposure and tone map as display settings.
@@ -170,6 +183,12 @@ impl OutputTransform {
         } else {
             Background::Nothing
         }
+    }
+
+    /// Whether what shows no surface is transparent.
+    #[must_use]
+    pub fn is_transparent(&self) -> bool {
+        self.background == BackgroundFill::Transparent
     }
 
     /// Adds the settings that are not defaults to the metadata of a picture.
@@ -267,8 +286,13 @@ impl ResolvedOutputTransform {
         losses: &mut Losses,
     ) -> Picture {
         losses.film += image.unnumbered();
+        let tiles = match self.has_tiles() {
+            true => image::tile_hashes(&image, &coverage),
+            false => Vec::new(),
+        };
         let mut picture = self.develop(image, coverage);
         picture.layers = layers;
+        picture.tiles = tiles;
         let RangeClipping { unnumbered, beyond } = self.clipping(&picture);
         losses.picture.unnumbered += unnumbered;
         let known = std::mem::take(&mut losses.picture.beyond);
@@ -326,7 +350,18 @@ impl ResolvedOutputTransform {
             form: self.kind,
             is_color: true,
             origin: self.origin(origin()),
+            has_tiles: self.has_tiles(),
         }
+    }
+
+    /// Whether the file keeps hashes of what it was made of; a JPEG has no metadata.
+    fn has_tiles(&self) -> bool {
+        self.has_metadata && self.kind != FileFormat::Jpeg
+    }
+
+    /// Whether the file contains metadata about its origin.
+    pub(super) fn has_metadata(&self) -> bool {
+        self.has_metadata
     }
 
     /// The metadata of the file.

@@ -10,12 +10,13 @@ use super::{
 use rayon::ThreadPoolBuildError;
 use rtc_diag::Diagnostic;
 use rtc_image::{Image, Layers, Origin, Picture, PictureHead};
-use rtc_ir::{EntityKind, Field, Mode, Scene, ValuePath};
+use rtc_ir::{EntityKind, Field, Lens, Mode, Scene, Settings, ValuePath};
 use rtc_passes::{self as passes, Framing, Overrides};
-use rtc_plan::{self as plan, Plan, Rules};
+use rtc_plan::{self as plan, Plan, Rule, Rules};
 use rtc_render::{Aov, Counts, Crop, Job, SimdLevel, Step};
 use rtc_study::{Goal, PixelQuality, Progress, RenderOrder, TargetResult, Watch, with_quality};
 use rtc_valid::ValidScene;
+use serde_json::Value;
 use std::time::Duration;
 
 /// Options of a picture in addition to its scene.
@@ -27,6 +28,8 @@ pub struct PictureSetup {
     pub overrides: Overrides,
     /// IR settings by name and value, applied last.
     pub set: Vec<(String, String)>,
+    /// Lens and settings in place of those of the scene: those of a picture that is made anew.
+    pub settings: Option<(Lens, Settings)>,
     /// The arithmetic of intersections.
     pub arithmetic: plan::Arithmetic,
     /// The crop window; `None` for the whole picture.
@@ -58,7 +61,12 @@ pub struct RenderSubject {
     pub(super) first: FirstView,
     /// Diagnostics that were not reported yet.
     pub(super) pending: Vec<Diagnostic>,
+    /// The settings of the scene that were replaced by others: name, value now, value before.
+    pub(super) replaced: Vec<[String; 3]>,
 }
+
+/// The program and its version.
+pub(super) const SOFTWARE: &str = concat!("rtc ", env!("CARGO_PKG_VERSION"));
 
 /// Observes a render; called from all threads.
 pub struct Observer<'a> {
@@ -101,6 +109,7 @@ impl PictureSetup {
             look,
             overrides: Overrides::default(),
             set: Vec::new(),
+            settings: None,
             arithmetic: plan::Arithmetic::Robust,
             crop: None,
             goal: Goal::default(),
@@ -126,6 +135,7 @@ impl PictureSetup {
     ) -> Result<Option<RenderSubject>, RenderError> {
         // Apply display settings, size and overrides, then validate.
         let (mut set, mut first, mut fitted) = (Ok(()), None, None);
+        let mut replaced = Vec::new();
         let validated = input.validate(loaded, |lowered, provenance| {
             let is_traced = matches!(lowered.scene.settings.mode, Mode::Path(_));
             first = Some(FirstView {
@@ -137,8 +147,14 @@ impl PictureSetup {
                 self.look.show_asset();
             }
             self.look.show_as(&lowered.scene.display);
+            let before = self.unasked(&lowered.scene);
             fitted = resize(&mut lowered.scene, self.overrides.size, provenance);
             self.overrides.apply(&mut lowered.scene);
+            if let Some((lens, settings)) = &self.settings {
+                lowered.scene.camera.lens = lens.clone();
+                lowered.scene.settings = settings.clone();
+                difference("", &self.described(&lowered.scene), &before, &mut replaced);
+            }
             set = self.set.iter().try_for_each(|(name, value)| {
                 passes::set(&mut lowered.scene.settings, name, value)
             });
@@ -154,6 +170,7 @@ impl PictureSetup {
             renderer: None,
             first,
             pending: imprecise.into_iter().chain(fitted).collect(),
+            replaced,
         }))
     }
 
@@ -377,6 +394,17 @@ impl PictureSetup {
     /// The metadata that identifies the picture: rtc version, scene, settings.
     #[must_use]
     pub fn origin(&self, scene: &Scene) -> Origin {
+        Origin {
+            software: SOFTWARE.to_owned(),
+            scene: hash(scene),
+            settings: self.described(scene).to_string(),
+            world_to_camera: scene.camera.world_to_camera(),
+            layer: String::new(),
+        }
+    }
+
+    /// The settings that the metadata of the picture hold.
+    fn described(&self, scene: &Scene) -> Value {
         let mut settings = serde_json::json!({
             "size": scene.camera.size,
             "lens": scene.camera.lens,
@@ -395,14 +423,23 @@ impl PictureSetup {
         if let Some(limit) = self.clamp {
             settings["clamp"] = limit.into();
         }
-        self.look.describe(&mut settings);
-        Origin {
-            software: concat!("rtc ", env!("CARGO_PKG_VERSION")).to_owned(),
-            scene: hash(scene),
-            settings: settings.to_string(),
-            world_to_camera: scene.camera.world_to_camera(),
-            layer: String::new(),
+        if let Some(rays) = self.overrides.glossy_samples {
+            settings["glossySamples"] = rays.into();
         }
+        if self.arithmetic != plan::Arithmetic::Robust {
+            settings["arithmetic"] = serde_json::json!(self.arithmetic);
+        }
+        if self.rules.contains(Rule::Cut) {
+            settings["approx"] = true.into();
+        }
+        self.look.describe(&mut settings);
+        settings
+    }
+
+    /// The settings of the picture that the scene shows where nothing else is asked for.
+    fn unasked(&self, scene: &Scene) -> Value {
+        let look = self.look.unasked(&scene.display);
+        Self::new(look).described(scene)
     }
 }
 
@@ -423,6 +460,22 @@ impl RenderSubject {
     ) -> Option<Box<Diagnostic>> {
         let pixel = counter.ran_out().filter(|_| !(observer.is_stopped)())?;
         Some(Box::new(counter.diagnostic(&self.validated.lowered, pixel)))
+    }
+}
+
+/// The leaves in which two JSON trees differ: their paths and both values; null where there is
+/// none.
+fn difference(path: &str, new: &Value, old: &Value, found: &mut Vec<[String; 3]>) {
+    match (new, old) {
+        (Value::Object(a), Value::Object(b)) => {
+            let others = b.keys().filter(|name| !a.contains_key(*name));
+            for name in a.keys().chain(others) {
+                let path = [path, name].join(if path.is_empty() { "" } else { "." });
+                difference(&path, &new[name], &old[name], found);
+            }
+        }
+        _ if new == old => {}
+        _ => found.push([path.to_owned(), new.to_string(), old.to_string()]),
     }
 }
 

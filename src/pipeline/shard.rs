@@ -10,7 +10,7 @@ pub use file::{MAX_SHARES, hash_of_file};
 
 use super::{ResolvedOutputTransform, ShardBy, ShardPlan, picture_diagnostics};
 use rtc_diag::Diagnostic;
-use rtc_image::{Layers, Origin, Picture, WorldToCamera};
+use rtc_image::{Layers, MerkleTree, Origin, Picture, TileHash, WorldToCamera};
 use rtc_plan::Arithmetic;
 use rtc_render::{Aov, Counts, Crop, FilmError, PartialFilm, Tiles};
 use serde::{Deserialize, Serialize};
@@ -50,6 +50,18 @@ struct ShardHeader {
     /// The length in bytes of the progressive state, for a picture that is refined as a whole.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     growth: Option<u64>,
+    /// The hashes of its tiles, in its file alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    tiles: Option<ShardTiles>,
+}
+
+/// A Merkle tree over the tiles of a shard, whose root covers the description of its picture.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+struct ShardTiles {
+    root: String,
+    /// Of each tile that has samples the hash of its sums and layers, in the order of the film.
+    leaves: Vec<String>,
 }
 
 /// The settings that a shard was rendered with.
@@ -178,6 +190,7 @@ impl RenderShard {
             command: Vec::new(),
             finished: Vec::new(),
             growth: None,
+            tiles: None,
         };
         // Cut the layers into the tiles of the shares.
         let values = |area| {
@@ -232,6 +245,52 @@ impl RenderShard {
             world_to_camera: self.head.world_to_camera,
             layer: String::new(),
         }
+    }
+
+    /// The film.
+    pub(super) fn film(&self) -> &PartialFilm {
+        &self.film
+    }
+
+    /// The layers.
+    pub(super) fn aovs(&self) -> &[Aov] {
+        &self.head.layers
+    }
+
+    /// The arithmetic of intersections.
+    pub(super) fn arithmetic(&self) -> Arithmetic {
+        self.head.arithmetic
+    }
+
+    /// Whether it is a picture that is refined as a whole.
+    pub(super) fn is_refined(&self) -> bool {
+        self.head.growth.is_some()
+    }
+
+    /// Whether it has the layers of a tile.
+    pub(super) fn has_layers(&self, tile: usize) -> bool {
+        self.layers.contains_key(&tile)
+    }
+
+    /// What it has of a tile, as bytes: its sums and its layers.
+    pub(super) fn tile_bytes(&self, tile: usize) -> Vec<u8> {
+        let mut bytes = self.film.tile_bytes(tile);
+        let layers = self.layers.get(&tile).into_iter().flatten();
+        bytes.extend(layers.flat_map(|value| value.to_le_bytes()));
+        bytes
+    }
+
+    /// The hashes of its tiles; none without metadata.
+    fn hashed_tiles(&self) -> Option<ShardTiles> {
+        let tiles = self.film.held_tiles();
+        let leaves: Vec<TileHash> = tiles
+            .map(|(tile, _)| TileHash::of_tile(&self.tile_bytes(tile)))
+            .collect();
+        let keeps = self.head.look.has_metadata() && !leaves.is_empty();
+        keeps.then(|| ShardTiles {
+            leaves: leaves.iter().map(TileHash::to_string).collect(),
+            root: MerkleTree::new(leaves, &self.origin()).root().to_string(),
+        })
     }
 
     /// The indices of the shares in this shard, ascending, and the number of all.

@@ -11,6 +11,7 @@
 )]
 #[cfg(unix)]
 mod action;
+mod audit;
 mod checkpoints;
 mod diff;
 mod exposure;

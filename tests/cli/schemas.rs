@@ -50,7 +50,7 @@ fn scene(name: &str) -> String {
 
 #[test]
 fn the_committed_schemas_are_current() {
-    for name in ["info", "cost", "diff", "check"] {
+    for name in ["info", "cost", "diff", "audit", "check"] {
         let current = rtc(&folder(), &["schema", name]).stdout;
         let path = format!("{}/schema/{name}.schema.json", env!("CARGO_MANIFEST_DIR"));
         if std::env::var_os("RTC_UPDATE").is_some() {
@@ -98,6 +98,27 @@ fn diff_agrees_with_its_schema() {
         "json",
     ];
     assert_valid("diff", &report(&folder, &scenes));
+}
+
+#[test]
+fn audit_agrees_with_its_schema() {
+    let folder = folder();
+    for (name, more) in [("one.png", &[][..]), ("two.png", &["--depth", "0"])] {
+        let args = [&["render", "ball.json", "-q", "-o", name], more].concat();
+        assert_eq!(code(&rtc(&folder, &args)), 0);
+    }
+    let json = ["--format", "json", "--tiles", "3"];
+    for name in ["one.png", "two.png"] {
+        let args = [&["audit", name, "ball.json"], &json[..]].concat();
+        assert_valid("audit", &report(&folder, &args));
+    }
+    // Of another scene there are findings.
+    let failed = rtc(
+        &folder,
+        &[&["audit", "one.png", "away.json"], &json[..]].concat(),
+    );
+    assert_eq!(code(&failed), 1);
+    assert_valid("audit", &serde_json::from_slice(&failed.stdout).unwrap());
 }
 
 #[test]

@@ -55,7 +55,7 @@ pub(crate) struct OutputTransformArgs {
     /// [default: 8, in an EXR 32]; layers of distances, positions and indices keep 32.
     #[arg(long, help_heading = "Output")]
     pub(crate) bits: Option<BitDepth>,
-    /// Do not write metadata: the program, the hash of the scene, the settings
+    /// Do not write metadata: the program, hashes of the scene and of tiles, the settings
     #[arg(long, help_heading = "Output")]
     pub(crate) no_metadata: bool,
 }

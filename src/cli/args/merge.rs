@@ -1,6 +1,6 @@
 //! The arguments of `rtc merge`.
 
-use super::ReporterArgs;
+use super::{Reading, ReporterArgs, StageArgs};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -14,9 +14,31 @@ pub(crate) struct Merge {
     /// Write the picture, or a larger part (.rtp), to this file
     #[arg(short, long, required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) output: PathBuf,
-    /// Accept pictures of any size
-    #[arg(long)]
-    pub(crate) allow_huge: bool,
+    /// Make N tiles of each part anew, and refuse parts that differ; see `rtc audit`
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u64).range(1..),
+        requires = "scene",
+        help_heading = "Audit",
+    )]
+    pub(crate) audit: Option<u64>,
+    /// The scene of the parts, for `--audit`
+    #[arg(
+        long,
+        value_name = "FILE",
+        requires = "audit",
+        value_hint = ValueHint::FilePath,
+        help_heading = "Audit",
+    )]
+    pub(crate) scene: Option<PathBuf>,
+    /// Draw the tiles by this seed [default: a random one, which is printed]
+    #[arg(long, value_name = "N", requires = "audit", help_heading = "Audit")]
+    pub(crate) seed: Option<u64>,
+    #[command(flatten)]
+    pub(crate) stage: StageArgs,
+    #[command(flatten)]
+    pub(crate) reading: Reading,
     #[command(flatten)]
     pub(crate) reporter: ReporterArgs,
 }

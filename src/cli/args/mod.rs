@@ -1,5 +1,6 @@
 //! The arguments, exactly as typed; [`super`] resolves them.
 
+mod audit;
 mod common;
 mod cost;
 mod diff;
@@ -12,6 +13,7 @@ mod render;
 mod stage;
 mod wanted;
 
+pub(super) use audit::Audit;
 pub(super) use common::{Color, MessageFormat, Reading, ReportFormatArgs, ReporterArgs};
 pub(super) use cost::{Cost, StudyFormat};
 pub(super) use diff::Diff;
@@ -74,13 +76,15 @@ pub(super) enum Command {
     /// Run the language server (diagnostics, quick fixes, hover, completion)
     Lsp(Lsp),
     /// Join parts of `rtc render --part` into the picture
-    Merge(Merge),
+    Merge(Box<Merge>),
     /// Write a job that renders a picture in parts on many machines
     Farm(Box<Farm>),
     /// Show the error and the time of each setting, and recommend one
     Cost(Cost),
     /// Compare two pictures or scenes, and apply gates
     Diff(Diff),
+    /// Check that a picture is what it says: make some of its tiles anew
+    Audit(Box<Audit>),
     /// Show contents, size and required features of a scene
     Info(Box<Info>),
     /// Explain a code of a diagnostic, or list all codes
@@ -272,6 +276,8 @@ pub(super) enum SchemaFormat {
     Cost,
     /// The report of `rtc diff --format json`
     Diff,
+    /// The report of `rtc audit --format json`
+    Audit,
     /// A line of `rtc check --message-format json`
     Check,
     /// Scenes, as a page to read in Markdown

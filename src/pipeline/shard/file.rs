@@ -23,7 +23,11 @@ impl RenderShard {
     /// If the header exceeds 4 GiB.
     #[must_use]
     pub fn save(&self) -> Vec<u8> {
-        let head = serde_json::to_vec(&self.head).expect("maps with string keys, lists, numbers");
+        let head = ShardHeader {
+            tiles: self.hashed_tiles(),
+            ..self.head.clone()
+        };
+        let head = serde_json::to_vec(&head).expect("maps with string keys, lists, numbers");
         let film = self.film.save();
         let mut bytes = MAGIC.to_vec();
         bytes.extend(VERSION.to_le_bytes());
@@ -69,7 +73,7 @@ impl RenderShard {
             .ok_or(SHORT)?;
         let (film, layers) = remaining.split_at_checked(film).ok_or(SHORT)?;
         // Decode and check them.
-        let head: ShardHeader = serde_json::from_slice(head)
+        let mut head: ShardHeader = serde_json::from_slice(head)
             .map_err(|_| ShardError::Damaged("its header is not as it should be"))?;
         head.check(max_pixels)?;
         let film = PartialFilm::load(film, max_pixels).map_err(ShardError::Film)?;
@@ -78,12 +82,17 @@ impl RenderShard {
         let border = layers.len().checked_sub(growth).ok_or(SHORT)?;
         let (layers, growth) = layers.split_at(border);
         let layers = head.layers(layers)?;
-        Ok(Self {
+        let tiles = head.tiles.take();
+        let shard = Self {
             head,
             film,
             layers,
             growth: growth.to_vec(),
-        })
+        };
+        match tiles.is_none() || tiles == shard.hashed_tiles() {
+            true => Ok(shard),
+            false => Err(ShardError::Damaged("its tiles are not those of its hashes")),
+        }
     }
 }
 

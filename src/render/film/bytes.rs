@@ -35,15 +35,10 @@ impl PartialFilm {
             values,
             summation,
         } = self.layout;
-        let (summation, samples) = match summation {
-            Summation::InOrder => (0, 0),
-            Summation::InBlocks(samples) => (1, samples),
-            Summation::Distance => (2, 0),
-        };
         let mut bytes = MAGIC.to_vec();
         bytes.extend(VERSION.to_le_bytes());
-        bytes.extend([CHANNELS, u8::from(values == Values::Linear), summation]);
-        for number in [samples, crop.x, crop.y, crop.width, crop.height] {
+        bytes.extend(kind_of_sums(values, summation));
+        for number in [crop.x, crop.y, crop.width, crop.height] {
             bytes.extend(number.to_le_bytes());
         }
         let counts = self.counts.to_array();
@@ -51,9 +46,24 @@ impl PartialFilm {
         bytes.extend(counts.into_iter().flat_map(u64::to_le_bytes));
         bytes.extend(length(self.tiles.iter().map(Vec::len).sum()));
         for (tile, nodes) in self.tiles.iter().enumerate() {
-            nodes.iter().for_each(|node| node.save(tile, &mut bytes));
+            for node in nodes {
+                bytes.extend(length(tile));
+                node.save(&mut bytes);
+            }
         }
         bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
+        bytes
+    }
+
+    /// What it has of a tile, as bytes: which kind of sums, and those of each node.
+    ///
+    /// # Panics
+    /// If there is no such tile.
+    #[must_use]
+    pub fn tile_bytes(&self, tile: usize) -> Vec<u8> {
+        let mut bytes = kind_of_sums(self.layout.values, self.layout.summation).to_vec();
+        let nodes = self.tiles[tile].iter();
+        nodes.for_each(|node| node.save(&mut bytes));
         bytes
     }
 
@@ -88,8 +98,7 @@ impl PartialFilm {
 }
 
 impl SumNode {
-    fn save(&self, tile: usize, bytes: &mut Vec<u8>) {
-        bytes.extend(length(tile));
+    fn save(&self, bytes: &mut Vec<u8>) {
         bytes.extend(self.blocks.start.to_le_bytes());
         bytes.extend(self.blocks.end.to_le_bytes());
         for sum in &self.sums {
@@ -103,6 +112,25 @@ impl SumNode {
             bytes.extend(sum.samples.to_le_bytes());
         }
     }
+}
+
+/// Channels, values and summation, a byte each, and the samples of a pixel.
+fn kind_of_sums(values: Values, summation: Summation) -> [u8; 7] {
+    let (summation, samples) = match summation {
+        Summation::InOrder => (0, 0),
+        Summation::InBlocks(samples) => (1, samples),
+        Summation::Distance => (2, 0),
+    };
+    let [a, b, c, d] = samples.to_le_bytes();
+    [
+        CHANNELS,
+        u8::from(values == Values::Linear),
+        summation,
+        a,
+        b,
+        c,
+        d,
+    ]
 }
 
 /// A number of entities as bytes: a picture has fewer than 2³² of each.

@@ -243,7 +243,23 @@ impl PartialFilm {
         self.layout.crop
     }
 
-    /// A film without samples.
+    /// The tiles of which it has samples: their numbers and rectangles.
+    pub fn held_tiles(&self) -> impl Iterator<Item = (usize, Crop)> {
+        let tiles = tiles_of(self.layout.crop).enumerate();
+        tiles.filter(|(tile, _)| !self.tiles[*tile].is_empty())
+    }
+
+    /// The samples that it has of a tile, in ranges that each are made at once; `None` for those of
+    /// pictures that have no parts by samples.
+    ///
+    /// # Panics
+    /// If there is no such tile.
+    pub fn samples_of_tile(&self, tile: usize) -> impl Iterator<Item = Option<Range<u32>>> {
+        let is_in_blocks = matches!(self.layout.summation, Summation::InBlocks(_));
+        let nodes = self.tiles[tile].iter();
+        nodes.map(move |node| is_in_blocks.then(|| self.layout.samples_of(&node.blocks)))
+    }
+
     pub(crate) fn new(layout: FilmLayout) -> Self {
         Self {
             layout,

@@ -43,6 +43,19 @@ pub enum Aov {
 const FAR: f64 = 1e10;
 
 impl Aov {
+    /// All of them.
+    pub const ALL: [Self; 9] = [
+        Self::Albedo,
+        Self::Normal,
+        Self::Depth,
+        Self::Uv,
+        Self::Instance,
+        Self::Position,
+        Self::Error,
+        Self::Samples,
+        Self::Undersampled,
+    ];
+
     /// Its name, which the names of its channels begin with.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -120,18 +120,19 @@ impl AnyWorld {
     /// `on_pixel` is called from all threads after each pixel.
     #[must_use]
     pub fn layers(&self, wanted: &[Aov], job: &Job, on_pixel: &OnPixel<'_>) -> Option<Layers> {
+        let unpruned = self.unpruned();
+        let world = unpruned.as_ref().unwrap_or(self);
+        each!(world, world => world.layers(wanted, job, on_pixel))
+    }
+
+    /// The world by no rule, if this is by some: rules keep the colours, but only a plan without
+    /// them keeps all that a layer may show.
+    #[must_use]
+    pub fn unpruned(&self) -> Option<Self> {
         let (scene, plan) = each!(self, world => (world.scene(), &world.plan));
-        if plan.rules == Rules::NONE {
-            return each!(self, world => world.layers(wanted, job, on_pixel));
-        }
-        // Rules keep the colours; only a plan without them keeps all that a layer may show.
         let simd = each!(self, world => world.simd);
-        Self::prepare_at(
-            scene,
-            &Plan::with_arithmetic(plan.arithmetic, scene, Rules::NONE),
-            simd,
-        )
-        .layers(wanted, job, on_pixel)
+        let bare = || Plan::with_arithmetic(plan.arithmetic, scene, Rules::NONE);
+        (plan.rules != Rules::NONE).then(|| Self::prepare_at(scene, &bare(), simd))
     }
 
     /// Sums a range of the samples of traced paths.

@@ -1,0 +1,206 @@
+//! `rtc audit`: whether a picture, or a part of one, is what it says; some of its tiles are made
+//! anew.
+
+mod report;
+
+use super::args::{self, Audit, Reading, StageArgs};
+use super::interrupt::Interrupt;
+use super::merge::part_of;
+use super::progress::RenderProgress;
+use super::reporter::{self, Reporter};
+use super::shown::{charge, read};
+use super::{Failure, input, output, simd};
+pub(super) use report::AuditReport;
+use rtc_image::WrittenFile;
+use rtc_pipeline::{
+    AuditDraw, AuditResult, Input, Observer, PictureAudit, PictureSetup, RenderError, RenderShard,
+    RenderSubject,
+};
+use rtc_source::{Resource, SourceMap};
+use std::path::Path;
+
+/// Audits a picture and reports what was found.
+pub(super) fn run(args: &Audit) -> Result<(), Failure> {
+    let mut reporter = Reporter::beside_result(&args.reporter);
+    let outcome = carry_out(args, &mut reporter);
+    reporter.finish()?;
+    let (result, seed) = outcome?;
+    let report = AuditReport::new([&args.picture, &args.scene], seed, &result);
+    if args.format.is_json() {
+        output::to_stdout(report.json()?.as_bytes())?;
+    } else if !args.reporter.quiet || !result.findings.is_empty() {
+        output::to_stdout(report.words().as_bytes())?;
+    }
+    match result.findings.is_empty() {
+        true => Ok(()),
+        false => Err(Failure::Findings),
+    }
+}
+
+/// What was found, and the seed by which tiles were drawn.
+fn carry_out(args: &Audit, reporter: &mut Reporter) -> Result<(AuditResult, u64), Failure> {
+    let map = SourceMap::with_limits(args.reading.limits(|_| ()));
+    let bytes = read(&args.picture, &map)?;
+    let seed = seed(args.draw.seed)?;
+    let draw = AuditDraw {
+        tiles: args.draw.tiles,
+        seed,
+    };
+    let scene = AuditScene {
+        file: &args.scene,
+        stage: &args.stage,
+        reading: &args.reading,
+        threads: args.threads.map_or(0, usize::from),
+    };
+    if args.picture.extension().is_some_and(|it| it == "rtp") {
+        let part = part_of(&args.picture, &bytes, map.budget().limit(Resource::Pixels))?;
+        let setup = part
+            .setup()
+            .map_err(|error| refused(&args.picture, error))?;
+        let mut audited = scene.validate(setup, reporter)?;
+        return Ok((audited.part((&args.picture, &part), draw, reporter)?, seed));
+    }
+    let named = |error| Failure::Trouble(format!("`{}` {error}", args.picture.display()));
+    let file = WrittenFile::open(&bytes, map.budget().limit(Resource::Pixels)).map_err(named)?;
+    charge(&args.picture, file.cost(), map.budget())?;
+    let picture = file.decode().map_err(named)?;
+    let opened = PictureAudit::open(&picture);
+    let (audit, setup) = match opened.map_err(|error| refused(&args.picture, error))? {
+        Ok(opened) => opened,
+        Err(result) => return Ok((result, seed)),
+    };
+    let mut audited = scene.validate(setup, reporter)?;
+    let result = audited.observed(draw, reporter, |setup, subject, order, observer| {
+        let result = audit.run(setup, subject, order, observer);
+        result.map_err(|error| refused(&args.picture, error))
+    })?;
+    Ok((result, seed))
+}
+
+/// Why a file can't be audited.
+pub(super) fn refused(path: &Path, error: RenderError) -> Failure {
+    match error {
+        RenderError::Refused(words) => {
+            Failure::Trouble(format!("`{}` can't be audited: {words}", path.display()))
+        }
+        error @ (RenderError::Stopped | RenderError::RanOut(_)) => error.into(),
+    }
+}
+
+/// The seed given, or a random one.
+pub(super) fn seed(given: Option<u64>) -> Result<u64, Failure> {
+    let Some(seed) = given else {
+        let none = |error| Failure::Trouble(format!("the system gives no random numbers: {error}"));
+        return getrandom::u64().map_err(none);
+    };
+    Ok(seed)
+}
+
+/// The scene of what is audited, as it is to be read.
+pub(super) struct AuditScene<'a> {
+    pub(super) file: &'a Path,
+    pub(super) stage: &'a StageArgs,
+    pub(super) reading: &'a Reading,
+    /// 0 for one a core.
+    pub(super) threads: usize,
+}
+
+/// A scene, validated in the settings of what is audited.
+pub(super) struct AuditedScene {
+    input: Input,
+    setup: PictureSetup,
+    subject: RenderSubject,
+    interrupt: Interrupt,
+}
+
+impl AuditScene<'_> {
+    /// Reads the scene and lights it as the picture was lit; what is found is told.
+    pub(super) fn validate(
+        &self,
+        setup: PictureSetup,
+        reporter: &mut Reporter,
+    ) -> Result<AuditedScene, Failure> {
+        let mut setup = PictureSetup {
+            threads: self.threads,
+            simd: simd::level()?,
+            ..setup
+        };
+        let mut input = input::staged(self.file, self.reading, self.stage)?;
+        input.use_threads(setup.threads);
+        if setup.look.is_transparent() {
+            input.restage(|stage| stage.ground = stage.ground.or(Some(false)));
+        }
+        let mut subject = input::subject(&mut setup, &mut input, reporter)?;
+        let interrupt = Interrupt::listen()?;
+        let observer = Observer {
+            on_step: &|_| (),
+            is_stopped: &|| interrupt.is_raised(),
+        };
+        setup.light(&mut subject, &mut input, &observer)?;
+        input::tell(&mut input, reporter)?;
+        Ok(AuditedScene {
+            input,
+            setup,
+            subject,
+            interrupt,
+        })
+    }
+}
+
+impl AuditedScene {
+    /// Audits a part.
+    pub(super) fn part(
+        &mut self,
+        (path, part): (&Path, &RenderShard),
+        draw: AuditDraw,
+        reporter: &Reporter,
+    ) -> Result<AuditResult, Failure> {
+        self.observed(draw, reporter, |setup, subject, order, observer| {
+            let result = part.audit(setup, subject, order, observer);
+            result.map_err(|error| refused(path, error))
+        })
+    }
+
+    /// Makes tiles anew by `audit`, with a bar that shows how far it is.
+    fn observed(
+        &mut self,
+        draw: AuditDraw,
+        reporter: &Reporter,
+        audit: impl FnOnce(
+            &PictureSetup,
+            &mut RenderSubject,
+            (AuditDraw, u64),
+            &Observer<'_>,
+        ) -> Result<AuditResult, Failure>,
+    ) -> Result<AuditResult, Failure> {
+        let pixels = draw.tiles.saturating_mul(256);
+        let progress = RenderProgress::start(pixels, reporter.is_quiet());
+        let observer = Observer {
+            on_step: &|step| progress.step(step),
+            is_stopped: &|| self.interrupt.is_raised(),
+        };
+        let order = (draw, self.input.rays());
+        let result = audit(&self.setup, &mut self.subject, order, &observer);
+        progress.finish();
+        result
+    }
+}
+
+/// Tells of parts that were audited, or ends with what is wrong.
+pub(super) fn judge_part(
+    path: &Path,
+    args: &args::Merge,
+    seed: u64,
+    result: &AuditResult,
+) -> Result<(), Failure> {
+    let scene = args.scene.as_deref().unwrap_or(Path::new("-"));
+    let words = AuditReport::new([path, scene], seed, result).words();
+    let words = words.trim_end();
+    if !result.findings.is_empty() {
+        return Err(Failure::Input(words.to_owned()));
+    }
+    if !args.reporter.quiet {
+        reporter::say(words);
+    }
+    Ok(())
+}

@@ -1,0 +1,414 @@
+//! Picture files of this program, read back as they were written: every bit of their samples, and
+//! what they say of where they came from.
+
+use super::decode::{DecodeCost, DecodeError, ImageSize};
+use super::png::{TREE as TREE_CHUNK, pack};
+use super::{FileFormat, MerkleTree, Opacity, Origin, Picture, PixelFile, exr, is_radiance, xmp};
+use ::exr::meta::MetaData;
+use ::exr::meta::attribute::{AttributeValue, SampleType, Text};
+use ::exr::meta::header::Header;
+use ::exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read};
+use ::png::{BitDepth, ColorType};
+use image_webp::WebPDecoder;
+use std::io::Cursor;
+
+/// What is said of a file that this program does not write.
+const FOREIGN: DecodeError = DecodeError::Unsupported("picture of another program");
+
+/// A picture file of which the header was read.
+pub struct WrittenFile<'a> {
+    bytes: &'a [u8],
+    cost: DecodeCost,
+}
+
+/// A picture as its file holds it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WrittenPicture {
+    /// The form of the file.
+    pub form: FileFormat,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// The names of its channels but for red, green, blue and opacity, in the order of the file.
+    pub layers: Vec<String>,
+    /// What it says of where it came from.
+    pub origin: Origin,
+    /// The tree over the tiles of its film, if it has one.
+    pub tree: Option<MerkleTree>,
+    /// The samples, pixel after pixel.
+    samples: Vec<u8>,
+}
+
+impl<'a> WrittenFile<'a> {
+    /// Reads the header of a PNG, WebP or EXR of at most so many pixels.
+    ///
+    /// # Errors
+    /// If the bytes are no such file, its header is damaged or tells of more pixels.
+    pub fn open(bytes: &'a [u8], most_pixels: u64) -> Result<Self, DecodeError> {
+        let cost = if is_radiance(bytes) {
+            let header = header(bytes)?;
+            let [width, height] = size_of(&header);
+            let pixels = ImageSize::within(most_pixels, width, height)?.pixels();
+            let channels = header.channels.list.len() as u64;
+            DecodeCost {
+                pixels,
+                memory: pixels.saturating_mul(8).saturating_mul(channels),
+                scratch: (header.max_block_byte_size() as u64).saturating_mul(3),
+            }
+        } else {
+            let cost = PixelFile::open(bytes, Opacity::Kept, most_pixels)?.cost();
+            DecodeCost {
+                memory: cost.memory.saturating_mul(2),
+                ..cost
+            }
+        };
+        Ok(Self { bytes, cost })
+    }
+
+    /// What decoding it will take.
+    #[must_use]
+    pub fn cost(&self) -> DecodeCost {
+        self.cost
+    }
+
+    /// Decodes it.
+    ///
+    /// # Errors
+    /// If the file is damaged or of a form that this program does not write.
+    pub fn decode(self) -> Result<WrittenPicture, DecodeError> {
+        match self.bytes {
+            [0x89, b'P', ..] => read_png(self.bytes),
+            [0xff, 0xd8, ..] => Err(DecodeError::Unsupported("JPEG, with losses")),
+            [b'R', b'I', b'F', b'F', ..] => read_webp(self.bytes),
+            _ if is_radiance(self.bytes) => read_exr(self.bytes),
+            _ => Err(FOREIGN),
+        }
+    }
+}
+
+impl WrittenPicture {
+    /// The samples of a rectangle: its first column and row, and its width and height, all within
+    /// the picture; in the order of [`samples`].
+    #[must_use]
+    pub fn part(&self, [left, top]: [u32; 2], [width, height]: [u32; 2]) -> Vec<u8> {
+        let row = self.samples.len() / (self.size[1] as usize).max(1);
+        let pixel = row / (self.size[0] as usize).max(1);
+        let columns = left as usize * pixel..(left + width) as usize * pixel;
+        let rows = self.samples.chunks_exact(row.max(1));
+        let rows = rows.skip(top as usize).take(height as usize);
+        rows.flat_map(|row| &row[columns.clone()])
+            .copied()
+            .collect()
+    }
+}
+
+/// The samples of a picture as a file of this form holds them, pixel after pixel: of a PNG in the
+/// order of its bytes, of an EXR its channels by their names, little-endian.
+#[must_use]
+pub fn samples(picture: &Picture, form: FileFormat) -> Vec<u8> {
+    let depth = match form {
+        FileFormat::Exr | FileFormat::ExrHalf => return exr::samples(picture, form),
+        FileFormat::Png16 => BitDepth::Sixteen,
+        FileFormat::Png8 | FileFormat::Jpeg | FileFormat::Webp => BitDepth::Eight,
+    };
+    let (mut all, mut bytes) = (Vec::new(), Vec::new());
+    for row in 0..picture.image.height as usize {
+        pack(picture, row, depth, &mut bytes);
+        all.extend_from_slice(&bytes);
+    }
+    all
+}
+
+fn read_png(bytes: &[u8]) -> Result<WrittenPicture, DecodeError> {
+    let mut reader = ::png::Decoder::new(Cursor::new(bytes))
+        .read_info()
+        .map_err(DecodeError::damaged)?;
+    let length = reader.output_buffer_size().ok_or(FOREIGN)?;
+    let mut samples = vec![0; length];
+    reader
+        .next_frame(&mut samples)
+        .map_err(DecodeError::damaged)?;
+    let info = reader.info();
+    let form = match (info.color_type, info.bit_depth) {
+        (ColorType::Rgb | ColorType::Rgba, BitDepth::Eight) => FileFormat::Png8,
+        (ColorType::Rgb | ColorType::Rgba, BitDepth::Sixteen) => FileFormat::Png16,
+        _ => return Err(FOREIGN),
+    };
+    let text = |name: &str| {
+        let mut texts = info.utf8_text.iter();
+        let found = texts.find(|text| text.keyword == name);
+        found
+            .and_then(|text| text.get_text().ok())
+            .unwrap_or_default()
+    };
+    Ok(WrittenPicture {
+        form,
+        size: [info.width, info.height],
+        layers: Vec::new(),
+        origin: Origin {
+            software: text("Software"),
+            scene: text("rtc:scene"),
+            settings: text("rtc:settings"),
+            world_to_camera: None,
+            layer: text("rtc:layer"),
+        },
+        tree: chunk(bytes, TREE_CHUNK.0).and_then(MerkleTree::read),
+        samples,
+    })
+}
+
+/// The content of the first chunk of this name, if it fits its checksum.
+fn chunk(png: &[u8], name: [u8; 4]) -> Option<&[u8]> {
+    let mut rest = png.get(8..)?;
+    loop {
+        let (length, after) = rest.split_first_chunk()?;
+        let length = u32::from_be_bytes(*length) as usize;
+        let (named, after) = after.split_at_checked(length.checked_add(4)?)?;
+        let (sum, after) = after.split_first_chunk()?;
+        if named.starts_with(&name) {
+            let fits = crc32fast::hash(named) == u32::from_be_bytes(*sum);
+            return fits.then(|| &named[4..]);
+        }
+        rest = after;
+    }
+}
+
+fn read_webp(bytes: &[u8]) -> Result<WrittenPicture, DecodeError> {
+    let mut decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(DecodeError::damaged)?;
+    if decoder.is_animated() || decoder.is_lossy() {
+        return Err(FOREIGN);
+    }
+    let mut samples = vec![0; decoder.output_buffer_size().ok_or(FOREIGN)?];
+    decoder
+        .read_image(&mut samples)
+        .map_err(DecodeError::damaged)?;
+    let packet = decoder.xmp_metadata().map_err(DecodeError::damaged)?;
+    let (origin, tree) = xmp::read(&packet.unwrap_or_default());
+    Ok(WrittenPicture {
+        form: FileFormat::Webp,
+        size: decoder.dimensions().into(),
+        layers: Vec::new(),
+        origin,
+        tree,
+        samples,
+    })
+}
+
+/// The header of an EXR of one layer.
+fn header(bytes: &[u8]) -> Result<Header, DecodeError> {
+    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false);
+    let mut headers = meta.map_err(DecodeError::damaged)?.headers.into_iter();
+    let first = headers.next().ok_or(FOREIGN)?;
+    let is_plain = headers.next().is_none() && !first.deep;
+    is_plain.then_some(first).ok_or(FOREIGN)
+}
+
+/// The sides of a layer in pixels.
+fn size_of(header: &Header) -> [u32; 2] {
+    let size = header.layer_size;
+    [size.0, size.1].map(|side| u32::try_from(side).unwrap_or(u32::MAX))
+}
+
+fn read_exr(bytes: &[u8]) -> Result<WrittenPicture, DecodeError> {
+    let header = header(bytes)?;
+    let size = size_of(&header);
+    let reader = read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer()
+        .all_attributes();
+    let image = reader
+        .from_buffered(Cursor::new(bytes))
+        .map_err(DecodeError::damaged)?;
+    let channels = &image.layer_data.channel_data.list;
+    let names = channels.iter().map(|channel| channel.name.to_string());
+    let mut samples = Vec::new();
+    for pixel in 0..size[0] as usize * size[1] as usize {
+        for channel in channels {
+            match &channel.sample_data {
+                FlatSamples::F16(values) => samples.extend(values[pixel].to_le_bytes()),
+                FlatSamples::F32(values) => samples.extend(values[pixel].to_le_bytes()),
+                FlatSamples::U32(values) => samples.extend(values[pixel].to_le_bytes()),
+            }
+        }
+    }
+    let own = &header.own_attributes;
+    let attribute = |name: &str| own.other.get(&Text::from(name));
+    let words = |name| match attribute(name) {
+        Some(AttributeValue::Text(words)) => words.to_string(),
+        _ => String::new(),
+    };
+    let tree = match attribute(exr::TREE) {
+        Some(AttributeValue::Custom { bytes, .. }) => MerkleTree::read(bytes),
+        _ => None,
+    };
+    let is_layer = |name: &String| !["R", "G", "B", "A"].contains(&name.as_str());
+    let red = header
+        .channels
+        .list
+        .iter()
+        .find(|channel| channel.name == *"R");
+    Ok(WrittenPicture {
+        form: match red.map(|red| red.sample_type) {
+            Some(SampleType::F32) => FileFormat::Exr,
+            Some(SampleType::F16) => FileFormat::ExrHalf,
+            _ => return Err(FOREIGN),
+        },
+        size,
+        layers: names.filter(is_layer).collect(),
+        origin: Origin {
+            software: own
+                .software_name
+                .as_ref()
+                .map(ToString::to_string)
+                .unwrap_or_default(),
+            scene: words("rtc:scene"),
+            settings: words("rtc:settings"),
+            world_to_camera: own.world_to_camera,
+            layer: String::new(),
+        },
+        tree,
+        samples,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Image, Layers, PictureHead, TileHash, tile_count};
+    use super::*;
+
+    const SIZE: [u32; 2] = [37, 21];
+
+    const FORMS: [FileFormat; 5] = [
+        FileFormat::Png8,
+        FileFormat::Png16,
+        FileFormat::Webp,
+        FileFormat::Exr,
+        FileFormat::ExrHalf,
+    ];
+
+    /// A picture with opacity, in an EXR with layers.
+    fn picture(form: FileFormat) -> Picture {
+        let pixels = 0..SIZE[0] * SIZE[1];
+        let color = |at: u32| [0.001 * f64::from(at), 0.5, f64::from(at % 7) / 6.0];
+        let layers = match form.is_linear() {
+            true => Layers {
+                names: vec!["normal.X", "depth.Z"],
+                values: pixels.clone().flat_map(|at| [0.5, at as f32]).collect(),
+            },
+            false => Layers::default(),
+        };
+        Picture {
+            image: Image {
+                width: SIZE[0],
+                height: SIZE[1],
+                pixels: pixels.clone().map(color).collect(),
+            },
+            alpha: Some(pixels.map(|at| (at % 11) as f32 / 10.0).collect()),
+            layers,
+            tiles: (0..tile_count(SIZE))
+                .map(|tile| TileHash::of_tile(&tile.to_le_bytes()))
+                .collect(),
+        }
+    }
+
+    fn head(picture: &Picture, form: FileFormat) -> PictureHead {
+        PictureHead {
+            origin: Origin {
+                software: "rtc 1".into(),
+                scene: "abc".into(),
+                settings: "{\"a\":[1,\"&<\"]}".into(),
+                world_to_camera: form.is_linear().then_some([0.5; 16]),
+                layer: String::new(),
+            },
+            ..PictureHead::of(picture, form)
+        }
+    }
+
+    fn decoded(bytes: &[u8]) -> WrittenPicture {
+        WrittenFile::open(bytes, 1 << 20).unwrap().decode().unwrap()
+    }
+
+    #[test]
+    fn what_is_written_is_read_back_in_every_form() {
+        for form in FORMS {
+            let picture = picture(form);
+            let head = head(&picture, form);
+            let bytes = head.encode(&picture).unwrap();
+            assert!(
+                (0..8).all(|_| head.encode(&picture).unwrap() == bytes),
+                "{form:?}"
+            );
+            let written = decoded(&bytes);
+            assert_eq!((written.form, written.size), (form, SIZE));
+            assert_eq!(written.origin, head.origin, "{form:?}");
+            let tree = MerkleTree::new(picture.tiles.clone(), &head.origin);
+            assert_eq!(written.tree, Some(tree), "{form:?}");
+            assert_eq!(
+                written.part([0, 0], SIZE),
+                samples(&picture, form),
+                "{form:?}"
+            );
+            let layers: &[&str] = match form.is_linear() {
+                true => &["depth.Z", "normal.X"],
+                false => &[],
+            };
+            assert_eq!(written.layers, layers);
+        }
+    }
+
+    #[test]
+    fn a_part_is_that_of_the_picture() {
+        for form in FORMS {
+            let picture = picture(form);
+            let written = decoded(&picture.encode(form).unwrap());
+            let (all, pixels) = (samples(&picture, form), (SIZE[0] * SIZE[1]) as usize);
+            let pixel = all.len() / pixels;
+            let at = |x: usize, y: usize| &all[(y * SIZE[0] as usize + x) * pixel..][..pixel];
+            let expected = [at(32, 16), at(33, 16), at(32, 17), at(33, 17)].concat();
+            assert_eq!(written.part([32, 16], [2, 2]), expected, "{form:?}");
+        }
+    }
+
+    #[test]
+    fn without_hashes_a_file_says_no_more_than_before() {
+        for form in FORMS {
+            let mut picture = picture(form);
+            picture.tiles.clear();
+            let bytes = picture.encode(form).unwrap();
+            let written = decoded(&bytes);
+            assert_eq!((written.tree, written.origin), (None, Origin::default()));
+            let has = |name: &[u8]| bytes.windows(name.len()).any(|window| window == name);
+            assert!(
+                ![&b"rtMT"[..], b"rtc:", b"XMP "]
+                    .iter()
+                    .any(|name| has(name)),
+                "{form:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn foreign_and_damaged_files_are_refused() {
+        let grey = {
+            let mut bytes = Vec::new();
+            let mut encoder = ::png::Encoder::new(&mut bytes, 1, 1);
+            encoder.set_color(ColorType::Grayscale);
+            let mut writer = encoder.write_header().unwrap();
+            writer.write_image_data(&[1]).unwrap();
+            writer.finish().unwrap();
+            bytes
+        };
+        let file = WrittenFile::open(&grey, 9).unwrap().decode();
+        assert!(matches!(file, Err(DecodeError::Unsupported(_))));
+        for form in FORMS {
+            let bytes = picture(form).encode(form).unwrap();
+            assert!(WrittenFile::open(&bytes, 9).is_err(), "{form:?}");
+            for length in 0..bytes.len().min(400) {
+                let cut = &bytes[..length];
+                let read = WrittenFile::open(cut, 1 << 20).and_then(WrittenFile::decode);
+                assert!(read.is_err(), "{form:?}, {length}");
+            }
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! What a sample without a fault says of all that it was drawn from: the hypergeometric
+//! distribution, in whole numbers.
+
+/// The least number of faults among `all` that `drawn` of them, drawn at random without
+/// replacement, miss altogether with a probability of at most one in `odds`. So if they hit none,
+/// there are fewer faults than that, with a confidence of 1 − 1/`odds`. `None` if even all faults
+/// would be missed, as nothing was drawn.
+///
+/// Of `d` faults none is hit with the probability C(N−d, k) / C(N, k), which falls as `d` grows.
+#[must_use]
+pub fn least_faults(all: u64, drawn: u64, odds: u64) -> Option<u64> {
+    let (mut low, mut high) = (0, all);
+    while low < high {
+        let middle = low + (high - low) / 2;
+        if is_rare(all, drawn, middle, odds) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    is_rare(all, drawn, low, odds).then_some(low)
+}
+
+/// Whether C(N−d, k) / C(N, k) ≤ 1 / odds. The quotient is ∏ (N−b−i) / (N−i) over i < a, for the
+/// smaller and the larger, a and b, of d and k.
+fn is_rare(all: u64, drawn: u64, faults: u64, odds: u64) -> bool {
+    let (fewer, more) = (drawn.min(faults), drawn.max(faults));
+    if more > all - fewer {
+        return true;
+    }
+    let (mut missed, mut chances) = (Natural::from(odds), Natural::from(1));
+    for index in 0..fewer {
+        missed.multiply(all - more - index);
+        chances.multiply(all - index);
+    }
+    missed <= chances
+}
+
+/// A natural number, in digits of 64 bits, the highest first of which none is 0 in front.
+#[derive(PartialEq, Eq)]
+struct Natural(Vec<u64>);
+
+impl Natural {
+    fn from(number: u64) -> Self {
+        Self(vec![number])
+    }
+
+    fn multiply(&mut self, factor: u64) {
+        let mut carry = 0_u128;
+        for digit in self.0.iter_mut().rev() {
+            carry += u128::from(*digit) * u128::from(factor);
+            #[expect(clippy::cast_possible_truncation, reason = "the low digit")]
+            {
+                *digit = carry as u64;
+            }
+            carry >>= 64;
+        }
+        if let Ok(digit @ 1..) = u64::try_from(carry) {
+            self.0.insert(0, digit);
+        }
+    }
+}
+
+impl PartialOrd for Natural {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        let key = |number: &Self| number.0.len();
+        Some(
+            key(self)
+                .cmp(&key(other))
+                .then_with(|| self.0.cmp(&other.0)),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// How many of the ways to draw `drawn` of `all` hit none of the first `faults`, and how many
+    /// ways there are: all subsets, one by one.
+    fn enumerated(all: u32, drawn: u32, faults: u32) -> [u64; 2] {
+        let subsets = (0..1_u32 << all).filter(|subset| subset.count_ones() == drawn);
+        subsets.fold([0, 0], |[missed, ways], subset| {
+            let hits = subset & ((1 << faults) - 1);
+            [missed + u64::from(hits == 0), ways + 1]
+        })
+    }
+
+    #[test]
+    fn the_bound_is_that_of_counting_all_draws() {
+        for all in 1..=12_u32 {
+            for drawn in 0..=all {
+                for odds in [2, 10, 50] {
+                    let is_rare = |faults: &u32| {
+                        let [missed, ways] = enumerated(all, drawn, *faults);
+                        missed * odds <= ways
+                    };
+                    let expected = (0..=all).find(is_rare).map(u64::from);
+                    let found = least_faults(all.into(), drawn.into(), odds);
+                    assert_eq!(found, expected, "{drawn} of {all}, {odds}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn known_bounds() {
+        // All are drawn: there is none. None is drawn: nothing is known.
+        assert_eq!(least_faults(1000, 1000, 50), Some(1));
+        assert_eq!(least_faults(1000, 0, 50), None);
+        // Many tiles, few of them drawn: 1 − 0.02^(1/32) of them, by the binomial distribution.
+        let all = 1 << 30;
+        let share = least_faults(all, 32, 50).unwrap() as f64 / all as f64;
+        let binomial = 1.0 - rtc_math::pow(0.02, 1.0 / 32.0);
+        assert!((share - binomial).abs() < 1e-6, "{share} {binomial}");
+    }
+
+    #[test]
+    fn large_draws_end_soon() {
+        assert_eq!(least_faults(1 << 20, 1 << 19, 50), Some(6));
+        assert!(least_faults(1 << 24, 1 << 12, 50).unwrap() < 1 << 14);
+    }
+}
