@@ -45,6 +45,7 @@ const PAGES: &[(&str, &str, &[(&str, &str)])] = &[
             ("`material`", "material"),
             ("`material` of `type: standard`", "standard"),
             ("A texture of a `standard` material", ""),
+            ("A pattern as a texture", ""),
         ],
     ),
 ];

@@ -87,7 +87,7 @@ fn canonical(scene: &Scene) -> Scene {
 fn renumber(material: &mut Material, scene: &Scene, own: &mut Scene) {
     let mut texture = |TextureId(id): &mut TextureId| {
         let texture = match scene.textures[*id as usize].clone() {
-            Texture::Uv => Texture::Uv,
+            texture @ (Texture::Uv | Texture::Procedural(_)) => texture,
             Texture::Image(image) => Texture::Image(image_of(image, scene, own)),
             Texture::Sampled(mut sampled) => {
                 sampled.image = image_of(sampled.image, scene, own);

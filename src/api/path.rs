@@ -45,7 +45,7 @@ fn image(index: usize, scene: &Scene) -> String {
     let is_it = |image: &ImageId| image.0 as usize == index;
     let mut textures = scene.textures.iter();
     let texture = textures.position(|texture| match texture {
-        Texture::Uv => false,
+        Texture::Uv | Texture::Procedural(_) => false,
         Texture::Image(image) => is_it(image),
         Texture::Sampled(sampled) => is_it(&sampled.image),
     });

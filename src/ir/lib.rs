@@ -59,7 +59,7 @@ pub use rtc_math::{Column, SetStep, Shared};
 pub use settings::{Ambient, Gooch, Mode, PathSettings, Pattern, Settings};
 pub use shape::*;
 pub use standard::{Alpha, Map, Standard};
-pub use texture::{Filter, Sampled, Texture, TextureId, Wrap};
+pub use texture::{Filter, Procedural, Sampled, Texture, TextureId, Wrap};
 
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;

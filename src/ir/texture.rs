@@ -2,6 +2,7 @@
 
 use super::ImageId;
 use arbitrary::Arbitrary;
+use rtc_math::{TextureMapping, TexturePattern};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -22,6 +23,26 @@ pub enum Texture {
     Image(ImageId),
     /// An image as glTF samples it: v = 0 at its top row, texel centres half a texel inside.
     Sampled(Sampled),
+    /// A pattern in closed form, without an image.
+    Procedural(Procedural),
+}
+
+/// A pattern in closed form.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub struct Procedural {
+    /// The pattern.
+    pub pattern: TexturePattern,
+    /// The colours where the pattern is 0 and 1, linear RGB, each channel at least 0; blended
+    /// between.
+    #[schemars(inner(inner(range(min = 0.0))))]
+    pub colors: [[f64; 3]; 2],
+    /// The number of cells of the pattern per unit of its coordinates, above 0.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub scale: f64,
+    /// The coordinates of the pattern.
+    #[serde(default)]
+    pub mapping: TextureMapping,
 }
 
 /// An image with its sampler.

@@ -16,6 +16,7 @@ mod number;
 mod onb;
 mod rotation;
 mod set;
+mod solid_texture;
 mod turns;
 mod weight;
 
@@ -37,6 +38,7 @@ pub use number::{NonNegative, Positive, UnitInterval, shortest};
 pub use onb::Basis;
 pub use rotation::{axis_and_angle, rotated_about, rotated_to_z};
 pub use set::{MAX_SET_OPERANDS, SetStep, evaluate_set, is_set_expression};
+pub use solid_texture::{GradientNoise, SolidTexture, TextureMapping, TexturePattern};
 pub use turns::{cos_sin_revolutions, golden_revolutions};
 pub use weight::Weight;
 

@@ -91,6 +91,10 @@ fn emission(scene: &Scene, material: &Material) -> f64 {
     let image = match map {
         Some(Texture::Sampled(sampled)) => scene.images.get(sampled.image.0 as usize),
         Some(Texture::Image(image)) => scene.images.get(image.0 as usize),
+        Some(Texture::Procedural(procedural)) => {
+            let [first, second] = procedural.colors.map(Vec3::from_array);
+            return factor * ((first + second) * 0.5).max_element();
+        }
         Some(Texture::Uv) | None => None,
     };
     factor * image.map_or(1.0, brightness)

@@ -219,6 +219,7 @@ pub fn validate(lowered: &Lowered, options: &Options, sink: &mut Sink) -> Option
     let valid_scene = valid::validate(&lowered.scene, &lowered.source_spans, &options.valid, sink);
     let valid_scene = valid_scene.filter(|_| !sink.has_errors())?;
     unseen(&valid_scene, lowered, sink);
+    untextured(&valid_scene, lowered, sink);
     Some(valid_scene)
 }
 
@@ -255,6 +256,20 @@ fn unseen(scene: &ValidScene, lowered: &Lowered, sink: &mut Sink) {
             "not in the picture",
         );
         sink.push(diagnostic.pointer(path(*index).to_string()));
+    }
+}
+
+/// Warns about textures that a surface does not show, because it has no texture coordinates.
+fn untextured(scene: &ValidScene, lowered: &Lowered, sink: &mut Sink) {
+    for map in plan::hidden_maps(scene) {
+        let texture = ValuePath::new(EntityKind::Material, map.material, map.field);
+        let surface = ValuePath::new(EntityKind::Surface, map.surface, Field::Whole);
+        let message = "a surface has no texture coordinates, and is shown without its texture";
+        let diagnostic = Diagnostic::new(&codes::UNTEXTURED, message)
+            .at(lowered.source_spans.span(texture), "the texture")
+            .also(lowered.source_spans.span(surface), "a surface without it")
+            .hint("a pattern with `mapping: world` needs no texture coordinates");
+        sink.push(diagnostic.pointer(texture.to_string()));
     }
 }
 

@@ -41,6 +41,7 @@ mod effect;
 pub mod facts;
 mod features;
 mod findings;
+mod hidden_maps;
 mod invisible;
 mod layer;
 mod light;
@@ -58,6 +59,7 @@ mod visibility;
 
 pub use effect::{Effect, EffectState, EffectStatus};
 pub use features::{Features, PathFeatures, Shapes};
+pub use hidden_maps::{HiddenMap, hidden_maps};
 pub use invisible::invisible_surfaces;
 pub use layer::Layer;
 pub use path::{Caustics, EnvironmentUse, LightUse, PathPlan};

@@ -2,7 +2,7 @@
 
 use super::shape::shape_facts;
 use rtc_math::{NonNegative, Vec3};
-use rtc_valid::{Maps, Mesh, Phong, Shape, Surface, Texture, ValidScene};
+use rtc_valid::{Mesh, Phong, Shape, Surface, Texture, ValidScene};
 
 /// A summary of the material of a surface.
 #[derive(Clone, Copy, Debug)]
@@ -51,13 +51,12 @@ impl MaterialSummary {
             glossy_samples,
             ..
         } = material;
-        let maps = material
-            .maps
-            .as_deref()
-            .filter(|_| shape_facts(&surface.shape).has_uv(scene));
+        let has_uv = shape_facts(&surface.shape).has_uv(scene);
+        let is_seen = |map: &usize| has_uv || !scene.textures()[*map].needs_uv();
+        let maps = material.maps.as_deref();
         let (color_map, specular_map) = (
-            maps.and_then(|maps| maps.color),
-            maps.and_then(|maps| maps.specular),
+            maps.and_then(|maps| maps.color).filter(is_seen),
+            maps.and_then(|maps| maps.specular).filter(is_seen),
         );
         // Fold constant textures into the factors.
         let color = color_map.map_or(Some(*color), |map| constants[map]);
@@ -82,7 +81,10 @@ impl MaterialSummary {
             glossy: glossy_samples.get() > 1,
             has_vertex_normals: has_normals(&surface.shape, scene),
             has_normal_map: maps
-                .is_some_and(|Maps { normal, bump, .. }| normal.is_some() || bump.is_some()),
+                .into_iter()
+                .flat_map(|maps| [maps.normal, maps.bump.map(|bump| bump.texture)])
+                .flatten()
+                .any(|map| is_seen(&map)),
             color_map,
             specular_map,
         }
@@ -109,6 +111,10 @@ fn largest(scene: &ValidScene, texture: Option<usize>) -> Vec3 {
     match texture.map(|texture| &scene.textures()[texture]) {
         // Texels may be floats of any size.
         Some(Texture::Uv | Texture::Sampled(_)) => Vec3::INFINITY,
+        Some(Texture::Procedural(texture)) => {
+            let [first, second] = texture.colors;
+            first.max(second)
+        }
         Some(Texture::Image(_)) | None => Vec3::ONE,
     }
 }
@@ -121,6 +127,10 @@ fn has_normals(shape: &Shape, scene: &ValidScene) -> bool {
 pub(super) fn constants(scene: &ValidScene) -> Vec<Option<Vec3>> {
     let value = |texture: &Texture| match texture {
         Texture::Uv | Texture::Sampled(_) => None,
+        Texture::Procedural(texture) => {
+            let [first, second] = texture.colors;
+            (first == second).then_some(first)
+        }
         Texture::Image(image) => {
             let image = &scene.images()[*image];
             image

@@ -3,6 +3,7 @@
 use super::check::{Checker, EntityCounts};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
+use rtc_math::{GradientNoise, SolidTexture, TextureMapping, TexturePattern};
 
 /// A texture of any kind.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +15,8 @@ pub enum Texture {
     Image(usize),
     /// An image as glTF samples it, v = 0 at its top row.
     Sampled(Sampled),
+    /// A pattern in closed form.
+    Procedural(SolidTexture),
 }
 
 /// An image with its sampler.
@@ -108,6 +111,52 @@ pub(super) fn texture(
                 ir::Filter::Nearest => Filter::Nearest,
             },
         })),
+        ir::Texture::Procedural(texture) => procedural(texture, at, check).map(Texture::Procedural),
+    }
+}
+
+fn procedural(
+    texture: &ir::Procedural,
+    at: ValuePath,
+    check: &mut Checker<'_>,
+) -> Option<SolidTexture> {
+    let ir::Procedural {
+        pattern,
+        colors: [first, second],
+        scale,
+        mapping,
+    } = texture;
+    let colors = [check.color(*first, at), check.color(*second, at)];
+    let scale = check.length(*scale, at, &codes::BAD_FACTOR, "scale of a texture");
+    let is_sound = match pattern {
+        TexturePattern::Noise(noise) => (1..=GradientNoise::MAX_OCTAVES).contains(&noise.octaves),
+        TexturePattern::Checker | TexturePattern::Stripes | TexturePattern::Worley { .. } => true,
+    };
+    if !is_sound {
+        let message = format!("noise has 1 to {} octaves", GradientNoise::MAX_OCTAVES);
+        check.report(at, "", Diagnostic::new(&codes::BAD_FACTOR, message));
+    }
+    let [Some(first), Some(second)] = colors else {
+        return None;
+    };
+    let texture = SolidTexture {
+        pattern: *pattern,
+        colors: [first, second],
+        scale: scale?,
+        mapping: *mapping,
+    };
+    is_sound.then_some(texture)
+}
+
+impl Texture {
+    /// Whether the texture is evaluated at texture coordinates of the surface, which not every
+    /// surface has.
+    #[must_use]
+    pub fn needs_uv(&self) -> bool {
+        match self {
+            Self::Uv | Self::Image(_) | Self::Sampled(_) => true,
+            Self::Procedural(texture) => texture.mapping == TextureMapping::Uv,
+        }
     }
 }
 

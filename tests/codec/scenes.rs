@@ -5,9 +5,11 @@ use rtc::internals::color::Tone;
 use rtc::internals::ir::{
     Alpha, Ambient, Bump, Camera, Column, Display, Emitter, Environment, Filter, Gooch, Image,
     ImageId, Instance, Lens, Light, Map, Material, MaterialId, Mesh, MeshId, Mode, PathSettings,
-    Pattern, Phong, Photometry, Pixels, Plane, PointLight, Projection, Punctual, Sampled, Scene,
-    Settings, Shape, Sphere, Standard, Surface, Texture, TextureId, Triangle, Wrap,
+    Pattern, Phong, Photometry, Pixels, Plane, PointLight, Procedural, Projection, Punctual,
+    Sampled, Scene, Settings, Shape, Sphere, Standard, Surface, Texture, TextureId, Triangle, Wrap,
 };
+
+use rtc::internals::math::{GradientNoise, TextureMapping, TexturePattern};
 
 /// Boxed, as the parts of a scene are: what is made of it is too large for the stack of a test
 /// otherwise.
@@ -114,7 +116,22 @@ fn texture() -> impl Strategy<Value = Texture> {
         },
     });
     let image = any::<u32>().prop_map(|image| Texture::Image(ImageId(image)));
-    prop_oneof![Just(Texture::Uv), image, sampled.prop_map(Texture::Sampled)]
+    let pattern = any::<u32>().prop_map(|seed| match seed % 4 {
+        0 => TexturePattern::Checker,
+        1 => TexturePattern::Stripes,
+        2 => TexturePattern::Noise(GradientNoise { seed, octaves: 3 }),
+        _ => TexturePattern::Worley { seed },
+    });
+    let procedural = (pattern, number(), number()).prop_map(|(pattern, channel, scale)| {
+        Texture::Procedural(Procedural {
+            pattern,
+            colors: [[channel; 3], [0.0, 1.0, scale]],
+            scale,
+            mapping: TextureMapping::World,
+        })
+    });
+    let sampled = sampled.prop_map(Texture::Sampled);
+    prop_oneof![Just(Texture::Uv), image, sampled, procedural]
 }
 
 fn camera() -> impl Strategy<Value = Camera> {

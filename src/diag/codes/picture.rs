@@ -12,4 +12,5 @@ super::codes! { RD:
     FILLED = "RD009", Note, "the studio adds fill light to the light of the asset";
     FITTED = "RD010", Note, "the picture shows more than the camera of the asset";
     TOO_SHORT = "RD011", Warning, "the time budget is too short";
+    UNTEXTURED = "RD012", Warning, "a surface has no texture coordinates for its texture";
 }

@@ -1,7 +1,8 @@
 //! Writes the materials.
 
 use super::SceneWriter;
-use rtc_ir::{Bump, Material, Phong, Scene, Texture, TextureId};
+use rtc_ir::{Bump, Material, Phong, Procedural, Scene, Texture, TextureId};
+use rtc_math::{GradientNoise, TextureMapping, TexturePattern, shortest};
 
 impl<'s> SceneWriter<'s> {
     pub(super) fn material(
@@ -79,7 +80,36 @@ impl<'s> SceneWriter<'s> {
                 Err("a material of the course looks at a texture of glTF".to_owned())
             }
             Texture::Image(image) => self.names.image(scene, *image),
+            Texture::Procedural(texture) => Ok(self.pattern(texture)),
         }
+    }
+}
+
+impl SceneWriter<'_> {
+    /// A procedural texture as a flow map.
+    pub(super) fn pattern(&mut self, texture: &Procedural) -> String {
+        let Procedural {
+            pattern,
+            colors: [first, second],
+            scale,
+            mapping,
+        } = texture;
+        let (word, parameters) = match pattern {
+            TexturePattern::Checker => ("checker", String::new()),
+            TexturePattern::Stripes => ("stripes", String::new()),
+            TexturePattern::Noise(GradientNoise { seed, octaves }) => {
+                ("noise", format!(", seed: {seed}, octaves: {octaves}"))
+            }
+            TexturePattern::Worley { seed } => ("worley", format!(", seed: {seed}")),
+        };
+        let colors = [first, second].map(|color| self.list(*color));
+        let mapping = match mapping {
+            TextureMapping::Uv => "",
+            TextureMapping::World => ", mapping: world",
+        };
+        self.finite &= scale.is_finite();
+        let (colors, scale) = (colors.join(", "), shortest(*scale));
+        format!("{{pattern: {word}, colors: [{colors}], scale: {scale}{mapping}{parameters}}}")
     }
 }
 

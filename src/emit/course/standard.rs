@@ -122,9 +122,19 @@ impl ParameterWriter<'_, '_> {
         else {
             return Ok("none".to_owned());
         };
-        let Texture::Sampled(sampled) = exists(*texture, self.scene)? else {
-            let message = "a material of glTF looks at a texture as only those of the course are";
-            return Err(message.to_owned());
+        let sampled = match exists(*texture, self.scene)? {
+            Texture::Sampled(sampled) => sampled,
+            Texture::Procedural(pattern) if *set == 0 && texture_from_surface.is_none() => {
+                return Ok(self.text.pattern(pattern));
+            }
+            Texture::Procedural(_) => {
+                return Err("a pattern has another placement, and this format has none".to_owned());
+            }
+            Texture::Uv | Texture::Image(_) => {
+                let message =
+                    "a material of glTF looks at a texture as only those of the course are";
+                return Err(message.to_owned());
+            }
         };
         let Sampled {
             image,

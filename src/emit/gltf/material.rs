@@ -301,8 +301,13 @@ impl GltfWriter<'_> {
             ("bumpMap", &bump_map),
         ];
         for (key, texture) in maps {
-            if let Some(texture) = texture.filter(|_| has_uvs) {
-                rtc_extras[key] = self.texture(texture, path).value().into();
+            let Some(texture) = texture else { continue };
+            if !has_uvs && self.is_in_space(*texture) {
+                let message = "a pattern in space is left out";
+                self.reporter.report(&codes::GLTF_UNSAID, message, path);
+            }
+            if has_uvs {
+                rtc_extras[key] = self.texture(*texture, path).value().into();
             }
         }
         if let Some(Bump { height, .. }) = bump.as_ref().filter(|_| has_uvs) {

@@ -8,13 +8,16 @@ use super::writer::{GltfWriter, number};
 use rtc_diag::codes;
 use rtc_image::png_bytes;
 use rtc_ir::{
-    self as ir, EntityKind, Field, Filter, Map, Pixels, Sampled, TextureId, ValuePath, Wrap,
+    self as ir, EntityKind, Field, Filter, Map, Pixels, Procedural, Sampled, TextureId, ValuePath,
+    Wrap,
 };
-use rtc_math::{atan2, cos, sin};
+use rtc_math::{TextureMapping, Vec3, atan2, cos, sin};
 use serde_json::{Value, json};
 
 /// The side in pixels of the image of the colours (u, 0, v).
 const UV_SIDE: u32 = 256;
+/// The side in pixels of the picture of a pattern.
+const PATTERN_SIDE: u32 = 512;
 /// The rows of the map from texture coordinates of the course, v upwards, to those of glTF.
 const UPWARDS: [[f64; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, -1.0, 1.0]];
 /// The largest shear of a map that counts as none, relative to its size.
@@ -30,7 +33,7 @@ impl GltfWriter<'_> {
         } = map;
         let is_upward = matches!(
             self.scene.textures[texture.0 as usize],
-            ir::Texture::Uv | ir::Texture::Image(_)
+            ir::Texture::Uv | ir::Texture::Image(_) | ir::Texture::Procedural(_)
         );
         let map = match (is_upward, texture_from_surface) {
             (false, map) => *map,
@@ -76,6 +79,10 @@ impl GltfWriter<'_> {
                 wrap,
                 filter,
             }) => (self.image(number(*image)), *wrap, *filter),
+            ir::Texture::Procedural(texture) => {
+                let image = self.pattern_image(texture, path);
+                (image, [Wrap::Repeat; 2], Filter::Linear)
+            }
         };
         let sampler = self.sampler(wrap, filter);
         let index = Index::push(&mut self.root.textures, Texture { sampler, source });
@@ -146,6 +153,49 @@ impl GltfWriter<'_> {
         image
     }
 
+    /// Whether a texture is a pattern in space.
+    pub(super) fn is_in_space(&self, id: TextureId) -> bool {
+        match &self.scene.textures[id.0 as usize] {
+            ir::Texture::Procedural(texture) => texture.mapping == TextureMapping::World,
+            ir::Texture::Uv | ir::Texture::Image(_) | ir::Texture::Sampled(_) => false,
+        }
+    }
+
+    /// The picture of a pattern over the unit square of texture coordinates, or its mean colour.
+    fn pattern_image(&mut self, texture: &Procedural, path: ValuePath) -> Index<Image> {
+        let Procedural {
+            pattern,
+            colors,
+            scale,
+            mapping,
+        } = texture;
+        let [first, second] = colors.map(Vec3::from_array);
+        let side = match mapping {
+            TextureMapping::Uv => PATTERN_SIDE,
+            TextureMapping::World => 1,
+        };
+        let color = |x: u32, y: u32| {
+            let [u, v] = [x, side - 1 - y].map(|k| (f64::from(k) + 0.5) / f64::from(side));
+            let value = match mapping {
+                TextureMapping::Uv => pattern.value(Vec3::new(u, v, 0.0) * *scale),
+                TextureMapping::World => 0.5,
+            };
+            (first + (second - first) * value).to_array().map(to_byte)
+        };
+        let pixels: Vec<u8> = (0..side)
+            .flat_map(|y| (0..side).flat_map(move |x| color(x, y)))
+            .collect();
+        let (code, message) = match mapping {
+            TextureMapping::Uv => (&codes::GLTF_NEARLY, "a pattern becomes a picture of it"),
+            TextureMapping::World => (
+                &codes::GLTF_UNSAID,
+                "a pattern in space becomes the mean of its colours",
+            ),
+        };
+        self.reporter.report(code, message, path);
+        self.png(png_bytes([side; 2], false, &pixels), "pattern")
+    }
+
     fn png(&mut self, png: Vec<u8>, name: &str) -> Index<Image> {
         let (uri, buffer_view) = match self.folder {
             Some(folder) => (Some(self.file(folder, (name, "image", "png"), png)), None),
@@ -171,13 +221,16 @@ fn wrapping(wrap: Wrap) -> u32 {
 
 /// A little-endian float as a byte, 1 as 255.
 fn quantized(bytes: &[u8; 4]) -> u8 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "clamped"
-    )]
-    let byte = (f32::from_le_bytes(*bytes).clamp(0.0, 1.0) * 255.0).round() as u8;
-    byte
+    to_byte(f32::from_le_bytes(*bytes).into())
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped"
+)]
+fn to_byte(value: f64) -> u8 {
+    (value.clamp(0.0, 1.0) * 255.0).round() as u8
 }
 
 /// The scale, rotation and offset of `KHR_texture_transform` that equal a map; `None` if it has

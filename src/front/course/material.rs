@@ -6,11 +6,13 @@ use super::keyword::Keyword;
 use super::keyword::keyword_schema;
 use super::lower::Lowering;
 use super::number::{Count, NonNegative};
+use super::pattern::{FileOrPattern, PatternMap};
 use super::reader::look_up;
 use super::record::{FieldOutcome, keys, record};
 use super::schema::Definitions;
 use super::standard::{self, StandardMaterial};
-use super::value::{Color, FileName};
+use super::texture::add_texture;
+use super::value::Color;
 use rtc_diag::codes;
 use rtc_ir::{self as ir, EntityKind, Field, MaterialId};
 use rtc_source::Span;
@@ -22,16 +24,17 @@ record! {
     struct PhongMaterial, "material" {
         /// The colour: red, green, blue.
         color: Spanned<Color>, optional, keys!["color" "colour"], json "color";
-        /// The image file of the colour; or `UV` for the texture coordinates as the colours (u, 0,
-        /// v).
-        texture: Spanned<FileName>, optional, keys!["texture"], json "texture";
+        /// The image file of the colour; `UV` for the texture coordinates as the colours (u, 0,
+        /// v); or a pattern: `checker`, `stripes`, `noise`, `worley`, or a map of its values. The
+        /// other textures can be patterns, too.
+        texture: Spanned<FileOrPattern>, optional, keys!["texture"], json "texture";
         /// The image file of a bump map: its brightness is the height of the surface.
-        bump: Spanned<FileName>, optional, keys!["bump"];
+        bump: Spanned<FileOrPattern>, optional, keys!["bump"];
         /// The image file of a normal map: red to the right, green upwards, blue away from the
         /// surface.
-        normal_map: Spanned<FileName>, optional, keys!["normalMap"];
+        normal_map: Spanned<FileOrPattern>, optional, keys!["normalMap"];
         /// The image file whose red channel multiplies `ks`.
-        specular_map: Spanned<FileName>, optional, keys!["specularMap"];
+        specular_map: Spanned<FileOrPattern>, optional, keys!["specularMap"];
         /// The weight of the ambient light.
         ka: Spanned<NonNegative>, required, keys!["ka" "ambient"], json "ka";
         /// The weight of the diffuse light.
@@ -251,12 +254,22 @@ impl Lowering {
         }
     }
 
-    fn texture(&mut self, file: &FieldOutcome<Spanned<FileName>>) -> Option<ir::TextureId> {
-        if let FieldOutcome::Read(file) = file {
-            Some(self.files.texture(&mut self.scene, file))
-        } else {
-            None
-        }
+    fn texture(&mut self, file: &FieldOutcome<Spanned<FileOrPattern>>) -> Option<ir::TextureId> {
+        let FieldOutcome::Read(Spanned { value, span }) = file else {
+            return None;
+        };
+        Some(match value {
+            FileOrPattern::File(file) => self.files.texture(&mut self.scene, (file, *span)),
+            FileOrPattern::Pattern(pattern) => self.pattern(pattern, *span),
+        })
+    }
+
+    /// The texture of a pattern. Equal patterns are one texture.
+    pub(super) fn pattern(&mut self, pattern: &PatternMap, span: Option<Span>) -> ir::TextureId {
+        let texture = ir::Texture::Procedural(pattern.lowered());
+        let id = add_texture(&mut self.scene, texture);
+        self.record_span(EntityKind::Texture, id.0 as usize, Field::Whole, span);
+        id
     }
 
     fn record_material_spans(

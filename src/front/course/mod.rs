@@ -53,6 +53,7 @@ mod number;
 mod object;
 mod page;
 mod path_settings;
+mod pattern;
 mod reader;
 mod recognize;
 mod record;

@@ -7,6 +7,7 @@ use super::light::Light;
 use super::material::PhongMaterial;
 use super::object::{KINDS, ObjectKind};
 use super::path_settings::PathParameters;
+use super::pattern::PatternMap;
 use super::record::{FieldDeclaration, Record, Requirement};
 use super::sampling::SamplingMap;
 use super::schema::Definitions;
@@ -48,6 +49,7 @@ pub fn page() -> String {
         ("`material`", &PhongMaterial::RECORD),
         ("`material` of `type: standard`", &StandardMaterial::RECORD),
         ("A texture of a `standard` material", &TextureMap::RECORD),
+        ("A pattern as a texture", &PatternMap::RECORD),
     ] {
         section(title, record, &mut page);
     }
@@ -141,6 +143,9 @@ fn code(names: &[&str]) -> String {
 
 /// A short description of the values that a schema accepts.
 fn kind(schema: &Json) -> String {
+    if let (Some(title), true) = (schema["title"].as_str(), schema["anyOf"].is_array()) {
+        return title.to_owned();
+    }
     if let Some(variants) = schema["anyOf"].as_array() {
         let current = variants
             .iter()

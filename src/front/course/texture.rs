@@ -8,6 +8,7 @@ use super::value::FileName;
 use rtc_ir::{
     Filter, Image, ImageId, Mesh, MeshId, Pixels, Sampled, Scene, Texture, TextureId, Wrap,
 };
+use rtc_source::Span;
 use std::collections::BTreeMap;
 
 /// The keyword for the texture coordinates of the surface, in place of a file.
@@ -32,16 +33,24 @@ pub(super) struct NamedFiles {
 
 impl NamedFiles {
     /// The texture of a file. Its image has one white pixel until the file is loaded.
-    pub(super) fn texture(&mut self, scene: &mut Scene, file: &Spanned<FileName>) -> TextureId {
-        if file.value.0.eq_ignore_ascii_case(UV) {
+    pub(super) fn texture(
+        &mut self,
+        scene: &mut Scene,
+        (FileName(file), span): (&FileName, Option<Span>),
+    ) -> TextureId {
+        if file.eq_ignore_ascii_case(UV) {
             return self.uv(scene);
         }
-        let name = file.value.0.replace('\\', "/");
+        let name = file.replace('\\', "/");
         if let Some(id) = self.textures.get(&name) {
             return *id;
         }
         let image = scene.add_image(white_image(name.clone()));
-        self.add_pending(AssetTarget::Image(image), file);
+        self.pending_assets.push(PendingAsset {
+            target: AssetTarget::Image(image),
+            path: file.clone(),
+            span,
+        });
         let id = add(&mut scene.textures, Texture::Image(image), TextureId);
         self.textures.insert(name, id);
         id
@@ -67,11 +76,7 @@ impl NamedFiles {
             wrap,
             filter,
         });
-        let key = scene.textures.iter().position(|key| *key == texture);
-        match key.map(u32::try_from) {
-            Some(Ok(key)) => TextureId(key),
-            Some(Err(_)) | None => add(&mut scene.textures, texture, TextureId),
-        }
+        add_texture(scene, texture)
     }
 
     /// The texture whose colours are the texture coordinates.
@@ -130,6 +135,15 @@ impl NamedFiles {
             path: file.value.0.clone(),
             span: file.span,
         });
+    }
+}
+
+/// The texture equal to `texture`, which is added if there is none.
+pub(super) fn add_texture(scene: &mut Scene, texture: Texture) -> TextureId {
+    let known = scene.textures.iter().position(|known| *known == texture);
+    match known.map(u32::try_from) {
+        Some(Ok(known)) => TextureId(known),
+        Some(Err(_)) | None => add(&mut scene.textures, texture, TextureId),
     }
 }
 

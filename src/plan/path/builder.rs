@@ -237,7 +237,16 @@ impl PlanBuilder<'_> {
 
     /// Whether all surfaces of a material have the texture coordinates of a map.
     fn is_everywhere(&self, material: usize, map: &Map) -> bool {
-        self.uses[material].presence(map) == UvPresence::Everywhere
+        self.presence(material, map) == UvPresence::Everywhere
+    }
+
+    /// Whether any surface of a material has the texture coordinates of a map.
+    pub(super) fn has_places(&self, material: usize, map: &Map) -> bool {
+        self.presence(material, map) != UvPresence::Never
+    }
+
+    fn presence(&self, material: usize, map: &Map) -> UvPresence {
+        self.uses[material].presence(map, self.textures)
     }
 
     /// Whether a map is 0 in some channels on all surfaces of a material; false without a map.

@@ -77,8 +77,12 @@ impl MaterialUses {
     }
 
     /// The surfaces on which a map has its texture coordinates.
-    pub(super) fn presence(&self, map: &Map) -> UvPresence {
-        self.sets[map.set.index()]
+    pub(super) fn presence(&self, map: &Map, textures: &TextureValues<'_>) -> UvPresence {
+        if textures.needs_uv(map) {
+            self.sets[map.set.index()]
+        } else {
+            UvPresence::Everywhere
+        }
     }
 
     /// The value of a channel of a map on all these surfaces, if it is constant there; colour
@@ -91,7 +95,7 @@ impl MaterialUses {
     ) -> Option<f64> {
         let value = || textures.value(map, self.areas[map.set.index()], channel);
         // Without texture coordinates, a map has the value 1.
-        match self.presence(map) {
+        match self.presence(map, textures) {
             UvPresence::Never => Some(1.0),
             UvPresence::Everywhere => value(),
             UvPresence::Somewhere => value().filter(|value| *value == 1.0),

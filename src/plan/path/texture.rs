@@ -67,6 +67,11 @@ impl<'scene> TextureValues<'scene> {
         }
     }
 
+    /// Whether a map needs texture coordinates of the surface.
+    pub(super) fn needs_uv(&self, map: &Map) -> bool {
+        self.scene.textures()[map.texture].needs_uv()
+    }
+
     /// Whether a map is constant.
     pub(super) fn is_constant(&self, map: &Map) -> bool {
         let texture = &self.scene.textures()[map.texture];
@@ -85,7 +90,7 @@ impl<'scene> TextureValues<'scene> {
     pub(super) fn value(&self, map: &Map, area: UvRect, channel: usize) -> Option<f64> {
         let texture = &self.scene.textures()[map.texture];
         let Some(image) = image_of(texture) else {
-            return UV[channel];
+            return constant_channel(texture, channel);
         };
         let region = self.region(texture, image, area.mapped(&map.texture_from_surface));
         if region.is_entire() {
@@ -105,7 +110,7 @@ impl<'scene> TextureValues<'scene> {
     ) -> bool {
         let texture = &self.scene.textures()[map.texture];
         match image_of(texture) {
-            None => UV[channel].is_some_and(holds),
+            None => constant_channel(texture, channel).is_some_and(holds),
             Some(image) => self
                 .region(texture, image, area.mapped(&map.texture_from_surface))
                 .channel(channel)
@@ -123,7 +128,7 @@ impl<'scene> TextureValues<'scene> {
         let image = &self.scene.images()[image];
         let [width, height] = [image.width.get(), image.height.get()];
         let (columns, rows) = match texture {
-            Texture::Uv | Texture::Image(_) => (0..width, 0..height),
+            Texture::Uv | Texture::Image(_) | Texture::Procedural(_) => (0..width, 0..height),
             Texture::Sampled(sampled) => (
                 texels(us, width, sampled.wrap[0]),
                 texels(vs, height, sampled.wrap[1]),
@@ -137,13 +142,22 @@ impl<'scene> TextureValues<'scene> {
     }
 }
 
-/// The constant channels of the texture whose colour is its coordinates.
-const UV: [Option<f64>; 4] = [None, Some(0.0), None, Some(1.0)];
+/// The value of a channel of a texture without an image, if it is constant.
+fn constant_channel(texture: &Texture, channel: usize) -> Option<f64> {
+    match texture {
+        Texture::Uv => [None, Some(0.0), None, Some(1.0)][channel],
+        Texture::Image(_) | Texture::Sampled(_) => None,
+        Texture::Procedural(texture) => {
+            let [first, second] = texture.colors.map(|color| color.extend(1.0));
+            (first[channel] == second[channel]).then_some(first[channel])
+        }
+    }
+}
 
 /// The image of a texture, if it has one.
 fn image_of(texture: &Texture) -> Option<usize> {
     match texture {
-        Texture::Uv => None,
+        Texture::Uv | Texture::Procedural(_) => None,
         Texture::Image(image) => Some(*image),
         Texture::Sampled(sampled) => Some(sampled.image),
     }

@@ -293,7 +293,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
         };
         let shape = &self.world.surfaces[surface].shape;
         let attributes = shape.shading_attributes(&ray, &interaction, at.prim_id, asked);
-        MaterialPoint::new(self.material(surface), &attributes)
+        MaterialPoint::new(self.material(surface), &attributes, at.point)
     }
 
     /// The radiance that a point of a surface emits on average: alpha leaves out the rest.

@@ -26,17 +26,14 @@ pub(crate) struct ShadingFrame {
     stretch: Option<Anisotropy>,
 }
 
-/// The texture coordinates at a point.
-pub(crate) fn uvs(shading_attributes: &ShadingAttributes) -> UvSets {
-    UvSets::new([shading_attributes.uv, shading_attributes.second_uv])
-}
-
 impl<'world> MaterialPoint<'world> {
     pub(crate) fn new(
         material: &'world StandardMaterial,
         shading_attributes: &ShadingAttributes,
+        point: Vec3,
     ) -> Self {
-        let uvs = uvs(shading_attributes);
+        let sets = [shading_attributes.uv, shading_attributes.second_uv];
+        let uvs = UvSets::new(sets, point);
         let (own, corners) = (
             material.base_color.at(&uvs),
             shading_attributes.color.unwrap_or([1.0; 4]),

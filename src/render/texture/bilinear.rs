@@ -1,19 +1,65 @@
 //! Texture lookup, normal maps and bump maps by the rules of the course.
 
 use super::sampled::{ColorSpace, sample};
-use super::{Image, Texture};
-use rtc_math::{Vec3, cross};
+use super::{Image, Texture, TexturePlace, pattern_point};
+use rtc_math::{SolidTexture, TextureMapping, Vec3, cross};
 
 /// A height field over a surface.
 #[derive(Clone, Debug)]
 pub(crate) struct Bump {
     pub(crate) texture: Texture,
-    /// The height of white above black, as a fraction of the width of a texel.
+    /// The height of white above black, as a fraction of the width of a texel or of a cell of a
+    /// pattern.
     pub(crate) height: f64,
 }
 
-/// Looks a texture up at `uv`, each channel in [0, 1].
-pub(crate) fn look_up(texture: &Texture, uv: [f64; 2]) -> Vec3 {
+/// The step of the differences of a pattern, as a share of a cell.
+const STEP: f64 = 1.0 / 64.0;
+
+impl Bump {
+    /// The unit normal of the height field over a surface of unit normal `normal`; `None` if it
+    /// needs texture coordinates or a `tangent`, the direction of u, and there is none.
+    pub(crate) fn normal(
+        &self,
+        normal: Vec3,
+        tangent: Option<Vec3>,
+        place: &TexturePlace,
+    ) -> Option<Vec3> {
+        if let Texture::Procedural(texture) = &self.texture
+            && texture.mapping == TextureMapping::World
+        {
+            return Some(self.bumped_in_space(texture, normal, place.point));
+        }
+        Some(TextureFrame::new(normal, tangent?)?.bumped(self, place.uv?))
+    }
+
+    /// The normal of a height field in space, by the part of its gradient along the surface.
+    fn bumped_in_space(&self, texture: &SolidTexture, normal: Vec3, point: Vec3) -> Vec3 {
+        let step = STEP / texture.scale.get();
+        let height = |offset: Vec3| mean_channel(texture.color(point + offset));
+        let slope = |axis: Vec3| height(axis * step) - height(-axis * step);
+        let gradient =
+            Vec3::new(slope(Vec3::X), slope(Vec3::Y), slope(Vec3::Z)) * (0.5 / STEP * self.height);
+        let along_surface = gradient - normal * normal.dot(gradient);
+        (normal - along_surface).normalize_or(normal)
+    }
+}
+
+fn mean_channel(color: Vec3) -> f64 {
+    color.element_sum() / 3.0
+}
+
+/// Looks a texture up, each channel of an image in [0, 1]; `None` without the texture coordinates
+/// that it needs.
+pub(crate) fn look_up(texture: &Texture, place: &TexturePlace) -> Option<Vec3> {
+    if let Texture::Procedural(texture) = texture {
+        return pattern_point(texture, place.uv, place.point).map(|point| texture.color(point));
+    }
+    place.uv.map(|uv| value(texture, uv))
+}
+
+/// The value of a texture at texture coordinates.
+fn value(texture: &Texture, uv: [f64; 2]) -> Vec3 {
     match texture {
         Texture::Uv => Vec3::new(uv[0], 0.0, uv[1]),
         Texture::Image(image) => bilinear(image, uv),
@@ -25,6 +71,7 @@ pub(crate) fn look_up(texture: &Texture, uv: [f64; 2]) -> Vec3 {
             let [r, g, b, _] = sample(image, uv, *wrap, *filter, ColorSpace::Linear);
             Vec3::new(r, g, b)
         }
+        Texture::Procedural(texture) => texture.color(Vec3::new(uv[0], uv[1], 0.0)),
     }
 }
 
@@ -89,24 +136,26 @@ impl TextureFrame {
         })
     }
 
-    /// The normal of a normal map at `uv`.
-    pub(crate) fn mapped(&self, map: &Texture, uv: [f64; 2]) -> Vec3 {
-        let local = look_up(map, uv) * 2.0 - 1.0;
+    /// The normal that a colour of a normal map stands for.
+    pub(crate) fn mapped(&self, color: Vec3) -> Vec3 {
+        let local = color * 2.0 - 1.0;
         (self.along_u * local.x + self.along_v * local.y + self.normal * local.z)
             .normalize_or(self.normal)
     }
 
-    /// The normal of a height field, by central differences over a texel.
-    pub(crate) fn bumped(&self, bump: &Bump, [u, v]: [f64; 2]) -> Vec3 {
-        let [du, dv] = match &bump.texture {
-            Texture::Uv => [1e-3; 2],
-            Texture::Image(image) | Texture::Sampled { image, .. } => {
-                [1.0 / f64::from(image.width), 1.0 / f64::from(image.height)]
-            }
+    /// The normal of a height field, by central differences over a texel or a part of a cell.
+    fn bumped(&self, bump: &Bump, [u, v]: [f64; 2]) -> Vec3 {
+        let ([du, dv], per_step) = match &bump.texture {
+            Texture::Uv => ([1e-3; 2], 0.5),
+            Texture::Image(image) | Texture::Sampled { image, .. } => (
+                [1.0 / f64::from(image.width), 1.0 / f64::from(image.height)],
+                0.5,
+            ),
+            Texture::Procedural(texture) => ([STEP / texture.scale.get(); 2], 0.5 / STEP),
         };
-        let height = |u: f64, v: f64| look_up(&bump.texture, [u, v]).element_sum() / 3.0;
-        let slope_u = 0.5 * (height(u + du, v) - height(u - du, v)) * bump.height;
-        let slope_v = 0.5 * (height(u, v + dv) - height(u, v - dv)) * bump.height;
+        let height = |u: f64, v: f64| mean_channel(value(&bump.texture, [u, v]));
+        let slope_u = per_step * (height(u + du, v) - height(u - du, v)) * bump.height;
+        let slope_v = per_step * (height(u, v + dv) - height(u, v - dv)) * bump.height;
         (self.normal - self.along_u * slope_u - self.along_v * slope_v).normalize_or(self.normal)
     }
 }

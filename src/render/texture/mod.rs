@@ -5,6 +5,7 @@ mod footprint;
 pub(crate) mod sampled;
 
 use rtc_image::{Texel, Texels};
+use rtc_math::{SolidTexture, TextureMapping, Vec3};
 use std::sync::Arc;
 
 /// A texture that holds its image.
@@ -21,6 +22,25 @@ pub(crate) enum Texture {
         wrap: [Wrap; 2],
         filter: Filter,
     },
+    /// A pattern in closed form.
+    Procedural(Box<SolidTexture>),
+}
+
+/// Where on a surface a texture is looked up.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TexturePlace {
+    /// The first texture coordinates, if there are any.
+    pub(crate) uv: Option<[f64; 2]>,
+    /// The point in world coordinates.
+    pub(crate) point: Vec3,
+}
+
+/// The point at which a pattern is evaluated; `None` without the texture coordinates it needs.
+fn pattern_point(texture: &SolidTexture, uv: Option<[f64; 2]>, point: Vec3) -> Option<Vec3> {
+    match texture.mapping {
+        TextureMapping::Uv => uv.map(|[u, v]| Vec3::new(u, v, 0.0)),
+        TextureMapping::World => Some(point),
+    }
 }
 
 /// An image of at least one texel.

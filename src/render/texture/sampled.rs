@@ -1,10 +1,10 @@
 //! Texture sampling by the rules of glTF: texture coordinates and colour spaces.
 
 use super::footprint::{Footprint, Layout, single};
-use super::{Filter, Image, Texture, Wrap};
+use super::{Filter, Image, Texture, Wrap, pattern_point};
 use rtc_color::srgb_decoded;
 use rtc_image::Texels;
-use rtc_math::Lanes;
+use rtc_math::{Lanes, Vec3};
 use std::cell::Cell;
 use std::sync::LazyLock;
 
@@ -17,18 +17,20 @@ pub(crate) enum ColorSpace {
     Linear,
 }
 
-/// The two sets of texture coordinates at a point; `None` for a missing set.
+/// The two sets of texture coordinates at a point, `None` for a missing set, and the point.
 pub(crate) struct UvSets {
     sets: [Option<[f64; 2]>; 2],
+    /// In world coordinates.
+    point: Vec3,
     /// The last footprint: the maps of a material mostly have the same one.
     last: Cell<Option<(Layout, Footprint)>>,
 }
 
 impl UvSets {
-    /// The sets given.
-    pub(crate) const fn new(sets: [Option<[f64; 2]>; 2]) -> Self {
+    /// The sets at a point in world coordinates.
+    pub(crate) const fn new(sets: [Option<[f64; 2]>; 2], point: Vec3) -> Self {
         let last = Cell::new(None);
-        Self { sets, last }
+        Self { sets, point, last }
     }
 
     /// The first set.
@@ -66,6 +68,11 @@ impl Map {
     /// Looks the texture up: red, green, blue and alpha, in [0, 1] except for float images. `None`
     /// without texture coordinates.
     pub(crate) fn look_up(&self, uvs: &UvSets) -> Option<[f64; 4]> {
+        if let Texture::Procedural(texture) = &self.texture {
+            let uv = uvs.sets[self.set].map(|uv| self.mapped(uv));
+            let point = pattern_point(texture, uv, uvs.point)?;
+            return Some(texture.color(point).extend(1.0).to_array());
+        }
         let [u, v] = uvs.sets[self.set]?;
         if let (
             Texture::Sampled {
@@ -85,10 +92,7 @@ impl Map {
             let footprint = uvs.footprint(layout, [u, v]);
             return Some(mean(&footprint, image, self.color_space));
         }
-        let uv = match self.texture_from_surface {
-            None => [u, v],
-            Some([[a, b, c], [d, e, f]]) => [a * u + b * v + c, d * u + e * v + f],
-        };
+        let uv = self.mapped([u, v]);
         let value = match &self.texture {
             Texture::Uv => [uv[0].clamp(0.0, 1.0), 0.0, uv[1].clamp(0.0, 1.0), 1.0],
             // In the course, v grows upwards.
@@ -107,8 +111,17 @@ impl Map {
                 wrap,
                 filter,
             } => sample(image, uv, *wrap, *filter, self.color_space),
+            Texture::Procedural(_) => return None,
         };
         Some(value)
+    }
+
+    /// The coordinates of the texture for those of the surface.
+    fn mapped(&self, [u, v]: [f64; 2]) -> [f64; 2] {
+        match self.texture_from_surface {
+            None => [u, v],
+            Some([[a, b, c], [d, e, f]]) => [a * u + b * v + c, d * u + e * v + f],
+        }
     }
 }
 
@@ -228,7 +241,7 @@ mod tests {
             map(8, 1, Wrap::Mirror, Filter::Linear),
             map(8, 1, Wrap::Mirror, Filter::Nearest),
         ];
-        let uvs = || UvSets::new([Some([0.3, 0.7]), Some([1.8, 0.2])]);
+        let uvs = || UvSets::new([Some([0.3, 0.7]), Some([1.8, 0.2])], Vec3::ZERO);
         let (shared, mut seen) = (uvs(), Vec::new());
         for map in &maps {
             let alone = map.look_up(&uvs());

@@ -17,48 +17,59 @@ use rtc_valid::{self as valid, Maps, Phong, Standard};
 pub(super) struct PhongList<'plan> {
     all: Vec<Phong>,
     plan: &'plan Plan,
-    /// Per material of the scene, the index of its simplified form.
-    simple: Vec<Option<usize>>,
+    /// Per texture of the scene, whether it needs texture coordinates of the surface.
+    needs_uv: Vec<bool>,
+    /// Per material of the scene, the indices of its simplified forms for surfaces without and with
+    /// texture coordinates.
+    simple: Vec<[Option<usize>; 2]>,
 }
 
 impl<'plan> PhongList<'plan> {
-    pub(super) fn new(materials: Vec<Phong>, plan: &'plan Plan) -> Self {
+    pub(super) fn new(all: Vec<Phong>, textures: &[valid::Texture], plan: &'plan Plan) -> Self {
         Self {
-            simple: vec![None; materials.len()],
-            all: materials,
+            simple: vec![[None; 2]; all.len()],
+            needs_uv: textures.iter().map(valid::Texture::needs_uv).collect(),
+            all,
             plan,
         }
     }
 
     /// The index of the prepared material for one of the scene.
     pub(super) fn of(&mut self, material: usize, has_uv: bool) -> usize {
-        if let Some(simple) = self.simple[material].filter(|_| has_uv) {
+        if let Some(simple) = self.simple[material][usize::from(has_uv)] {
             return simple;
         }
-        match self.simplified(&self.all[material]).filter(|_| has_uv) {
+        match self.simplified(&self.all[material], has_uv) {
             Some(phong) => {
                 self.all.push(phong);
-                *self.simple[material].insert(self.all.len() - 1)
+                *self.simple[material][usize::from(has_uv)].insert(self.all.len() - 1)
             }
             None => material,
         }
     }
 
-    /// The material with values instead of constant maps, and without maps that have no effect, if
-    /// it has any of these.
-    fn simplified(&self, material: &Phong) -> Option<Phong> {
+    /// The material with values instead of constant maps, and without maps that have no effect or
+    /// no texture coordinates, if it has any of these.
+    fn simplified(&self, material: &Phong, has_uv: bool) -> Option<Phong> {
         let maps = **material.maps.as_ref()?;
+        let is_seen = |map: &usize| has_uv || !self.needs_uv[*map];
+        let seen = Maps {
+            color: maps.color.filter(is_seen),
+            specular: maps.specular.filter(is_seen),
+            normal: maps.normal.filter(is_seen),
+            bump: maps.bump.filter(|bump| is_seen(&bump.texture)),
+        };
         let value = |map: Option<usize>| map.and_then(|map| self.plan.constants[map]);
-        let (new_color, scale) = (value(maps.color), value(maps.specular));
+        let (new_color, scale) = (value(seen.color), value(seen.specular));
         let (shows, bends) = (
             self.shows(Effect::Textures),
             self.shows(Effect::NormalMapping),
         );
         let rest = Maps {
-            color: maps.color.filter(|_| shows && new_color.is_none()),
-            specular: maps.specular.filter(|_| shows && scale.is_none()),
-            normal: maps.normal.filter(|_| bends),
-            bump: maps.bump.filter(|_| bends),
+            color: seen.color.filter(|_| shows && new_color.is_none()),
+            specular: seen.specular.filter(|_| shows && scale.is_none()),
+            normal: seen.normal.filter(|_| bends),
+            bump: seen.bump.filter(|_| bends),
         };
         if rest == maps {
             return None;
@@ -240,7 +251,7 @@ impl Slots<'_> {
             return Some(MapSource::Map(prepared));
         }
         // Any coordinates will do: a folded map is constant.
-        let anywhere = UvSets::new([Some([0.5; 2]); 2]);
+        let anywhere = UvSets::new([Some([0.5; 2]); 2], Vec3::ZERO);
         prepared.look_up(&anywhere).map(MapSource::Value)
     }
 

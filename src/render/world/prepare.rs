@@ -34,7 +34,7 @@ impl<S: Prepare> World<S> {
         let (surfaces, phongs, standards) = match &plan.paths {
             None => {
                 let materials = scene.materials().iter().map(material::phong).collect();
-                let mut list = PhongList::new(materials, plan);
+                let mut list = PhongList::new(materials, scene.textures(), plan);
                 let surfaces = surfaces(scene, plan, simd, |material, has_uv| {
                     list.of(material, has_uv)
                 });

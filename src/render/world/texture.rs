@@ -63,6 +63,7 @@ fn image(image: &valid::Image) -> Arc<Image> {
 fn prepared(texture: &valid::Texture, images: &[Arc<Image>]) -> Texture {
     match *texture {
         valid::Texture::Uv => Texture::Uv,
+        valid::Texture::Procedural(texture) => Texture::Procedural(Box::new(texture)),
         valid::Texture::Image(image) => Texture::Image(Arc::clone(&images[image])),
         valid::Texture::Sampled(valid::Sampled {
             image,

@@ -150,7 +150,7 @@ impl IndexOffsets {
 
     fn texture(&self, texture: Texture) -> Texture {
         match texture {
-            Texture::Uv => Texture::Uv,
+            Texture::Uv | Texture::Procedural(_) => texture,
             Texture::Image(ImageId(image)) => Texture::Image(ImageId(image + self.images)),
             Texture::Sampled(mut sampled) => {
                 sampled.image.0 += self.images;

@@ -49,7 +49,7 @@ pub(super) fn resolve_images(image_of: &BTreeMap<u32, Option<ImageId>>, scene: &
         let id = match texture {
             Texture::Image(id) => id,
             Texture::Sampled(sampled) => &mut sampled.image,
-            Texture::Uv => continue,
+            Texture::Uv | Texture::Procedural(_) => continue,
         };
         match image_of.get(&id.0) {
             Some(Some(image)) => *id = *image,
@@ -128,7 +128,7 @@ pub(super) fn find_normal_maps(lowered: &mut Lowered, sink: &mut Sink) {
     // Each image is examined once, whatever the number of its materials.
     let image = |texture: TextureId| match textures.get(texture.0 as usize) {
         Some(Texture::Image(image)) => Some(*image),
-        Some(Texture::Uv | Texture::Sampled(_)) | None => None,
+        Some(Texture::Uv | Texture::Sampled(_) | Texture::Procedural(_)) | None => None,
     };
     let mut is_normal_map: Vec<Option<bool>> = vec![None; images.len()];
     for (index, material) in materials.iter_mut().enumerate() {

@@ -100,7 +100,7 @@ macro_rules! requirement {
 /// The value in the IR for each kind of parameter.
 macro_rules! lowered {
     (map, $written:expr, $lowering:expr) => {
-        Some($lowering.texture_map(&$written.value.0))
+        Some($lowering.texture_map(&$written.value, $written.span))
     };
     (distance, $written:expr, $lowering:expr) => {
         Some($written.value.0)

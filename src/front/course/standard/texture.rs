@@ -3,6 +3,8 @@
 use super::super::decode::{Context, Decode, Spanned};
 use super::super::keyword::{keyword, keyword_schema};
 use super::super::lower::Lowering;
+use super::super::pattern::{FileOrPattern, PatternMap, pattern_word};
+use super::super::reader::look_up;
 use super::super::record::{FieldOutcome, keys, record};
 use super::super::rotation::PlaneRows;
 use super::super::schema::Definitions;
@@ -10,6 +12,7 @@ use super::super::value::{FileName, tuple};
 use super::value::SetIndex;
 use crate::course::keyword::Keyword;
 use rtc_ir::{self as ir, Filter, Wrap};
+use rtc_source::Span;
 use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
@@ -32,17 +35,27 @@ record! {
     }
 }
 
-/// A texture, or the name of its file alone.
-pub(crate) struct MapOrFile(pub(super) TextureMap);
+/// An image with its placement, the name of its file alone, or a pattern.
+pub(crate) enum MapOrFile {
+    Image(TextureMap),
+    Pattern(Box<PatternMap>),
+}
 
 impl Decode for MapOrFile {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         if context.tree.is_map(node) {
-            return TextureMap::decode(node, context).map(Self);
+            return if look_up("pattern", node, context).is_some() {
+                PatternMap::decode(node, context).map(|map| Self::Pattern(Box::new(map)))
+            } else {
+                TextureMap::decode(node, context).map(Self::Image)
+            };
+        }
+        if let Some(pattern) = pattern_word(node, context) {
+            return Some(Self::Pattern(Box::new(pattern)));
         }
         let span = Some(context.tree.span(node));
         let value = FileName::decode(node, context)?;
-        Some(Self(TextureMap {
+        Some(Self::Image(TextureMap {
             file: Spanned { value, span },
             set: Spanned::without_span(SetIndex(0)),
             wrap: Spanned::without_span(WrapModes([Wrap::Repeat; 2])),
@@ -52,7 +65,9 @@ impl Decode for MapOrFile {
     }
 
     fn schema(definitions: &mut Definitions) -> Json {
-        json!({ "anyOf": [FileName::schema(definitions), TextureMap::schema(definitions)] })
+        let [file, word, pattern] = FileOrPattern::variants(definitions);
+        let image = TextureMap::schema(definitions);
+        json!({ "title": "file, texture or pattern", "anyOf": [file, image, word, pattern] })
     }
 }
 
@@ -97,7 +112,17 @@ impl Keyword for Filter {
 
 impl Lowering {
     /// Lowers a texture; its file is added to the pending assets.
-    pub(super) fn texture_map(&mut self, map: &TextureMap) -> ir::Map {
+    pub(super) fn texture_map(&mut self, map: &MapOrFile, span: Option<Span>) -> ir::Map {
+        let map = match map {
+            MapOrFile::Image(map) => map,
+            MapOrFile::Pattern(pattern) => {
+                return ir::Map {
+                    texture: self.pattern(pattern, span),
+                    set: 0,
+                    texture_from_surface: None,
+                };
+            }
+        };
         let TextureMap {
             file,
             set,

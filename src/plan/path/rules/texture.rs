@@ -3,7 +3,6 @@
 use super::PathRule;
 use crate::Layer;
 use crate::path::builder::PlanBuilder;
-use crate::path::facts::UvPresence;
 use crate::rules::Rule;
 use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_math::{UnitInterval, Vec3};
@@ -52,7 +51,7 @@ fn without_unused_maps(builder: &PlanBuilder<'_>, index: usize, m: &Standard) ->
         ),
     ];
     let keep = |map: &mut Option<Map>, shows: bool| {
-        let has_places = |map: &Map| builder.uses[index].presence(map) != UvPresence::Never;
+        let has_places = |map: &Map| builder.has_places(index, map);
         *map = map.filter(|map| shows && has_places(map));
     };
     for (map, shows) in conditions {

@@ -8,6 +8,7 @@ use crate::ray::Interaction;
 use crate::shape::geometry::Intersect;
 use crate::shape::geometry::{AttributeRequest, ShadingAttributes};
 use crate::world::Hit;
+use rtc_math::Vec3;
 use rtc_plan::{Effect, PathFeatures};
 
 /// The maximum number of skipped surfaces along a ray.
@@ -41,7 +42,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
                 surface
                     .shape
                     .shading_attributes(&state.ray, &at, hit.prim_id, asked);
-            let point = self.point(surface.material, &shading_attributes);
+            let point = self.point(surface.material, &shading_attributes, at.point);
             state.travelled += hit.t;
             let opacity = if skips_back(state, &at, point.material) {
                 0.0
@@ -79,11 +80,12 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         }
     }
 
-    /// A material at a point of a surface.
+    /// A material at a point of a surface, in world coordinates.
     pub(super) fn point(
         &mut self,
         material: usize,
         shading_attributes: &ShadingAttributes,
+        point: Vec3,
     ) -> MaterialPoint<'world> {
         let material = &self.world.standards[material];
         if material.base_color.map.is_some() {
@@ -92,7 +94,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         if shading_attributes.color.is_some() {
             self.counts.add(Effect::VertexColors);
         }
-        MaterialPoint::new(material, shading_attributes)
+        MaterialPoint::new(material, shading_attributes, point)
     }
 
     /// The opacity at a point: the probability that the alpha test keeps the hit.

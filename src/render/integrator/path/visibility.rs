@@ -53,7 +53,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         let shading_attributes = surface
             .shape
             .shading_attributes(ray, &at, hit.prim_id, asked);
-        let point = self.point(surface.material, &shading_attributes);
+        let point = self.point(surface.material, &shading_attributes, at.point);
         (Some(at), 1.0 - self.opacity(&point))
     }
 

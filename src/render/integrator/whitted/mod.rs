@@ -21,6 +21,7 @@ use crate::sampler::Key;
 use crate::shape::geometry::Intersect;
 use crate::shape::geometry::{AttributeRequest, ShadingAttributes};
 use crate::texture::bilinear::{TextureFrame, look_up};
+use crate::texture::{Texture, TexturePlace};
 use crate::world::settings::Mode;
 use crate::world::{Hit, World};
 use branch::{Branch, BranchKind, Pending};
@@ -239,34 +240,35 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
             self.counts.add(Effect::NormalInterpolation);
         }
         shading_point.normal = shading_attributes.normal.unwrap_or(shading_point.normal);
-        let (Some(uv), Some(maps)) = (
-            shading_attributes.uv,
-            shading_point.material.maps.as_deref(),
-        ) else {
+        let Some(maps) = shading_point.material.maps.as_deref() else {
             return;
         };
-        if maps.color.is_some() || maps.specular.is_some() {
+        let place = TexturePlace {
+            uv: shading_attributes.uv,
+            point: shading_point.interaction.point,
+        };
+        let at_place = |map: &Option<Texture>| look_up(map.as_ref()?, &place);
+        if let Some(color) = at_place(&maps.color) {
             self.counts.add(Effect::Textures);
+            shading_point.color = color;
         }
-        if let Some(map) = &maps.color {
-            shading_point.color = look_up(map, uv);
+        if let Some(color) = at_place(&maps.specular) {
+            self.counts.add(Effect::Textures);
+            shading_point.ks *= color.x.max(0.0);
         }
-        if let Some(map) = &maps.specular {
-            shading_point.ks *= look_up(map, uv).x.max(0.0);
-        }
-        let Some(frame) = shading_attributes
-            .tangent
-            .and_then(|tangent| TextureFrame::new(shading_point.normal, tangent))
-        else {
-            return;
+        // Bend the normal.
+        let (normal, tangent) = (shading_point.normal, shading_attributes.tangent);
+        let bent = match (&maps.normal, &maps.bump) {
+            (Some(map), _) => look_up(map, &place).and_then(|color| {
+                let frame = TextureFrame::new(normal, tangent?)?;
+                Some(frame.mapped(color))
+            }),
+            (None, Some(bump)) => bump.normal(normal, tangent, &place),
+            (None, None) => None,
         };
-        if maps.normal.is_some() || maps.bump.is_some() {
+        if let Some(normal) = bent {
             self.counts.add(Effect::NormalMapping);
-        }
-        if let Some(map) = &maps.normal {
-            shading_point.normal = frame.mapped(map, uv);
-        } else if let Some(bump) = &maps.bump {
-            shading_point.normal = frame.bumped(bump, uv);
+            shading_point.normal = normal;
         }
     }
 

@@ -1,0 +1,170 @@
+//! Procedural textures: patterns in closed form, in place of an image file.
+
+use super::decode::{Context, Decode, Spanned};
+use super::keyword::{Keyword, keyword_schema};
+use super::number::{NonNegative, integer, json_number, ranged};
+use super::record::{keys, record};
+use super::schema::Definitions;
+use super::value::{Color, FileName, tuple};
+use rtc_ir::Procedural;
+use rtc_math::{GradientNoise, TextureMapping, TexturePattern};
+use rtc_source::tree::{NodeContent, NodeId};
+use serde_json::{Value as Json, json};
+
+record! {
+    /// A pattern as a texture. Its word alone is a texture too, with the defaults.
+    struct PatternMap, "pattern" {
+        /// `checker`: cubes of the two colours in turn; `stripes`: slabs across the first axis;
+        /// `noise`: gradient noise between the colours; `worley`: the distance to the nearest of
+        /// random points, one in each cell.
+        pattern: Spanned<PatternKind>, required, keys!["pattern"];
+        /// The two colours, each red, green, blue; noise and distances blend them.
+        colors: Spanned<ColorPair>, default(ColorPair([Color([0.0; 3]), Color([1.0; 3])])),
+            keys!["colors"];
+        /// The number of cells per unit of the coordinates: 8 cells across texture coordinates from
+        /// 0 to 1, for `mapping: world` the cells per scene unit.
+        scale: Spanned<NonNegative>, default(NonNegative(8.0)), keys!["scale"];
+        /// The coordinates of the pattern: `uv` are the texture coordinates of the surface; `world`
+        /// is the point in space, for surfaces without texture coordinates, too.
+        mapping: Spanned<TextureMapping>, default(TextureMapping::Uv), keys!["mapping"];
+        /// The seed of `noise` and `worley`: another number is another picture.
+        seed: Spanned<Seed>, default(Seed(0)), keys!["seed"];
+        /// The number of octaves of `noise`: each has twice the frequency and half the weight of
+        /// the one before.
+        octaves: Spanned<Octaves>, default(Octaves(4)), keys!["octaves"];
+    }
+}
+
+/// Which pattern.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum PatternKind {
+    Checker,
+    Stripes,
+    Noise,
+    Worley,
+}
+
+impl Keyword for PatternKind {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[
+        ("checker", Self::Checker),
+        ("checkerboard", Self::Checker),
+        ("stripes", Self::Stripes),
+        ("noise", Self::Noise),
+        ("worley", Self::Worley),
+    ];
+}
+
+impl Keyword for TextureMapping {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[("uv", Self::Uv), ("world", Self::World)];
+}
+
+ranged! {
+    /// The seed of a random pattern.
+    Seed(u32), |node, context| integer(0, u32::MAX, node, context),
+    { "type": "integer", "minimum": 0, "maximum": 4_294_967_295_u32 }
+}
+
+ranged! {
+    /// The number of octaves of noise.
+    Octaves(u32), |node, context| integer(1, GradientNoise::MAX_OCTAVES, node, context),
+    { "type": "integer", "minimum": 1, "maximum": 16 }
+}
+
+/// Two colours.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ColorPair([Color; 2]);
+
+impl Decode for ColorPair {
+    const IS_LIST: bool = true;
+
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        tuple(node, "a list of two colours", context, Color::decode).map(Self)
+    }
+
+    fn schema(definitions: &mut Definitions) -> Json {
+        let color = Color::schema(definitions);
+        json!({ "type": "array", "items": color, "minItems": 2, "maxItems": 2 })
+    }
+
+    fn json(&self) -> Json {
+        self.0
+            .map(|Color(color)| color.map(json_number))
+            .to_vec()
+            .into()
+    }
+}
+
+impl PatternMap {
+    /// A pattern with the defaults, for its word.
+    fn of(pattern: PatternKind) -> Self {
+        Self {
+            pattern: Spanned::without_span(pattern),
+            colors: Spanned::without_span(ColorPair([Color([0.0; 3]), Color([1.0; 3])])),
+            scale: Spanned::without_span(NonNegative(8.0)),
+            mapping: Spanned::without_span(TextureMapping::Uv),
+            seed: Spanned::without_span(Seed(0)),
+            octaves: Spanned::without_span(Octaves(4)),
+        }
+    }
+
+    /// The texture in the IR.
+    pub(super) fn lowered(&self) -> Procedural {
+        let (Seed(seed), Octaves(octaves)) = (self.seed.value, self.octaves.value);
+        let ColorPair(colors) = self.colors.value;
+        Procedural {
+            pattern: match self.pattern.value {
+                PatternKind::Checker => TexturePattern::Checker,
+                PatternKind::Stripes => TexturePattern::Stripes,
+                PatternKind::Noise => TexturePattern::Noise(GradientNoise { seed, octaves }),
+                PatternKind::Worley => TexturePattern::Worley { seed },
+            },
+            colors: colors.map(|Color(color)| color),
+            scale: self.scale.value.0,
+            mapping: self.mapping.value,
+        }
+    }
+}
+
+/// The texture of a Phong material: an image file, or a pattern.
+pub(super) enum FileOrPattern {
+    File(FileName),
+    Pattern(Box<PatternMap>),
+}
+
+impl Decode for FileOrPattern {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        if context.tree.is_map(node) {
+            return PatternMap::decode(node, context).map(|map| Self::Pattern(Box::new(map)));
+        }
+        if let Some(pattern) = pattern_word(node, context) {
+            return Some(Self::Pattern(Box::new(pattern)));
+        }
+        FileName::decode(node, context).map(Self::File)
+    }
+
+    fn schema(definitions: &mut Definitions) -> Json {
+        json!({ "title": "file or pattern", "anyOf": Self::variants(definitions) })
+    }
+}
+
+impl FileOrPattern {
+    /// The schemas of a file, of the word of a pattern, and of its map.
+    pub(super) fn variants(definitions: &mut Definitions) -> [Json; 3] {
+        let word = keyword_schema(PatternKind::KEYWORDS);
+        [
+            FileName::schema(definitions),
+            word,
+            PatternMap::schema(definitions),
+        ]
+    }
+}
+
+/// The pattern that a plain word names.
+pub(super) fn pattern_word(node: NodeId, context: &Context<'_>) -> Option<PatternMap> {
+    let NodeContent::Word(word) = context.tree.shape(node) else {
+        return None;
+    };
+    let mut words = PatternKind::KEYWORDS.iter();
+    let (_, pattern) = words.find(|(known, _)| known.eq_ignore_ascii_case(word))?;
+    Some(PatternMap::of(*pattern))
+}
