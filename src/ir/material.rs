@@ -89,6 +89,11 @@ pub struct Phong {
     /// The weight of the refracted ray, at least 0; 0 is opaque.
     #[schemars(range(min = 0.0))]
     pub kt: f64,
+    /// Whether kt is divided by Fresnel's equations in the approximation of Schlick ("An inexpensive
+    /// BRDF model for physically-based rendering", Eurographics 1994, equation 15): kt·F(θ) is
+    /// added to the weight of the reflected ray, and kt·(1 − F(θ)) is that of the refracted ray.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub fresnel: bool,
     /// The relative index of refraction, inside over outside, above 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(rename = "eta")]
@@ -112,10 +117,17 @@ pub struct Phong {
 }
 
 impl Phong {
-    /// The weight of the reflected ray where no map scales it.
+    /// The weight of the reflected ray where no map scales it, without a part of kt.
     #[must_use]
     pub fn mirror_weight(&self) -> f64 {
         self.kr.unwrap_or(self.ks)
+    }
+
+    /// The largest weight of the reflected ray where no map scales it.
+    #[must_use]
+    pub fn most_mirror_weight(&self) -> f64 {
+        let part = if self.fresnel { self.kt } else { 0.0 };
+        self.mirror_weight() + part
     }
 
     /// Whether a texture is looked up at a point.
@@ -134,6 +146,7 @@ impl Phong {
         kr: None,
         n: 1.0,
         kt: 0.0,
+        fresnel: false,
         ior: 1.0,
         glossy_samples: 1,
         color_map: None,
@@ -174,6 +187,7 @@ setters! {
     kr: f64 => Some;
     n: f64;
     kt: f64;
+    fresnel: bool;
     ior: f64;
     glossy_samples: u32;
     color_map: TextureId => Some;

@@ -255,7 +255,7 @@ fn key(lowered: &Lowered) -> RayKey {
     };
     let glossy = phongs().filter_map(|(index, phong)| {
         let phong =
-            phong.filter(|phong| phong.mirror_weight() > 0.0 && phong.glossy_samples > 1)?;
+            phong.filter(|phong| phong.most_mirror_weight() > 0.0 && phong.glossy_samples > 1)?;
         let path = ValuePath::new(EntityKind::Material, index, Field::GlossySamples);
         Some(RayKey {
             path,
@@ -263,8 +263,9 @@ fn key(lowered: &Lowered) -> RayKey {
             value: phong.glossy_samples,
         })
     });
-    let bounces = phongs()
-        .any(|(_, phong)| phong.is_some_and(|phong| phong.mirror_weight() > 0.0 || phong.kt > 0.0));
+    let bounces = phongs().any(|(_, phong)| {
+        phong.is_some_and(|phong| phong.most_mirror_weight() > 0.0 || phong.kt > 0.0)
+    });
     if settings.max_depth > 0 && bounces {
         return glossy
             .max_by_key(|key| key.value)

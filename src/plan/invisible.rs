@@ -46,7 +46,7 @@ pub fn invisible_surfaces(scene: &ValidScene) -> Vec<usize> {
 fn has_secondary_rays(scene: &ValidScene) -> bool {
     let settings = scene.settings();
     let bounces = |material: &Material| match material {
-        Material::Phong(phong) => phong.mirror_weight() + phong.kt.get() > 0.0,
+        Material::Phong(phong) => phong.most_mirror_weight() + phong.kt.get() > 0.0,
         Material::Standard(_) => true,
     };
     let is_phong = matches!(settings.mode, Mode::Phong);

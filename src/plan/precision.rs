@@ -99,7 +99,7 @@ fn sends_rays(scene: &ValidScene, surface: &Surface, has_shadows: bool) -> bool 
         Mode::Normal | Mode::Gooch(_) | Mode::Depth => return false,
     }
     let phong = facts::material::phong(&scene.materials()[surface.material]);
-    let bounces = phong.mirror_weight() > 0.0 || phong.kt.get() > 0.0;
+    let bounces = phong.most_mirror_weight() > 0.0 || phong.kt.get() > 0.0;
     has_shadows || settings.max_depth > 0 && bounces
 }
 

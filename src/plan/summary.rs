@@ -48,6 +48,7 @@ impl MaterialSummary {
             ks,
             kr,
             kt,
+            fresnel,
             glossy_samples,
             ..
         } = material;
@@ -70,7 +71,7 @@ impl MaterialSummary {
             ambient: ka.get() > 0.0 && colored,
             diffuse: kd.get() > 0.0 && colored,
             is_specular,
-            mirrors: kr.map_or(is_specular, |kr| kr.get() > 0.0),
+            mirrors: kr.map_or(is_specular, |kr| kr.get() > 0.0) || (*fresnel && kt.get() > 0.0),
             weight: most_kr + kt.get(),
             max_direct: (ka.get() + kd.get())
                 * color

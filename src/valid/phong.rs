@@ -23,6 +23,8 @@ pub struct Phong {
     pub n: NonNegative,
     /// The weight of the refracted ray.
     pub kt: NonNegative,
+    /// Whether Fresnel's equations divide kt between the reflected and the refracted ray.
+    pub fresnel: bool,
     /// The relative index of refraction, inside over outside.
     pub ior: Positive,
     /// The number of rays that sample the glossy lobe.
@@ -67,6 +69,7 @@ pub(super) fn phong(
         kr,
         n,
         kt,
+        fresnel,
         ior,
         glossy_samples,
         color_map,
@@ -114,6 +117,7 @@ pub(super) fn phong(
         kr: kr?,
         n: n?,
         kt: kt?,
+        fresnel: *fresnel,
         ior: ior?,
         glossy_samples: glossy_samples?,
         maps: maps.has_some().then(|| Box::new(maps)),
@@ -121,10 +125,17 @@ pub(super) fn phong(
 }
 
 impl Phong {
-    /// The weight of the reflected ray where no map scales it.
+    /// The weight of the reflected ray where no map scales it, without a part of kt.
     #[must_use]
     pub fn mirror_weight(&self) -> f64 {
         self.kr.unwrap_or(self.ks).get()
+    }
+
+    /// The largest weight of the reflected ray where no map scales it.
+    #[must_use]
+    pub fn most_mirror_weight(&self) -> f64 {
+        let part = if self.fresnel { self.kt.get() } else { 0.0 };
+        self.mirror_weight() + part
     }
 }
 

@@ -338,6 +338,7 @@ fn phong() -> impl Strategy<Value = Material> {
                     kr: (glossy_samples % 2 == 0).then_some(kd),
                     n,
                     kt,
+                    fresnel: glossy_samples % 3 == 0,
                     ior: eta,
                     glossy_samples,
                     color_map,

@@ -209,7 +209,7 @@ impl Dice {
             texture,
             height: 0.5,
         });
-        ir::Phong {
+        let phong = ir::Phong {
             color: self.pick(&[[0.0; 3], [1.0, 0.5, 0.2], [0.2, 0.9, 0.7], [1.0; 3]]),
             ka: self.pick(&[0.0, 0.2]),
             kd: self.pick(&[0.0, 0.7]),
@@ -217,13 +217,16 @@ impl Dice {
             kr: None,
             n: self.pick(&[0.0, 1.0, 8.0]),
             kt: self.pick(&[0.0, 0.0, 0.0, 0.6]),
+            fresnel: false,
             ior: self.pick(&[1.0, 1.5]),
             glossy_samples: self.pick(&[1, 1, 2]),
             color_map: self.map(),
             specular_map: self.map(),
             normal_map: self.map(),
             bump,
-        }
+        };
+        let fresnel = phong.kt > 0.0 && phong.n == 8.0;
+        phong.fresnel(fresnel)
     }
 
     /// A tent over the unit square.

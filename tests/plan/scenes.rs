@@ -14,6 +14,7 @@ pub(super) fn diffuse() -> Phong {
         kr: None,
         n: 8.0,
         kt: 0.0,
+        fresnel: false,
         ior: 1.5,
         glossy_samples: 1,
         color_map: None,

@@ -137,3 +137,37 @@ fn an_index_of_one_is_invisible_for_every_shape() {
         }
     }
 }
+
+/// A pane of index 1.5 between a white wall behind the eye and a black one: the pixel in the middle
+/// shows the part that Schlick's approximation reflects, by the angle; the wall in front, white in
+/// place of the other, shows the rest.
+#[test]
+fn fresnel_divides_kt_between_the_mirror_image_and_what_is_behind() {
+    let seen = |turn: f64, [behind, ahead]: [u8; 2]| {
+        let (sin, cos) = (turn.sin(), turn.cos());
+        let wall = |z: i32, towards: i32, white: u8| {
+            format!(
+                "- {{type: circle, center: [0, 0, {z}], normal: [0, 0, {towards}], radius: 900, \
+                 material: {{color: [{white}, {white}, {white}], ka: 1, kd: 0, ks: 0, n: 1}}}}\n"
+            )
+        };
+        let text = format!(
+            "Camera: {{eye: [0, 0, 5], center: [0, 0, 0], up: [0, 1, 0], viewSize: [1, 1], fov: \
+             1}}\nMaxRecursionDepth: 1\nLights:\n- {{position: [0, 9, 9], color: [1, 1, 1]}}\n\
+             Objects:\n- {{type: circle, center: [0, 0, 0], normal: [{sin}, 0, {cos}], radius: 3, \
+             material: {{color: [1, 1, 1], ka: 0, kd: 0, ks: 0, n: 1, kt: 0.8, eta: 1.5, fresnel: \
+             true}}}}\n{}{}",
+            wall(7, -1, behind),
+            wall(-7, 1, ahead)
+        );
+        film(&scene(&text), Rules::ALL).image.pixels[0][0]
+    };
+    for turn in [0.0, 0.2, 0.6] {
+        let cosine = f64::cos(turn);
+        let reflected = 0.04 + 0.96 * (1.0 - cosine).powi(5);
+        let [mirror, through] = [seen(turn, [1, 0]), seen(turn, [0, 1])];
+        assert!((mirror - 0.8 * reflected).abs() < 1e-12, "{turn}: {mirror}");
+        let rest = 0.8 * (1.0 - reflected);
+        assert!((through - rest).abs() < 1e-12, "{turn}: {through}");
+    }
+}

@@ -27,6 +27,7 @@ impl<'s> SceneWriter<'s> {
             kr,
             n,
             kt,
+            fresnel,
             ior,
             glossy_samples,
             color_map,
@@ -46,6 +47,9 @@ impl<'s> SceneWriter<'s> {
         if *kt != 0.0 || *ior != 1.0 {
             self.number("kt", *kt, 6);
             self.number("eta", *ior, 6);
+        }
+        if *fresnel {
+            self.line(6, "fresnel: true");
         }
         if *glossy_samples != 1 {
             self.line(6, &format!("glossySamples: {glossy_samples}"));

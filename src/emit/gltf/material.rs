@@ -269,6 +269,7 @@ impl GltfWriter<'_> {
             kr,
             n,
             kt,
+            fresnel,
             ior,
             glossy_samples,
             color_map,
@@ -292,6 +293,9 @@ impl GltfWriter<'_> {
         });
         if let Some(kr) = kr {
             rtc_extras["kr"] = json!(kr);
+        }
+        if *fresnel {
+            rtc_extras["fresnel"] = json!(true);
         }
         let bump_map = bump.as_ref().map(|Bump { texture, .. }| *texture);
         let maps = [

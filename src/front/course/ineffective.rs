@@ -74,7 +74,8 @@ impl Lowering {
     }
 
     fn report_materials(&self, context: &mut Context<'_>) {
-        let is_glossy = |phong: &ir::Phong| phong.glossy_samples > 1 && phong.mirror_weight() > 0.0;
+        let is_glossy =
+            |phong: &ir::Phong| phong.glossy_samples > 1 && phong.most_mirror_weight() > 0.0;
         let has_bounces = self.scene.settings.max_depth > 0;
         let mut materials = self.scene.materials.iter().filter_map(ir::Material::phong);
         if !(has_bounces && materials.any(is_glossy)) {

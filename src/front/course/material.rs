@@ -53,12 +53,15 @@ record! {
         /// The index of refraction, for instance 1.5 for glass; 0 is opaque.
         eta: Spanned<NonNegative>, default(NonNegative(1.0)),
             keys!["eta" "index" "nt" "ior" "refractiveIndex" "refractionIndex"], json "nt";
+        /// Whether `kt` is divided by the angle, as glass does: a part of it mirrors, and only the rest
+        /// goes through (Schlick's approximation of Fresnel's equations).
+        fresnel: Spanned<bool>, default(false), keys!["fresnel"];
         /// In some files the kind of material: `refraction` is glass, a `kt` of 1 without `ka` and
         /// `kd`; `reflection` and `default` have a mirror reflection of weight `ks`, though in
         /// those files `default` has none.
         kind: Spanned<Finish>, optional, keys!["type"];
-        /// In some files whether it is glass: `true` is a `kt` of 1 besides its `ka` and `kd`,
-        /// `false` a `kt` of 0.
+        /// In some files whether it is glass: `true` is a `kt` of 1 with `fresnel` besides its `ka`
+        /// and `kd`, and no other mirror image; `false` a `kt` of 0.
         is_transparent: Spanned<bool>, optional, keys!["isTransparent"], json "isTransparent";
         /// The number of rays of a glossy reflection; 1 is a sharp mirror.
         glossy_samples: Spanned<Count>, default(Count(1)), keys!["glossySamples"];
@@ -177,6 +180,10 @@ impl Lowering {
                 (phong.kt, phong.ior) = refraction(1.0, value.eta.value.0);
                 glass = Some(span);
                 is_clear = value.is_transparent.is_absent();
+                if !is_clear {
+                    phong.fresnel = true;
+                    phong.kr = phong.kr.or(Some(0.0));
+                }
             }
             Some((false, span)) if value.kt.value.0 > 0.0 => make_opaque(&mut phong, span, context),
             Some(_) => {}
@@ -207,6 +214,7 @@ impl Lowering {
             n,
             kt,
             eta,
+            fresnel,
             kind: _,
             is_transparent: _,
             glossy_samples,
@@ -220,6 +228,7 @@ impl Lowering {
             kr: kr.ok().map(|kr| kr.value.0),
             n: n.value.0,
             kt,
+            fresnel: fresnel.value,
             ior: eta,
             glossy_samples: glossy_samples.value.0,
             color_map: self.texture(texture),
@@ -292,6 +301,7 @@ impl Lowering {
             n,
             kt,
             eta,
+            fresnel: _,
             kind: _,
             is_transparent: _,
             glossy_samples,

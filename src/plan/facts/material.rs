@@ -36,6 +36,7 @@ fn phong_of_standard(standard: &Standard) -> Phong {
         kr: None,
         n: NonNegative::saturating(1.0 / (roughness * roughness).max(1e-4)),
         kt: NonNegative::ZERO,
+        fresnel: false,
         ior: Positive::ONE,
         glossy_samples: NonZeroU32::MIN,
         maps: None,

@@ -114,7 +114,7 @@ fn mirror_weight(findings: &Findings<'_>, surface: usize) -> (&'static str, Valu
 fn depth(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Depth;
     if let Some(status) = no_bounce(findings, effect, |material| {
-        material.mirror_weight() + material.kt.get() > 0.0
+        material.most_mirror_weight() + material.kt.get() > 0.0
     }) {
         return status;
     }
@@ -142,7 +142,9 @@ fn depth(findings: &Findings<'_>) -> EffectStatus {
 
 fn mirror(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Mirror;
-    if let Some(status) = no_bounce(findings, effect, |material| material.mirror_weight() > 0.0) {
+    if let Some(status) = no_bounce(findings, effect, |material| {
+        material.most_mirror_weight() > 0.0
+    }) {
         return status;
     }
     match findings.first(MaterialSummary::has_bounce) {

@@ -22,6 +22,8 @@ pub(crate) struct PhongMaterial {
     pub(crate) n: NonNegative,
     /// The weight of the refracted ray.
     pub(crate) kt: NonNegative,
+    /// Whether Fresnel's equations divide kt between the reflected and the refracted ray.
+    pub(crate) fresnel: bool,
     /// The index of refraction of the inside over that of the outside.
     pub(crate) eta: Positive,
     /// Rays of the glossy lobe.

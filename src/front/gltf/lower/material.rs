@@ -254,6 +254,7 @@ impl MaterialReader<'_, '_, '_, '_> {
             kr: extension.number("kr"),
             n: extension.number_or("n", matt.n),
             kt: extension.number_or("kt", matt.kt),
+            fresnel: extension.boolean("fresnel"),
             ior: extension.number_or("eta", matt.ior),
             glossy_samples: extension.count_or("glossySamples", matt.glossy_samples),
             color_map: texture("colorMap"),

@@ -56,10 +56,12 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
         }
         let direction = path.ray.direction;
         let refracted = transmit(direction, shading_point, self.world.settings.shadows);
-        let mirror_weight = match refracted {
-            Some(_) => shading_point.mirror_weight(),
-            None => shading_point.mirror_weight() + shading_point.material.kt.get(),
+        let kt = shading_point.material.kt.get();
+        let reflected_part = match refracted {
+            Some(_) => reflected_part(direction, shading_point),
+            None => 1.0,
         };
+        let mirror_weight = shading_point.mirror_weight() + kt * reflected_part;
         if self.is_nonzero(path.beta * mirror_weight) {
             let mirror = mirror_direction(direction, shading_point);
             self.push_mirror(path, shading_point, mirror, mirror_weight);
@@ -69,7 +71,7 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
                 path,
                 &shading_point.interaction,
                 refracted,
-                shading_point.material.kt.get(),
+                kt * (1.0 - reflected_part),
                 BranchKind::Refracted,
             );
         }
@@ -222,6 +224,21 @@ fn mirror_direction(direction: Vec3, shading_point: &ShadingPoint<'_>) -> Vec3 {
     } else {
         mirror
     }
+}
+
+/// The part of kt that a surface reflects: Fresnel's equations in Schlick's approximation ("An
+/// inexpensive BRDF model for physically-based rendering", 1994, equation 15), by the angle of the
+/// ray on its side of the surface. A surface of index 1 reflects nothing.
+fn reflected_part(direction: Vec3, shading_point: &ShadingPoint<'_>) -> f64 {
+    let PhongMaterial { eta, fresnel, .. } = shading_point.material;
+    let amplitude = (eta.get() - 1.0) / (eta.get() + 1.0);
+    if !fresnel || amplitude == 0.0 {
+        return 0.0;
+    }
+    let normal_reflectance = amplitude * amplitude;
+    let cosine = direction.dot(shading_point.normal).abs().min(1.0);
+    let [x, square] = [1.0 - cosine, (1.0 - cosine) * (1.0 - cosine)];
+    normal_reflectance + (1.0 - normal_reflectance) * square * square * x
 }
 
 /// The refracted direction, if the material transmits light and there is no total reflection.
