@@ -22,6 +22,7 @@ fn main() {
         .into_iter()
         .chain(make::media::all())
         .chain(make::many::all())
+        .chain(make::pbrt::all())
         .enumerate()
     {
         let Repro {

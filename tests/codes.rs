@@ -12,7 +12,10 @@ fn ids_are_a_family_and_a_number_and_ascend() {
     for code in codes::all() {
         let (family, number) = code.id.split_at(2);
         assert!(
-            ["IO", "SY", "SC", "RE", "VA", "GL", "MI", "IR", "RD", "EX"].contains(&family),
+            [
+                "IO", "SY", "SC", "RE", "VA", "GL", "MI", "PB", "IR", "RD", "EX"
+            ]
+            .contains(&family),
             "{code}"
         );
         assert!(

@@ -86,6 +86,7 @@ fn lay_out(folder: &Path, blocks: &[Block]) -> Vec<String> {
             "yaml whole" => ("scene.yaml", (*text).to_owned()),
             "gltf" => ("scene.gltf", whole_asset(text)),
             "xml" => ("scene.xml", (*text).to_owned()),
+            "pbrt" => ("scene.pbrt", (*text).to_owned()),
             "gltf whole" => ("scene.gltf", (*text).to_owned()),
             "json" => ("scene.json", (*text).to_owned()),
             "toml" => ("rtc.toml", (*text).to_owned()),
@@ -150,6 +151,7 @@ fn faults(code: &Code) -> Vec<String> {
         Some((language, _)) if language.starts_with("gltf") => "scene.gltf",
         Some(("json", _)) => "scene.json",
         Some(("xml", _)) => "scene.xml",
+        Some(("pbrt", _)) => "scene.pbrt",
         _ => "scene.yaml",
     };
     let check = vec![format!("rtc check {scene} -v")];

@@ -33,6 +33,7 @@ mod numbers;
 mod obj_oracle;
 mod pages;
 mod path;
+mod pbrt;
 mod pictures;
 mod plain;
 mod plan;

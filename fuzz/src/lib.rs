@@ -134,6 +134,11 @@ fn begun(start: &[u8], input: &[u8]) {
     mesh(&[start, rest].concat());
 }
 
+/// A scene of pbrt; what it names may follow behind lines `== NAME`.
+pub fn pbrt(input: &[u8]) {
+    folder(&[b"== scene.pbrt\n", input].concat());
+}
+
 /// The names and the bytes of all files.
 fn files(input: &[u8]) -> Vec<(&[u8], &[u8])> {
     let (mut files, mut name, mut start, mut at) = (Vec::new(), &b"scene.yaml"[..], 0, 0);

@@ -1,7 +1,8 @@
 //! Scenes by folders and patterns: which files are meant.
 //!
 //! In a folder, and among what fits a pattern, a YAML, JSON or XML file is a scene only if it looks
-//! like one. A file that the command line names always is.
+//! like one, and a pbrt file only if it is no part of another one. A file that the command line
+//! names always is.
 //!
 //! No link is followed but the one that the command line names: it may lead round in circles, or to
 //! what is no matter of the folder.
@@ -21,8 +22,9 @@ const WILD: [char; 3] = ['*', '?', '['];
 /// Whether a file of this name is meant where a folder is given.
 type NameTest = fn(&str) -> bool;
 
-/// The extensions of scenes that other programs use for files of their own.
-const SHARED_EXTENSIONS: [&str; 4] = ["yaml", "yml", "json", "xml"];
+/// The extensions of scenes that other programs use for files of their own, or that parts of scenes
+/// have, too.
+const SHARED_EXTENSIONS: [&str; 6] = ["yaml", "yml", "json", "xml", "pbrt", "gz"];
 
 /// Larger files are taken for scenes without a look.
 const LONGEST_READ: u64 = 64 << 20;

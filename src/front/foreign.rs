@@ -133,7 +133,6 @@ const FOREIGN: &[ForeignFile] = &[
         |b| b.starts_with(b"FORM") && b.get(8..11) == Some(b"LWO"),
         EXPORT,
     ),
-    ("a file of pbrt", is_pbrt, EXPORT),
     ("a file of POV-Ray", is_pov, EXPORT),
 ];
 
@@ -151,6 +150,10 @@ const HEAD: usize = 4096;
 
 /// The finding that a file is no scene, if its first bytes are those of another format.
 pub fn foreign(name: &str, bytes: &[u8]) -> Option<Diagnostic> {
+    // A scene of pbrt may be compressed.
+    if crate::pbrt::is_pbrt_gzip(name, bytes) {
+        return None;
+    }
     let head = &bytes[..bytes.len().min(HEAD)];
     let found = FOREIGN.iter().find(|(_, begins, _)| begins(head));
     let known = found.map(|(format, _, hint)| (*format, *hint));
@@ -259,35 +262,6 @@ fn lines<'h>(head: &'h [u8], comment: &'static [u8]) -> impl Iterator<Item = &'h
     lines.filter(move |line| !line.is_empty() && !line.starts_with(comment))
 }
 
-/// Whether the first line is a directive of pbrt with an argument.
-fn is_pbrt(head: &[u8]) -> bool {
-    const DIRECTIVES: [&[u8]; 12] = [
-        b"LookAt",
-        b"Camera",
-        b"Film",
-        b"Sampler",
-        b"Integrator",
-        b"PixelFilter",
-        b"Scale",
-        b"Translate",
-        b"Rotate",
-        b"Transform",
-        b"Option",
-        b"ColorSpace",
-    ];
-    let Some(first) = lines(head, b"#").next() else {
-        return false;
-    };
-    let is_directive = |word: &&[u8]| {
-        let rest = first.strip_prefix(*word).unwrap_or_default();
-        let starts = rest.trim_ascii_start().first();
-        let is_apart = rest.first().is_some_and(u8::is_ascii_whitespace);
-        is_apart && starts.is_some_and(|byte| byte.is_ascii_digit() || b"\"-[.".contains(byte))
-    };
-    let has_colon = first.contains(&b':') && !first.contains(&b'"');
-    first == b"WorldBegin" || (!has_colon && DIRECTIVES.iter().any(is_directive))
-}
-
 /// Whether the lines are directives and objects of POV-Ray.
 fn is_pov(head: &[u8]) -> bool {
     const DIRECTIVES: [&[u8]; 5] = [
@@ -349,14 +323,6 @@ mod tests {
             ),
             (b"<?xml version=\"1.0\"?><plist>", "a document of XML"),
             (
-                b"# a scene\nLookAt 0 0 5  0 0 0  0 1 0\nCamera \"perspective\"",
-                "a file of pbrt",
-            ),
-            (
-                b"Film \"rgb\" \"string filename\" \"a:b.exr\"\n",
-                "a file of pbrt",
-            ),
-            (
                 b"#version 3.7;\n// a ball\ncamera { location 0 }",
                 "a file of POV-Ray",
             ),
@@ -389,6 +355,8 @@ mod tests {
             "version: 2\n",
             "Scale: 1\n",
             "OFF\n3 1 0\n",
+            "# a scene\nLookAt 0 0 5  0 0 0  0 1 0\nCamera \"perspective\"",
+            "Film \"rgb\" \"string filename\" \"a:b.exr\"\n",
             "0 1 2\n",
             "BM: 1\nEye: 2",
             "",

@@ -5,6 +5,7 @@
 //! * [`gltf`]: glTF 2.0 assets with their extensions.
 //! * [`mesh`]: OBJ, OFF, STL, PLY and XYZ files. They are inputs themselves, or parts of a scene.
 //! * [`mitsuba`]: scenes of Mitsuba, XML.
+//! * [`pbrt`]: scenes of pbrt, versions 3 and 4.
 //!
 //! All front ends share the modules beside them: [`pixels`] decodes images within the budget,
 //! `glyph` gives points and lines a shape, `words` splits text files into words with spans, and
@@ -21,11 +22,13 @@
 //!   allocated, and nothing panics on malformed bytes.
 
 pub mod course;
+mod exchange;
 mod foreign;
 pub mod gltf;
 mod glyph;
 pub mod mesh;
 pub mod mitsuba;
+pub mod pbrt;
 pub mod pixels;
 mod words;
 
@@ -62,7 +65,11 @@ pub struct FrontOptions {
 /// Whether a file with this extension is a scene, when folders are searched for scenes.
 #[must_use]
 pub fn is_scene_name(name: &str) -> bool {
-    const OTHERS: [&str; 7] = ["yaml", "yml", "json", "gltf", "glb", "rtir", "xml"];
+    const OTHERS: [&str; 8] = ["yaml", "yml", "json", "gltf", "glb", "rtir", "xml", "pbrt"];
+    let name = match name.to_lowercase().strip_suffix(".pbrt.gz") {
+        Some(_) => "x.pbrt",
+        None => name,
+    };
     let extension = name.rsplit_once('.').map(|(_, last)| last.to_lowercase());
     extension.is_some_and(|extension| {
         let is = |known: &&str| *known == extension;

@@ -4,7 +4,7 @@ use super::Input;
 use rtc_codec as codec;
 use rtc_diag as diag;
 use rtc_front::course;
-use rtc_front::{self as front, gltf, mesh, mitsuba};
+use rtc_front::{self as front, gltf, mesh, mitsuba, pbrt};
 use rtc_source::tree::yaml::LayoutFault;
 
 /// Why a scene is not formatted.
@@ -39,6 +39,7 @@ impl SourceKind {
             gltf::is_gltf(name, bytes)
                 || mesh::is_mesh_file(name, bytes)
                 || mitsuba::is_mitsuba(bytes)
+                || pbrt::is_pbrt(name, bytes)
         };
         match codec::detect_format(bytes) {
             Some(_) => Self::Ir,
@@ -49,9 +50,13 @@ impl SourceKind {
 }
 
 /// Whether a file with this name and content is a scene, or is meant as one. A text of the course
-/// that is broken still is, as long as it has a top-level key of the format.
+/// that is broken still is, as long as it has a top-level key of the format. A text of pbrt that
+/// other files include is none.
 #[must_use]
 pub fn is_scene(name: &str, bytes: &[u8]) -> bool {
+    if pbrt::is_pbrt(name, bytes) {
+        return pbrt::is_whole(bytes);
+    }
     SourceKind::of(name, bytes) != SourceKind::Scene || course::is_scene_text(bytes)
 }
 

@@ -61,7 +61,7 @@ use rtc_codec as codec;
 use rtc_diag::{Diagnostic, DiagnosticLevels, Sink, clip, codes};
 use rtc_front as front;
 use rtc_front::course::assets::{self, AssetTarget};
-use rtc_front::{course, gltf, mesh, mitsuba};
+use rtc_front::{course, gltf, mesh, mitsuba, pbrt};
 use rtc_image::Layers;
 use rtc_ir::{EntityKind, Field, Lowered, Scene, SourceSpans, ValuePath};
 use rtc_math::BasisFault;
@@ -134,6 +134,10 @@ pub fn load(
         None if mitsuba::is_mitsuba(map.bytes(file)) => {
             report_unused_choices(&options.front, false, sink);
             mitsuba::lower(file, map, &options.front, sink)
+        }
+        None if pbrt::is_pbrt(map.name(file), map.bytes(file)) => {
+            report_unused_choices(&options.front, false, sink);
+            pbrt::lower(file, map, &options.front, sink)
         }
         None => {
             let draft = course::lower(file, map, &options.front, sink)?;

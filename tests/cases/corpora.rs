@@ -44,6 +44,7 @@ const TARGETS: &[Target] = &[
     ("ply", inputs::ply),
     ("stl", inputs::stl),
     ("written", run::written),
+    ("pbrt", inputs::pbrt),
 ];
 
 /// A trial for the seeds of each target, and for each file of its corpus.

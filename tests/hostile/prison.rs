@@ -92,6 +92,12 @@ fn many_of_one_thing_take_no_longer_than_they_are() {
 
 #[test]
 #[cfg_attr(not(target_os = "linux"), ignore = "only Linux limits addresses")]
+fn hostile_scenes_of_pbrt_are_refused_or_harmless() {
+    try_all(make::pbrt::all());
+}
+
+#[test]
+#[cfg_attr(not(target_os = "linux"), ignore = "only Linux limits addresses")]
 fn pictures_that_there_is_no_memory_for_are_refused_in_words() {
     let scene = b"Camera: {eye: [0, 0, 10], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, 8]}\nObjects: []\n";
     let folder = folder(&[("scene.yaml".to_owned(), scene.to_vec())]);

@@ -28,7 +28,7 @@ Examples:
 pub(crate) struct Cost {
     /// The scene, and an optional reference scene; `-` is standard input
     ///
-    /// Formats: YAML or JSON of the course, glTF, Mitsuba XML, mesh files, and the IR. With a
+    /// Formats: YAML or JSON of the course, glTF, Mitsuba XML, pbrt, mesh files, and the IR. With a
     /// reference, the costs and pictures of the two are compared.
     #[arg(value_name = "FILE", required = true, num_args = 1..=2, value_hint = ValueHint::FilePath)]
     pub(crate) files: Vec<PathBuf>,

@@ -1,8 +1,9 @@
 //! The table of codes, one row each. A code never changes its meaning.
 //!
 //! The first two letters are the family, which is the stage that raises it: `IO` files, `SY` YAML
-//! syntax, `SC` structure and keys, `RE` files that a scene names, `VA` values, `GL` glTF, `IR` the
-//! intermediate representation, `RD` rendering, `EX` export to other renderers.
+//! syntax, `SC` structure and keys, `RE` files that a scene names, `VA` values, `GL` glTF, `MI`
+//! Mitsuba, `PB` pbrt, `IR` the intermediate representation, `RD` rendering, `EX` export to other
+//! renderers.
 //!
 //! The page of a code, `pages/<CODE>.md`, says what it finds and why that matters, with an example
 //! that raises it and the fixed example; `tests/pages.rs` runs both.
@@ -14,6 +15,7 @@ mod exports;
 mod files;
 mod gltf;
 mod mitsuba;
+mod pbrt;
 mod picture;
 mod references;
 mod shape;
@@ -25,6 +27,7 @@ pub use exports::*;
 pub use files::*;
 pub use gltf::*;
 pub use mitsuba::*;
+pub use pbrt::*;
 pub use picture::*;
 pub use references::*;
 pub use shape::*;
@@ -106,7 +109,7 @@ use codes;
 
 /// Every code there is, family by family.
 pub fn all() -> impl Iterator<Item = &'static Code> {
-    [IO, SY, SC, RE, VA, GL, MI, IR, RD, EX]
+    [IO, SY, SC, RE, VA, GL, MI, PB, IR, RD, EX]
         .into_iter()
         .flatten()
         .copied()

@@ -35,7 +35,6 @@
 //!   budget (`decode::Context::step`).
 
 mod ambient;
-mod area_light;
 pub mod assets;
 mod camera;
 mod core_schema;

@@ -4,10 +4,11 @@
 //! the closest standard material is used, with a warning that says how it differs: Schlick's
 //! approximation takes the place of the Fresnel equations of metals, and GGX that of Beckmann.
 
-use super::color::{self, metal, named_ior, normal_reflectance};
-use super::value::Transform;
-use super::xml::{Node, Text, Value};
+use super::xml::{Node, Value};
 use super::{AssetTarget, Lowering};
+use crate::exchange::Text;
+use crate::exchange::color::{self, metal, named_ior, normal_reflectance};
+use crate::exchange::transform::Transform;
 use rtc_ir::{
     Alpha, EntityKind, Filter, Image, Map, Material, MaterialId, Pixels, Sampled, Standard,
     Texture, TextureId, Wrap,
@@ -433,7 +434,7 @@ impl<'run> Lowering<'run> {
     fn checkerboard(&mut self, node: &Node) -> rtc_ir::ImageId {
         let first = node.color("color0").unwrap_or([0.4; 3]);
         let second = node.color("color1").unwrap_or([0.2; 3]);
-        let texel = |color: [f64; 3]| color.map(encoded);
+        let texel = |texel: [f64; 3]| texel.map(color::encoded);
         let pixels: Vec<u8> = [first, second, second, first]
             .into_iter()
             .flat_map(texel)
@@ -448,14 +449,6 @@ impl<'run> Lowering<'run> {
         self.record(EntityKind::Image, id.0 as usize, node.span);
         id
     }
-}
-
-/// A linear value as a byte of sRGB: the one whose linear value is closest.
-fn encoded(value: f64) -> u8 {
-    let distance = |byte: &u8| (color::decode(f64::from(*byte) / 255.0) - value).abs();
-    (0..=255_u8)
-        .min_by(|a, b| distance(a).total_cmp(&distance(b)))
-        .unwrap_or(0)
 }
 
 fn opaque([r, g, b]: [f64; 3]) -> [f64; 4] {

@@ -1,8 +1,8 @@
 //! Emitters: environment maps, points, spots, suns; area lights are part of their shapes.
 
-use super::value::Transform;
 use super::xml::Node;
 use super::{AssetTarget, Lowering};
+use crate::exchange::transform::Transform;
 use rtc_ir::{Emitter, EntityKind, Environment, Light, Punctual};
 use rtc_math::{Vec3, unit};
 

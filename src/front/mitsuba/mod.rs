@@ -7,7 +7,7 @@
 //! - [`xml`] reads the text. It resolves `<default>`, `<include>` and `<ref>`, converts the names of
 //!   older versions (`toWorld`) to those of version 3 (`to_world`), and collects all mistakes. Each
 //!   [`Node`] keeps the spans of its element and of its properties.
-//! - [`value`] parses numbers, vectors and transforms, [`color`] colours and spectra.
+//! - [`value`] parses numbers, vectors, matrices, colours and spectra.
 //! - [`sensor`], [`bsdf`], [`emitter`] and [`shape`] lower one kind of plugin each. A plugin that is
 //!   not supported is replaced by the closest one, and a property without effect is ignored, both
 //!   with a warning: the picture is made all the same.
@@ -25,17 +25,16 @@
 )]
 
 mod bsdf;
-mod color;
 mod emitter;
 mod sensor;
 mod serialized;
 mod shape;
-mod tessellate;
 mod value;
 mod xml;
 
 use crate::course::UnfinishedScene;
 use crate::course::assets::{self, AssetTarget, PendingAsset};
+use crate::exchange::{Text, transform::Transform};
 use crate::foreign::xml_root;
 use crate::{FrontOptions, over_limit};
 use rtc_diag::{Diagnostic, Sink, clip, clip_path, codes};
@@ -154,7 +153,7 @@ impl<'run> Lowering<'run> {
                 "emitter" if node.plugin.text == "area" => {}
                 "sensor" => self.sensor(node),
                 "emitter" => self.emitter(node),
-                "shape" => self.shape(node, value::Transform::IDENTITY),
+                "shape" => self.shape(node, Transform::IDENTITY),
                 "medium" | "phase" | "volume" => {
                     self.unsupported(node, "participating media are left out");
                 }
@@ -237,7 +236,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// An image of one pixel that waits for its file.
-    fn image(&mut self, path: &xml::Text, target: fn(ImageId) -> AssetTarget) -> ImageId {
+    fn image(&mut self, path: &Text, target: fn(ImageId) -> AssetTarget) -> ImageId {
         if let Some(id) = self.images.get(&path.text) {
             return *id;
         }
@@ -259,7 +258,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// An empty mesh that waits for its file.
-    fn mesh_file(&mut self, path: &xml::Text) -> MeshId {
+    fn mesh_file(&mut self, path: &Text) -> MeshId {
         if let Some(id) = self.meshes.get(&path.text) {
             return *id;
         }
@@ -278,7 +277,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// A mesh of a `.serialized` file.
-    fn serialized_mesh(&mut self, path: &xml::Text, index: u32) -> Option<MeshId> {
+    fn serialized_mesh(&mut self, path: &Text, index: u32) -> Option<MeshId> {
         let key = (path.text.clone(), index);
         if let Some(known) = self.serialized.get(&key) {
             return *known;
@@ -292,7 +291,7 @@ impl<'run> Lowering<'run> {
         id
     }
 
-    fn read_serialized(&mut self, path: &xml::Text, index: u32) -> Option<Mesh> {
+    fn read_serialized(&mut self, path: &Text, index: u32) -> Option<Mesh> {
         let name = clip_path(&path.text);
         let diagnostic = match self.search.find(&path.text, &serialized::KIND) {
             Err(_) => {

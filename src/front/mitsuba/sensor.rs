@@ -1,8 +1,8 @@
 //! Integrators, sensors, films and samplers.
 
 use super::Lowering;
-use super::value::Transform;
 use super::xml::Node;
+use crate::exchange::transform::Transform;
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{
     Ambient, Camera, EntityKind, Lens, Mode, PathSettings, Pattern, Projection, Settings,

@@ -1,9 +1,9 @@
 //! Shapes: spheres and discs as they are, others as meshes.
 
 use super::Lowering;
-use super::tessellate;
-use super::value::Transform;
 use super::xml::Node;
+use crate::exchange::tessellate;
+use crate::exchange::transform::Transform;
 use rtc_ir::{
     Column, Disc, EntityKind, Instance, Material, MaterialId, Mesh, MeshId, Scene, Shape, Sphere,
     Surface,

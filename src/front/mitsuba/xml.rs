@@ -1,7 +1,7 @@
 //! The XML of a Mitsuba scene as a tree of plugins with their properties.
 
-use super::color;
-use super::value::{self, Transform};
+use super::value;
+use crate::exchange::{Text, color, transform::Transform};
 use crate::{FrontOptions, over_limit};
 use roxmltree::{Document, ParsingOptions};
 use rtc_diag::{Diagnostic, Sink, clip, clip_words, codes};
@@ -24,13 +24,6 @@ const SCENES: FileKind = FileKind {
     extensions: &["xml"],
     begins: |head| String::from_utf8_lossy(head).trim_start().starts_with('<'),
 };
-
-/// A string of the text and its span.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Text {
-    pub(super) text: String,
-    pub(super) span: Span,
-}
 
 /// An element that creates a plugin, or a reference to one (`ref`, whose plugin is the id).
 #[derive(Clone, Debug)]
@@ -488,10 +481,10 @@ impl XmlReader<'_> {
                 _ => None,
             },
             "string" => return Some(Value::String(text)),
-            "rgb" => color::rgb(&text.text).map(Value::Color),
-            "srgb" => color::rgb(&text.text).map(|rgb| Value::Color(rgb.map(color::decode))),
+            "rgb" => value::rgb(&text.text).map(Value::Color),
+            "srgb" => value::rgb(&text.text).map(|rgb| Value::Color(rgb.map(color::decode))),
             "spectrum" if attribute == "filename" => None,
-            "spectrum" => color::spectrum(&text.text).map(Value::Color),
+            "spectrum" => value::spectrum(&text.text).map(Value::Color),
             "blackbody" => None,
             _ => {
                 let message = format!("`<{}>` has no meaning here", clip(kind));
@@ -627,7 +620,7 @@ impl XmlReader<'_> {
             self.missing(file, element, "`value`");
             return None;
         };
-        let matrix = Transform::matrix(&text.text);
+        let matrix = value::matrix(&text.text);
         if matrix.is_none() {
             self.not_numbers(&text);
         }

@@ -1,6 +1,6 @@
 //! What a case says of itself: what it shows, and how it is rendered, in the words of `rtc render`:
 //! `# options: spp=16 tonemap=agx aov=depth:2..8 env=files/sky.hdr threads=2`. It stands in the first
-//! comments of a YAML file, in the `shows` and `options` of `asset.extras` in a `.gltf`, and as
+//! comments of a YAML or pbrt file, in the `shows` and `options` of `asset.extras` in a `.gltf`, and as
 //! comments of `<case>.options` beside any other file.
 
 use libtest_mimic::Failed;
@@ -105,7 +105,7 @@ fn said(case: &Path) -> Result<String, Failed> {
         let word = |key: &str| extras[key].as_str().unwrap_or_default().to_owned();
         (word("shows"), word("options"))
     } else {
-        let path = if kind == "yaml" {
+        let path = if kind == "yaml" || kind == "pbrt" {
             case.to_owned()
         } else {
             case.with_extension("options")

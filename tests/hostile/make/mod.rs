@@ -4,6 +4,7 @@
 pub(crate) mod gltf;
 pub(crate) mod many;
 pub(crate) mod media;
+pub(crate) mod pbrt;
 mod webp;
 
 /// Files that ask for much, and what is done with them.

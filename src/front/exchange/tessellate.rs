@@ -1,6 +1,6 @@
-//! The meshes that stand for shapes of Mitsuba, in their own coordinates.
+//! The meshes that stand for the shapes of other renderers, in their own coordinates.
 
-use super::value::Transform;
+use super::transform::Transform;
 use rtc_ir::{Column, Mesh};
 use rtc_math::{Basis, Vec3, cos, sin, unit};
 use std::f64::consts::{PI, TAU};
@@ -49,7 +49,7 @@ impl TriangleBuilder {
 }
 
 /// The square from (−1, −1, 0) to (1, 1, 0), its normal +z.
-pub(super) fn rectangle() -> Mesh {
+pub(crate) fn rectangle() -> Mesh {
     let mut builder = TriangleBuilder::default();
     for [u, v] in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]] {
         builder.vertex(
@@ -63,7 +63,7 @@ pub(super) fn rectangle() -> Mesh {
 }
 
 /// The cube from (−1, −1, −1) to (1, 1, 1).
-pub(super) fn cube() -> Mesh {
+pub(crate) fn cube() -> Mesh {
     let mut builder = TriangleBuilder::default();
     for normal in [
         Vec3::X,
@@ -88,7 +88,7 @@ pub(super) fn cube() -> Mesh {
 }
 
 /// The unit disk about +z, of the area of the circle.
-pub(super) fn disk() -> Mesh {
+pub(crate) fn disk() -> Mesh {
     let mut builder = TriangleBuilder::default();
     let sides = f64::from(SIDES);
     // The area of a regular polygon is (n/2)·r²·sin(2π/n).
@@ -106,7 +106,7 @@ pub(super) fn disk() -> Mesh {
 }
 
 /// The unit sphere, with poles ±z.
-pub(super) fn sphere() -> Mesh {
+pub(crate) fn sphere() -> Mesh {
     let mut builder = TriangleBuilder::default();
     for row in 0..=ROWS {
         let v = f64::from(row) / f64::from(ROWS);
@@ -125,7 +125,7 @@ pub(super) fn sphere() -> Mesh {
 }
 
 /// The cylinder of radius 1 about +z from 0 to 1, open at both ends.
-pub(super) fn cylinder() -> Mesh {
+pub(crate) fn cylinder() -> Mesh {
     let mut builder = TriangleBuilder::default();
     for v in [0.0, 1.0] {
         for side in 0..=SIDES {
@@ -138,8 +138,32 @@ pub(super) fn cylinder() -> Mesh {
     builder.mesh()
 }
 
+/// The surface that a profile sweeps when it turns about +z by `angle` radians, at most 2π: u along
+/// the turn, v along the profile. Each point of the profile has its normal.
+pub(crate) fn revolved(profile: &[(Vec3, Vec3)], angle: f64) -> Mesh {
+    let mut builder = TriangleBuilder::default();
+    let rows = u32::try_from(profile.len().saturating_sub(1)).unwrap_or(0);
+    for (row, (point, normal)) in (0_u32..).zip(profile) {
+        let v = f64::from(row) / f64::from(rows.max(1));
+        for side in 0..=SIDES {
+            let u = f64::from(side) / f64::from(SIDES);
+            let (s, c) = (sin(angle * u), cos(angle * u));
+            let turn = |p: Vec3| Vec3::new(c * p.x - s * p.y, s * p.x + c * p.y, p.z);
+            builder.vertex(turn(*point), turn(*normal), [u, v]);
+        }
+    }
+    builder.grid(SIDES, rows);
+    // At a pole one side of each cell is a point.
+    let positions = &builder.positions;
+    builder.triangles.retain(|corners| {
+        let [a, b, c] = corners.map(|corner| Vec3::from_array(positions[corner as usize]));
+        (b - a).cross(c - a) != Vec3::ZERO
+    });
+    builder.mesh()
+}
+
 /// The map that takes [`cylinder`] to the one from `p0` to `p1`; `None` if they coincide.
-pub(super) fn along(p0: Vec3, p1: Vec3, radius: f64) -> Option<Transform> {
+pub(crate) fn along(p0: Vec3, p1: Vec3, radius: f64) -> Option<Transform> {
     let axis = unit(p1 - p0)?;
     let Basis {
         tangent,

@@ -1,0 +1,518 @@
+//! Directives: each changes the graphics state, or adds a part of the scene.
+
+use super::Lowering;
+use super::parameter::{self, Parameters};
+use super::state::{ActiveTransform, Opener};
+use super::token::{PbrtToken, PbrtTokenKind};
+use crate::exchange::Text;
+use crate::exchange::transform::Transform;
+use rtc_diag::{Diagnostic, clip, codes, nearest};
+use rtc_math::Vec3;
+use rtc_source::{FileId, Resource, Span};
+use std::rc::Rc;
+
+/// The directives of versions 3 and 4.
+const DIRECTIVES: [&str; 44] = [
+    "Accelerator",
+    "ActiveTransform",
+    "AreaLightSource",
+    "Attribute",
+    "AttributeBegin",
+    "AttributeEnd",
+    "Camera",
+    "ColorSpace",
+    "ConcatTransform",
+    "CoordinateSystem",
+    "CoordSysTransform",
+    "Film",
+    "Identity",
+    "Import",
+    "Include",
+    "Integrator",
+    "LightSource",
+    "LookAt",
+    "MakeNamedMaterial",
+    "MakeNamedMedium",
+    "Material",
+    "MediumInterface",
+    "NamedMaterial",
+    "ObjectBegin",
+    "ObjectEnd",
+    "ObjectInstance",
+    "Option",
+    "PixelFilter",
+    "ReverseOrientation",
+    "Rotate",
+    "Sampler",
+    "Scale",
+    "Shape",
+    "SurfaceIntegrator",
+    "Texture",
+    "Transform",
+    "TransformBegin",
+    "TransformEnd",
+    "TransformTimes",
+    "Translate",
+    "VolumeIntegrator",
+    "WorldBegin",
+    "WorldEnd",
+    "Renderer",
+];
+
+/// The directives without an argument, and what their first line cannot be in another format.
+const BARE: [&[u8]; 4] = [
+    b"WorldBegin",
+    b"AttributeBegin",
+    b"Identity",
+    b"TransformBegin",
+];
+
+/// After so many tokens the budget is charged.
+const CHARGED_TOKENS: u64 = 1 << 12;
+
+/// Whether the first line that is no comment is a directive of pbrt with an argument.
+pub(crate) fn begins_scene(bytes: &[u8]) -> bool {
+    let head = bytes.get(..4096).unwrap_or(bytes);
+    let lines = head.split(|byte| matches!(byte, b'\n' | b'\r'));
+    let mut lines = lines.map(<[u8]>::trim_ascii);
+    let Some(first) = lines.find(|line| !line.is_empty() && !line.starts_with(b"#")) else {
+        return false;
+    };
+    let is_directive = |word: &&str| {
+        let rest = first.strip_prefix(word.as_bytes()).unwrap_or_default();
+        let starts = rest.trim_ascii_start().first();
+        let is_apart = rest.first().is_some_and(u8::is_ascii_whitespace);
+        is_apart && starts.is_some_and(|byte| byte.is_ascii_digit() || b"\"-[.".contains(byte))
+    };
+    let has_colon = first.contains(&b':') && !first.contains(&b'"');
+    BARE.contains(&first) || (!has_colon && DIRECTIVES.iter().any(is_directive))
+}
+
+/// Whether a text has a directive that only whole scenes have.
+pub(super) fn has_view(bytes: &[u8]) -> bool {
+    ["WorldBegin", "Camera", "Film"].into_iter().any(|word| {
+        let mut places = memchr::memmem::find_iter(bytes, word);
+        places.any(|at| {
+            let line = memchr::memrchr(b'\n', &bytes[..at]).map_or(0, |end| end + 1);
+            bytes[line..at].trim_ascii().is_empty()
+        })
+    })
+}
+
+impl Lowering<'_> {
+    /// Reads the scene and the files that it includes; `None` if it has no text.
+    pub(super) fn read(&mut self, file: FileId) -> Option<()> {
+        let scene = self.open_scene(file)?;
+        self.files.push(scene);
+        let mut charged = 0;
+        while let Some(mut open) = self.files.pop() {
+            let is_import = open.is_import;
+            let Some(token) = open.reader.next() else {
+                if is_import {
+                    let span = Span::new(file, 0, 0);
+                    self.close(Opener::Import, "the end of the file", span);
+                }
+                continue;
+            };
+            charged += 1;
+            let span = open.reader.span(token);
+            self.files.push(open);
+            self.directive(token);
+            // Charge what was read, and stop when there is no more.
+            if let Some(open) = self.files.last_mut() {
+                charged += std::mem::take(&mut open.reader.count);
+            }
+            if charged >= CHARGED_TOKENS {
+                self.charge(Resource::Nodes, charged, span);
+                charged = 0;
+            }
+            if self.is_exhausted {
+                break;
+            }
+        }
+        self.close_all();
+        Some(())
+    }
+
+    /// The file that is read.
+    fn reader(&mut self) -> &mut super::token::TokenReader {
+        let last = self.files.len() - 1;
+        &mut self.files[last].reader
+    }
+
+    fn directive(&mut self, token: PbrtToken) {
+        let Text { text: name, span } = self.reader().text(token);
+        if token.kind != PbrtTokenKind::Word {
+            let message = match token.kind {
+                PbrtTokenKind::Unterminated => "nothing ends this string on its line".to_owned(),
+                _ => format!("`{}` stands where a directive is expected", clip(&name)),
+            };
+            self.report(&codes::PBRT_SYNTAX, span, message);
+            return self.skip_arguments();
+        }
+        match name.as_str() {
+            "Identity" => self.transform_by(|_| Transform::IDENTITY),
+            "Translate" => self.translate(span),
+            "Scale" => self.scale(span),
+            "Rotate" => self.rotate(span),
+            "LookAt" => self.look_at(span),
+            "Transform" | "ConcatTransform" => self.matrix(&name, span),
+            "CoordinateSystem" | "CoordSysTransform" => self.coordinate_system(&name, span),
+            "ActiveTransform" => self.active_transform(span),
+            "TransformTimes" => drop(self.numbers::<2>("TransformTimes", span)),
+            "AttributeBegin" => self.open(Opener::Attribute, span),
+            "AttributeEnd" => self.close(Opener::Attribute, &name, span),
+            "TransformBegin" => self.open(Opener::Transform, span),
+            "TransformEnd" => self.close(Opener::Transform, &name, span),
+            "ObjectBegin" => self.object_begin(span),
+            "ObjectEnd" => self.object_end(span),
+            "ObjectInstance" => self.object_instance(span),
+            "ReverseOrientation" => {
+                self.state.reverse_orientation = !self.state.reverse_orientation;
+            }
+            "WorldBegin" => self.world_begin(span),
+            "WorldEnd" => {}
+            "Include" | "Import" => {
+                if let Some(path) = self.argument(&name, span) {
+                    self.open_included(&path, name == "Import");
+                }
+            }
+            _ => self.plugin_directive(&name, span),
+        }
+    }
+
+    /// The directives with a name and parameters.
+    fn plugin_directive(&mut self, name: &str, span: Span) {
+        match name {
+            "ColorSpace" => {
+                if let Some(space) = self.argument(name, span)
+                    && space.text != "srgb"
+                {
+                    let space_name = clip(&space.text);
+                    let message = format!("the colours of `{space_name}` are taken as sRGB");
+                    self.approximate(space.span, message);
+                }
+            }
+            "Option" => self.skip_arguments(),
+            "MediumInterface" => {
+                let media: Vec<Text> = self.arguments().collect();
+                self.medium_interface(&media);
+            }
+            "NamedMaterial" => {
+                if let Some(name) = self.argument(name, span) {
+                    self.named_material(&name);
+                }
+            }
+            "Texture" => self.texture_directive(span),
+            _ if DIRECTIVES.contains(&name) => {
+                let Some(plugin) = self.argument(name, span) else {
+                    return self.skip_arguments();
+                };
+                let parameters = self.parameters();
+                self.plugin(name, plugin, parameters, span);
+            }
+            _ => {
+                let message = format!("`{}` is no directive: it is left out", clip(name));
+                let mut diagnostic = Diagnostic::new(&codes::PBRT_PLUGIN, message).at(span, "");
+                if let Some(near) = nearest(name, DIRECTIVES.iter().copied()) {
+                    diagnostic = diagnostic.hint(format!("did you mean `{near}`?"));
+                }
+                self.sink.push(diagnostic);
+                self.skip_arguments();
+            }
+        }
+    }
+
+    fn plugin(&mut self, directive: &str, plugin: Text, parameters: Parameters, span: Span) {
+        match directive {
+            "Camera" => self.camera(plugin, parameters, span),
+            "Film" => self.view.film = Some((plugin, parameters)),
+            "Sampler" => self.view.sampler = Some((plugin, parameters)),
+            "Integrator" | "SurfaceIntegrator" => self.view.integrator = Some((plugin, parameters)),
+            "PixelFilter" => self.view.filter = Some((plugin, parameters)),
+            "Material" => {
+                let parameters = self.with_attributes("material", parameters, span);
+                let material = self.material(&plugin, &parameters);
+                self.state.material = Some(material);
+            }
+            "MakeNamedMaterial" => self.make_named_material(plugin, &parameters),
+            "LightSource" => {
+                let parameters = self.with_attributes("light", parameters, span);
+                self.light_source(&plugin, &parameters);
+            }
+            "AreaLightSource" => {
+                let parameters = self.with_attributes("light", parameters, span);
+                self.area_light_source(&plugin, &parameters);
+            }
+            "Shape" => {
+                let parameters = self.with_attributes("shape", parameters, span);
+                self.shape(&plugin, &parameters, span);
+            }
+            "Attribute" => {
+                let known: usize = self.state.attributes.values().map(Vec::len).sum();
+                self.charge(Resource::Nodes, known as u64, span);
+                let attributes = Rc::make_mut(&mut self.state.attributes);
+                attributes
+                    .entry(plugin.text)
+                    .or_default()
+                    .extend(parameters.list);
+            }
+            // How rays find surfaces, and media that no surface is in, change no picture.
+            "Accelerator" | "MakeNamedMedium" | "VolumeIntegrator" | "Renderer" => {}
+            _ => {}
+        }
+    }
+
+    fn with_attributes(&mut self, target: &str, parameters: Parameters, at: Span) -> Parameters {
+        let attributes = Rc::clone(&self.state.attributes);
+        let Some(defaults) = attributes.get(target) else {
+            return parameters;
+        };
+        // Each name is compared with each other one.
+        let compared = defaults.len() as u64 * (parameters.list.len() as u64 + 1);
+        match self.charge(Resource::Nodes, compared, at) {
+            Some(()) => parameters.with_defaults(defaults),
+            None => parameters,
+        }
+    }
+
+    fn texture_directive(&mut self, span: Span) {
+        let names: Vec<Text> = self.some_arguments(3);
+        let [name, kind, plugin] = match <[Text; 3]>::try_from(names) {
+            Ok(names) => names,
+            Err(_) => {
+                let message = "`Texture` needs a name, a type and a kind of texture";
+                self.report(&codes::PBRT_SYNTAX, span, message);
+                return self.skip_arguments();
+            }
+        };
+        let parameters = self.parameters();
+        let parameters = self.with_attributes("texture", parameters, span);
+        self.texture(name, &kind, &plugin, &parameters);
+    }
+
+    fn parameters(&mut self) -> Parameters {
+        let mut found = Vec::new();
+        let parameters = parameter::read(self.reader(), &mut |diagnostic| found.push(diagnostic));
+        for diagnostic in found {
+            self.sink.push(diagnostic);
+        }
+        parameters
+    }
+
+    /// The string that follows; without one that is reported.
+    fn argument(&mut self, directive: &str, span: Span) -> Option<Text> {
+        let reader = self.reader();
+        let Some(token) = reader.next_if(PbrtTokenKind::Quoted) else {
+            let message = format!("`{}` needs a name between quotes", clip(directive));
+            self.report(&codes::PBRT_SYNTAX, span, message);
+            return None;
+        };
+        Some(reader.text(token))
+    }
+
+    /// The strings that follow.
+    fn arguments(&mut self) -> impl Iterator<Item = Text> {
+        let reader = self.reader();
+        std::iter::from_fn(move || {
+            let token = reader.next_if(PbrtTokenKind::Quoted)?;
+            Some(reader.text(token))
+        })
+    }
+
+    fn some_arguments(&mut self, count: usize) -> Vec<Text> {
+        self.arguments().take(count).collect()
+    }
+
+    /// Skips to the next directive.
+    fn skip_arguments(&mut self) {
+        let reader = self.reader();
+        while let Some(token) = reader.peek() {
+            let bytes = reader.bytes(token);
+            let is_directive = token.kind == PbrtTokenKind::Word
+                && DIRECTIVES.iter().any(|known| known.as_bytes() == bytes);
+            if is_directive {
+                return;
+            }
+            reader.next();
+        }
+    }
+
+    /// The numbers that follow, between brackets or not.
+    fn numbers<const N: usize>(&mut self, directive: &str, span: Span) -> Option<[f64; N]> {
+        let reader = self.reader();
+        let is_list = reader.next_if(PbrtTokenKind::Open).is_some();
+        let mut numbers = [0.0; N];
+        let mut wrong = None;
+        for number in &mut numbers {
+            let token = reader.peek();
+            match token.and_then(|token| reader.number(token)) {
+                Some(known) => *number = known,
+                None => {
+                    // The next directive is not what is wrong.
+                    let is_word = |token: &PbrtToken| {
+                        !reader
+                            .bytes(*token)
+                            .first()
+                            .is_some_and(u8::is_ascii_uppercase)
+                    };
+                    let word = token.filter(is_word);
+                    wrong = Some(word.map_or(span, |token| reader.span(token)));
+                    break;
+                }
+            }
+            reader.next();
+        }
+        let is_closed =
+            !is_list || wrong.is_some() || reader.next_if(PbrtTokenKind::Close).is_some();
+        if wrong.is_some() || !is_closed {
+            let message = format!("`{}` needs {N} numbers", clip(directive));
+            self.report(&codes::PBRT_SYNTAX, wrong.unwrap_or(span), message);
+            self.skip_arguments();
+            return None;
+        }
+        Some(numbers)
+    }
+
+    fn translate(&mut self, span: Span) {
+        if let Some(by) = self.numbers::<3>("Translate", span) {
+            self.transform_by(|current| current.after(&Transform::translation(by)));
+        }
+    }
+
+    fn scale(&mut self, span: Span) {
+        if let Some(by) = self.numbers::<3>("Scale", span) {
+            self.transform_by(|current| current.after(&Transform::scale(by)));
+        }
+    }
+
+    fn rotate(&mut self, span: Span) {
+        let Some([degrees, x, y, z]) = self.numbers::<4>("Rotate", span) else {
+            return;
+        };
+        match Transform::rotation([x, y, z], degrees) {
+            Some(rotation) => self.transform_by(|current| current.after(&rotation)),
+            None => self.mistake(span, "the axis of `Rotate` has no length"),
+        }
+    }
+
+    fn look_at(&mut self, span: Span) {
+        let Some(n) = self.numbers::<9>("LookAt", span) else {
+            return;
+        };
+        let point = |at: usize| [n[at], n[at + 1], n[at + 2]];
+        let from_camera = Transform::look_at(point(0), point(3), Some(point(6)));
+        match from_camera.and_then(|from_camera| from_camera.inverse()) {
+            Some(to_camera) => self.transform_by(|current| current.after(&to_camera)),
+            None => self.mistake(span, "the points of `LookAt` give no direction"),
+        }
+    }
+
+    /// A matrix in columns.
+    fn matrix(&mut self, name: &str, span: Span) {
+        let Some(n) = self.numbers::<16>(name, span) else {
+            return;
+        };
+        if n[3] != 0.0 || n[7] != 0.0 || n[11] != 0.0 || n[15] == 0.0 {
+            return self.mistake(span, format!("the matrix of `{name}` is not affine"));
+        }
+        let column = |at: usize| Vec3::new(n[at], n[at + 1], n[at + 2]) / n[15];
+        let matrix = Transform([column(0), column(4), column(8), column(12)]);
+        self.transform_by(|current| match name {
+            "Transform" => matrix,
+            _ => current.after(&matrix),
+        });
+    }
+
+    fn coordinate_system(&mut self, directive: &str, span: Span) {
+        let Some(name) = self.argument(directive, span) else {
+            return;
+        };
+        if directive == "CoordinateSystem" {
+            self.systems.insert(name.text, self.state.transform);
+            return;
+        }
+        match self.systems.get(&name.text).copied() {
+            Some(system) => self.transform_by(|_| system),
+            None => {
+                let message = format!("there is no coordinate system `{}`", clip(&name.text));
+                self.mistake(name.span, message);
+            }
+        }
+    }
+
+    fn active_transform(&mut self, span: Span) {
+        let reader = self.reader();
+        let token = reader.next_if(PbrtTokenKind::Word);
+        let active = match token.map(|token| reader.bytes(token)) {
+            Some(b"All") => ActiveTransform::All,
+            Some(b"StartTime") => ActiveTransform::Start,
+            Some(b"EndTime") => ActiveTransform::End,
+            _ => {
+                let message = "`ActiveTransform` is followed by `All`, `StartTime` or `EndTime`";
+                return self.report(&codes::PBRT_SYNTAX, span, message);
+            }
+        };
+        if active == ActiveTransform::End {
+            self.approximate(span, "motion is left out: the scene is shown at its start");
+        }
+        self.state.active = active;
+    }
+
+    fn object_begin(&mut self, span: Span) {
+        let Some(name) = self.argument("ObjectBegin", span) else {
+            return;
+        };
+        if self.open_object.is_some() {
+            return self.mistake(span, "an object is defined inside of another one");
+        }
+        self.open(Opener::Object, span);
+        self.open_object = Some((name, Vec::new()));
+    }
+
+    fn object_end(&mut self, span: Span) {
+        let Some((name, shapes)) = self.open_object.take() else {
+            return self.mistake(span, "`ObjectEnd` ends nothing");
+        };
+        self.objects.insert(name.text, Rc::new(shapes));
+        self.close(Opener::Object, "ObjectEnd", span);
+    }
+
+    fn object_instance(&mut self, span: Span) {
+        let Some(name) = self.argument("ObjectInstance", span) else {
+            return;
+        };
+        if self.open_object.is_some() {
+            return self.mistake(span, "an object cannot hold an instance of another one");
+        }
+        let Some(shapes) = self.objects.get(&name.text).cloned() else {
+            let message = format!("there is no object `{}`", clip(&name.text));
+            return self.mistake(name.span, message);
+        };
+        let outer = self.state.transform;
+        for shape in shapes.iter() {
+            if self.place(shape, &outer).is_none() {
+                break;
+            }
+        }
+    }
+
+    fn world_begin(&mut self, span: Span) {
+        if self.in_world {
+            return self.mistake(span, "`WorldBegin` stands here a second time");
+        }
+        self.in_world = true;
+        self.finish_view();
+        self.state.transform = Transform::IDENTITY;
+        self.state.active = ActiveTransform::All;
+        self.systems.insert("world".to_owned(), Transform::IDENTITY);
+    }
+
+    /// Ends the scene.
+    pub(super) fn finish(&mut self) {
+        if !self.in_world {
+            self.finish_view();
+        }
+        self.finish_environment();
+    }
+}

@@ -1,0 +1,250 @@
+//! The files that a scene names: found, read and unpacked within the budget.
+
+use super::Lowering;
+use super::token::TokenReader;
+use crate::exchange::Text;
+use flate2::read::MultiGzDecoder;
+use rtc_diag::{Code, Diagnostic, Severity, clip_path, codes};
+use rtc_source::{Budget, Exceeded, FileId, FileKind, Loader, Resource, Span};
+use std::io::Read;
+
+/// The deepest nesting of included files.
+const MAX_DEPTH: usize = 32;
+/// The largest number of included files.
+const MAX_FILES: usize = 1 << 14;
+/// The largest file that is read, in bytes.
+const MAX_BYTES: u64 = 1 << 30;
+/// What a compressed file may become: so many bytes, and more for each of its own.
+const UNPACKED: (u64, u64) = (16 << 20, 8);
+/// The step in which unpacked bytes are charged.
+const STEP: usize = 1 << 16;
+/// The number of bytes of a compressed file that are examined.
+const HEAD: u64 = 1 << 16;
+
+/// Parts of scenes.
+const SCENES: FileKind = FileKind {
+    extensions: &["pbrt", "gz"],
+    begins: |_| true,
+};
+
+/// A file that is being read.
+pub(super) struct OpenFile {
+    pub(super) reader: TokenReader,
+    /// Whether the state before it holds after it.
+    pub(super) is_import: bool,
+}
+
+/// Whether bytes are compressed by gzip (RFC 1952).
+pub(super) fn is_gzip(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"\x1f\x8b")
+}
+
+/// The first bytes of what a compressed file becomes.
+pub(super) fn inflated_head(bytes: &[u8]) -> Vec<u8> {
+    let mut head = Vec::new();
+    // What comes before damage is looked at.
+    let _ = MultiGzDecoder::new(bytes).take(HEAD).read_to_end(&mut head);
+    head
+}
+
+/// Why a compressed file is not read.
+enum GzipFault {
+    Damaged,
+    Limit(Exceeded),
+}
+
+/// Unpacks a compressed file. Memory is charged before it is taken.
+fn inflate(bytes: &[u8], budget: &Budget) -> Result<Vec<u8>, GzipFault> {
+    let most = UNPACKED.0 + UNPACKED.1 * bytes.len() as u64;
+    let (mut decoder, mut unpacked) = (MultiGzDecoder::new(bytes), Vec::new());
+    loop {
+        let charged = budget.charge(Resource::Memory, STEP as u64);
+        charged.map_err(GzipFault::Limit)?;
+        let before = unpacked.len();
+        let mut step = (&mut decoder).take(STEP as u64);
+        step.read_to_end(&mut unpacked)
+            .map_err(|_| GzipFault::Damaged)?;
+        if unpacked.len() as u64 > most {
+            return Err(GzipFault::Limit(Exceeded {
+                resource: Resource::Memory,
+                total: unpacked.len() as u64,
+                limit: most,
+            }));
+        }
+        if unpacked.len() - before < STEP {
+            return Ok(unpacked);
+        }
+    }
+}
+
+impl Lowering<'_> {
+    /// The text of the scene itself; `None` if it cannot be unpacked.
+    pub(super) fn open_scene(&mut self, file: FileId) -> Option<OpenFile> {
+        let mut text = file;
+        if is_gzip(self.map.bytes(file)) {
+            let name = self.map.name(file).to_owned();
+            let unpacked = self.unpack(self.map.bytes(file), &name);
+            let unpacked = unpacked.map_err(|diagnostic| {
+                self.sink.push(diagnostic.severity(Severity::Error));
+            });
+            text = self.map.add(name, unpacked.ok()?);
+        }
+        let bytes = self.map.bytes(text);
+        self.is_version_3 = memchr::memmem::find(bytes, b"WorldEnd").is_some();
+        Some(OpenFile {
+            reader: TokenReader::new(text, bytes),
+            is_import: false,
+        })
+    }
+
+    /// A file that the scene includes; its parts are missing if there is none.
+    pub(super) fn open_included(&mut self, path: &Text, is_import: bool) {
+        self.included += 1;
+        if self.files.len() >= MAX_DEPTH || self.included > MAX_FILES {
+            let message = format!(
+                "more than {MAX_FILES} files are included, or they are nested more than \
+                 {MAX_DEPTH} deep"
+            );
+            self.is_exhausted |= self.included > MAX_FILES;
+            return self.mistake(path.span, message);
+        }
+        let found = match self.parts.get(&path.text) {
+            Some(known) => known.clone(),
+            None => {
+                let found = self.find_included(path);
+                self.parts.insert(path.text.clone(), found.clone());
+                found
+            }
+        };
+        let Some(reader) = found else { return };
+        let is_open = |open: &OpenFile| open.reader.file() == reader.file();
+        if self.files.iter().any(is_open) {
+            return self.mistake(path.span, "the file includes itself");
+        }
+        if is_import {
+            self.open(super::state::Opener::Import, path.span);
+        }
+        self.files.push(OpenFile { reader, is_import });
+    }
+
+    /// The text of a file from its start; one file is read once, whatever its names are.
+    fn find_included(&mut self, path: &Text) -> Option<TokenReader> {
+        const INSTEAD: &str = "what it holds is left out";
+        let found = self.find(path, &SCENES, INSTEAD)?;
+        if let Some(known) = self.texts.get(&found.path) {
+            return Some(known.clone());
+        }
+        let bytes = self.bytes_of(path, INSTEAD, &found)?;
+        let file = self.map.add_found(&found, bytes);
+        let reader = TokenReader::new(file, self.map.bytes(file));
+        self.texts.insert(found.path, reader.clone());
+        Some(reader)
+    }
+
+    /// Finds a file of a kind; without it a warning says what is used `instead`.
+    fn find(&mut self, path: &Text, kind: &FileKind, instead: &str) -> Option<rtc_source::Found> {
+        self.lookups += 1;
+        if self.lookups > MAX_FILES {
+            let message = format!("more than {MAX_FILES} files are named");
+            self.is_exhausted = true;
+            self.mistake(path.span, message);
+            return None;
+        }
+        let found = self.search.find(&path.text, kind);
+        if found.is_err() {
+            let message = format!("there is no file `{}`", clip_path(&path.text));
+            let diagnostic = Diagnostic::new(&codes::FILE_NOT_FOUND, message);
+            self.without(diagnostic, path.span, instead);
+        }
+        found.ok()
+    }
+
+    /// The bytes of a file of a kind, unpacked; without it a warning says what is used `instead`.
+    pub(super) fn file(&mut self, path: &Text, kind: &FileKind, instead: &str) -> Option<Vec<u8>> {
+        let found = self.find(path, kind, instead)?;
+        let bytes = self.bytes_of(path, instead, &found)?;
+        Some(bytes)
+    }
+
+    fn bytes_of(
+        &mut self,
+        path: &Text,
+        instead: &str,
+        found: &rtc_source::Found,
+    ) -> Option<Vec<u8>> {
+        let name = found.shown.display().to_string();
+        let read = Loader.found(found, MAX_BYTES, self.map);
+        let read = read.map_err(|error| {
+            let message = format!("can't read `{name}`: {error}");
+            Box::new(Diagnostic::new(&codes::CANNOT_READ, message))
+        });
+        let unpacked = read.and_then(|bytes| {
+            self.map.budget().read(bytes.len());
+            match is_gzip(&bytes) {
+                true => self.unpack(&bytes, &name),
+                false => Ok(bytes),
+            }
+        });
+        let report = |diagnostic: Box<Diagnostic>| self.without(*diagnostic, path.span, instead);
+        unpacked.map_err(report).ok()
+    }
+
+    fn unpack(&self, bytes: &[u8], name: &str) -> Result<Vec<u8>, Box<Diagnostic>> {
+        let name = clip_path(name);
+        inflate(bytes, self.map.budget()).map_err(|fault| match fault {
+            GzipFault::Damaged => {
+                let message = format!("`{name}` is compressed, and damaged");
+                Box::new(Diagnostic::new(&codes::CANNOT_READ, message))
+            }
+            GzipFault::Limit(fault) => Box::new(crate::over_limit(&format!("`{name}`"), &fault)),
+        })
+    }
+
+    /// Reports a file without which the picture is made: a warning that says how.
+    pub(super) fn without(&mut self, mut diagnostic: Diagnostic, span: Span, instead: &str) {
+        diagnostic.message = format!("{}: {instead}", diagnostic.message);
+        let diagnostic = diagnostic.severity(Severity::Warning);
+        self.sink.push(diagnostic.at(span, "named here"));
+    }
+
+    /// Reports a file that is not what it should be; the picture is made without it.
+    pub(super) fn damaged(&mut self, code: &'static Code, path: &Text, why: &str, instead: &str) {
+        let message = format!("`{}` cannot be read: {why}", clip_path(&path.text));
+        self.without(Diagnostic::new(code, message), path.span, instead);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flate2::{Compression, write::GzEncoder};
+    use std::io::Write as _;
+
+    fn gzip(bytes: &[u8]) -> Vec<u8> {
+        let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
+        encoder.write_all(bytes).unwrap();
+        encoder.finish().unwrap()
+    }
+
+    #[test]
+    fn what_was_packed_is_unpacked_and_a_bomb_is_not() {
+        let text = b"Film \"rgb\"\n".repeat(9000);
+        let packed = gzip(&text);
+        assert!(inflate(&packed, &Budget::default()).is_ok_and(|unpacked| unpacked == text));
+        let bomb = gzip(&vec![b' '; 64 << 20]);
+        let fault = inflate(&bomb, &Budget::default());
+        assert!(matches!(fault, Err(GzipFault::Limit(fault)) if fault.total < 20 << 20));
+    }
+
+    #[test]
+    fn no_damaged_file_panics() {
+        let packed = gzip(&b"Camera \"perspective\"\n".repeat(40));
+        for length in 0..packed.len() {
+            assert!(
+                inflate(&packed[..length], &Budget::default()).is_err(),
+                "{length}"
+            );
+            let _ = inflated_head(&packed[..length]);
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! The images of textures and of the environment.
+
+use super::Lowering;
+use crate::exchange::Text;
+use crate::exchange::color::{decode, encoded};
+use crate::pixels::{self, PICTURES, PixelFault};
+use rtc_image::{Opacity, is_radiance};
+use rtc_ir::{EntityKind, Filter, Image, ImageId, Pixels, Sampled, Texture, TextureId, Wrap};
+use rtc_source::{FileKind, Resource, Span};
+
+/// What takes the place of an image.
+const INSTEAD: &str = "grey takes the place of the texture";
+
+/// The formats of textures.
+const TEXTURES: FileKind = FileKind {
+    extensions: &[
+        "png", "jpg", "jpeg", "webp", "exr", "hdr", "tga", "tif", "tiff", "bmp", "qoi", "pfm",
+    ],
+    begins: |_| true,
+};
+
+/// What distinguishes images: the path, whether it is linear, and whether it is inverted.
+pub(super) type ImageKey = (String, bool, bool);
+
+/// A file with the way in which its texels are looked up.
+#[derive(Clone, Debug)]
+pub(super) struct ImageMap {
+    pub(super) path: Text,
+    pub(super) wrap: Wrap,
+    pub(super) filter: Filter,
+    /// Whether its bytes are linear, not sRGB.
+    pub(super) is_linear: bool,
+    pub(super) is_inverted: bool,
+}
+
+impl Lowering<'_> {
+    /// The texture of an image; `None` without its file, which is reported once.
+    pub(super) fn image_map(&mut self, map: &ImageMap) -> Option<TextureId> {
+        let key = (map.path.text.clone(), map.is_linear, map.is_inverted);
+        let image = match self.images.get(&key) {
+            Some(known) => *known,
+            None => {
+                let image = self.read_image(map);
+                self.images.insert(key, image);
+                image
+            }
+        }?;
+        Some(self.sampled(image, map.wrap, map.filter, map.path.span))
+    }
+
+    fn read_image(&mut self, map: &ImageMap) -> Option<ImageId> {
+        let bytes = self.file(&map.path, &TEXTURES, INSTEAD)?;
+        let image = if is_radiance(&bytes) {
+            pixels::environment(&map.path.text, &bytes, self.map.budget())
+        } else {
+            self.picture(&bytes, map)
+        };
+        match image {
+            Ok(image) => Some(self.add_image(image, map.path.span)),
+            Err(fault) => {
+                self.reject(&fault, &map.path, INSTEAD);
+                None
+            }
+        }
+    }
+
+    /// A picture of 8 bits. Its bytes become sRGB, as the IR reads them.
+    fn picture(&self, bytes: &[u8], map: &ImageMap) -> Result<Image, PixelFault> {
+        let decoded = pixels::decode(bytes, Opacity::Dropped, self.map.budget())?;
+        let mut pixels = decoded.bytes;
+        if map.is_linear || map.is_inverted {
+            let table: [u8; 256] = std::array::from_fn(|byte| {
+                let value = byte as f64 / 255.0;
+                let value = if map.is_linear { value } else { decode(value) };
+                encoded(if map.is_inverted { 1.0 - value } else { value })
+            });
+            for byte in &mut pixels {
+                *byte = table[usize::from(*byte)];
+            }
+        }
+        Ok(Image {
+            name: map.path.text.clone(),
+            width: decoded.width,
+            height: decoded.height,
+            kind: Pixels::Rgb8,
+            pixels: pixels.into(),
+        })
+    }
+
+    pub(super) fn reject(&mut self, fault: &PixelFault, path: &Text, instead: &str) {
+        let what = format!("the image `{}`", rtc_diag::clip_path(&path.text));
+        let formats = "textures are PNG, JPEG, WebP, EXR or HDR";
+        let diagnostic = pixels::rejection(fault, &what, formats);
+        self.without(diagnostic, path.span, instead);
+    }
+
+    pub(super) fn add_image(&mut self, image: Image, span: Span) -> ImageId {
+        let id = self.scene.add_image(image);
+        self.record(EntityKind::Image, id.0 as usize, span);
+        id
+    }
+
+    /// The map of normals of a file.
+    pub(super) fn normal_map(&mut self, path: &Text) -> Option<TextureId> {
+        let image = match self.normal_images.get(&path.text) {
+            Some(known) => *known,
+            None => {
+                let image = self.read_normals(path);
+                self.normal_images.insert(path.text.clone(), image);
+                image
+            }
+        }?;
+        Some(self.sampled(image, Wrap::Repeat, Filter::Linear, path.span))
+    }
+
+    fn read_normals(&mut self, path: &Text) -> Option<ImageId> {
+        const INSTEAD: &str = "the surface is shown smooth";
+        let bytes = self.file(path, &PICTURES, INSTEAD)?;
+        let decoded = pixels::decode(&bytes, Opacity::Dropped, self.map.budget());
+        let decoded = match decoded {
+            Ok(decoded) => decoded,
+            Err(fault) => {
+                self.reject(&fault, path, INSTEAD);
+                return None;
+            }
+        };
+        let image = Image {
+            name: path.text.clone(),
+            width: decoded.width,
+            height: decoded.height,
+            kind: Pixels::Rgb8,
+            pixels: decoded.bytes.into(),
+        };
+        Some(self.add_image(image, path.span))
+    }
+
+    /// A checkerboard as an image of 2 × 2 texels; the square at the origin has the first colour.
+    pub(super) fn checkerboard_map(&mut self, colors: &[[f64; 3]; 2]) -> Option<TextureId> {
+        let [first, second] = colors.map(|color| color.map(|channel| encoded(channel.min(1.0))));
+        let span = self.files.last().map(|open| open.reader.here())?;
+        let key = [first, second];
+        let image = match self.checkerboards.get(&key) {
+            Some(known) => *known,
+            None => {
+                self.charge(Resource::Textures, 12, span)?;
+                let image = Image {
+                    name: String::new(),
+                    width: 2,
+                    height: 2,
+                    kind: Pixels::Rgb8,
+                    // The rows from the top: v points up.
+                    pixels: [second, first, first, second]
+                        .as_flattened()
+                        .to_vec()
+                        .into(),
+                };
+                let image = self.add_image(image, span);
+                self.checkerboards.insert(key, image);
+                image
+            }
+        };
+        Some(self.sampled(image, Wrap::Repeat, Filter::Nearest, span))
+    }
+
+    /// The texture of an image, one for each way in which it is looked up.
+    fn sampled(&mut self, image: ImageId, wrap: Wrap, filter: Filter, span: Span) -> TextureId {
+        let sampled = Sampled {
+            image,
+            wrap: [wrap; 2],
+            filter,
+        };
+        let known = self.textures.entry(image.0).or_default();
+        if let Some((_, id)) = known.iter().find(|(other, _)| *other == sampled) {
+            return *id;
+        }
+        let index = self.scene.textures.len();
+        let id = TextureId(u32::try_from(index).unwrap_or(u32::MAX));
+        known.push((sampled.clone(), id));
+        self.scene.textures.push(Texture::Sampled(sampled));
+        self.record(EntityKind::Texture, index, span);
+        id
+    }
+}

@@ -1,0 +1,763 @@
+//! Materials as the standard material.
+//!
+//! `diffuse`, `dielectric` and grey mirrors are exact, up to the quantization of pictures. For the
+//! others the closest standard material is used, with a warning that says how it differs. Both pbrt
+//! and the standard material have the distribution of Trowbridge and Reitz (GGX).
+
+use super::Lowering;
+use super::parameter::Parameters;
+use super::texture::Channel;
+use crate::exchange::Text;
+use rtc_diag::{clip, codes};
+use rtc_ir::{Alpha, EntityKind, Map, Material, MaterialId, Standard};
+use rtc_math::ln;
+use rtc_source::{Resource, Span};
+use std::rc::Rc;
+
+/// What distinguishes materials of the IR: the material, the emitted radiance and the opacity.
+pub(super) type EmittingMaterialKey = (usize, [u64; 3], u64);
+
+/// The memory of a material, in bytes, rounded up.
+const MATERIAL_BYTES: u64 = 2048;
+
+const MATERIALS: [&str; 10] = [
+    "diffuse",
+    "coateddiffuse",
+    "conductor",
+    "coatedconductor",
+    "dielectric",
+    "thindielectric",
+    "diffusetransmission",
+    "mix",
+    "interface",
+    "matte",
+];
+
+/// A material of the scene.
+#[derive(Debug)]
+pub(super) struct LoweredMaterial {
+    index: usize,
+    span: Option<Span>,
+    /// None where light passes through the surface.
+    standard: Option<Standard>,
+}
+
+impl LoweredMaterial {
+    pub(super) fn transmits(&self) -> bool {
+        let standard = self.standard.as_ref();
+        standard.is_some_and(|standard| standard.transmission > 0.0)
+    }
+
+    /// Whether the material looks up texture coordinates.
+    pub(super) fn has_maps(&self) -> bool {
+        self.standard
+            .as_ref()
+            .is_some_and(|standard| standard.maps().next().is_some() || standard.anisotropy > 0.0)
+    }
+}
+
+impl Lowering<'_> {
+    pub(super) fn make_named_material(&mut self, name: Text, parameters: &Parameters) {
+        let Some(plugin) = parameters.string("type").cloned() else {
+            let message = format!("the material `{}` has no `type`", clip(&name.text));
+            return self.mistake(name.span, message);
+        };
+        let material = self.material(&plugin, parameters);
+        self.materials.insert(name.text, material);
+    }
+
+    pub(super) fn named_material(&mut self, name: &Text) {
+        match self.materials.get(&name.text) {
+            Some(material) => self.state.material = Some(Rc::clone(material)),
+            None => {
+                let message = format!("there is no material `{}`", clip(&name.text));
+                self.mistake(name.span, message);
+            }
+        }
+    }
+
+    /// Lowers a material directive.
+    pub(super) fn material(
+        &mut self,
+        plugin: &Text,
+        parameters: &Parameters,
+    ) -> Rc<LoweredMaterial> {
+        let standard = self.standard(plugin, parameters);
+        let standard = standard.map(|standard| self.with_bumps(standard, parameters));
+        // `type` names the plugin of a named material.
+        parameters.skip(&["type"]);
+        self.ignored("material", &plugin.text, parameters);
+        self.charge(Resource::Memory, MATERIAL_BYTES, plugin.span);
+        self.material_count += 1;
+        Rc::new(LoweredMaterial {
+            index: self.material_count,
+            span: Some(plugin.span),
+            standard,
+        })
+    }
+
+    /// The material of shapes before any directive.
+    pub(super) fn default_material(&self) -> Rc<LoweredMaterial> {
+        Rc::new(LoweredMaterial {
+            index: 0,
+            span: None,
+            standard: Some(matte([0.5; 3])),
+        })
+    }
+
+    /// A material as a standard material; `None` where light passes through.
+    fn standard(&mut self, plugin: &Text, parameters: &Parameters) -> Option<Standard> {
+        Some(match plugin.text.as_str() {
+            "diffuse" => self.diffuse(parameters, "reflectance"),
+            "matte" => {
+                if self.scalar(parameters, "sigma", 0.0) != 0.0 {
+                    let message = "the roughness `sigma` of a matte surface is left out";
+                    self.approximate(plugin.span, message);
+                }
+                self.diffuse(parameters, "Kd")
+            }
+            "mirror" => self.mirror(plugin, parameters),
+            "conductor" | "metal" => self.metal(plugin, parameters),
+            "coatedconductor" => self.coated_conductor(plugin, parameters),
+            "coateddiffuse" => self.coated_diffuse(plugin, parameters),
+            "plastic" | "uber" => self.plastic(plugin, parameters),
+            "substrate" => self.substrate(plugin, parameters),
+            "dielectric" | "glass" => self.dielectric(plugin, parameters, true),
+            "thindielectric" => self.dielectric(plugin, parameters, false),
+            "diffusetransmission" | "translucent" => self.translucent(plugin, parameters),
+            "disney" => self.disney(plugin, parameters),
+            "mix" => return self.mix(plugin, parameters),
+            "" | "none" | "interface" => return None,
+            "subsurface" | "kdsubsurface" | "hair" | "measured" | "fourier" => {
+                self.of_unknown_scattering(plugin, parameters)
+            }
+            _ => {
+                let instead = "diffuse grey takes its place";
+                self.unsupported("material", plugin, &MATERIALS, instead);
+                matte([0.5; 3])
+            }
+        })
+    }
+
+    fn diffuse(&mut self, parameters: &Parameters, name: &'static str) -> Standard {
+        let channel = self.channel(parameters, name, [0.5; 3]);
+        textured(channel)
+    }
+
+    /// A mirror that reflects `Kr` at all angles.
+    fn mirror(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
+        let Channel { color, map } = self.channel(parameters, "Kr", [0.9; 3]);
+        let most = color.iter().copied().fold(0.0, f64::max);
+        if color.iter().any(|channel| *channel != most) || map.is_some() {
+            let message = "a coloured mirror is white at grazing angles";
+            self.approximate(plugin.span, message);
+        }
+        reflector(color, most, map)
+    }
+
+    fn metal(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
+        let default = if plugin.text == "metal" { 0.01 } else { 0.0 };
+        let alpha = self.alpha(
+            plugin,
+            parameters,
+            ["roughness", "uroughness", "vroughness"],
+            default,
+        );
+        let Channel { color, map } = self.conductor_color(plugin, parameters, ["eta", "k"]);
+        parameters.skip(&["Kr"]);
+        rough(
+            Standard {
+                base_color: opaque(color),
+                base_color_map: map,
+                metallic: 1.0,
+                ..matte([1.0; 3])
+            },
+            alpha,
+        )
+    }
+
+    /// The colour of a conductor along its normal.
+    fn conductor_color(
+        &mut self,
+        plugin: &Text,
+        parameters: &Parameters,
+        names: [&'static str; 2],
+    ) -> Channel {
+        if parameters.get("reflectance").is_some() {
+            return self.channel(parameters, "reflectance", [1.0; 3]);
+        }
+        let message = "Schlick's approximation takes the place of the Fresnel equations of metals";
+        self.approximate(plugin.span, message);
+        Channel {
+            color: self.conductor(parameters, names),
+            map: None,
+        }
+    }
+
+    fn coated_conductor(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
+        let message = "the standard material takes the place of the layers of `coatedconductor`";
+        self.approximate(plugin.span, message);
+        let names = [
+            "conductor.roughness",
+            "conductor.uroughness",
+            "conductor.vroughness",
+        ];
+        let alpha = self.alpha(plugin, parameters, names, 0.0);
+        let names = [
+            "interface.roughness",
+            "interface.uroughness",
+            "interface.vroughness",
+        ];
+        let coat = self.alpha(plugin, parameters, names, 0.0);
+        let names = ["conductor.eta", "conductor.k"];
+        let Channel { color, map } = self.conductor_color(plugin, parameters, names);
+        parameters.skip(&[
+            "interface.eta",
+            "thickness",
+            "maxdepth",
+            "nsamples",
+            "albedo",
+            "g",
+        ]);
+        rough(
+            Standard {
+                base_color: opaque(color),
+                base_color_map: map,
+                metallic: 1.0,
+                clearcoat: 1.0,
+                clearcoat_roughness: (coat[0] * coat[1]).sqrt().sqrt(),
+                ..matte([1.0; 3])
+            },
+            alpha,
+        )
+    }
+
+    fn coated_diffuse(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
+        let message = "the standard material takes the place of the layers of `coateddiffuse`";
+        self.approximate(plugin.span, message);
+        let alpha = self.alpha(
+            plugin,
+            parameters,
+            ["roughness", "uroughness", "vroughness"],
+            0.0,
+        );
+        let base = self.channel(parameters, "reflectance", [0.5; 3]);
+        let (ior, _) = self.refraction(parameters, ["eta", "index"]);
+        parameters.skip(&["thickness", "maxdepth", "nsamples", "albedo", "g"]);
+        let standard = Standard {
+            ior: ior.max(1.0),
+            specular: 1.0,
+            ..textured(base)
+        };
+        rough(standard, alpha)
+    }
+
+    /// `plastic` and `uber` of version 3: a diffuse part and a reflection by the Fresnel equations
+    /// of glass, times `Ks`.
+    fn plastic(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
+        let is_uber = plugin.text == "uber";
+        let message = format!("the standard material takes the place of `{}`", plugin.text);
+        self.approximate(plugin.span, message);
+        let alpha = self.alpha(
+            plugin,
+            parameters,
+            ["roughness", "uroughness", "vroughness"],
+            0.1,
+        );
+        let base = self.channel(parameters, "Kd", [0.25; 3]);
+        let specular = self.channel(parameters, "Ks", [0.25; 3]);
+        let (ior, _) = match is_uber {
+            true => self.refraction(parameters, ["eta", "index"]),
+            false => (1.5, 0.0),
+        };
+        let most = specular.color.iter().copied().fold(0.0, f64::max);
+        let mut standard = Standard {
+            ior: ior.max(1.0),
+            specular: most.min(1.0),
+            specular_color: relative(specular.color, most),
+            specular_color_map: specular.map,
+            ..textured(base)
+        };
+        if is_uber {
+            self.uber(plugin, parameters, &mut standard);
+        }
+        rough(standard, alpha)
+    }
+
+    /// What `uber` has beside `plastic`: a mirror, clear glass and opacity.
+    fn uber(&mut self, plugin: &Text, parameters: &Parameters, standard: &mut Standard) {
+        let mirror = self.channel(parameters, "Kr", [0.0; 3]).color;
+        standard.clearcoat = mirror.iter().copied().fold(0.0, f64::max).min(1.0);
+        let [r, g, b] = self.channel(parameters, "Kt", [0.0; 3]).color;
+        let clear = r.max(g).max(b).min(1.0);
+        if clear > 0.0 {
+            let message = "what shines through `uber` has the colour of its diffuse part";
+            self.approximate(plugin.span, message);
+            standard.transmission = clear;
+            standard.thickness = 1.0;
+        }
+        let opacity = self.channel(parameters, "opacity", [1.0; 3]);
+        if opacity.map.is_some() {
+            self.approximate(plugin.span, "the texture of `opacity` is left out");
+        }
+        let [r, g, b] = opacity.color;
+        let opacity = ((r + g + b) / 3.0).clamp(0.0, 1.0);
+        if opacity < 1.0 {
+            standard.base_color[3] = opacity;
+            standard.alpha = Alpha::Blend;
+        }
+    }
+
+    /// The model of Ashikhmin and Shirley: a diffuse part under a reflection by Schlick's formula.
+    fn substrate(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
+        let message = "the standard material takes the place of `substrate`";
+        self.approximate(plugin.span, message);
+        let alpha = self.alpha(
+            plugin,
+            parameters,
+            ["roughness", "uroughness", "vroughness"],
+            0.1,
+        );
+        let base = self.channel(parameters, "Kd", [0.5; 3]);
+        let specular = self.channel(parameters, "Ks", [0.5; 3]);
+        let standard = Standard {
+            ior: 0.0,
+            specular: 1.0,
+            specular_color: specular.color.map(|channel| channel.clamp(0.0, 1.0)),
+            specular_color_map: specular.map,
+            ..textured(base)
+        };
+        rough(standard, alpha)
+    }
+
+    fn dielectric(&mut self, plugin: &Text, parameters: &Parameters, is_solid: bool) -> Standard {
+        let alpha = self.alpha(
+            plugin,
+            parameters,
+            ["roughness", "uroughness", "vroughness"],
+            0.0,
+        );
+        let (ior, dispersion) = self.refraction(parameters, ["eta", "index"]);
+        let ior = match ior < 1.0 {
+            true => {
+                let message = "an index of refraction below 1 is not supported: its inverse takes \
+                               its place";
+                self.approximate(plugin.span, message);
+                1.0 / ior.max(0.01)
+            }
+            false => ior,
+        };
+        let tint = match plugin.text == "glass" {
+            true => {
+                if self.channel(parameters, "Kr", [1.0; 3]).color != [1.0; 3] {
+                    self.approximate(plugin.span, "`Kr` of glass is left out");
+                }
+                self.channel(parameters, "Kt", [1.0; 3])
+            }
+            false => Channel {
+                color: [1.0; 3],
+                map: None,
+            },
+        };
+        let standard = Standard {
+            ior,
+            dispersion: if is_solid { dispersion } else { 0.0 },
+            specular: 1.0,
+            transmission: 1.0,
+            thickness: if is_solid { 1.0 } else { 0.0 },
+            ..textured(tint)
+        };
+        rough(standard, alpha)
+    }
+
+    /// A diffuse reflectance and a diffuse transmittance.
+    fn translucent(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
+        let (reflected, transmitted) = if plugin.text == "translucent" {
+            let message = "`translucent` is shown without its mirror image";
+            self.approximate(plugin.span, message);
+            parameters.skip(&["Ks", "roughness", "remaproughness"]);
+            let Channel { color, map } = self.channel(parameters, "Kd", [0.25; 3]);
+            let reflect = self.channel(parameters, "reflect", [0.5; 3]).color;
+            let transmit = self.channel(parameters, "transmit", [0.5; 3]).color;
+            let times = |by: [f64; 3]| Channel {
+                color: std::array::from_fn(|c| color[c] * by[c]),
+                map: map.clone(),
+            };
+            (times(reflect), times(transmit))
+        } else {
+            let scale = parameters.number("scale").unwrap_or(1.0);
+            let mut part = |name| {
+                let channel = self.channel(parameters, name, [0.25; 3]);
+                Channel {
+                    color: channel.color.map(|value| value * scale),
+                    ..channel
+                }
+            };
+            (part("reflectance"), part("transmittance"))
+        };
+        // Of light, the share `through` goes through, and the rest is reflected.
+        let most = |channel: &Channel| channel.color.iter().copied().fold(0.0, f64::max);
+        let (back, through) = (most(&reflected), most(&transmitted));
+        let share = if through > 0.0 {
+            through / (back + through)
+        } else {
+            0.0
+        };
+        let over = |color: [f64; 3], share: f64| match share > 0.0 {
+            true => color.map(|channel| (channel / share).clamp(0.0, 1.0)),
+            false => [0.0; 3],
+        };
+        Standard {
+            base_color: opaque(over(reflected.color, 1.0 - share)),
+            base_color_map: reflected.map,
+            diffuse_transmission: share,
+            diffuse_transmission_color: over(transmitted.color, share),
+            diffuse_transmission_color_map: transmitted.map,
+            ..matte([1.0; 3])
+        }
+    }
+
+    /// Disney's material (Burley 2012 and 2015), as far as the standard material has its parts.
+    fn disney(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
+        let message = "the standard material takes the place of `disney`";
+        self.approximate(plugin.span, message);
+        let base = self.channel(parameters, "color", [0.5; 3]);
+        let mut fraction = |name, default| self.scalar(parameters, name, default).clamp(0.0, 1.0);
+        let sheen = fraction("sheen", 0.0);
+        let transmission = fraction("spectrans", 0.0);
+        let standard = Standard {
+            metallic: fraction("metallic", 0.0),
+            roughness: fraction("roughness", 0.5),
+            specular: 1.0,
+            clearcoat: fraction("clearcoat", 0.0),
+            clearcoat_roughness: 1.0 - fraction("clearcoatgloss", 1.0),
+            anisotropy: fraction("anisotropic", 0.0),
+            sheen_color: [sheen; 3],
+            transmission,
+            diffuse_transmission: (fraction("difftrans", 0.0) / 2.0).min(1.0),
+            thickness: if transmission > 0.0 { 1.0 } else { 0.0 },
+            ..textured(base)
+        };
+        let (ior, _) = self.refraction(parameters, ["eta", "index"]);
+        Standard {
+            ior: ior.max(1.0),
+            ..standard
+        }
+    }
+
+    fn of_unknown_scattering(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
+        let name = if parameters.get("Kd").is_some() {
+            "Kd"
+        } else {
+            "reflectance"
+        };
+        let base = self.channel(parameters, name, [0.5; 3]);
+        let message = format!(
+            "the material `{}` is not supported: a diffuse surface takes its place",
+            plugin.text
+        );
+        self.report(&codes::PBRT_PLUGIN, plugin.span, message);
+        // The other parameters go with the material.
+        parameters.skip(&[
+            "sigma_a",
+            "sigma_s",
+            "mfp",
+            "mean free path",
+            "name",
+            "eta",
+            "g",
+            "scale",
+        ]);
+        parameters.skip(&[
+            "roughness",
+            "uroughness",
+            "vroughness",
+            "remaproughness",
+            "bsdffile",
+        ]);
+        parameters.skip(&[
+            "filename",
+            "beta_m",
+            "beta_n",
+            "alpha",
+            "eumelanin",
+            "pheomelanin",
+        ]);
+        parameters.skip(&["color", "Kr", "Kt"]);
+        textured(base)
+    }
+
+    /// A mix of two materials: the mean of their parameters.
+    fn mix(&mut self, plugin: &Text, parameters: &Parameters) -> Option<Standard> {
+        let names: Vec<Text> = match parameters.strings("materials") {
+            Some(names) => names.to_vec(),
+            // Version 3 has them in the other order: `amount` is the share of the first one.
+            None => ["namedmaterial2", "namedmaterial1"]
+                .into_iter()
+                .filter_map(|name| parameters.string(name).cloned())
+                .collect(),
+        };
+        let [first, second] = match <[Text; 2]>::try_from(names) {
+            Ok(names) => names.map(|name| match self.materials.get(&name.text) {
+                Some(material) => Some(material.standard.clone()),
+                None => {
+                    let message = format!("there is no material `{}`", clip(&name.text));
+                    self.mistake(name.span, message);
+                    None
+                }
+            }),
+            Err(_) => {
+                self.mistake(plugin.span, "a mix needs the names of two materials");
+                [None, None]
+            }
+        };
+        let (Some(first), Some(second)) = (first, second) else {
+            return Some(matte([0.5; 3]));
+        };
+        let amount = self.scalar(parameters, "amount", 0.5).clamp(0.0, 1.0);
+        match (first, second) {
+            (first, _) if amount == 0.0 => first,
+            (_, second) if amount == 1.0 => second,
+            (Some(first), Some(second)) => {
+                let message = "a mix is shown as one material with the mean of their parameters";
+                self.approximate(plugin.span, message);
+                Some(mixed(first, second, amount))
+            }
+            (Some(shown), None) => Some(covering(shown, 1.0 - amount)),
+            (None, Some(shown)) => Some(covering(shown, amount)),
+            (None, None) => None,
+        }
+    }
+
+    /// Bump maps are left out; maps of normals are not.
+    fn with_bumps(&mut self, standard: Standard, parameters: &Parameters) -> Standard {
+        for name in ["displacement", "bumpmap"] {
+            if let Some(parameter) = parameters.get(name) {
+                let span = parameter.name.span;
+                let message = "bump maps are not supported: the surface is shown smooth";
+                self.report(&codes::PBRT_PLUGIN, span, message);
+            }
+        }
+        let Some(path) = parameters.string("normalmap").cloned() else {
+            return standard;
+        };
+        let normal_map = self.normal_map(&path).map(|texture| Map {
+            texture,
+            set: 0,
+            texture_from_surface: Some([[1.0, 0.0, 0.0], [0.0, -1.0, 1.0]]),
+        });
+        Standard {
+            normal_map,
+            ..standard
+        }
+    }
+
+    /// The widths of the distribution along u and v.
+    fn alpha(
+        &mut self,
+        plugin: &Text,
+        parameters: &Parameters,
+        [both, u, v]: [&'static str; 3],
+        default: f64,
+    ) -> [f64; 2] {
+        let remap = parameters.flag("remaproughness") != Some(false);
+        let both = self.scalar(parameters, both, default);
+        // The glass of version 3 has no `roughness` for both.
+        let (u, v) = (
+            self.scalar(parameters, u, both),
+            self.scalar(parameters, v, both),
+        );
+        let is_old = matches!(
+            plugin.text.as_str(),
+            "metal" | "plastic" | "uber" | "substrate" | "glass"
+        );
+        [u, v]
+            .map(|roughness| match (remap, is_old) {
+                (false, _) => roughness,
+                (true, _) if roughness <= 0.0 && (!is_old || plugin.text == "glass") => 0.0,
+                (true, true) => alpha_of_version_3(roughness),
+                (true, false) => roughness.max(0.0).sqrt(),
+            })
+            .map(|alpha| alpha.clamp(0.0, 1.0))
+    }
+
+    /// The material of the IR for a shape with its emission and opacity; `None` where light passes
+    /// through.
+    pub(super) fn material_id(
+        &mut self,
+        material: &LoweredMaterial,
+        radiance: [f64; 3],
+        opacity: f64,
+        span: Span,
+    ) -> Option<MaterialId> {
+        let standard = material.standard.as_ref()?;
+        let key = (
+            material.index,
+            radiance.map(f64::to_bits),
+            opacity.to_bits(),
+        );
+        if let Some(known) = self.placed_materials.get(&key) {
+            return Some(*known);
+        }
+        self.charge(Resource::Memory, MATERIAL_BYTES, span)?;
+        let mut standard = Standard {
+            emissive: radiance,
+            ..standard.clone()
+        };
+        if opacity < 1.0 {
+            standard = covering(standard, opacity.max(0.0));
+        }
+        let index = self.scene.materials.len();
+        self.record(EntityKind::Material, index, material.span.unwrap_or(span));
+        self.scene
+            .materials
+            .push(Material::Standard(Box::new(standard)));
+        let id = MaterialId(u32::try_from(index).unwrap_or(u32::MAX));
+        self.placed_materials.insert(key, id);
+        Some(id)
+    }
+}
+
+/// The width of the distribution for a roughness of version 3: the polynomial of its
+/// `TrowbridgeReitzDistribution::RoughnessToAlpha`.
+fn alpha_of_version_3(roughness: f64) -> f64 {
+    let x = ln(roughness.max(1e-3));
+    1.62142 + x * (0.819_955 + x * (0.1734 + x * (0.017_120_1 + x * 0.000_640_711)))
+}
+
+/// A material with the distribution of these widths. The roughness of the standard material is √α;
+/// along the tangent its width is α + (1 − α)·a² for the anisotropy a (`KHR_materials_anisotropy`).
+fn rough(standard: Standard, [u, v]: [f64; 2]) -> Standard {
+    let (least, most) = (u.min(v), u.max(v));
+    let is_round = most - least < 1e-6 || least >= 1.0;
+    Standard {
+        roughness: least.sqrt(),
+        anisotropy: match is_round {
+            true => 0.0,
+            false => ((most - least) / (1.0 - least)).sqrt().min(1.0),
+        },
+        anisotropy_rotation: if v > u && !is_round {
+            std::f64::consts::FRAC_PI_2
+        } else {
+            0.0
+        },
+        ..standard
+    }
+}
+
+/// A surface that mirrors `color` along its normal and `most` at grazing angles, and nothing else.
+fn reflector(color: [f64; 3], most: f64, map: Option<Map>) -> Standard {
+    Standard {
+        roughness: 0.0,
+        ior: 0.0,
+        specular: most.clamp(0.0, 1.0),
+        specular_color: relative(color, most),
+        specular_color_map: map,
+        ..matte([0.0; 3])
+    }
+}
+
+/// A colour over the greatest of its channels.
+fn relative(color: [f64; 3], most: f64) -> [f64; 3] {
+    match most > 0.0 {
+        true => color.map(|channel| (channel / most).max(0.0)),
+        false => [1.0; 3],
+    }
+}
+
+/// A material that covers only a share of what is behind it.
+fn covering(standard: Standard, share: f64) -> Standard {
+    let [r, g, b, alpha] = standard.base_color;
+    Standard {
+        base_color: [r, g, b, alpha * share],
+        alpha: Alpha::Blend,
+        ..standard
+    }
+}
+
+/// The mean of two materials; maps are those of the one with the larger weight.
+fn mixed(first: Standard, second: Standard, amount: f64) -> Standard {
+    let number = |a: f64, b: f64| a * (1.0 - amount) + b * amount;
+    let triple = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|c| number(a[c], b[c]));
+    let numbers = Standard {
+        base_color: std::array::from_fn(|c| number(first.base_color[c], second.base_color[c])),
+        metallic: number(first.metallic, second.metallic),
+        roughness: number(first.roughness, second.roughness),
+        specular: number(first.specular, second.specular),
+        specular_color: triple(first.specular_color, second.specular_color),
+        transmission: number(first.transmission, second.transmission),
+        thickness: number(first.thickness, second.thickness),
+        clearcoat: number(first.clearcoat, second.clearcoat),
+        clearcoat_roughness: number(first.clearcoat_roughness, second.clearcoat_roughness),
+        diffuse_transmission: number(first.diffuse_transmission, second.diffuse_transmission),
+        ..Standard::default()
+    };
+    let shown = if amount > 0.5 { second } else { first };
+    Standard {
+        base_color: numbers.base_color,
+        metallic: numbers.metallic,
+        roughness: numbers.roughness,
+        specular: numbers.specular,
+        specular_color: numbers.specular_color,
+        transmission: numbers.transmission,
+        thickness: numbers.thickness,
+        clearcoat: numbers.clearcoat,
+        clearcoat_roughness: numbers.clearcoat_roughness,
+        diffuse_transmission: numbers.diffuse_transmission,
+        ..shown
+    }
+}
+
+fn textured(channel: Channel) -> Standard {
+    Standard {
+        base_color_map: channel.map,
+        ..matte(channel.color)
+    }
+}
+
+fn opaque([r, g, b]: [f64; 3]) -> [f64; 4] {
+    [r, g, b, 1.0].map(|channel: f64| channel.clamp(0.0, 1.0))
+}
+
+/// A Lambertian surface with two sides.
+fn matte(color: [f64; 3]) -> Standard {
+    Standard {
+        base_color: opaque(color),
+        metallic: 0.0,
+        roughness: 1.0,
+        specular: 0.0,
+        double_sided: true,
+        ..Standard::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_widths_of_a_distribution_are_kept() {
+        for [u, v] in [[0.2, 0.2], [0.5, 0.1], [0.1, 0.5], [0.0, 0.3]] {
+            let standard = rough(matte([1.0; 3]), [u, v]);
+            let base = standard.roughness * standard.roughness;
+            let along = base + (1.0 - base) * standard.anisotropy * standard.anisotropy;
+            let is_turned = standard.anisotropy_rotation != 0.0;
+            let found = if is_turned {
+                [base, along]
+            } else {
+                [along, base]
+            };
+            assert!(
+                (found[0] - u).abs() < 1e-12 && (found[1] - v).abs() < 1e-12,
+                "{found:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_roughness_of_version_3_ends_where_its_polynomial_does() {
+        assert!((alpha_of_version_3(1.0) - 1.62142).abs() < 1e-12);
+        let least = alpha_of_version_3(1e-3);
+        assert!((alpha_of_version_3(0.0) - least).abs() < 1e-12 && least > 0.0);
+    }
+}

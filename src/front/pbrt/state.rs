@@ -1,0 +1,140 @@
+//! The graphics state: what directives set for the shapes and lights that follow them.
+
+use super::Lowering;
+use super::light::AreaLight;
+use super::material::LoweredMaterial;
+use super::parameter::PluginParameter;
+use crate::exchange::transform::Transform;
+use rtc_diag::clip;
+use rtc_source::Span;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// The deepest nesting of attributes, transforms and objects.
+const MAX_DEPTH: usize = 1024;
+
+/// Which of the two transforms of a moving scene directives change.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum ActiveTransform {
+    #[default]
+    All,
+    Start,
+    End,
+}
+
+/// What holds for the shapes and lights that follow.
+#[derive(Clone, Default)]
+pub(super) struct GraphicsState {
+    /// The current transformation matrix: before the world from the world to the camera, in it from
+    /// the object to the world. It is that of the start of a motion.
+    pub(super) transform: Transform,
+    pub(super) active: ActiveTransform,
+    pub(super) material: Option<Rc<LoweredMaterial>>,
+    pub(super) area_light: Option<Rc<AreaLight>>,
+    pub(super) reverse_orientation: bool,
+    /// The parameters that `Attribute` gave to all plugins of a kind.
+    pub(super) attributes: Rc<BTreeMap<String, Vec<Rc<PluginParameter>>>>,
+}
+
+/// What opened a nested state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Opener {
+    Attribute,
+    Transform,
+    Object,
+    Import,
+}
+
+impl Opener {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Attribute => "AttributeBegin",
+            Self::Transform => "TransformBegin",
+            Self::Object => "ObjectBegin",
+            Self::Import => "Import",
+        }
+    }
+}
+
+/// The states that were saved.
+#[derive(Default)]
+pub(super) struct StateStack {
+    saved: Vec<(Opener, GraphicsState, Span)>,
+    is_reported: bool,
+    /// How many states are open beyond the deepest that are saved.
+    beyond: usize,
+}
+
+impl Lowering<'_> {
+    /// Changes the transform of the start of the motion.
+    pub(super) fn transform_by(&mut self, change: impl FnOnce(&Transform) -> Transform) {
+        if self.state.active != ActiveTransform::End {
+            let changed = change(&self.state.transform);
+            // Products of large matrices would be infinite.
+            if changed.0.iter().all(|column| column.is_finite()) {
+                self.state.transform = changed;
+            }
+        }
+    }
+
+    /// Saves the state.
+    pub(super) fn open(&mut self, opener: Opener, span: Span) {
+        if self.stack.saved.len() < MAX_DEPTH {
+            return self.stack.saved.push((opener, self.state.clone(), span));
+        }
+        self.stack.beyond += 1;
+        if !self.stack.is_reported {
+            self.stack.is_reported = true;
+            self.mistake(
+                span,
+                format!("attributes are nested more than {MAX_DEPTH} deep"),
+            );
+        }
+    }
+
+    /// Restores the state that was saved last.
+    pub(super) fn close(&mut self, opener: Opener, closer: &str, span: Span) {
+        if self.stack.beyond > 0 {
+            self.stack.beyond -= 1;
+            return;
+        }
+        match self.stack.saved.last() {
+            Some((opened, _, _)) if *opened == opener => {}
+            Some((opened, _, at)) => {
+                let (name, at) = (opened.name(), *at);
+                let message = format!("`{}` does not end `{name}`", clip(closer));
+                let diagnostic = rtc_diag::Diagnostic::new(&rtc_diag::codes::PBRT_VALUE, message);
+                self.sink
+                    .push(diagnostic.at(span, "").also(at, "opened here"));
+                // An end of another kind still ends something.
+                if opener == Opener::Import {
+                    return;
+                }
+            }
+            None => {
+                let message = format!("`{}` ends nothing", clip(closer));
+                return self.mistake(span, message);
+            }
+        }
+        let Some((opened, saved, _)) = self.stack.saved.pop() else {
+            return;
+        };
+        match opened {
+            Opener::Transform => {
+                self.state.transform = saved.transform;
+                self.state.active = saved.active;
+            }
+            _ => self.state = saved,
+        }
+    }
+
+    /// Reports the states that nothing ended.
+    pub(super) fn close_all(&mut self) {
+        if self.is_exhausted {
+            return;
+        }
+        for (opener, _, span) in std::mem::take(&mut self.stack.saved) {
+            self.mistake(span, format!("nothing ends this `{}`", opener.name()));
+        }
+    }
+}
