@@ -9,15 +9,21 @@
 //! - [`Diagnostic`] is an error, a warning or a note about a scene, with [`Label`]s and [`Hint`]s.
 //! - [`Options`] has the options of rendering, [`Progress`] says how far it is, [`Picture`] is the
 //!   result.
-//! - [`Effect`] says whether a picture needs an effect such as shadows, and why not.
+//! - [`Cost`] says what accuracy costs, [`Export`] is the scene as a file of another program.
+//! - [`Effect`] says whether a picture needs an effect such as shadows, and why not; [`explain()`] gives
+//!   the long text of a code or a rule.
 //! - [`Error`] is returned if there is no scene or no picture.
 
 mod builder;
 mod camera;
 mod clock;
+#[cfg(not(target_family = "wasm"))]
+mod cost;
 mod diagnostic;
 mod effect;
 mod error;
+mod explain;
+mod export;
 mod light;
 mod mesh;
 mod options;
@@ -32,11 +38,15 @@ mod tree;
 
 pub use builder::{MaterialRef, ObjectId, SceneBuilder};
 pub use camera::Camera;
+#[cfg(not(target_family = "wasm"))]
+pub use cost::{Cost, CostRow, Effort};
 #[allow(deprecated, reason = "the alias is handed out for one more version")]
 pub use diagnostic::Finding;
 pub use diagnostic::{Diagnostic, Hint, Label, Location};
 pub use effect::Effect;
 pub use error::Error;
+pub use explain::explain;
+pub use export::Export;
 pub use light::Light;
 pub use mesh::{Mesh, Vertices};
 pub use options::{Format, Options, Reading};

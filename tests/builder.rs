@@ -2,17 +2,14 @@
 
 #[path = "../examples/build.rs"]
 #[expect(dead_code, reason = "the test calls what main does")]
-mod build;
+pub(crate) mod build;
 
 use rtc::{
     Alpha, Camera, Diagnostic, Environment, Filter, Format, Light, Material, MaterialRef, Mesh,
-    Options, Phong, Progress, Scene, SceneBuilder, Severity, Shape, Standard, Texture, TextureMap,
-    Transform,
+    Options, Phong, Scene, SceneBuilder, Severity, Shape, Standard, Texture, TextureMap, Transform,
 };
 use std::fs;
 use std::path::Path;
-use std::sync::{Arc, Mutex};
-use std::time::Duration;
 
 fn camera() -> Camera {
     Camera::look_at([1.0, 2.0, 9.0], [0.2, 0.1, 0.0])
@@ -629,56 +626,4 @@ fn clones_render_at_once_and_alike() {
     });
     let alone = scene.render(&options).unwrap().encode().unwrap();
     assert!(bytes.iter().all(|bytes| *bytes == alone));
-}
-
-/// Everything that is reported of a render.
-fn reports(scene: &Scene, options: Options) -> (Vec<Progress>, rtc::Picture) {
-    let reports = Arc::new(Mutex::new(Vec::new()));
-    let seen = Arc::clone(&reports);
-    let options = options.on_progress(move |progress| seen.lock().unwrap().push(progress));
-    let picture = scene.render(&options).unwrap();
-    let reports = reports.lock().unwrap().clone();
-    (reports, picture)
-}
-
-#[test]
-fn progress_rises_to_one() {
-    let scene = build::scene().unwrap();
-    let all = [
-        Options::new().size(40, 40),
-        Options::new().size(40, 40).target_error(1.0),
-        Options::new()
-            .size(16, 16)
-            .trace_paths(true)
-            .samples(4)
-            .denoise(true),
-        Options::new().size(3, 1),
-        Options::new()
-            .size(40, 40)
-            .time_budget(Duration::from_millis(50)),
-    ];
-    for options in all {
-        let (reports, picture) = reports(&scene, options.clone());
-        let rises = reports.is_sorted_by(|a, b| a.done <= b.done && a.rays <= b.rays);
-        assert!(rises, "{options:?}");
-        let ends = reports
-            .iter()
-            .filter(|progress| progress.done == 1.0)
-            .count();
-        assert_eq!(ends, 1, "{options:?}");
-        let last = reports.last().unwrap();
-        assert!(
-            last.done == 1.0 && last.rays >= picture.statistics().rays,
-            "{options:?}"
-        );
-    }
-    let (reports, _) = reports(&scene, Options::new().size(40, 40));
-    let middle = reports
-        .iter()
-        .filter(|progress| progress.done > 0.2 && progress.done < 0.8);
-    assert!(
-        middle.count() > 20 && reports.len() <= 102,
-        "{}",
-        reports.len()
-    );
 }

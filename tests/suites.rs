@@ -27,6 +27,7 @@ mod hardcases;
 mod honest;
 mod ir_schema;
 mod laws;
+mod library;
 mod links;
 mod mitsuba;
 mod numbers;

@@ -6,6 +6,7 @@ use rtc_image::BackgroundFill;
 use rtc_image::FileFormat;
 use rtc_passes::{EnvironmentOverride, IntegratorChoice, Orbit, Overrides, View, ViewAndLight};
 use rtc_pipeline::{self as pipeline, Exposure, Input, OutputTransform, PictureSetup};
+use rtc_plan::Arithmetic;
 use rtc_render::Crop;
 use rtc_source::MemoryFiles;
 use std::path::{Path, PathBuf};
@@ -158,6 +159,7 @@ pub struct Options {
     target_error: Option<f64>,
     time_budget: Option<Duration>,
     denoise: bool,
+    arithmetic: Arithmetic,
     pub(super) on_progress: Option<OnProgress>,
 }
 
@@ -320,6 +322,17 @@ impl Options {
         self
     }
 
+    /// The options of a setting of a study.
+    #[cfg(not(target_family = "wasm"))]
+    pub(super) fn of_setting(setting: &rtc_study::Setting, scene: &rtc_ir::Scene) -> Self {
+        Self {
+            overrides: setting.overrides(scene),
+            denoise: setting.denoise,
+            arithmetic: setting.precision,
+            ..Self::default()
+        }
+    }
+
     /// The overrides of view and light.
     pub(super) fn stage(&self) -> ViewAndLight {
         ViewAndLight {
@@ -354,6 +367,7 @@ impl Options {
         setup.goal.error = self.target_error;
         setup.goal.time = self.time_budget;
         setup.denoise = self.denoise;
+        setup.arithmetic = self.arithmetic;
         Ok(setup)
     }
 

@@ -320,7 +320,7 @@ impl Run<'_> {
     }
 
     /// The diagnostics so far.
-    fn diagnostics(&mut self) -> Vec<Diagnostic> {
+    pub(super) fn diagnostics(&mut self) -> Vec<Diagnostic> {
         let mut found = self.input.take_diagnostics();
         found.sort();
         let found = found.kept().iter();

@@ -68,7 +68,7 @@ fn carry_out(args: &args::Cost, input: &mut Input, reporter: &mut Reporter) -> R
     let report = match args.format {
         StudyFormat::Table => study::table(&study),
         StudyFormat::Csv => study::csv(&study),
-        StudyFormat::Json => study::json(&study),
+        StudyFormat::Json => study.json(),
     };
     if let Some(folder) = &args.maps {
         write_maps(folder, &study, input, &interrupt)?;

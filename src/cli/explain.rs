@@ -2,20 +2,14 @@
 
 use super::args::Explain;
 use super::{Failure, output};
-use rtc_diag::{Code, clip, codes};
+use rtc_diag::{clip, codes};
+use rtc_pipeline::{explain_code, explanation};
 use rtc_plan::Rule;
-
-/// Columns of the text.
-const WIDTH: usize = 80;
 
 /// Prints the text of the code asked for.
 pub(super) fn run(args: &Explain) -> Result<(), Failure> {
     let text = match &args.code {
-        Some(id) => match (codes::find(id), Rule::find(id)) {
-            (Some(code), _) => entry(code),
-            (None, Some(rule)) => format!("## {} (rule)\n\n{}", rule.name(), fill(rule.text())),
-            (None, None) => return Err(unknown(id)),
-        },
+        Some(id) => explanation(id).ok_or_else(|| unknown(id))?,
         None if args.all => page(),
         None => list(),
     };
@@ -77,64 +71,6 @@ much.
 /// `schema/diagnostics.md`.
 fn page() -> String {
     codes::all().fold(HEAD.to_owned(), |page, code| {
-        format!("{page}\n{}", entry(code))
+        format!("{page}\n{}", explain_code(code))
     })
-}
-
-pub(super) fn entry(code: &Code) -> String {
-    let Code {
-        id,
-        severity,
-        summary,
-        page,
-        aliases,
-    } = code;
-    let severity = severity.name();
-    let known = match aliases {
-        [] => String::new(),
-        names => format!(
-            "\n{}",
-            fill(&format!(
-                "The glTF validator calls it {}.",
-                names.join(", ")
-            ))
-        ),
-    };
-    format!(
-        "## {id} ({severity}): {summary}\n\n{}",
-        page.replacen("\n\n", &format!("\n{known}\n"), 1)
-    )
-}
-
-/// The words in lines of at most [`WIDTH`] characters.
-fn fill(text: &str) -> String {
-    let mut lines = vec![String::new()];
-    for word in text.split_whitespace() {
-        let line = lines
-            .last_mut()
-            .expect("there is a first line and none is taken away");
-        if line.is_empty() {
-            line.push_str(word);
-        } else if line.chars().count() + 1 + word.chars().count() <= WIDTH {
-            line.push(' ');
-            line.push_str(word);
-        } else {
-            lines.push(word.to_owned());
-        }
-    }
-    lines.join("\n") + "\n"
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lines_are_filled_and_no_longer() {
-        let text = "ab ".repeat(100);
-        let filled = fill(&text);
-        assert!(filled.lines().all(|line| line.len() <= WIDTH));
-        assert_eq!(filled.lines().count(), 4);
-        assert_eq!(filled.split_whitespace().count(), 100);
-    }
 }

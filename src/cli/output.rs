@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::interrupt::Interrupt;
-use rtc_pipeline::{Input, NewFile};
+use rtc_pipeline::{Input, NewFile, sidecar_folder};
 use rtc_source::{Loader, SourceMap};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, IsTerminal, Write};
@@ -68,13 +68,7 @@ impl Output {
     /// The name of a folder beside the result for files that it needs; none beside what is no file.
     pub(super) fn sidecar_folder(&self, path: &Path) -> Option<String> {
         let is_file = matches!(self.place, OutputTarget::File(_));
-        let stem = path.file_stem().filter(|_| is_file)?.to_string_lossy();
-        let allowed = |letter: char| letter.is_alphanumeric() || "-_. ".contains(letter);
-        let stem: String = stem
-            .chars()
-            .map(|letter| if allowed(letter) { letter } else { '_' })
-            .collect();
-        Some(format!("{stem}.files"))
+        sidecar_folder(path).filter(|_| is_file)
     }
 
     /// Writes the result; a file appears under its name only now, and not after a signal to stop.

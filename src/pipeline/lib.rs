@@ -24,6 +24,8 @@
 
 mod audit;
 mod denoise;
+mod explanation;
+mod export;
 mod exposure;
 #[cfg(not(target_family = "wasm"))]
 mod file;
@@ -44,6 +46,8 @@ pub use audit::{
     AuditDraw, AuditFinding, AuditResult, AuditSubject, ODDS as AUDIT_ODDS, PictureAudit,
 };
 pub use denoise::Traced;
+pub use explanation::{explain_code, explanation};
+pub use export::{ExportFormat, ExportedFiles, sidecar_folder};
 pub use exposure::LightMeasurement;
 #[cfg(not(target_family = "wasm"))]
 pub use file::{NewFile, NewFolder, WriteObserver};

@@ -98,9 +98,7 @@ pub use progressive::{CheckpointSink, ProgressiveRender};
 pub use quality::{PixelQuality, with_quality};
 pub use reference::{DepthEnd, ParameterLevel};
 #[cfg(feature = "cli")]
-pub use report::{
-    SliderPage, csv, html, json, maps_page, slider_page, table, value_text, versus_table,
-};
+pub use report::{SliderPage, csv, html, maps_page, slider_page, table, value_text, versus_table};
 pub use runtime::{Clock, StudyRuntime};
 pub use setting::Setting;
 pub use spread::ErrorSpread;

@@ -236,4 +236,13 @@ impl Study {
     pub fn scene_row(&self) -> Option<&StudyRow> {
         self.rows.iter().find(|row| row.is_scene_setting)
     }
+
+    /// The study as JSON, without its pictures.
+    ///
+    /// # Panics
+    /// Never: a study can always be serialised.
+    #[must_use]
+    pub fn json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("a study holds names and numbers") + "\n"
+    }
 }

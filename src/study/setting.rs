@@ -110,9 +110,15 @@ impl Setting {
             * f64::from(self.paths)
     }
 
-    /// Writes the values into a scene, except precision and denoising. Lobes keep their numbers of
-    /// rays if the setting has the largest of them.
+    /// Writes the values into a scene, except precision and denoising.
     pub fn apply(&self, scene: &mut Scene) {
+        self.overrides(scene).apply(scene);
+    }
+
+    /// The values as overrides of a scene, without precision and denoising. Lobes keep their
+    /// numbers of rays if the setting has the largest of them.
+    #[must_use]
+    pub fn overrides(&self, scene: &Scene) -> Overrides {
         let Self {
             supersampling,
             aperture,
@@ -123,7 +129,7 @@ impl Setting {
             denoise: _,
             precision: _,
         } = *self;
-        let overrides = Overrides {
+        Overrides {
             size: None,
             supersampling: Some(supersampling),
             aperture_samples: Some(aperture),
@@ -131,8 +137,7 @@ impl Setting {
             glossy_samples: Some(glossy).filter(|glossy| lobes(scene).max() != Some(*glossy)),
             depth: Some(depth),
             spp: Some(paths),
-        };
-        overrides.apply(scene);
+        }
     }
 
     /// Formats the given parameters: "4×4 with 16 aperture samples, depth 3". The robust arithmetic

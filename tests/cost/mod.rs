@@ -172,7 +172,7 @@ fn time_is_told_as_the_clock_has_it() {
 #[test]
 fn a_study_is_the_same_on_any_number_of_threads() {
     let scene = scene(&[]);
-    let [one, three] = [1, 3].map(|threads| study::json(&study_of(&scene, 1_000_000, threads)));
+    let [one, three] = [1, 3].map(|threads| study_of(&scene, 1_000_000, threads).json());
     assert!(one == three);
 }
 

@@ -5,9 +5,9 @@ use super::*;
 #[test]
 fn json_and_csv_come_back() {
     for study in [&*WHOLE, &*PART] {
-        let json = study::json(study);
+        let json = study.json();
         let back: Study = serde_json::from_str(&json).unwrap();
-        assert!(study::json(&back) == json && back.rows.len() == study.rows.len());
+        assert!(back.json() == json && back.rows.len() == study.rows.len());
         let csv = study::csv(study);
         let mut lines = csv
             .split_terminator("\r\n")
@@ -193,7 +193,7 @@ fn maps_have_the_size_of_the_picture_and_mark_the_tiles() {
         assert_eq!(page.contains("Hatched grey"), study.part.tiles > 0);
         assert!(study::html(study).contains("Maps of rays and of errors"));
     }
-    let read: Study = serde_json::from_str(&study::json(&WHOLE)).unwrap();
+    let read: Study = serde_json::from_str(&WHOLE.json()).unwrap();
     assert!(
         study::maps(&read).is_empty(),
         "a study that was read has no pictures"

@@ -1,11 +1,11 @@
 //! What a key means, with its default and range, and what a code of a finding is about.
 
-use super::super::explain;
 use super::effective;
 use super::open_text::OpenText;
 use super::path_at::{PathStep, Vocabulary, path_at};
 use super::protocol::{Hover, MarkupContent, MarkupKind, Position, Range};
 use super::text::Columns;
+use rtc_pipeline::explain_code;
 use rtc_source::tree::Tree;
 use serde_json::{Map, Value};
 
@@ -145,7 +145,7 @@ fn codes(document: &OpenText, offset: usize) -> Vec<String> {
         })
     });
     let mut texts: Vec<String> = diagnostics
-        .map(|diagnostic| explain::entry(diagnostic.code))
+        .map(|diagnostic| explain_code(diagnostic.code))
         .collect();
     texts.dedup();
     texts

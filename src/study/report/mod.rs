@@ -1,7 +1,7 @@
-//! Reports of a study: a table for a terminal, CSV and JSON for programs, an HTML page.
+//! Reports of a study: a table for a terminal, CSV for programs, an HTML page.
 //!
 //! - [`mod@table`]: text of 80 columns, with a plot in [`braille`] characters;
-//! - [`mod@csv`] and [`json()`]: all numbers of the rows, and the whole study;
+//! - [`mod@csv`]: all numbers of the rows;
 //! - [`mod@html`]: a self-contained page with SVG plots ([`chart`]), pictures ([`picture`]) and
 //!   [`maps`];
 //! - [`slider`]: the page that compares two pictures (`rtc diff`);
@@ -28,14 +28,3 @@ pub use maps::maps_page;
 pub use slider::{SliderPage, slider_page, value_text};
 pub use table::table;
 pub use versus::versus_table;
-
-use super::outcome::Study;
-
-/// A study as JSON, without its pictures.
-///
-/// # Panics
-/// Never: a study can always be serialised.
-#[must_use]
-pub fn json(study: &Study) -> String {
-    serde_json::to_string_pretty(study).expect("a study holds names and numbers") + "\n"
-}

@@ -1,0 +1,232 @@
+//! The library beside pictures: progress, exports, what accuracy costs, the texts of codes.
+
+#![expect(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    reason = "a test stops at the first surprise and reads what it checks"
+)]
+
+use crate::builder::build;
+use rtc::{
+    Cost, Diagnostic, Effort, Error, Mesh, Options, Phong, Progress, Reading, Scene, Shape,
+    Texture, Transform,
+};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+use tempfile::TempDir;
+
+/// The files of a folder and of the folders in it, by their paths.
+fn files_in(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    let mut open = vec![folder.to_owned()];
+    while let Some(next) = open.pop() {
+        for entry in fs::read_dir(&next).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                open.push(path);
+                continue;
+            }
+            let name = path.strip_prefix(folder).unwrap().to_str().unwrap();
+            files.insert(name.to_owned(), fs::read(&path).unwrap());
+        }
+    }
+    files
+}
+
+#[test]
+fn exports_are_those_of_the_command_line() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for (scene, names) in [
+        (
+            "scenes/ball.obj",
+            &["a.json", "a.rtir", "a.glb", "a.gltf", "a.xml"][..],
+        ),
+        (
+            "scenes/five-spheres.yaml",
+            &["a.json", "a.yaml", "a.xml", "a.pov", "a.gltf"],
+        ),
+    ] {
+        let opened = Scene::open(root.join(scene)).unwrap();
+        for name in names {
+            let [ours, theirs] = [(); 2].map(|()| TempDir::new().unwrap());
+            let export = opened.export(name).unwrap();
+            export.save(ours.path()).unwrap();
+            let mut command = Command::new(env!("CARGO_BIN_EXE_rtc"));
+            let to = theirs.path().join(name);
+            command
+                .arg("compile")
+                .arg(root.join(scene))
+                .arg("-o")
+                .arg(to);
+            let said = command.output().unwrap();
+            assert!(said.status.success(), "{said:?}");
+            let [ours, theirs] = [&ours, &theirs].map(|folder| files_in(folder.path()));
+            assert!(
+                ours == theirs,
+                "{scene} as {name}: {:?} {:?}",
+                ours.keys(),
+                theirs.keys()
+            );
+            assert_eq!(export.files().count(), ours.len() - 1);
+        }
+    }
+}
+
+#[test]
+fn a_built_scene_is_read_again_from_its_exports() {
+    let picture = |scene: &Scene| {
+        let options = Options::new().size(32, 24);
+        scene.render(&options).unwrap().rgba8()
+    };
+    let same = |scene: &Scene, name: &str| {
+        let export = scene.export(name).unwrap();
+        let files = export.files().chain([(name, export.bytes())]);
+        let files = files.map(|(name, bytes)| (name.to_owned(), bytes.to_vec()));
+        let again = Reading::new().from_files(name, files).unwrap();
+        assert!(
+            picture(&again) == picture(scene),
+            "{name}: {:?}",
+            again.check()
+        );
+    };
+    let scene = build::scene().unwrap();
+    same(&scene, "a.json");
+    same(&scene, "a.rtir");
+    // A scene text has textures sampled in its own way, and meshes and images as files.
+    let mut text =
+        Scene::open(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/five-spheres.yaml"));
+    let text = text.as_mut().unwrap();
+    text.edit(|builder| {
+        let pixels = [[250, 20, 20], [20, 250, 20]].concat();
+        let stripes = builder.texture(Texture::rgb8(2, 1, pixels).as_in_texts());
+        let corners = [[0.0, 0.0, 300.0], [200.0, 0.0, 300.0], [0.0, 200.0, 300.0]];
+        let mesh = Mesh::new(&corners, &[[0, 1, 2]]);
+        let mesh = builder.mesh(mesh.uvs(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]));
+        let shape = Shape::instance(mesh, Transform::new());
+        builder.add(shape, Phong::default().color_map(stripes).ka(0.5));
+    })
+    .unwrap();
+    let plain = Scene::open(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/five-spheres.yaml"));
+    assert!(
+        picture(text) != picture(&plain.unwrap()),
+        "the mesh is seen"
+    );
+    same(text, "a.yaml");
+    let refused = scene.export("a.docx").unwrap_err();
+    assert!(matches!(&refused, Error::Refused(_)), "{refused}");
+    let broken = Scene::from_files("a.yaml", [("a.yaml".to_owned(), b"Camera: 3".to_vec())]);
+    let refused = broken.unwrap().export("a.glb").unwrap_err();
+    assert!(
+        matches!(&refused, Error::Invalid(found) if !found.is_empty()),
+        "{refused}"
+    );
+}
+
+/// A row of a study from its JSON.
+fn own_error(cost: &Cost) -> f64 {
+    let json: serde_json::Value = serde_json::from_str(&cost.json()).unwrap();
+    let rows = json["rows"].as_array().unwrap();
+    let own = rows.iter().find(|row| row["own"] == true).unwrap();
+    own["errors"]["rmse"].as_f64().unwrap()
+}
+
+#[test]
+fn the_cost_is_measured_and_its_rows_render() {
+    let mut scene = build::scene().unwrap();
+    scene
+        .edit(|builder| builder.set_camera(builder.camera().size(16, 12)))
+        .unwrap();
+    let cost = scene.cost(Effort::Quick).unwrap();
+    let own: Vec<_> = cost.rows().iter().filter(|row| row.is_own).collect();
+    assert_eq!(own.len(), 1);
+    assert!(own[0].error == own_error(&cost) && own[0].error > 0.5);
+    let chosen = cost.recommended().unwrap();
+    assert!(chosen.is_on_front && chosen.error < own[0].error && !cost.advice().is_empty());
+    // The picture of a setting is nearer to that of the best by as much as its error is less.
+    let pixels = |options: &Options| scene.render(options).unwrap().pixels().to_vec();
+    let best = cost
+        .rows()
+        .iter()
+        .min_by(|a, b| a.error.total_cmp(&b.error))
+        .unwrap();
+    let distance = |options: &Options| {
+        let (a, b) = (pixels(options), pixels(&best.options));
+        let pairs = a.as_flattened().iter().zip(b.as_flattened());
+        pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>()
+    };
+    assert!(pixels(&own[0].options) == pixels(&Options::new()));
+    assert!(distance(&chosen.options) < distance(&Options::new()));
+    let stopped = scene.cost_until(Effort::Thorough, &|| true).unwrap_err();
+    assert!(matches!(stopped, Error::Stopped), "{stopped}");
+}
+
+#[test]
+fn every_code_that_is_found_has_a_text() {
+    let text = "Camera: {eye: [0, 0, 9]}\nObjects: [{type: sphere, radius: -1}]\n";
+    let scene = Scene::from_files("a.yaml", [("a.yaml".to_owned(), text.into())]).unwrap();
+    let found: Vec<Diagnostic> = scene.check();
+    assert!(!found.is_empty());
+    for code in found.iter().map(|found| found.code) {
+        assert!(rtc::explain(code).unwrap().contains(code));
+    }
+    let effects = build::scene().unwrap().effects(&Options::new()).unwrap();
+    let rules: Vec<_> = effects.iter().filter_map(|effect| effect.rule).collect();
+    assert!(!rules.is_empty());
+    assert!(rules.iter().all(|rule| rtc::explain(rule).is_some()));
+}
+
+/// Everything that is reported of a render.
+fn reports(scene: &Scene, options: Options) -> (Vec<Progress>, rtc::Picture) {
+    let reports = Arc::new(Mutex::new(Vec::new()));
+    let seen = Arc::clone(&reports);
+    let options = options.on_progress(move |progress| seen.lock().unwrap().push(progress));
+    let picture = scene.render(&options).unwrap();
+    let reports = reports.lock().unwrap().clone();
+    (reports, picture)
+}
+
+#[test]
+fn progress_rises_to_one() {
+    let scene = build::scene().unwrap();
+    let all = [
+        Options::new().size(40, 40),
+        Options::new().size(40, 40).target_error(1.0),
+        Options::new()
+            .size(16, 16)
+            .trace_paths(true)
+            .samples(4)
+            .denoise(true),
+        Options::new().size(3, 1),
+        Options::new()
+            .size(40, 40)
+            .time_budget(Duration::from_millis(50)),
+    ];
+    for options in all {
+        let (reports, picture) = reports(&scene, options.clone());
+        let rises = reports.is_sorted_by(|a, b| a.done <= b.done && a.rays <= b.rays);
+        assert!(rises, "{options:?}");
+        let ends = reports
+            .iter()
+            .filter(|progress| progress.done == 1.0)
+            .count();
+        assert_eq!(ends, 1, "{options:?}");
+        let last = reports.last().unwrap();
+        assert!(
+            last.done == 1.0 && last.rays >= picture.statistics().rays,
+            "{options:?}"
+        );
+    }
+    let (reports, _) = reports(&scene, Options::new().size(40, 40));
+    let middle = reports
+        .iter()
+        .filter(|progress| progress.done > 0.2 && progress.done < 0.8);
+    assert!(
+        middle.count() > 20 && reports.len() <= 102,
+        "{}",
+        reports.len()
+    );
+}
