@@ -228,6 +228,48 @@ fn a_texture_of_phong_shading_is_sampled_as_it_says() {
     assert!(picture(Filter::Linear).iter().zip(&expected).all(close));
 }
 
+#[test]
+fn patterns_are_those_of_a_text() {
+    let text = HEAD.to_owned()
+        + "\
+Objects:
+- {type: plane, position: [0, -1, 0], normal: [0, 1, 0], material: {texture: {pattern: checker,
+   mapping: world, scale: 0.7, colors: [[0.9, 0.9, 0.8], [0.3, 0.2, 0.2]]}, ka: 0.2, kd: 0.7,
+   ks: 0, n: 1}}
+- {type: sphere, position: [-1, 0, 0], radius: 1, material: {texture: {pattern: stripes, scale: 8,
+   colors: [[0.7, 0.1, 0.1], [1, 1, 1]]}, ka: 0.2, kd: 0.7, ks: 0, n: 1}}
+- {type: sphere, position: [1, 0, 0], radius: 1, material: {texture: {pattern: noise, seed: 5,
+   mapping: world, scale: 3, octaves: 2, colors: [[0, 0.1, 0.6], [1, 0.9, 0.7]]}, ka: 0.2, kd: 0.7,
+   ks: 0, n: 1}}
+- {type: sphere, position: [0, 1, 1], radius: 0.6, material: {texture: {pattern: worley, seed: 3,
+   mapping: world, scale: 4, colors: [[0, 0, 0], [0, 1, 0]]}, ka: 0.2, kd: 0.7, ks: 0, n: 1}}
+";
+    let mut builder = lit();
+    let floor = Shape::plane([0.0, -1.0, 0.0], [0.0, 1.0, 0.0]);
+    for (shape, texture) in [
+        (
+            floor,
+            Texture::checker([[0.9, 0.9, 0.8], [0.3, 0.2, 0.2]], 0.7).in_world(),
+        ),
+        (
+            Shape::sphere([-1.0, 0.0, 0.0], 1.0),
+            Texture::stripes([[0.7, 0.1, 0.1], [1.0; 3]], 8.0),
+        ),
+        (
+            Shape::sphere([1.0, 0.0, 0.0], 1.0),
+            Texture::noise([[0.0, 0.1, 0.6], [1.0, 0.9, 0.7]], 3.0, 2, 5).in_world(),
+        ),
+        (
+            Shape::sphere([0.0, 1.0, 1.0], 0.6),
+            Texture::worley([[0.0; 3], [0.0, 1.0, 0.0]], 4.0, 3).in_world(),
+        ),
+    ] {
+        let texture = builder.texture(texture);
+        builder.add(shape, Phong::default().color_map(texture).ka(0.2).kd(0.7));
+    }
+    assert_equal(builder, &text, &[]);
+}
+
 /// The mesh of an OBJ whose corners have the same index for position and normal.
 fn obj(text: &str) -> Mesh {
     let numbers = |line: &str| -> [f64; 3] {

@@ -2,9 +2,12 @@
 
 use super::{Filter, Wrap};
 use rtc_ir::{self as ir, Pixels};
-use rtc_math::{Vec3, rotated_to_z};
+use rtc_math::{GradientNoise, TextureMapping, TexturePattern, Vec3, rotated_to_z};
 
-/// A texture: an image in memory, or the texture coordinates as colours.
+/// A texture: an image in memory, a pattern, or the texture coordinates as colours.
+///
+/// A pattern blends two linear colours, each channel at least 0, and has `scale` cells (above 0) per
+/// unit of the texture coordinates, or with [`Texture::in_world`] per scene unit.
 ///
 /// An image is sampled as in glTF: (0, 0) is its upper left corner, it repeats, and is interpolated
 /// linearly. A map of a material says which of its channels count and how they are coded.
@@ -16,23 +19,68 @@ use rtc_math::{Vec3, rotated_to_z};
 /// let board = [[255; 3], [0; 3], [0; 3], [255; 3]].concat();
 /// let board = builder.texture(Texture::rgb8(2, 2, board).filter(Filter::Nearest));
 /// builder.add(Shape::sphere([0.0; 3], 1.0), Phong::default().color_map(board));
+/// let tiles = builder.texture(Texture::checker([[0.9; 3], [0.2; 3]], 2.0).in_world());
+/// let floor = Shape::plane([0.0, -1.0, 0.0], [0.0, 1.0, 0.0]);
+/// builder.add(floor, Phong::default().color_map(tiles));
 /// assert!(builder.build().is_ok());
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[must_use = "a texture is not seen before it is part of a scene"]
 pub struct Texture {
-    image: Option<ir::Image>,
+    source: Source,
     wrap: [Wrap; 2],
     filter: Filter,
     /// Whether it is sampled as in scene texts.
     is_of_text: bool,
 }
 
+/// Where the values of a texture come from.
+#[derive(Clone, Debug, PartialEq)]
+enum Source {
+    Uv,
+    Image(ir::Image),
+    Pattern(ir::Procedural),
+}
+
 impl Texture {
     /// The colour (u, 0, v), which shows the texture coordinates.
     pub fn uv() -> Self {
+        Self::of(Source::Uv)
+    }
+
+    /// A pattern of cubes.
+    pub fn checker(colors: [[f64; 3]; 2], scale: f64) -> Self {
+        Self::pattern(TexturePattern::Checker, colors, scale)
+    }
+
+    /// A pattern of slabs across the first axis.
+    pub fn stripes(colors: [[f64; 3]; 2], scale: f64) -> Self {
+        Self::pattern(TexturePattern::Stripes, colors, scale)
+    }
+
+    /// Gradient noise of 1 to 16 octaves; another seed gives other noise.
+    pub fn noise(colors: [[f64; 3]; 2], scale: f64, octaves: u32, seed: u32) -> Self {
+        let noise = GradientNoise { seed, octaves };
+        Self::pattern(TexturePattern::Noise(noise), colors, scale)
+    }
+
+    /// The distance to the nearest of random points; another seed gives other points.
+    pub fn worley(colors: [[f64; 3]; 2], scale: f64, seed: u32) -> Self {
+        Self::pattern(TexturePattern::Worley { seed }, colors, scale)
+    }
+
+    fn pattern(pattern: TexturePattern, colors: [[f64; 3]; 2], scale: f64) -> Self {
+        Self::of(Source::Pattern(ir::Procedural {
+            pattern,
+            colors,
+            scale,
+            mapping: TextureMapping::Uv,
+        }))
+    }
+
+    fn of(source: Source) -> Self {
         Self {
-            image: None,
+            source,
             wrap: [Wrap::Repeat; 2],
             filter: Filter::Linear,
             is_of_text: false,
@@ -55,19 +103,25 @@ impl Texture {
     }
 
     fn image([width, height]: [u32; 2], kind: Pixels, pixels: Vec<u8>) -> Self {
-        Self {
-            image: Some(image([width, height], kind, pixels)),
-            ..Self::uv()
-        }
+        Self::of(Source::Image(image([width, height], kind, pixels)))
     }
 
-    /// How it continues outside the unit square, along u and along v.
+    /// Gives a pattern world coordinates in place of texture coordinates; other textures keep
+    /// theirs.
+    pub fn in_world(mut self) -> Self {
+        if let Source::Pattern(pattern) = &mut self.source {
+            pattern.mapping = TextureMapping::World;
+        }
+        self
+    }
+
+    /// How an image continues outside the unit square, along u and along v.
     pub fn wrap(mut self, u: Wrap, v: Wrap) -> Self {
         self.wrap = [u, v];
         self
     }
 
-    /// How texels are interpolated.
+    /// How the texels of an image are interpolated.
     pub fn filter(mut self, filter: Filter) -> Self {
         self.filter = filter;
         self
@@ -83,16 +137,17 @@ impl Texture {
     /// The texture of a scene, to which its image is added.
     pub(super) fn lower(self, scene: &mut ir::Scene) -> ir::Texture {
         let Self {
-            image,
+            source,
             wrap,
             filter,
             is_of_text,
         } = self;
-        match image.map(|image| scene.add_image(image)) {
-            None => ir::Texture::Uv,
-            Some(image) if is_of_text => ir::Texture::Image(image),
-            Some(image) => ir::Texture::Sampled(ir::Sampled {
-                image,
+        match source {
+            Source::Uv => ir::Texture::Uv,
+            Source::Pattern(pattern) => ir::Texture::Procedural(pattern),
+            Source::Image(image) if is_of_text => ir::Texture::Image(scene.add_image(image)),
+            Source::Image(image) => ir::Texture::Sampled(ir::Sampled {
+                image: scene.add_image(image),
                 wrap,
                 filter,
             }),
