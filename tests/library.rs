@@ -6,6 +6,13 @@
     reason = "a test stops at the first surprise and reads what it checks"
 )]
 
+#[path = "../examples/animate.rs"]
+#[expect(dead_code, reason = "the test calls what main does")]
+mod animate;
+#[path = "../examples/golden.rs"]
+#[expect(dead_code, reason = "the test calls what main does")]
+mod golden;
+
 use crate::builder::build;
 use rtc::{
     Cost, Diagnostic, Effort, Error, Mesh, Options, Phong, Progress, Reading, Scene, Shape,
@@ -126,6 +133,37 @@ fn a_built_scene_is_read_again_from_its_exports() {
     );
 }
 
+#[test]
+fn the_frames_of_a_film_move_and_come_round() {
+    let folder = TempDir::new().unwrap();
+    animate::film(folder.path(), &Options::new().size(24, 18)).unwrap();
+    let frames = files_in(folder.path());
+    let pixels = |file: &Vec<u8>| image::load_from_memory(file).unwrap().to_rgb8();
+    let frames: Vec<_> = frames.values().map(pixels).collect();
+    assert_eq!(frames.len(), 24);
+    assert!(frames.windows(2).all(|pair| pair[0] != pair[1]), "it moves");
+    // The ball rises as it falls.
+    let is_near = |frame: usize| {
+        let pairs = frames[frame].iter().zip(frames[24 - frame].iter());
+        pairs.into_iter().all(|(a, b)| a.abs_diff(*b) < 3)
+    };
+    assert!((1..12).all(is_near));
+}
+
+#[test]
+fn a_golden_picture_is_that_of_its_mesh_alone() {
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/golden.png");
+    golden::assert_picture(&golden::picture(&golden::octasphere(3)), &golden);
+    let folder = TempDir::new().unwrap();
+    let copy = folder.path().join("golden.png");
+    fs::copy(&golden, &copy).unwrap();
+    let coarse = golden::picture(&golden::octasphere(2));
+    let failed = std::panic::catch_unwind(|| golden::assert_picture(&coarse, &copy));
+    assert!(failed.is_err());
+    let actual = fs::read(folder.path().join("golden.actual.png")).unwrap();
+    assert!(actual == coarse.encode().unwrap());
+}
+
 /// A row of a study from its JSON.
 fn own_error(cost: &Cost) -> f64 {
     let json: serde_json::Value = serde_json::from_str(&cost.json()).unwrap();
@@ -162,6 +200,31 @@ fn the_cost_is_measured_and_its_rows_render() {
     assert!(distance(&chosen.options) < distance(&Options::new()));
     let stopped = scene.cost_until(Effort::Thorough, &|| true).unwrap_err();
     assert!(matches!(stopped, Error::Stopped), "{stopped}");
+}
+
+#[test]
+fn every_public_type_has_an_example() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/api");
+    let (mut types, mut bare) = (0, Vec::new());
+    for (name, bytes) in files_in(&root) {
+        let text = String::from_utf8(bytes).unwrap();
+        let mut has_example = false;
+        for line in text.lines() {
+            let is_type = ["pub struct ", "pub enum ", "pub use rtc_"]
+                .iter()
+                .any(|start| line.starts_with(start));
+            if is_type {
+                types += 1;
+                bare.extend((!has_example).then(|| format!("{name}: {line}")));
+            }
+            let is_about_it = line.starts_with("///") || line.starts_with("#[");
+            has_example = is_about_it && (has_example || line.starts_with("/// ```"));
+        }
+    }
+    assert!(
+        types > 40 && bare.is_empty(),
+        "{types} types, without: {bare:?}"
+    );
 }
 
 #[test]

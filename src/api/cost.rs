@@ -53,14 +53,13 @@ pub struct Cost {
 /// A setting with its error and its time; each number is a best estimate with the ends of its 95 %
 /// confidence interval.
 ///
-/// ```
-/// use rtc::CostRow;
+/// ```no_run
+/// use rtc::{Effort, Scene};
 ///
-/// /// The seconds that a row takes more than another, at least.
-/// fn slower(row: &CostRow, other: &CostRow) -> f64 {
-///     row.seconds_interval[0] - other.seconds_interval[1]
+/// for row in Scene::open("scene.yaml")?.cost(Effort::Quick)?.rows() {
+///     println!("{}: {} grey levels in {} s", row.setting, row.error, row.seconds);
 /// }
-/// # let _ = slower;
+/// # Ok::<(), rtc::Error>(())
 /// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -173,8 +172,8 @@ impl Cost {
         &self.rows
     }
 
-    /// The cheapest setting on the Pareto front whose error is certainly invisible (at most 0.5 grey
-    /// levels), else the best one.
+    /// The cheapest setting on the Pareto front whose error is certainly invisible (at most 0.5
+    /// grey levels), else the best one.
     #[must_use]
     pub fn recommended(&self) -> Option<&CostRow> {
         self.rows.get(self.recommended?)

@@ -10,6 +10,18 @@ use std::ops::Range;
 
 /// An error, a warning or a note about a scene. It displays as text with the marked source, like a
 /// compiler message.
+///
+/// ```
+/// use rtc::{Scene, Severity};
+///
+/// let text = "Objects:\n- {type: sphere, position: [0, 0, 0], raduis: 1}\n";
+/// let scene = Scene::from_files("a.yaml", [("a.yaml".to_owned(), text.into())])?;
+/// let found = scene.check();
+/// let typo = found.iter().find(|found| found.code == "SC001").unwrap();
+/// assert_eq!(typo.severity, Severity::Warning);
+/// assert!(typo.short().starts_with("a.yaml:2:39: warning[SC001]"));
+/// # Ok::<(), rtc::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Diagnostic {
@@ -38,6 +50,18 @@ pub struct Diagnostic {
 pub type Finding = Diagnostic;
 
 /// A position with a short text.
+///
+/// ```
+/// use rtc::Scene;
+///
+/// let text = "Objects:\n- {type: sphere, position: [0, 0, 0], raduis: 1}\n";
+/// let scene = Scene::from_files("a.yaml", [("a.yaml".to_owned(), text.into())])?;
+/// let found = scene.check();
+/// let typo = found.iter().find(|found| found.code == "SC001").unwrap();
+/// let label = typo.primary.as_ref().unwrap();
+/// assert_eq!(&text[label.location.bytes.clone()], "raduis");
+/// # Ok::<(), rtc::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Label {
@@ -48,6 +72,18 @@ pub struct Label {
 }
 
 /// A range of bytes in a file.
+///
+/// ```
+/// use rtc::Scene;
+///
+/// let text = "Objects:\n- {type: sphere, position: [0, 0, 0], raduis: 1}\n";
+/// let scene = Scene::from_files("a.yaml", [("a.yaml".to_owned(), text.into())])?;
+/// let found = scene.check();
+/// let typo = found.iter().find(|found| found.code == "SC001").unwrap();
+/// let location = &typo.primary.as_ref().unwrap().location;
+/// assert_eq!((location.file.as_str(), location.line, location.column), ("a.yaml", Some(2), Some(39)));
+/// # Ok::<(), rtc::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Location {
@@ -62,6 +98,20 @@ pub struct Location {
 }
 
 /// Advice, with a replacement if there is one.
+///
+/// ```
+/// use rtc::Scene;
+///
+/// let text = "Objects:\n- {type: sphere, position: [0, 0, 0], raduis: 1}\n";
+/// let scene = Scene::from_files("a.yaml", [("a.yaml".to_owned(), text.into())])?;
+/// let found = scene.check();
+/// let typo = found.iter().find(|found| found.code == "SC001").unwrap();
+/// let replacement = typo.hints.iter().find_map(|hint| hint.replacement.as_ref()).unwrap();
+/// let mut fixed = text.to_owned();
+/// fixed.replace_range(replacement.location.bytes.clone(), &replacement.text);
+/// assert!(fixed.contains("radius: 1"));
+/// # Ok::<(), rtc::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Hint {

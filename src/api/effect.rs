@@ -3,6 +3,18 @@
 use rtc_plan::{EffectState, EffectStatus};
 
 /// An effect of light or of the film, and whether the renderer simulates it for a scene.
+///
+/// ```
+/// use rtc::{Camera, Options, Phong, SceneBuilder, Shape};
+///
+/// let mut builder = SceneBuilder::new(Camera::look_at([0.0, 0.0, 6.0], [0.0; 3]).size(8, 8));
+/// builder.add(Shape::sphere([0.0; 3], 1.0), Phong::default());
+/// let scene = builder.build().unwrap();
+/// for effect in scene.effects(&Options::new())? {
+///     println!("{} ({:?}): {}", effect.name, effect.state, effect.because);
+/// }
+/// # Ok::<(), rtc::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Effect {

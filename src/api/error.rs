@@ -7,6 +7,15 @@ use std::io;
 use std::path::PathBuf;
 
 /// Why there is no scene, or no picture of it.
+///
+/// ```
+/// use rtc::{Error, Scene};
+///
+/// match Scene::open("no-such-scene.yaml") {
+///     Err(Error::Invalid(found)) => assert_eq!(found[0].code, "IO001"),
+///     _ => panic!("there is no such file"),
+/// }
+/// ```
 #[non_exhaustive]
 pub enum Error {
     /// The scene can't be read or has errors: all diagnostics, including warnings.

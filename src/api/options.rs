@@ -14,6 +14,17 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Options of reading a scene.
+///
+/// ```
+/// use rtc::{Reading, Severity};
+///
+/// let text = "Objects:\n- {type: sphere, position: [0, 0, 0], raduis: 1}\n";
+/// let files = [("a.yaml".to_owned(), text.into())];
+/// let found = Reading::new().strict(true).from_files("a.yaml", files)?.check();
+/// let typo = found.iter().find(|found| found.code == "SC001").unwrap();
+/// assert_eq!(typo.severity, Severity::Error);
+/// # Ok::<(), rtc::Error>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 #[must_use = "it reads nothing until a scene is opened by it"]
 pub struct Reading(pipeline::Options);
@@ -105,6 +116,17 @@ impl Reading {
 }
 
 /// The file format of a picture, which decides which values the picture holds.
+///
+/// ```
+/// use rtc::{Camera, Format, Options, Phong, SceneBuilder, Shape};
+///
+/// let mut builder = SceneBuilder::new(Camera::look_at([0.0, 0.0, 6.0], [0.0; 3]).size(8, 8));
+/// builder.add(Shape::sphere([0.0; 3], 1.0), Phong::default());
+/// let scene = builder.build().unwrap();
+/// let picture = scene.render(&Options::new().format(Format::Exr))?;
+/// assert_eq!((Format::Exr.extension(), &picture.encode()?[..4]), ("exr", &b"v/1\x01"[..]));
+/// # Ok::<(), rtc::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Format {
@@ -141,6 +163,17 @@ impl Format {
 
 /// Options of rendering. An option that is not set has the value of the scene, or the default of
 /// `rtc render`.
+///
+/// ```
+/// use rtc::{Camera, Options, Phong, SceneBuilder, Shape};
+///
+/// let mut builder = SceneBuilder::new(Camera::look_at([0.0, 0.0, 6.0], [0.0; 3]).size(8, 8));
+/// builder.add(Shape::sphere([0.0; 3], 1.0), Phong::default());
+/// let scene = builder.build().unwrap();
+/// let options = Options::new().size(16, 12).trace_paths(true).samples(4).environment([1.0; 3]);
+/// assert_eq!(scene.render(&options)?.width(), 16);
+/// # Ok::<(), rtc::Error>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 #[must_use = "it makes no picture until a scene is rendered by it"]
 pub struct Options {

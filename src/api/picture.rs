@@ -7,6 +7,18 @@ use rtc_pipeline::ResolvedOutputTransform;
 use rtc_render::Counts;
 
 /// A picture: rows from top to bottom, each from left to right.
+///
+/// ```
+/// use rtc::{Camera, Options, Phong, SceneBuilder, Shape};
+///
+/// let mut builder = SceneBuilder::new(Camera::look_at([0.0, 0.0, 6.0], [0.0; 3]).size(8, 8));
+/// builder.add(Shape::sphere([0.0; 3], 1.0), Phong::default());
+/// let scene = builder.build().unwrap();
+/// let picture = scene.render(&Options::new().transparent())?;
+/// assert_eq!((picture.pixels().len(), picture.rgba8().len()), (8 * 8, 8 * 8 * 4));
+/// assert_eq!(picture.alpha().unwrap()[0], 0.0);
+/// # Ok::<(), rtc::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Picture {
     held: image::Picture,
@@ -19,6 +31,18 @@ pub struct Picture {
 }
 
 /// The number of rays of a picture.
+///
+/// ```
+/// use rtc::{Camera, Options, Phong, SceneBuilder, Shape};
+///
+/// let mut builder = SceneBuilder::new(Camera::look_at([0.0, 0.0, 6.0], [0.0; 3]).size(8, 8));
+/// builder.add(Shape::sphere([0.0; 3], 1.0), Phong::default());
+/// let scene = builder.build().unwrap();
+/// let statistics = scene.render(&Options::new())?.statistics();
+/// assert_eq!(statistics.camera_rays, 8 * 8);
+/// assert!(statistics.hits < statistics.camera_rays);
+/// # Ok::<(), rtc::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Statistics {
