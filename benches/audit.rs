@@ -1,11 +1,14 @@
 //! Audits pictures that were tampered with, and pictures that were not, and prints what was found as
 //! tables in Markdown. It exits with 1 if a tampered tile was drawn and not found, if a bound holds
-//! less often than it says, or if an alarm is false. `benches/audit.sh` runs it.
+//! less often than it says, or if an alarm is false. With `write FOLDER` it writes pictures, and with
+//! `read FOLDER` it audits those that another machine wrote. `benches/audit.sh` runs it.
 
 #![expect(
     clippy::unwrap_used,
     clippy::print_stdout,
-    reason = "a measurement stops at the first surprise, and prints what it finds"
+    clippy::print_stderr,
+    clippy::disallowed_methods,
+    reason = "a measurement stops at the first surprise, prints what it finds, and writes pictures"
 )]
 
 #[path = "../tests/tampered.rs"]
@@ -17,6 +20,7 @@ use rtc::internals::pipeline::{
 };
 use rtc::internals::render::SimdLevel;
 use rtc::internals::study::least_faults;
+use std::path::Path;
 use std::process::ExitCode;
 use tampered::{
     Made, OBSERVER, Recipe, Validated, audit, numbers, read, recipes, setup, validated,
@@ -30,10 +34,22 @@ struct Faults(u64);
 
 fn main() -> ExitCode {
     let mut faults = Faults(0);
-    tampered_pictures(&mut faults);
-    stated_probability(&mut faults);
-    false_alarms(&mut faults);
-    println!("\n{} faults", faults.0);
+    let words: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|word| word != "--bench")
+        .collect();
+    match &words[..] {
+        [word, folder] if word == "write" => write_pictures(Path::new(folder)),
+        [word, folder] if word == "read" => {
+            pictures_of_another_machine(Path::new(folder), &mut faults)
+        }
+        _ => {
+            tampered_pictures(&mut faults);
+            stated_probability(&mut faults);
+            false_alarms(&mut faults);
+        }
+    }
+    eprintln!("{} faults", faults.0);
     match faults.0 {
         0 => ExitCode::SUCCESS,
         _ => ExitCode::FAILURE,
@@ -181,7 +197,7 @@ enum Way {
     Part(ShardBy),
 }
 
-/// Audits what was made as it should be, on other threads and at other levels of instructions than
+/// Audits what was made as it should be, mostly on other threads and at other levels than
 /// those on which it was made.
 fn false_alarms(faults: &mut Faults) {
     let levels: Vec<SimdLevel> = SimdLevel::NAMES
@@ -238,6 +254,34 @@ fn false_alarms(faults: &mut Faults) {
     }
     let names: Vec<&str> = levels.iter().map(|level| level.name()).collect();
     println!("\nInstructions: {}; 1 to 4 threads.", names.join(", "));
+}
+
+/// Writes a picture of each recipe into a folder.
+fn write_pictures(folder: &Path) {
+    for (index, recipe) in recipes().into_iter().enumerate() {
+        std::fs::write(folder.join(index.to_string()), Made::new(recipe).file()).unwrap();
+    }
+}
+
+/// Audits all tiles of the pictures that another machine wrote into a folder.
+fn pictures_of_another_machine(folder: &Path, faults: &mut Faults) {
+    let [mut tiles, mut alarms] = [0, 0];
+    for (index, recipe) in recipes().into_iter().enumerate() {
+        let written = read(&std::fs::read(folder.join(index.to_string())).unwrap()).unwrap();
+        let all = AuditDraw {
+            tiles: u64::MAX,
+            seed: 0,
+        };
+        let result = audit(&written, &recipe, all, (1, SimdLevel::best())).unwrap();
+        tiles += result.drawn.len();
+        alarms += usize::from(!result.findings.is_empty());
+    }
+    println!(
+        "| {} | {} | {tiles} | {alarms} |",
+        std::env::consts::ARCH,
+        recipes().len()
+    );
+    faults.count(alarms > 0);
 }
 
 /// Threads and instructions.

@@ -8,7 +8,7 @@ use ::exr::meta::MetaData;
 use ::exr::meta::attribute::{AttributeValue, SampleType, Text};
 use ::exr::meta::header::Header;
 use ::exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read};
-use ::png::{BitDepth, ColorType};
+use ::png::{BitDepth, ColorType, Decoder, Limits};
 use image_webp::WebPDecoder;
 use std::io::Cursor;
 
@@ -119,9 +119,9 @@ pub fn samples(picture: &Picture, form: FileFormat) -> Vec<u8> {
 }
 
 fn read_png(bytes: &[u8]) -> Result<WrittenPicture, DecodeError> {
-    let mut reader = ::png::Decoder::new(Cursor::new(bytes))
-        .read_info()
-        .map_err(DecodeError::damaged)?;
+    let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: usize::MAX });
+    decoder.set_ignore_iccp_chunk(true);
+    let mut reader = decoder.read_info().map_err(DecodeError::damaged)?;
     let length = reader.output_buffer_size().ok_or(FOREIGN)?;
     let mut samples = vec![0; length];
     reader
@@ -135,10 +135,13 @@ fn read_png(bytes: &[u8]) -> Result<WrittenPicture, DecodeError> {
     };
     let text = |name: &str| {
         let mut texts = info.utf8_text.iter();
-        let found = texts.find(|text| text.keyword == name);
-        found
-            .and_then(|text| text.get_text().ok())
-            .unwrap_or_default()
+        let found = texts.find(|text| text.keyword == name).cloned();
+        // A text that was compressed is read up to 2 MiB.
+        let read = found.and_then(|mut text| {
+            text.decompress_text().ok()?;
+            text.get_text().ok()
+        });
+        read.unwrap_or_default()
     };
     Ok(WrittenPicture {
         form,
@@ -276,6 +279,7 @@ fn read_exr(bytes: &[u8]) -> Result<WrittenPicture, DecodeError> {
 mod tests {
     use super::super::{Image, Layers, PictureHead, TileHash, tile_count};
     use super::*;
+    use ::png::text_metadata::ITXtChunk;
 
     const SIZE: [u32; 2] = [37, 21];
 
@@ -408,6 +412,45 @@ mod tests {
                 let cut = &bytes[..length];
                 let read = WrittenFile::open(cut, 1 << 20).and_then(WrittenFile::decode);
                 assert!(read.is_err(), "{form:?}, {length}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_text_that_swells_is_not_read() {
+        let mut bytes = Vec::new();
+        let mut encoder = ::png::Encoder::new(&mut bytes, 1, 1);
+        encoder.set_color(ColorType::Rgb);
+        let mut text = ITXtChunk::new("rtc:settings", " ".repeat(1 << 22));
+        text.compressed = true;
+        let mut writer = encoder.write_header().unwrap();
+        writer.write_text_chunk(&text).unwrap();
+        writer.write_image_data(&[1, 2, 3]).unwrap();
+        writer.finish().unwrap();
+        assert!(bytes.len() < 1 << 15, "it is small: {}", bytes.len());
+        assert_eq!(decoded(&bytes).origin, Origin::default());
+    }
+
+    #[test]
+    fn changed_bytes_are_read_or_refused() {
+        let mut random = 1_u64;
+        let mut next = |bound: usize| {
+            random = rtc_math::mix(random);
+            usize::try_from(random % bound as u64).unwrap()
+        };
+        for form in FORMS {
+            let picture = picture(form);
+            let sound = head(&picture, form).encode(&picture).unwrap();
+            for _ in 0..400 {
+                let mut bytes = sound.clone();
+                for _ in 0..=next(3) {
+                    // Mostly in the head, where the metadata are.
+                    let at = next(bytes.len()).min(next(2 * bytes.len()));
+                    bytes[at] = u8::try_from(next(256)).unwrap();
+                }
+                if let Ok(file) = WrittenFile::open(&bytes, 1 << 12) {
+                    let _ = file.decode();
+                }
             }
         }
     }

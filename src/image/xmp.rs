@@ -2,6 +2,7 @@
 
 use super::merkle::from_hex;
 use super::{MerkleTree, Origin};
+use roxmltree::{Document, ParsingOptions};
 use std::fmt::Write as _;
 
 /// The namespaces of RDF, of XMP's own properties, and of those of this program.
@@ -45,7 +46,11 @@ pub(super) fn packet(origin: &Origin, tree: Option<MerkleTree>) -> Option<String
 /// What such a packet says; nothing, if it is another one.
 pub(super) fn read(packet: &[u8]) -> (Origin, Option<MerkleTree>) {
     let text = std::str::from_utf8(packet).unwrap_or_default();
-    let document = roxmltree::Document::parse(text).ok();
+    let few = ParsingOptions {
+        nodes_limit: 64,
+        ..ParsingOptions::default()
+    };
+    let document = Document::parse_with_options(text, few).ok();
     let described = document.as_ref().and_then(|document| {
         let mut nodes = document.descendants();
         nodes.find(|node| node.has_tag_name((RDF, "Description")))
@@ -91,5 +96,7 @@ mod tests {
         assert_eq!(read(bare.as_bytes()), (origin, None));
         assert_eq!(packet(&Origin::default(), None), None);
         assert_eq!(read(b"<a"), (Origin::default(), None));
+        let many = bare.replace("</rdf:RDF>", &("<a/>".repeat(99) + "</rdf:RDF>"));
+        assert_eq!(read(many.as_bytes()), (Origin::default(), None));
     }
 }
