@@ -8,8 +8,8 @@
 //! - [`versus`]: the comparison of two scenes (`rtc cost` with a reference scene).
 //!
 //! [`captions`] has the texts that the table and the page share. Reports only format what a
-//! [`Study`] holds: a study that was read from JSON gives the same reports, except for the
-//! pictures.
+//! [`Study`](super::Study) holds: a study that was read from JSON gives the same reports, except
+//! for the pictures.
 
 mod braille;
 mod captions;
