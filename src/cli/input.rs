@@ -43,6 +43,7 @@ pub(super) fn options(reading: &Reading, project: Option<&Project>) -> Result<Op
         strict,
         lenient,
         asset_root,
+        up_axis,
         time,
         animation,
         variant,
@@ -67,6 +68,9 @@ pub(super) fn options(reading: &Reading, project: Option<&Project>) -> Result<Op
             animation: animation.clone(),
             variant: variant.clone(),
             camera: camera.clone(),
+            up_axis: up_axis
+                .map(Into::into)
+                .or_else(|| project.and_then(Project::up_axis)),
             threads: 0,
         },
         valid: valid::ValidationOptions {

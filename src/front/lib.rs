@@ -35,8 +35,28 @@ mod words;
 pub use foreign::foreign;
 
 use rtc_diag::{Diagnostic, codes};
+use rtc_math::Vec3;
 use rtc_source::Exceeded;
 use std::path::PathBuf;
+
+/// The axis that points up in a file. A scene has y upwards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UpAxis {
+    /// Y, as in glTF.
+    Y,
+    /// Z, as in most programs of engineering: x stays, and −y points to the front.
+    Z,
+}
+
+impl UpAxis {
+    /// The axes of the file in the scene: exact, without a rounding error.
+    pub(crate) fn scene_from_file(self) -> [Vec3; 3] {
+        match self {
+            Self::Y => Vec3::AXES,
+            Self::Z => [Vec3::X, -Vec3::Z, Vec3::Y],
+        }
+    }
+}
 
 /// Options of all front ends.
 #[derive(Clone, Debug, Default)]
@@ -58,6 +78,8 @@ pub struct FrontOptions {
     /// The glTF camera, by its name, the name of its node, or its index. The default is the first
     /// camera that sees a surface.
     pub camera: Option<String>,
+    /// The axis that points up in a mesh file or a glTF asset that is read as the scene.
+    pub up_axis: Option<UpAxis>,
     /// The number of threads that decode images of a glTF asset; 0 for one per core.
     pub threads: usize,
 }

@@ -4,6 +4,7 @@
 use super::super::parse::{folder, limit, moment};
 use clap::{ArgAction, Args, ValueEnum, ValueHint};
 use rtc_diag::{self as diag, DiagnosticLevel, DiagnosticLevels, LevelSubject};
+use rtc_front::UpAxis;
 use rtc_source::{Limits, Resource};
 use std::path::PathBuf;
 
@@ -42,6 +43,9 @@ pub(crate) struct Reading {
     /// [default: the first that sees something]
     #[arg(long, value_name = "NAME|INDEX", help_heading = "Input")]
     pub(crate) camera: Option<String>,
+    /// Set the axis that points up in a mesh file or glTF asset [default: y]
+    #[arg(long, value_enum, value_name = "AXIS", help_heading = "Input")]
+    pub(crate) up_axis: Option<UpAxisArg>,
     /// Do not report this code, as VA004, or any `warnings`; errors stay
     #[arg(
         long,
@@ -213,6 +217,24 @@ impl From<MessageFormat> for diag::Format {
             MessageFormat::Json => Self::Json,
             MessageFormat::Sarif => Self::Sarif,
             MessageFormat::Github => Self::Github,
+        }
+    }
+}
+
+/// The axis that points up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum UpAxisArg {
+    /// As in glTF
+    Y,
+    /// As in most programs of engineering
+    Z,
+}
+
+impl From<UpAxisArg> for UpAxis {
+    fn from(axis: UpAxisArg) -> Self {
+        match axis {
+            UpAxisArg::Y => Self::Y,
+            UpAxisArg::Z => Self::Z,
         }
     }
 }

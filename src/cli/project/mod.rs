@@ -8,6 +8,7 @@ mod trust;
 use super::Failure;
 use super::args::Reading;
 use rtc_diag::{Code, Diagnostic, DiagnosticLevels, clip_path, codes};
+use rtc_front::UpAxis;
 use rtc_math::to_u32;
 use rtc_passes::Overrides;
 use rtc_pipeline::Input;
@@ -44,6 +45,7 @@ struct ProjectSettings {
     levels: DiagnosticLevels,
     limits: Vec<(Resource, u64)>,
     asset_root: Option<PathBuf>,
+    up_axis: Option<UpAxis>,
     render: Overrides,
 }
 
@@ -102,6 +104,11 @@ impl Project {
                 false => limits.lower(*resource, *limit),
             }
         }
+    }
+
+    /// The axis that points up in its models.
+    pub(super) fn up_axis(&self) -> Option<UpAxis> {
+        self.settings.up_axis
     }
 
     /// The folder whose files its scenes may name.

@@ -4,6 +4,7 @@ use super::super::parse;
 use super::trust::Trust;
 use super::{ProjectFault, ProjectSettings};
 use rtc_diag::{Code, DiagnosticLevel, LevelSubject, clip, codes, nearest};
+use rtc_front::UpAxis;
 use rtc_source::{Limits, Resource};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -11,7 +12,7 @@ use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
 /// The keys at the top.
-const KEYS: [&str; 4] = ["asset-root", "levels", "limits", "render"];
+const KEYS: [&str; 5] = ["asset-root", "levels", "limits", "render", "up-axis"];
 
 /// Those of `[render]`, as the flags.
 const RENDER_KEYS: [&str; 7] = [
@@ -76,6 +77,7 @@ impl ProjectReader<'_> {
                 "levels" => self.section(key, value, Self::level),
                 "limits" => self.section(key, value, Self::limit),
                 "render" => self.section(key, value, Self::render),
+                "up-axis" => self.up_axis(value),
                 _ => self.unknown(key, &KEYS),
             }
         }
@@ -113,6 +115,17 @@ impl ProjectReader<'_> {
                 "write it as `\"assets\"`",
             ),
         }
+    }
+
+    fn up_axis(&mut self, value: &Value<'_>) {
+        self.settings.up_axis = match value.get_ref().as_str() {
+            Some("y") => Some(UpAxis::Y),
+            Some("z") => Some(UpAxis::Z),
+            _ => {
+                let message = "`up-axis` is `\"y\"` or `\"z\"`".to_owned();
+                return self.fault(value.span(), message, "");
+            }
+        };
     }
 
     fn level(&mut self, key: &ProjectKey<'_>, value: &Value<'_>) {

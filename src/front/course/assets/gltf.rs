@@ -66,6 +66,7 @@ impl GltfAssets {
             let file = add_asset(&found, bytes.ok()?, pending, loader)?;
             let options = FrontOptions {
                 camera: None,
+                up_axis: None,
                 ..loader.options.clone()
             };
             let asset = gltf::lower(file, loader.map, &options, loader.sink)?;

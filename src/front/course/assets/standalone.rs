@@ -7,7 +7,7 @@ use super::material_binder::{MaterialSource, PendingMaterial};
 use super::mesh::{self, MeshFile};
 use crate::mesh::{is_mesh, parse};
 use crate::words::ParseFault;
-use crate::{FrontOptions, gltf, over_limit};
+use crate::{FrontOptions, UpAxis, gltf, over_limit};
 use rtc_diag::{Diagnostic, Sink, codes};
 use rtc_ir::{
     EntityKind, Field, Instance, Lowered, Material, MaterialId, Mesh, MeshId, Shape, SourceSpans,
@@ -44,7 +44,8 @@ pub fn lower_standalone_mesh(
     scene
         .materials
         .push(Material::Standard(Box::new(default_material(has_colors))));
-    let [x, y, z] = Vec3::AXES.map(|axis| axis.to_array());
+    let up_axis = options.up_axis.unwrap_or(UpAxis::Y);
+    let [x, y, z] = up_axis.scene_from_file().map(|axis| axis.to_array());
     scene.surfaces.push(Surface {
         shape: Shape::Instance(Instance {
             mesh: MeshId(0),
@@ -55,6 +56,11 @@ pub fn lower_standalone_mesh(
     });
     if let Some(ball) = scene.bounding_sphere() {
         scene.camera = gltf::looking_at(ball);
+    }
+    if options.up_axis.is_none() && stands_on_z(&scene.meshes[0]) {
+        let message = "the mesh stands on z = 0, as if z pointed up";
+        let note = Diagnostic::new(&codes::Z_UP, message).at(Span::new(file, 0, 0), "the file");
+        sink.push(note.hint("`--up-axis z` turns it upright, `--up-axis y` says that it is"));
     }
     // The span of all entities is the start of the file.
     let mut source_spans = SourceSpans::default();
@@ -81,6 +87,25 @@ pub fn lower_standalone_mesh(
     };
     import.finish(&[pending], &mut lowered);
     Some(lowered)
+}
+
+/// Whether a mesh lies on the plane z = 0, and not on y = 0: its lowest point is there, and it is
+/// thicker than a sheet.
+fn stands_on_z(mesh: &Mesh) -> bool {
+    /// A part of the largest extent.
+    const SMALL: f64 = 1e-6;
+    let positions = mesh
+        .positions
+        .iter()
+        .map(|position| Vec3::from_array(position));
+    let bounds = positions.fold(
+        [Vec3::INFINITY, Vec3::NEG_INFINITY],
+        |[low, high], position| [low.min(position), high.max(position)],
+    );
+    let [low, high] = bounds;
+    let size = (high - low).max_element();
+    let lies_on = |lowest: f64| lowest.abs() <= SMALL * size;
+    size > 0.0 && lies_on(low.z) && !lies_on(low.y) && high.z > SMALL * size
 }
 
 /// Parses the mesh file.

@@ -32,6 +32,7 @@ use super::field::Fields;
 use super::primitive::Primitive;
 use super::report::AssetReport;
 use crate::FrontOptions;
+use crate::UpAxis;
 use glam::DAffine3;
 use material::Materials;
 use mesh::Meshes;
@@ -97,7 +98,7 @@ pub(super) fn lower<'s>(
         variant,
         cameras: Vec::new(),
     };
-    let worlds = transform::worlds(doc, &pose);
+    let worlds = transform::worlds(doc, &pose, options.up_axis.map(UpAxis::scene_from_file));
     let shown = transform::shown(doc);
     if shown.iter().all(|node| lowering.charge(*node)) {
         shown

@@ -7,8 +7,13 @@ use super::pose::Pose;
 use glam::{DAffine3, DQuat};
 use rtc_math::{Vec3, unit};
 
-/// The world transformation of each node; of one in a loop, its own.
-pub(super) fn worlds(doc: &Document<'_>, pose: &Pose) -> Vec<DAffine3> {
+/// The transformation of each node to the scene, in which the axes of the file are
+/// `scene_from_file`; of one in a loop, its own.
+pub(super) fn worlds(
+    doc: &Document<'_>,
+    pose: &Pose,
+    scene_from_file: Option<[Vec3; 3]>,
+) -> Vec<DAffine3> {
     let count = doc.nodes.len();
     let mut is_child = vec![false; count];
     for child in doc
@@ -21,6 +26,12 @@ pub(super) fn worlds(doc: &Document<'_>, pose: &Pose) -> Vec<DAffine3> {
     }
     let mut worlds: Vec<DAffine3> = (0..count).map(|node| pose.local(node)).collect();
     let mut open: Vec<usize> = (0..count).filter(|node| !is_child[*node]).collect();
+    if let Some([x, y, z]) = scene_from_file {
+        let turn = DAffine3::from_cols(x, y, z, Vec3::ZERO);
+        for root in &open {
+            worlds[*root] = turn * worlds[*root];
+        }
+    }
     while let Some(node) = open.pop() {
         for child in doc.nodes[node]
             .children
