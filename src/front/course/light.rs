@@ -1,5 +1,6 @@
 //! The lights: points and spheres, suns, spots, and photometric lights.
 
+use super::area_light::Cells;
 use super::assets::AssetTarget;
 use super::decode::{Context, Spanned};
 use super::keyword::Keyword;
@@ -13,9 +14,10 @@ use rtc_ir::{self as ir, EntityKind, Field, Photometry};
 use rtc_source::Span;
 
 record! {
-    /// A point or sphere that emits equally in all directions, without falloff; a directional light
-    /// (sun); or a light with inverse-square falloff: a point or a spot with an `intensity`, or a
-    /// light with a measured profile. A scene with any but the first is rendered by path tracing.
+    /// A point or sphere that emits equally in all directions, without falloff; an area light, a
+    /// rectangle of such points; a directional light (sun); or a light with inverse-square falloff:
+    /// a point or a spot with an `intensity`, or a light with a measured profile. A scene with any
+    /// but the first two is rendered by path tracing.
     struct Light, "light" {
         /// The type of the light.
         kind: Spanned<LightKind>, optional, keys!["type"];
@@ -26,8 +28,17 @@ record! {
         color: Spanned<Color>, optional, keys!["color" "colour"], json "color";
         /// The radius of the emitting sphere; 0 is a point. A larger radius makes soft shadows.
         radius: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["radius" "size"];
-        /// The direction from the scene to a sun; the direction in which a spot points; with a
-        /// `file`, the direction of vertical angle 0.
+        /// The width of an area light, horizontal and perpendicular to its `direction`.
+        width: Spanned<Positive>, optional, keys!["width"];
+        /// The height of an area light, perpendicular to its width and its `direction`.
+        height: Spanned<Positive>, optional, keys!["height"];
+        /// The number of points of an area light along its width and its height, one number for
+        /// both or a list of two, each with an equal part of the colour: more points make softer
+        /// shadows.
+        cells: Spanned<Cells>, default(Cells([4; 2])), keys!["cells"];
+        /// The direction from the scene to a sun; the direction in which a spot points, or that an
+        /// area light faces, which is down by default; with a `file`, the direction of vertical
+        /// angle 0.
         direction: Spanned<Vector>, optional, keys!["direction"];
         /// The irradiance on a surface that faces the sun: red, green, blue, or one number for all.
         /// A white diffuse surface then has the radiance irradiance/π.
@@ -51,7 +62,8 @@ record! {
         horizontal: Spanned<Vector>, default(Vector([1.0, 0.0, 0.0])), keys!["horizontal"];
     }
     variants {
-        [position color] [direction irradiance] [position direction file]
+        [position color] [position color width height] [position color width height direction]
+        [direction irradiance] [position direction file]
         [position direction file color]
         [position intensity] [position direction intensity outer_angle]
     }
@@ -64,6 +76,7 @@ pub(super) enum LightKind {
     Sun,
     Spot,
     Ies,
+    Area,
 }
 
 impl Keyword for LightKind {
@@ -72,12 +85,17 @@ impl Keyword for LightKind {
         ("sun", LightKind::Sun),
         ("spot", LightKind::Spot),
         ("ies", LightKind::Ies),
+        ("area", LightKind::Area),
     ];
 }
 
 impl Lowering {
     /// Lowers a light.
     pub(super) fn light(&mut self, light: &Spanned<Light>, context: &mut Context<'_>) {
+        if self.area_light(light).is_some() {
+            report_unused(&light.value, LightKind::Area, false, context);
+            return;
+        }
         let Some((light_ir, kind)) = self.light_from_keys(&light.value) else {
             return;
         };
@@ -204,13 +222,19 @@ fn report_unused(light: &Light, kind: LightKind, is_physical: bool, context: &mu
         let message = "the `type` of the light has no effect: its other keys say otherwise";
         let hint = "a sun has `direction` and `irradiance`, a point `position` and `color` or \
                     `intensity`, a spot `direction` and `outerAngle` too, a profile `position`, \
-                    `direction` and `file`";
+                    `direction` and `file`, an area light `position`, `color`, `width` and \
+                    `height`";
         no_effect(declared.span, message, hint, context);
     }
     if kind != LightKind::Point || is_physical {
         let message =
             "the `radius` of the light has no effect: only a point with a `color` has one";
         no_effect(light.radius.span, message, "remove it", context);
+    }
+    if kind != LightKind::Area {
+        let message = "`cells` has no effect on the light: only an area light has them";
+        let hint = "an area light has a `position`, a `color`, a `width` and a `height`";
+        no_effect(light.cells.span, message, hint, context);
     }
     if kind != LightKind::Ies {
         let message =

@@ -35,6 +35,7 @@
 //!   budget (`decode::Context::step`).
 
 mod ambient;
+mod area_light;
 pub mod assets;
 mod camera;
 mod core_schema;
