@@ -163,16 +163,11 @@ fn report_unused_choices(options: &front::FrontOptions, has_assets: bool, sink: 
         animation,
         variant,
         time,
-        up_axis,
         ..
     } = options;
     if time.is_some() && !has_assets {
         let remark = Diagnostic::new(&codes::GLTF_STILL, "the scene is the same at all times");
         sink.push(remark.hint("only a glTF asset has animations"));
-    }
-    if up_axis.is_some() {
-        let remark = Diagnostic::new(&codes::Z_UP, "a scene text says itself which way is up");
-        sink.push(remark.hint("`--up-axis` is for mesh files and glTF assets"));
     }
     let parts = [("animation", animation), ("variant", variant)]
         .into_iter()

@@ -13,5 +13,5 @@ super::codes! { RD:
     FITTED = "RD010", Note, "the picture shows more than the camera of the asset";
     TOO_SHORT = "RD011", Warning, "the time budget is too short";
     UNTEXTURED = "RD012", Warning, "a surface has no texture coordinates for its texture";
-    Z_UP = "RD013", Note, "a mesh stands as if z pointed up";
+    Z_UP = "RD013", Warning, "a mesh stands as if z pointed up";
 }

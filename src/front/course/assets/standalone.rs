@@ -57,7 +57,8 @@ pub fn lower_standalone_mesh(
     if let Some(ball) = scene.bounding_sphere() {
         scene.camera = gltf::looking_at(ball);
     }
-    if options.up_axis.is_none() && stands_on_z(&scene.meshes[0]) {
+    let is_stl = map.name(file).to_ascii_lowercase().ends_with(".stl");
+    if options.up_axis.is_none() && stands_on_z(&scene.meshes[0], is_stl) {
         let message = "the mesh stands on z = 0, as if z pointed up";
         let note = Diagnostic::new(&codes::Z_UP, message).at(Span::new(file, 0, 0), "the file");
         sink.push(note.hint("`--up-axis z` turns it upright, `--up-axis y` says that it is"));
@@ -89,9 +90,9 @@ pub fn lower_standalone_mesh(
     Some(lowered)
 }
 
-/// Whether a mesh lies on the plane z = 0, and not on y = 0: its lowest point is there, and it is
-/// thicker than a sheet.
-fn stands_on_z(mesh: &Mesh) -> bool {
+/// Whether a mesh stands on the plane z = 0: its lowest point is there, and it is thicker than a
+/// sheet. One that stands on y = 0 as well does so only in STL, where z mostly points up.
+fn stands_on_z(mesh: &Mesh, is_stl: bool) -> bool {
     /// A part of the largest extent.
     const SMALL: f64 = 1e-6;
     let positions = mesh
@@ -105,7 +106,7 @@ fn stands_on_z(mesh: &Mesh) -> bool {
     let [low, high] = bounds;
     let size = (high - low).max_element();
     let lies_on = |lowest: f64| lowest.abs() <= SMALL * size;
-    size > 0.0 && lies_on(low.z) && !lies_on(low.y) && high.z > SMALL * size
+    size > 0.0 && lies_on(low.z) && (is_stl || !lies_on(low.y)) && high.z > SMALL * size
 }
 
 /// Parses the mesh file.
