@@ -95,10 +95,7 @@ pub fn lower_standalone_mesh(
 fn stands_on_z(mesh: &Mesh, is_stl: bool) -> bool {
     /// A part of the largest extent.
     const SMALL: f64 = 1e-6;
-    let positions = mesh
-        .positions
-        .iter()
-        .map(|position| Vec3::from_array(position));
+    let positions = mesh.positions.iter().map(Vec3::from_array);
     let bounds = positions.fold(
         [Vec3::INFINITY, Vec3::NEG_INFINITY],
         |[low, high], position| [low.min(position), high.max(position)],
