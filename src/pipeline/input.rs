@@ -4,7 +4,7 @@ use super::{Options, load, stage, validate};
 use rtc_codec as codec;
 use rtc_diag::{Diagnostic, Sink, codes};
 use rtc_emit::{self as emit, ExportedScene, gltf::GltfAsset};
-use rtc_front::{gltf, mesh, pixels};
+use rtc_front::{gltf, mesh, mitsuba, pbrt, pixels};
 use rtc_ir::{EntityKind, Field, Light, Lowered, Scene, SourceSpans, ValuePath};
 use rtc_passes::{EnvironmentOverride, FillLight, Framing, SceneKind, ViewAndLight};
 use rtc_source::{FileId, LoadError, Loader, MemoryFiles, Resource, SourceMap, Span};
@@ -224,7 +224,10 @@ impl Input {
         let Some(file) = self.file.filter(|_| !self.is_asset()) else {
             return false;
         };
-        let is_ir = codec::detect_format(self.map.bytes(file)).is_some();
+        let (name, bytes) = (self.map.name(file), self.map.bytes(file));
+        let is_made = codec::detect_format(bytes).is_some()
+            || mitsuba::is_mitsuba(bytes)
+            || pbrt::is_pbrt(name, bytes);
         let is_asset = |file| gltf::is_gltf(self.map.name(file), self.map.bytes(file));
         let of_asset = |entity, count| {
             let paths = (0..count).map(move |index| ValuePath::new(entity, index, Field::Whole));
@@ -237,7 +240,7 @@ impl Input {
             materials,
             ..
         } = &lowered.scene;
-        !is_ir
+        !is_made
             && !of_asset(EntityKind::Image, images.len())
             && !of_asset(EntityKind::Mesh, meshes.len())
             && !of_asset(EntityKind::Material, materials.len())

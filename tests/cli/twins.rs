@@ -147,3 +147,24 @@ fn meshes_of_mitsuba_are_files_so_it_needs_a_place() {
     );
     assert_eq!(code(&refused), 2, "{}", stderr(&refused));
 }
+
+#[test]
+fn a_scene_of_another_renderer_becomes_a_text_of_the_same_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    for source in ["render/pbrt/room.pbrt", "mitsuba/room.xml"] {
+        let source = cases.join(source).display().to_string();
+        let compiled = rtc(&folder, &["compile", &source, "-o", "room.yaml"]);
+        assert_eq!(code(&compiled), 0, "{}", stderr(&compiled));
+        let few = ["--size", "16", "--spp", "4", "--no-metadata", "-q", "-o"];
+        let picture = |scene: &str| {
+            let rendered = rtc(
+                &folder,
+                &[&["render", scene], &few[..], &["x.png"]].concat(),
+            );
+            assert_eq!(code(&rendered), 0, "{}", stderr(&rendered));
+            fs::read(folder.path().join("x.png")).unwrap()
+        };
+        assert!(picture(&source) == picture("room.yaml"), "{source}");
+    }
+}

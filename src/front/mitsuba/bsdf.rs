@@ -7,11 +7,12 @@
 use super::xml::{Node, Value};
 use super::{AssetTarget, Lowering};
 use crate::exchange::Text;
-use crate::exchange::color::{self, metal, named_ior, normal_reflectance};
+use crate::exchange::checkerboard::checkerboard;
+use crate::exchange::color::{metal, named_ior, normal_reflectance};
 use crate::exchange::transform::Transform;
 use rtc_ir::{
-    Alpha, EntityKind, Filter, Image, Map, Material, MaterialId, Pixels, Sampled, Standard,
-    Texture, TextureId, Wrap,
+    Alpha, EntityKind, Filter, Map, Material, MaterialId, Sampled, Standard, Texture, TextureId,
+    Wrap,
 };
 use rtc_source::Span;
 
@@ -397,7 +398,7 @@ impl<'run> Lowering<'run> {
                 };
                 (self.image(path, AssetTarget::Sampled), filter)
             }
-            "checkerboard" => (self.checkerboard(node), Filter::Nearest),
+            "checkerboard" => return Some(self.checkerboard(node, flip)),
             _ => {
                 self.unsupported(node, "white takes its place");
                 return None;
@@ -408,14 +409,7 @@ impl<'run> Lowering<'run> {
             Some("clamp") => Wrap::Clamp,
             _ => Wrap::Repeat,
         };
-        let scale = |name| node.number(name).unwrap_or(1.0);
-        let scaled = Transform::scale([scale("uscale"), scale("vscale"), 1.0]);
-        let Transform([x, y, _, origin]) = node.transform("to_uv").after(&scaled);
-        let row = |k: usize| match flip {
-            false => [x[k], y[k], origin[k]],
-            true => [x[k], -y[k], origin[k] + y[k]],
-        };
-        let rows = [row(0), row(1)];
+        let rows = rows(node, flip);
         self.scene.textures.push(Texture::Sampled(Sampled {
             image,
             wrap: [wrap; 2],
@@ -430,24 +424,13 @@ impl<'run> Lowering<'run> {
         })
     }
 
-    /// A checkerboard as an image of 2 × 2 texels: the diagonal has `color0`.
-    fn checkerboard(&mut self, node: &Node) -> rtc_ir::ImageId {
-        let first = node.color("color0").unwrap_or([0.4; 3]);
-        let second = node.color("color1").unwrap_or([0.2; 3]);
-        let texel = |texel: [f64; 3]| texel.map(color::encoded);
-        let pixels: Vec<u8> = [first, second, second, first]
-            .into_iter()
-            .flat_map(texel)
-            .collect();
-        let id = self.scene.add_image(Image {
-            name: String::new(),
-            width: 2,
-            height: 2,
-            kind: Pixels::Rgb8,
-            pixels: pixels.into(),
-        });
-        self.record(EntityKind::Image, id.0 as usize, node.span);
-        id
+    /// A checkerboard, of two squares along u and v: the diagonal has `color0`.
+    fn checkerboard(&mut self, node: &Node, flip: bool) -> Map {
+        let colors = [("color0", 0.4), ("color1", 0.2)];
+        let colors = colors.map(|(name, grey)| node.color(name).unwrap_or([grey; 3]));
+        let squares = rows(node, flip).map(|row| row.map(|number| 2.0 * number));
+        self.record(EntityKind::Texture, self.scene.textures.len(), node.span);
+        checkerboard(colors, squares, &mut self.scene)
     }
 }
 
@@ -465,4 +448,17 @@ fn matte(color: [f64; 3]) -> Standard {
         double_sided: true,
         ..Standard::default()
     }
+}
+
+/// The rows of the map from the texture coordinates of a surface to those of a texture; with `flip`
+/// v points the other way on the surface.
+fn rows(node: &Node, flip: bool) -> [[f64; 3]; 2] {
+    let scale = |name| node.number(name).unwrap_or(1.0);
+    let scaled = Transform::scale([scale("uscale"), scale("vscale"), 1.0]);
+    let Transform([x, y, _, origin]) = node.transform("to_uv").after(&scaled);
+    let row = |k: usize| match flip {
+        false => [x[k], y[k], origin[k]],
+        true => [x[k], -y[k], origin[k] + y[k]],
+    };
+    [row(0), row(1)]
 }

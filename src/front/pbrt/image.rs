@@ -6,7 +6,7 @@ use crate::exchange::color::{decode, encoded};
 use crate::pixels::{self, PICTURES, PixelFault};
 use rtc_image::{Opacity, is_radiance};
 use rtc_ir::{EntityKind, Filter, Image, ImageId, Pixels, Sampled, Texture, TextureId, Wrap};
-use rtc_source::{FileKind, Resource, Span};
+use rtc_source::{FileKind, Span};
 
 /// What takes the place of an image.
 const INSTEAD: &str = "grey takes the place of the texture";
@@ -132,34 +132,6 @@ impl Lowering<'_> {
             pixels: decoded.bytes.into(),
         };
         Some(self.add_image(image, path.span))
-    }
-
-    /// A checkerboard as an image of 2 × 2 texels; the square at the origin has the first colour.
-    pub(super) fn checkerboard_map(&mut self, colors: &[[f64; 3]; 2]) -> Option<TextureId> {
-        let [first, second] = colors.map(|color| color.map(|channel| encoded(channel.min(1.0))));
-        let span = self.files.last().map(|open| open.reader.here())?;
-        let key = [first, second];
-        let image = match self.checkerboards.get(&key) {
-            Some(known) => *known,
-            None => {
-                self.charge(Resource::Textures, 12, span)?;
-                let image = Image {
-                    name: String::new(),
-                    width: 2,
-                    height: 2,
-                    kind: Pixels::Rgb8,
-                    // The rows from the top: v points up.
-                    pixels: [second, first, first, second]
-                        .as_flattened()
-                        .to_vec()
-                        .into(),
-                };
-                let image = self.add_image(image, span);
-                self.checkerboards.insert(key, image);
-                image
-            }
-        };
-        Some(self.sampled(image, Wrap::Repeat, Filter::Nearest, span))
     }
 
     /// The texture of an image, one for each way in which it is looked up.

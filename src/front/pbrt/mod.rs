@@ -128,8 +128,6 @@ struct Lowering<'run> {
     colors: BTreeMap<String, ScaledTexture>,
     floats: BTreeMap<String, ScaledTexture>,
     images: BTreeMap<image::ImageKey, Option<ImageId>>,
-    /// The images of checkerboards by their colours, in sRGB.
-    checkerboards: BTreeMap<[[u8; 3]; 2], ImageId>,
     /// The textures of each image.
     textures: BTreeMap<u32, Vec<(Sampled, TextureId)>>,
     /// The images of normals by their paths.
@@ -174,7 +172,6 @@ impl<'run> Lowering<'run> {
             colors: BTreeMap::new(),
             floats: BTreeMap::new(),
             images: BTreeMap::new(),
-            checkerboards: BTreeMap::new(),
             textures: BTreeMap::new(),
             normal_images: BTreeMap::new(),
             meshes: BTreeMap::new(),

@@ -42,6 +42,8 @@ const VERTEX_BYTES: u64 = 128;
 const ROWS: u32 = 32;
 /// The most levels of subdivision: each has four times the triangles of the one before.
 const MAX_LEVELS: u32 = 12;
+/// The time that a vertex of a subdivided mesh takes, in vertices of a mesh that is read.
+const SUBDIVISION_COST: u64 = 12;
 
 /// The geometry of a shape in its own coordinates.
 #[derive(Clone, Debug)]
@@ -361,20 +363,22 @@ impl Lowering<'_> {
         let point = |name, default| Vec3::from_array(parameters.vector(name).unwrap_or(default));
         let radius = number("radius", 1.0).abs();
         let phi = number("phimax", 360.0).clamp(0.0, 360.0);
+        // The normal of a surface of revolution: across a line of its profile and the turn.
+        let normal =
+            |p: Vec3, along: Vec3| unit(Vec3::new(-p.y, p.x, 0.0).cross(along)).unwrap_or(Vec3::Z);
+        // A line in a plane with the axis has one normal.
+        let flat = |from: Vec3, to: Vec3| [from, to].map(|p| (p, normal(from, to - from))).to_vec();
         let line = |from: Vec3, to: Vec3| {
             let along = to - from;
             let rows = (0..=ROWS).map(|row| from + along * (f64::from(row) / f64::from(ROWS)));
-            // The normal of a surface of revolution: across the line and the turn.
-            let normal = |p: Vec3| unit(Vec3::new(-p.y, p.x, 0.0).cross(along));
-            rows.map(|p| (p, normal(p).unwrap_or(Vec3::Z)))
-                .collect::<Vec<_>>()
+            rows.map(|p| (p, normal(p, along))).collect::<Vec<_>>()
         };
         let profile = match plugin.text.as_str() {
             "cylinder" => {
                 let (low, high) = (number("zmin", -1.0), number("zmax", 1.0));
-                line(Vec3::new(radius, 0.0, low), Vec3::new(radius, 0.0, high))
+                flat(Vec3::new(radius, 0.0, low), Vec3::new(radius, 0.0, high))
             }
-            "cone" => line(Vec3::new(radius, 0.0, 0.0), Vec3::Z * number("height", 1.0)),
+            "cone" => flat(Vec3::new(radius, 0.0, 0.0), Vec3::Z * number("height", 1.0)),
             "hyperboloid" => line(point("p1", [0.0; 3]), point("p2", [1.0; 3])),
             _ => {
                 let (low, high) = (number("zmin", 0.0).max(0.0), number("zmax", 1.0));
@@ -623,7 +627,8 @@ impl Lowering<'_> {
         // Each level has four triangles for one, and half as many vertices; their edges are sorted.
         let faces = (triangles.len() as u64) << (2 * levels);
         let vertices = (faces / 2).saturating_add(2 * positions.len() as u64);
-        self.charge(Resource::Vertices, vertices, plugin.span)?;
+        let work = vertices.saturating_mul(SUBDIVISION_COST);
+        self.charge(Resource::Vertices, work, plugin.span)?;
         self.charge(Resource::Memory, faces.saturating_mul(144), plugin.span)?;
         let mesh = loop_subdivision::subdivide(positions, triangles, levels);
         let mesh = self.oriented(mesh);

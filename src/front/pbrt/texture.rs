@@ -5,6 +5,7 @@ use super::Lowering;
 use super::image::ImageMap;
 use super::parameter::{ParameterValues, Parameters};
 use crate::exchange::Text;
+use crate::exchange::checkerboard::checkerboard;
 use rtc_diag::{clip, codes};
 use rtc_ir::{Filter, Map, TextureId, Wrap};
 use std::rc::Rc;
@@ -284,25 +285,18 @@ impl Lowering<'_> {
                 map: None,
             };
         };
-        let id = match pattern {
-            Pattern::Image(image) => self.image_map(image),
-            Pattern::Checkerboard(colors) => self.checkerboard_map(colors),
-        };
-        let Some(id) = id else {
-            return Channel {
-                color: texture.factor.map(|channel| channel / 2.0),
-                map: None,
-            };
-        };
-        // A checkerboard has two squares on the side of its image.
-        let period = if matches!(pattern, Pattern::Image(_)) {
-            1.0
-        } else {
-            2.0
+        let map = match pattern {
+            Pattern::Image(image) => self.image_map(image).map(|id| mapping.map(id)),
+            Pattern::Checkerboard(colors) => {
+                Some(checkerboard(*colors, mapping.rows(), &mut self.scene))
+            }
         };
         Channel {
-            color: texture.factor,
-            map: Some(mapping.map(id, period)),
+            color: match map {
+                Some(_) => texture.factor,
+                None => texture.factor.map(|channel| channel / 2.0),
+            },
+            map,
         }
     }
 
@@ -326,15 +320,18 @@ impl Lowering<'_> {
 }
 
 impl UvMapping {
-    /// The map of a texture whose image is `period` long. pbrt's v points up in an image, that of
-    /// the IR down.
-    fn map(&self, texture: TextureId, period: f64) -> Map {
-        let [su, sv] = self.scale.map(|scale| scale / period);
-        let [du, dv] = self.shift.map(|shift| shift / period);
+    fn rows(&self) -> [[f64; 3]; 2] {
+        let ([su, sv], [du, dv]) = (self.scale, self.shift);
+        [[su, 0.0, du], [0.0, sv, dv]]
+    }
+
+    /// The map of an image. pbrt's v points up in an image, that of the IR down.
+    fn map(&self, texture: TextureId) -> Map {
+        let [u, [a, b, c]] = self.rows();
         Map {
             texture,
             set: 0,
-            texture_from_surface: Some([[su, 0.0, du], [0.0, -sv, 1.0 - dv]]),
+            texture_from_surface: Some([u, [-a, -b, 1.0 - c]]),
         }
     }
 }

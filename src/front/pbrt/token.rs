@@ -76,12 +76,6 @@ impl TokenReader {
         self.next()
     }
 
-    /// The place up to which the text was read.
-    pub(super) fn here(&self) -> Span {
-        let at = u32::try_from(self.at).unwrap_or(u32::MAX);
-        Span::new(self.file, at, at)
-    }
-
     pub(super) fn bytes(&self, token: PbrtToken) -> &[u8] {
         self.bytes.get(token.start..token.end).unwrap_or_default()
     }
