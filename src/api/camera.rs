@@ -207,10 +207,7 @@ pub(super) fn placeholder() -> ir::Camera {
         right: [1.0, 0.0, 0.0],
         up: [0.0, 1.0, 0.0],
         size: [400, 400],
-        lens: ir::Lens {
-            radius: 0.0,
-            samples: 1,
-        },
+        lens: ir::Lens::PINHOLE,
         projection: Projection::Perspective,
     }
 }

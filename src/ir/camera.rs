@@ -184,6 +184,14 @@ pub struct Lens {
     pub samples: u32,
 }
 
+impl Lens {
+    /// No lens: everything is in focus.
+    pub const PINHOLE: Self = Self {
+        radius: 0.0,
+        samples: 1,
+    };
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -195,10 +203,7 @@ mod tests {
             right: [0.5, 0.0, 0.0],
             up: [0.0, 0.5, 0.0],
             size: [8, 4],
-            lens: Lens {
-                radius: 0.0,
-                samples: 1,
-            },
+            lens: Lens::PINHOLE,
             projection: Projection::Perspective,
         }
     }

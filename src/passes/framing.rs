@@ -85,10 +85,7 @@ impl Framing {
             right: step(x, tangents[0], size[0]),
             up: step(y, tangents[1], size[1]),
             size,
-            lens: Lens {
-                radius: 0.0,
-                samples: 1,
-            },
+            lens: Lens::PINHOLE,
             projection: Projection::Perspective,
         };
     }
@@ -330,10 +327,7 @@ mod tests {
             right: [1.0, 0.0, 0.0],
             up: [0.0, 1.0, 0.0],
             size: [1; 2],
-            lens: Lens {
-                radius: 0.0,
-                samples: 1,
-            },
+            lens: Lens::PINHOLE,
             projection: Projection::Perspective,
         };
         let settings = Settings {

@@ -287,10 +287,11 @@ fn alone(name: &str, bytes: &[u8], beside: &[(&str, &str)]) -> (Option<Lowered>,
 #[test]
 fn a_mesh_alone_is_an_asset() {
     let off = b"OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n";
-    for (name, bytes) in [
-        ("a.stl", stl(true)),
-        ("b.stl", stl(false)),
-        ("c.off", off.to_vec()),
+    let z_up = "RD013 the mesh stands on z = 0, as if z pointed up\n";
+    for (name, bytes, expected) in [
+        ("a.stl", stl(true), z_up),
+        ("b.stl", stl(false), z_up),
+        ("c.off", off.to_vec(), ""),
     ] {
         let (lowered, findings) = alone(name, &bytes, &[]);
         let scene = lowered.unwrap().scene;
@@ -304,7 +305,7 @@ fn a_mesh_alone_is_an_asset() {
         );
         assert_eq!(
             (scene.meshes[0].name.as_str(), findings.as_str()),
-            (name, "")
+            (name, expected)
         );
     }
     let scene = alone("d.ply", &ply(FORMS[0]), &[]).0.unwrap().scene;

@@ -81,10 +81,7 @@ pub(super) fn placeholder() -> ir::Camera {
         right: [1.0, 0.0, 0.0],
         up: [0.0, 1.0, 0.0],
         size: [1, 1],
-        lens: ir::Lens {
-            radius: 0.0,
-            samples: 1,
-        },
+        lens: ir::Lens::PINHOLE,
         projection: ir::Projection::Perspective,
     }
 }

@@ -1,8 +1,9 @@
 //! What the readers of other renderers' scenes share: affine maps, colours and spectra,
-//! checkerboards, and the meshes that stand for shapes which the IR does not have.
+//! checkerboards, materials, and the meshes that stand for shapes which the IR does not have.
 
 pub(crate) mod checkerboard;
 pub(crate) mod color;
+pub(crate) mod material;
 pub(crate) mod tessellate;
 pub(crate) mod transform;
 

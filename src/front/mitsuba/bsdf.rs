@@ -9,6 +9,7 @@ use super::{AssetTarget, Lowering};
 use crate::exchange::Text;
 use crate::exchange::checkerboard::checkerboard;
 use crate::exchange::color::{metal, named_ior, normal_reflectance};
+use crate::exchange::material::{matte, opaque};
 use crate::exchange::transform::Transform;
 use rtc_ir::{
     Alpha, EntityKind, Filter, Map, Material, MaterialId, Sampled, Standard, Texture, TextureId,
@@ -431,22 +432,6 @@ impl<'run> Lowering<'run> {
         let squares = rows(node, flip).map(|row| row.map(|number| 2.0 * number));
         self.record(EntityKind::Texture, self.scene.textures.len(), node.span);
         checkerboard(colors, squares, &mut self.scene)
-    }
-}
-
-fn opaque([r, g, b]: [f64; 3]) -> [f64; 4] {
-    [r, g, b, 1.0].map(|channel: f64| channel.clamp(0.0, 1.0))
-}
-
-/// A Lambertian surface with two sides.
-fn matte(color: [f64; 3]) -> Standard {
-    Standard {
-        base_color: opaque(color),
-        metallic: 0.0,
-        roughness: 1.0,
-        specular: 0.0,
-        double_sided: true,
-        ..Standard::default()
     }
 }
 

@@ -4,9 +4,7 @@ use super::Lowering;
 use super::xml::Node;
 use crate::exchange::transform::Transform;
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{
-    Ambient, Camera, EntityKind, Lens, Mode, PathSettings, Pattern, Projection, Settings,
-};
+use rtc_ir::{Camera, EntityKind, Lens, Mode, PathSettings, Projection, Settings};
 use rtc_math::{cos, sin};
 
 /// The bounces of paths without a limit: Russian roulette ends almost all of them long before.
@@ -30,10 +28,7 @@ pub(super) fn default_camera() -> Camera {
         right: [-1.0 / f64::from(SIZE[0]), 0.0, 0.0],
         up: [0.0, 1.0 / f64::from(SIZE[0]), 0.0],
         size: SIZE,
-        lens: Lens {
-            radius: 0.0,
-            samples: 1,
-        },
+        lens: Lens::PINHOLE,
         projection: Projection::Perspective,
     }
 }
@@ -47,11 +42,7 @@ pub(super) fn default_settings() -> Settings {
         }),
         shadows: true,
         max_depth: UNLIMITED,
-        supersampling: 1,
-        pattern: Pattern::Grid,
-        light_samples: 1,
-        toon: false,
-        ambient: Ambient::PerLight,
+        ..Settings::default()
     }
 }
 
@@ -233,10 +224,7 @@ fn orthographic(to_world: &Transform, size: [u32; 2]) -> Option<Camera> {
         right: (-left * pixel).to_array(),
         up: (up * pixel).to_array(),
         size,
-        lens: Lens {
-            radius: 0.0,
-            samples: 1,
-        },
+        lens: Lens::PINHOLE,
         projection: Projection::Orthographic,
     })
 }

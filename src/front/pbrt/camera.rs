@@ -5,9 +5,7 @@ use super::parameter::Parameters;
 use crate::exchange::Text;
 use crate::exchange::transform::Transform;
 use rtc_diag::{Diagnostic, clip, codes};
-use rtc_ir::{
-    Ambient, Camera, EntityKind, Lens, Mode, PathSettings, Pattern, Projection, Settings,
-};
+use rtc_ir::{Camera, EntityKind, Lens, Mode, PathSettings, Projection, Settings};
 use rtc_math::{Vec3, cos, sin};
 use rtc_source::Span;
 
@@ -56,10 +54,7 @@ pub(super) fn default_camera() -> Camera {
         right: [2.0 / f64::from(SIZE[1]), 0.0, 0.0],
         up: [0.0, 2.0 / f64::from(SIZE[1]), 0.0],
         size: SIZE,
-        lens: Lens {
-            radius: 0.0,
-            samples: 1,
-        },
+        lens: Lens::PINHOLE,
         projection: Projection::Perspective,
     }
 }
@@ -73,11 +68,7 @@ pub(super) fn default_settings() -> Settings {
         }),
         shadows: true,
         max_depth: MAX_DEPTH,
-        supersampling: 1,
-        pattern: Pattern::Grid,
-        light_samples: 1,
-        toon: false,
-        ambient: Ambient::PerLight,
+        ..Settings::default()
     }
 }
 
@@ -335,10 +326,7 @@ fn camera(
         right: from_camera.vector(Vec3::X * across).to_array(),
         up: from_camera.vector(Vec3::Y * upward).to_array(),
         size: [columns, rows],
-        lens: Lens {
-            radius: 0.0,
-            samples: 1,
-        },
+        lens: Lens::PINHOLE,
         projection: Projection::Perspective,
     }
 }

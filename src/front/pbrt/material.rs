@@ -8,6 +8,7 @@ use super::Lowering;
 use super::parameter::Parameters;
 use super::texture::Channel;
 use crate::exchange::Text;
+use crate::exchange::material::{matte, opaque};
 use rtc_diag::{clip, codes};
 use rtc_ir::{Alpha, EntityKind, Map, Material, MaterialId, Standard};
 use rtc_math::ln;
@@ -712,22 +713,6 @@ fn textured(channel: Channel) -> Standard {
     Standard {
         base_color_map: channel.map,
         ..matte(channel.color)
-    }
-}
-
-fn opaque([r, g, b]: [f64; 3]) -> [f64; 4] {
-    [r, g, b, 1.0].map(|channel: f64| channel.clamp(0.0, 1.0))
-}
-
-/// A Lambertian surface with two sides.
-fn matte(color: [f64; 3]) -> Standard {
-    Standard {
-        base_color: opaque(color),
-        metallic: 0.0,
-        roughness: 1.0,
-        specular: 0.0,
-        double_sided: true,
-        ..Standard::default()
     }
 }
 

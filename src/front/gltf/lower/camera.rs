@@ -183,10 +183,7 @@ fn camera(eye: Vec3, [x, y, z]: [Vec3; 3], half: [f64; 2], projection: ir::Proje
         right: (x * (2.0 * half[0] / f64::from(width))).to_array(),
         up: (y * (2.0 * half[1] / f64::from(HEIGHT))).to_array(),
         size: [width, HEIGHT],
-        lens: Lens {
-            radius: 0.0,
-            samples: 1,
-        },
+        lens: Lens::PINHOLE,
         projection,
     }
 }
