@@ -1,7 +1,7 @@
-//! Audits pictures that were tampered with, and pictures that were not, and prints what was found as
-//! tables in Markdown. It exits with 1 if a tampered tile was drawn and not found, if a bound holds
-//! less often than it says, or if an alarm is false. With `write FOLDER` it writes pictures, and with
-//! `read FOLDER` it audits those that another machine wrote. `benches/audit.sh` runs it.
+//! Audits pictures that were tampered with, and pictures that were not, and prints what was found
+//! as tables in Markdown. It exits with 1 if a tampered tile was drawn and not found, if a bound
+//! holds less often than it says, or if an alarm is false. With `write FOLDER` it writes pictures,
+//! and with `read FOLDER` it audits those that another machine wrote. `benches/audit.sh` runs it.
 
 #![expect(
     clippy::unwrap_used,
@@ -62,8 +62,8 @@ impl Faults {
     }
 }
 
-/// A way to tamper with a picture: its name, how many pictures of a recipe are made, and the picture
-/// with its tile, if only that is changed.
+/// A way to tamper with a picture: its name, how many pictures of a recipe are made, and the
+/// picture with its tile, if only that is changed.
 type Tampering = (
     &'static str,
     u64,

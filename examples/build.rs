@@ -1,4 +1,5 @@
-//! Builds a scene in code, renders it and saves the picture: `cargo run --example build PICTURE.png`.
+//! Builds a scene in code, renders it and saves the picture: `cargo run --example build
+//! PICTURE.png`.
 
 use rtc::{
     Camera, Diagnostic, Error, Filter, Light, Mesh, Options, Phong, Scene, SceneBuilder, Shape,

@@ -1,5 +1,5 @@
-//! `rtc audit`: what is as it was made passes, on any threads and at any level of instructions; each
-//! kind of change is found.
+//! `rtc audit`: what is as it was made passes, on any threads and at any level of instructions;
+//! each kind of change is found.
 
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 

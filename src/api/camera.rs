@@ -202,13 +202,8 @@ impl Camera {
 /// A valid camera for a scene whose camera is not.
 pub(super) fn placeholder() -> ir::Camera {
     ir::Camera {
-        eye: [0.0, 0.0, 1.0],
-        center: [0.0; 3],
-        right: [1.0, 0.0, 0.0],
-        up: [0.0, 1.0, 0.0],
         size: [400, 400],
-        lens: ir::Lens::PINHOLE,
-        projection: Projection::Perspective,
+        ..ir::Camera::default()
     }
 }
 

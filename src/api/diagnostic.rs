@@ -81,7 +81,8 @@ pub struct Label {
 /// let found = scene.check();
 /// let typo = found.iter().find(|found| found.code == "SC001").unwrap();
 /// let location = &typo.primary.as_ref().unwrap().location;
-/// assert_eq!((location.file.as_str(), location.line, location.column), ("a.yaml", Some(2), Some(39)));
+/// assert_eq!(location.file, "a.yaml");
+/// assert_eq!((location.line, location.column), (Some(2), Some(39)));
 /// # Ok::<(), rtc::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! The long texts of codes and rules.
 
-/// The long text of a code of diagnostics such as `VA002`, with an example and its fix, or of a rule
-/// that an [`Effect`](super::Effect) names; `None` if there is none.
+/// The long text of a code of diagnostics such as `VA002`, with an example and its fix, or of a
+/// rule that an [`Effect`](super::Effect) names; `None` if there is none.
 ///
 /// ```
 /// let text = rtc::explain("VA002").unwrap();

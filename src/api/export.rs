@@ -28,8 +28,8 @@ pub struct Export {
 
 impl Scene {
     /// The scene as a file of this name, whose extension is the format: `.json` (the IR as text),
-    /// `.rtir` (the IR), `.yaml`, `.glb`, `.gltf`, `.xml` (Mitsuba) or `.pov`. The bytes are those of
-    /// `rtc compile`.
+    /// `.rtir` (the IR), `.yaml`, `.glb`, `.gltf`, `.xml` (Mitsuba) or `.pov`. The bytes are those
+    /// of `rtc compile`.
     ///
     /// # Errors
     /// [`Error::Invalid`] if the scene has errors or the format lacks something of it,

@@ -15,8 +15,8 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
-/// A scene that was read from any format (YAML or JSON of the course, glTF, a mesh, Mitsuba or the
-/// IR), or built with a [`SceneBuilder`].
+/// A scene that was read from any format (YAML or JSON of the course, glTF, a mesh, Mitsuba, pbrt
+/// or the IR), or built with a [`SceneBuilder`].
 ///
 /// Copies are cheap and share what they can. Several threads may render one scene at once.
 ///

@@ -6,8 +6,8 @@ use rtc_math::{GradientNoise, TextureMapping, TexturePattern, Vec3, rotated_to_z
 
 /// A texture: an image in memory, a pattern, or the texture coordinates as colours.
 ///
-/// A pattern blends two linear colours, each channel at least 0, and has `scale` cells (above 0) per
-/// unit of the texture coordinates, or with [`Texture::in_world`] per scene unit.
+/// A pattern blends two linear colours, each channel at least 0, and has `scale` cells (above 0)
+/// per unit of the texture coordinates, or with [`Texture::in_world`] per scene unit.
 ///
 /// An image is sampled as in glTF: (0, 0) is its upper left corner, it repeats, and is interpolated
 /// linearly. A map of a material says which of its channels count and how they are coded.

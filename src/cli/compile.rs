@@ -14,7 +14,7 @@ use rtc_codec::{self as codec, Encoding};
 use rtc_emit as emit;
 use rtc_emit::course::WrittenScene;
 use rtc_image::{BackgroundFill, FileFormat};
-use rtc_pipeline::{Input, Observer, OutputTransform, PictureSetup, Validated};
+use rtc_pipeline::{Input, OutputTransform, PictureSetup, Validated};
 use std::path::Path;
 
 /// Compiles the scene and writes it.
@@ -142,12 +142,7 @@ fn carry_out_text(
     };
     let mut subject = input::subject(&mut setup, &mut input, reporter)?;
     let interrupt = Interrupt::listen()?;
-    let observer = Observer {
-        on_step: &|_| (),
-        is_stopped: &|| interrupt.is_raised(),
-    };
-    setup.light(&mut subject, &mut input, &observer)?;
-    input::tell(&mut input, reporter)?;
+    input::light(&mut setup, &mut subject, &mut input, &interrupt, reporter)?;
     let mut validated = subject.validated;
     validated.lowered.scene.display = setup.look.as_display();
     explain(args, &validated, &input)?;

@@ -2,6 +2,7 @@
 
 use super::Failure;
 use super::args::{self, GroundArg, Reading};
+use super::interrupt::Interrupt;
 use super::project::Project;
 use super::reporter::Reporter;
 use rtc_front as front;
@@ -9,7 +10,7 @@ use rtc_ir::Lowered;
 use rtc_passes::{
     self as passes, EnvironmentOverride, FillLight, StudioChoice, View, ViewAndLight,
 };
-use rtc_pipeline::{Input, Options, PictureSetup, Provenance, RenderSubject, Validated};
+use rtc_pipeline::{Input, Observer, Options, PictureSetup, Provenance, RenderSubject, Validated};
 use rtc_source::EditedFiles;
 use rtc_valid as valid;
 use std::io;
@@ -141,6 +142,22 @@ pub(super) fn tell(input: &mut Input, reporter: &mut Reporter) -> Result<(), Fai
     };
     reporter.file(input.name(), sink, input.map())?;
     status
+}
+
+/// Lights the scene of a picture that needs light, and tells what was found.
+pub(super) fn light(
+    setup: &mut PictureSetup,
+    subject: &mut RenderSubject,
+    input: &mut Input,
+    interrupt: &Interrupt,
+    reporter: &mut Reporter,
+) -> Result<(), Failure> {
+    let observer = Observer {
+        on_step: &|_| (),
+        is_stopped: &|| interrupt.is_raised(),
+    };
+    setup.light(subject, input, &observer)?;
+    tell(input, reporter)
 }
 
 /// Proves a scene for a command that needs it, and tells what was found.

@@ -12,8 +12,8 @@
 //! error.
 //!
 //! Shared parts: `approximation` (the Phong model as a glTF material), `flat` (planes as squares),
-//! `tessellate` (meshes in place of shapes), `ply` (meshes as PLY files), `sidecar` (names of sidecar files), `export` (helpers for other
-//! renderers).
+//! `tessellate` (meshes in place of shapes), `ply` (meshes as PLY files), `sidecar` (names of
+//! sidecar files), `export` (helpers for other renderers).
 
 mod approximation;
 pub mod course;

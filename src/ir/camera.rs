@@ -31,6 +31,21 @@ pub struct Camera {
     pub projection: Projection,
 }
 
+impl Default for Camera {
+    /// One pixel, seen from (0, 0, 1) towards the origin.
+    fn default() -> Self {
+        Self {
+            eye: [0.0, 0.0, 1.0],
+            center: [0.0; 3],
+            right: [1.0, 0.0, 0.0],
+            up: [0.0, 1.0, 0.0],
+            size: [1, 1],
+            lens: Lens::PINHOLE,
+            projection: Projection::Perspective,
+        }
+    }
+}
+
 impl Camera {
     /// The size of a pixel in scene units at `distance`, where `height` pixels span the angle
     /// `yfov` (radians).

@@ -89,9 +89,10 @@ pub struct Phong {
     /// The weight of the refracted ray, at least 0; 0 is opaque.
     #[schemars(range(min = 0.0))]
     pub kt: f64,
-    /// Whether kt is divided by Fresnel's equations in the approximation of Schlick ("An inexpensive
-    /// BRDF model for physically-based rendering", Eurographics 1994, equation 15): kt·F(θ) is
-    /// added to the weight of the reflected ray, and kt·(1 − F(θ)) is that of the refracted ray.
+    /// Whether kt is divided by Fresnel's equations in the approximation of Schlick ("An
+    /// inexpensive BRDF model for physically-based rendering", Eurographics 1994, equation 15):
+    /// kt·F(θ) is added to the weight of the reflected ray, and kt·(1 − F(θ)) is that of the
+    /// refracted ray.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub fresnel: bool,
     /// The relative index of refraction, inside over outside, above 0.

@@ -2,7 +2,7 @@
 
 use super::ImageId;
 use arbitrary::Arbitrary;
-use rtc_math::{TextureMapping, TexturePattern};
+use rtc_math::{Positive, SolidTexture, TextureMapping, TexturePattern, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -43,6 +43,19 @@ pub struct Procedural {
     /// The coordinates of the pattern.
     #[serde(default)]
     pub mapping: TextureMapping,
+}
+
+impl Procedural {
+    /// The pattern with its colours; `None` if its scale is not above 0.
+    #[must_use]
+    pub fn solid(&self) -> Option<SolidTexture> {
+        Some(SolidTexture {
+            pattern: self.pattern,
+            colors: self.colors.map(Vec3::from_array),
+            scale: Positive::new(self.scale)?,
+            mapping: self.mapping,
+        })
+    }
 }
 
 /// An image with its sampler.

@@ -75,15 +75,28 @@ impl SolidTexture {
     /// The colour at a point of the pattern's coordinates.
     #[must_use]
     pub fn color(&self, point: Vec3) -> Vec3 {
-        let [a, b] = self.colors;
-        a + (b - a) * self.pattern.value(point * self.scale.get())
+        self.blended(self.pattern.value(point * self.scale.get()))
+    }
+
+    /// The colour at a place of a surface: its texture coordinates and its point in the world.
+    /// `None` without the texture coordinates that the pattern needs.
+    #[must_use]
+    pub fn color_at(&self, uv: Option<[f64; 2]>, point: Vec3) -> Option<Vec3> {
+        match self.mapping {
+            TextureMapping::Uv => uv.map(|[u, v]| self.color(Vec3::new(u, v, 0.0))),
+            TextureMapping::World => Some(self.color(point)),
+        }
     }
 
     /// The mean of the colours.
     #[must_use]
     pub fn mean(&self) -> Vec3 {
+        self.blended(0.5)
+    }
+
+    fn blended(&self, value: f64) -> Vec3 {
         let [a, b] = self.colors;
-        (a + b) * 0.5
+        a + (b - a) * value
     }
 }
 

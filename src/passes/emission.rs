@@ -92,8 +92,10 @@ fn emission(scene: &Scene, material: &Material) -> f64 {
         Some(Texture::Sampled(sampled)) => scene.images.get(sampled.image.0 as usize),
         Some(Texture::Image(image)) => scene.images.get(image.0 as usize),
         Some(Texture::Procedural(procedural)) => {
-            let [first, second] = procedural.colors.map(Vec3::from_array);
-            return factor * ((first + second) * 0.5).max_element();
+            let mean = procedural
+                .solid()
+                .map(|texture| texture.mean().max_element());
+            return factor * mean.unwrap_or(0.0);
         }
         Some(Texture::Uv) | None => None,
     };

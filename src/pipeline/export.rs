@@ -66,8 +66,8 @@ pub fn sidecar_folder(path: &Path) -> Option<String> {
 }
 
 impl Input {
-    /// Writes the scene in a format, with the files that it names in `folder`. `None` if it can't be
-    /// exported, with an error diagnostic.
+    /// Writes the scene in a format, with the files that it names in `folder`. `None` if it can't
+    /// be exported, with an error diagnostic.
     ///
     /// # Errors
     /// Why a scene text or the IR can't express it.

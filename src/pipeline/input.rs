@@ -1,10 +1,9 @@
 //! A scene from its files to validation, with the diagnostics on the way.
 
-use super::{Options, load, stage, validate};
-use rtc_codec as codec;
+use super::{Options, SourceKind, load, stage, validate};
 use rtc_diag::{Diagnostic, Sink, codes};
 use rtc_emit::{self as emit, ExportedScene, gltf::GltfAsset};
-use rtc_front::{gltf, mesh, mitsuba, pbrt, pixels};
+use rtc_front::{gltf, pixels};
 use rtc_ir::{EntityKind, Field, Light, Lowered, Scene, SourceSpans, ValuePath};
 use rtc_passes::{EnvironmentOverride, FillLight, Framing, SceneKind, ViewAndLight};
 use rtc_source::{FileId, LoadError, Loader, MemoryFiles, Resource, SourceMap, Span};
@@ -210,24 +209,19 @@ impl Input {
 
     /// Whether the input is an asset: glTF, or a mesh.
     fn is_asset(&self) -> bool {
-        let is_asset_file = |file| {
-            let (name, bytes) = (self.map.name(file), self.map.bytes(file));
-            gltf::is_gltf(name, bytes) || mesh::is_mesh_file(name, bytes)
-        };
-        self.file.is_some_and(is_asset_file)
+        self.kind().is_some_and(SourceKind::is_asset)
+    }
+
+    /// The kind of the file; `None` if it was not read.
+    fn kind(&self) -> Option<SourceKind> {
+        let file = self.file?;
+        Some(SourceKind::of(self.map.name(file), self.map.bytes(file)))
     }
 
     /// Whether it is a scene text whose images and meshes come from files that it refers to, not
     /// from an asset.
     #[must_use]
     pub fn has_original_files(&self, lowered: &Lowered) -> bool {
-        let Some(file) = self.file.filter(|_| !self.is_asset()) else {
-            return false;
-        };
-        let (name, bytes) = (self.map.name(file), self.map.bytes(file));
-        let is_made = codec::detect_format(bytes).is_some()
-            || mitsuba::is_mitsuba(bytes)
-            || pbrt::is_pbrt(name, bytes);
         let is_asset = |file| gltf::is_gltf(self.map.name(file), self.map.bytes(file));
         let of_asset = |entity, count| {
             let paths = (0..count).map(move |index| ValuePath::new(entity, index, Field::Whole));
@@ -240,7 +234,7 @@ impl Input {
             materials,
             ..
         } = &lowered.scene;
-        !is_made
+        self.kind() == Some(SourceKind::Scene)
             && !of_asset(EntityKind::Image, images.len())
             && !of_asset(EntityKind::Mesh, meshes.len())
             && !of_asset(EntityKind::Material, materials.len())
@@ -364,8 +358,7 @@ impl Input {
     #[must_use]
     pub fn asset(&self) -> Option<gltf::AssetSummary> {
         let file = self.file?;
-        let is_asset = gltf::is_gltf(self.map.name(file), self.map.bytes(file))
-            && codec::detect_format(self.map.bytes(file)).is_none();
+        let is_asset = self.kind() == Some(SourceKind::Gltf);
         is_asset.then(|| gltf::summary(file, &self.map))?
     }
 

@@ -26,26 +26,34 @@ pub enum SourceKind {
     /// A text of the course, YAML or JSON.
     Scene,
     /// IR.
-    Ir,
-    /// An asset, a mesh, or a scene of another renderer.
-    Other,
+    Ir(codec::Encoding),
+    /// A glTF asset.
+    Gltf,
+    /// A mesh file.
+    Mesh,
+    /// A scene of Mitsuba.
+    Mitsuba,
+    /// A scene of pbrt.
+    Pbrt,
 }
 
 impl SourceKind {
     /// The kind of a file with this name and content.
     #[must_use]
     pub fn of(name: &str, bytes: &[u8]) -> Self {
-        let is_asset = || {
-            gltf::is_gltf(name, bytes)
-                || mesh::is_mesh_file(name, bytes)
-                || mitsuba::is_mitsuba(bytes)
-                || pbrt::is_pbrt(name, bytes)
-        };
         match codec::detect_format(bytes) {
-            Some(_) => Self::Ir,
-            None if is_asset() => Self::Other,
+            Some(encoding) => Self::Ir(encoding),
+            None if gltf::is_gltf(name, bytes) => Self::Gltf,
+            None if mesh::is_mesh_file(name, bytes) => Self::Mesh,
+            None if mitsuba::is_mitsuba(bytes) => Self::Mitsuba,
+            None if pbrt::is_pbrt(name, bytes) => Self::Pbrt,
             None => Self::Scene,
         }
+    }
+
+    /// Whether it is shown as an asset is: glTF, or a mesh.
+    pub(crate) fn is_asset(self) -> bool {
+        matches!(self, Self::Gltf | Self::Mesh)
     }
 }
 
@@ -54,10 +62,11 @@ impl SourceKind {
 /// other files include is none.
 #[must_use]
 pub fn is_scene(name: &str, bytes: &[u8]) -> bool {
-    if pbrt::is_pbrt(name, bytes) {
-        return pbrt::is_whole(bytes);
+    match SourceKind::of(name, bytes) {
+        SourceKind::Scene => course::is_scene_text(bytes),
+        SourceKind::Pbrt => pbrt::is_whole(bytes),
+        SourceKind::Ir(_) | SourceKind::Gltf | SourceKind::Mesh | SourceKind::Mitsuba => true,
     }
-    SourceKind::of(name, bytes) != SourceKind::Scene || course::is_scene_text(bytes)
 }
 
 impl Input {

@@ -65,7 +65,7 @@ use rtc_codec as codec;
 use rtc_diag::{Diagnostic, DiagnosticLevels, Sink, clip, codes};
 use rtc_front as front;
 use rtc_front::course::assets::{self, AssetTarget};
-use rtc_front::{course, gltf, mesh, mitsuba, pbrt};
+use rtc_front::{course, gltf, mitsuba, pbrt};
 use rtc_image::Layers;
 use rtc_ir::{EntityKind, Field, Lowered, Scene, SourceSpans, ValuePath};
 use rtc_math::BasisFault;
@@ -100,8 +100,8 @@ impl Options {
     }
 }
 
-/// Reads a scene of any format, detected by its content: YAML of the course, glTF, a mesh, or
-/// either encoding of the IR. The files to which it refers are added to the map.
+/// Reads a scene of any [kind](SourceKind), detected by its name and content. The files to which it
+/// refers are added to the map.
 pub fn load(
     file: FileId,
     map: &mut SourceMap,
@@ -114,9 +114,12 @@ pub fn load(
         return None;
     }
     // Detect the format and lower the scene.
-    match codec::detect_format(map.bytes(file)) {
-        Some(encoding) => {
-            report_unused_choices(&options.front, false, sink);
+    let kind = SourceKind::of(map.name(file), map.bytes(file));
+    if !matches!(kind, SourceKind::Scene | SourceKind::Gltf) {
+        report_unused_choices(&options.front, false, sink);
+    }
+    match kind {
+        SourceKind::Ir(encoding) => {
             let scene = codec::decode(encoding, file, map, sink)?;
             map.release(file, 0);
             Some(Lowered {
@@ -124,26 +127,19 @@ pub fn load(
                 source_spans: SourceSpans::default(),
             })
         }
-        None if gltf::is_gltf(map.name(file), map.bytes(file)) => {
+        SourceKind::Gltf => {
             let lowered = gltf::lower(file, map, &options.front, sink)?;
             gltf::release(file, map);
             Some(lowered)
         }
-        None if mesh::is_mesh_file(map.name(file), map.bytes(file)) => {
-            report_unused_choices(&options.front, false, sink);
+        SourceKind::Mesh => {
             let lowered = assets::lower_standalone_mesh(file, &options.front, map, sink)?;
             map.release(file, 0);
             Some(lowered)
         }
-        None if mitsuba::is_mitsuba(map.bytes(file)) => {
-            report_unused_choices(&options.front, false, sink);
-            mitsuba::lower(file, map, &options.front, sink)
-        }
-        None if pbrt::is_pbrt(map.name(file), map.bytes(file)) => {
-            report_unused_choices(&options.front, false, sink);
-            pbrt::lower(file, map, &options.front, sink)
-        }
-        None => {
+        SourceKind::Mitsuba => mitsuba::lower(file, map, &options.front, sink),
+        SourceKind::Pbrt => pbrt::lower(file, map, &options.front, sink),
+        SourceKind::Scene => {
             let draft = course::lower(file, map, &options.front, sink)?;
             let has_assets = draft
                 .pending_assets

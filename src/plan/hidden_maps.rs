@@ -20,6 +20,9 @@ pub struct HiddenMap {
 /// meshes are left out: the reader of glTF reports them.
 #[must_use]
 pub fn hidden_maps(scene: &ValidScene) -> Vec<HiddenMap> {
+    if scene.textures().is_empty() {
+        return Vec::new();
+    }
     let mut seen = BTreeSet::new();
     let mut hidden = Vec::new();
     for surface in scene.surfaces() {

@@ -132,12 +132,7 @@ impl AuditScene<'_> {
         }
         let mut subject = input::subject(&mut setup, &mut input, reporter)?;
         let interrupt = Interrupt::listen()?;
-        let observer = Observer {
-            on_step: &|_| (),
-            is_stopped: &|| interrupt.is_raised(),
-        };
-        setup.light(&mut subject, &mut input, &observer)?;
-        input::tell(&mut input, reporter)?;
+        input::light(&mut setup, &mut subject, &mut input, &interrupt, reporter)?;
         Ok(AuditedScene {
             input,
             setup,

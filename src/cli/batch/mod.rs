@@ -15,7 +15,7 @@ use super::reporter::{self, Reporter};
 use frames::Frames;
 use jobs::FarmJob;
 use rtc_codec::{self as codec, Encoding};
-use rtc_pipeline::{Input, NewFolder, Observer, RenderSubject, hash};
+use rtc_pipeline::{Input, NewFolder, RenderSubject, hash};
 use rtc_study::Goal;
 use std::ffi::OsStr;
 use std::io;
@@ -90,12 +90,7 @@ fn settled(
     let scene = &subject.validated.lowered.scene;
     setup.window(scene)?;
     setup.separable(scene, args.parts_by.into())?;
-    let observer = Observer {
-        on_step: &|_| (),
-        is_stopped: &|| interrupt.is_raised(),
-    };
-    setup.light(&mut subject, &mut input, &observer)?;
-    input::tell(&mut input, reporter)?;
+    input::light(&mut setup, &mut subject, &mut input, interrupt, reporter)?;
     if !setup.look.kind.is_linear() {
         subject.validated.lowered.scene.display = setup.look.as_display();
     }

@@ -66,9 +66,11 @@ impl Workspace {
     pub(super) fn vocabulary(&self, document: &OpenText) -> &Vocabulary {
         match document.kind() {
             SourceKind::Scene => &self.scenes,
-            SourceKind::Ir => &self.ir,
-            SourceKind::Other if document.text.trim_start().starts_with('{') => &self.gltf,
-            SourceKind::Other => &self.nothing,
+            SourceKind::Ir(_) => &self.ir,
+            SourceKind::Gltf if document.text.trim_start().starts_with('{') => &self.gltf,
+            SourceKind::Gltf | SourceKind::Mesh | SourceKind::Mitsuba | SourceKind::Pbrt => {
+                &self.nothing
+            }
         }
     }
 

@@ -163,34 +163,26 @@ impl GltfWriter<'_> {
 
     /// The picture of a pattern over the unit square of texture coordinates, or its mean colour.
     fn pattern_image(&mut self, texture: &Procedural, path: ValuePath) -> Index<Image> {
-        let Procedural {
-            pattern,
-            colors,
-            scale,
-            mapping,
-        } = texture;
-        let [first, second] = colors.map(Vec3::from_array);
-        let side = match mapping {
-            TextureMapping::Uv => PATTERN_SIDE,
-            TextureMapping::World => 1,
-        };
+        let is_in_space = texture.mapping == TextureMapping::World;
+        let side = if is_in_space { 1 } else { PATTERN_SIDE };
+        let solid = texture.solid();
         let color = |x: u32, y: u32| {
             let [u, v] = [x, side - 1 - y].map(|k| (f64::from(k) + 0.5) / f64::from(side));
-            let value = match mapping {
-                TextureMapping::Uv => pattern.value(Vec3::new(u, v, 0.0) * *scale),
-                TextureMapping::World => 0.5,
-            };
-            (first + (second - first) * value).to_array().map(to_byte)
+            let color = solid.map_or(Vec3::ZERO, |solid| match is_in_space {
+                true => solid.mean(),
+                false => solid.color(Vec3::new(u, v, 0.0)),
+            });
+            color.to_array().map(to_byte)
         };
         let pixels: Vec<u8> = (0..side)
             .flat_map(|y| (0..side).flat_map(move |x| color(x, y)))
             .collect();
-        let (code, message) = match mapping {
-            TextureMapping::Uv => (&codes::GLTF_NEARLY, "a pattern becomes a picture of it"),
-            TextureMapping::World => (
+        let (code, message) = match is_in_space {
+            true => (
                 &codes::GLTF_UNSAID,
                 "a pattern in space becomes the mean of its colours",
             ),
+            false => (&codes::GLTF_NEARLY, "a pattern becomes a picture of it"),
         };
         self.reporter.report(code, message, path);
         self.png(png_bytes([side; 2], false, &pixels), "pattern")

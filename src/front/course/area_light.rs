@@ -44,8 +44,8 @@ impl Decode for Cells {
 
 impl Lowering {
     /// Lowers an area light: a point without falloff in the middle of each cell, which together
-    /// have the colour of the light. `None` if the light has no size.
-    pub(super) fn area_light(&mut self, light: &Spanned<Light>) -> Option<()> {
+    /// have the colour of the light. Returns whether it is one.
+    pub(super) fn area_light(&mut self, light: &Spanned<Light>) -> bool {
         let Light {
             position: FieldOutcome::Read(position),
             color: FieldOutcome::Read(color),
@@ -56,7 +56,7 @@ impl Lowering {
             ..
         } = &light.value
         else {
-            return None;
+            return false;
         };
         let direction = direction
             .read()
@@ -87,7 +87,7 @@ impl Lowering {
                 }
             }
         }
-        Some(())
+        true
     }
 }
 

@@ -73,19 +73,6 @@ impl Camera {
 /// The size of the image if neither a `Camera` nor an `ImageSize` gives it.
 pub(super) const DEFAULT_SIZE: ViewSize = ViewSize([400, 400]);
 
-/// A valid camera for a scene without a valid one.
-pub(super) fn placeholder() -> ir::Camera {
-    ir::Camera {
-        eye: [0.0, 0.0, 1.0],
-        center: [0.0; 3],
-        right: [1.0, 0.0, 0.0],
-        up: [0.0, 1.0, 0.0],
-        size: [1, 1],
-        lens: ir::Lens::PINHOLE,
-        projection: ir::Projection::Perspective,
-    }
-}
-
 impl Lowering {
     /// Lowers a `Camera`.
     pub(super) fn camera(&mut self, camera: &Spanned<Camera>, context: &mut Context<'_>) {
@@ -193,7 +180,7 @@ impl Lowering {
             eye: eye.value.0,
             center: [x, y, 0.0],
             size: size.0,
-            ..placeholder()
+            ..ir::Camera::default()
         };
         self.record_span(ir::EntityKind::Camera, 0, Field::Whole, eye.span);
         self.record_span(ir::EntityKind::Camera, 0, Field::Eye, eye.span);

@@ -92,7 +92,7 @@ impl Keyword for LightKind {
 impl Lowering {
     /// Lowers a light.
     pub(super) fn light(&mut self, light: &Spanned<Light>, context: &mut Context<'_>) {
-        if self.area_light(light).is_some() {
+        if self.area_light(light) {
             report_unused(&light.value, LightKind::Area, false, context);
             return;
         }

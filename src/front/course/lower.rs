@@ -114,7 +114,7 @@ pub(super) struct Lowering {
 
 impl Lowering {
     fn new() -> Self {
-        let scene = ir::Scene::new(camera::placeholder(), ir::Settings::default());
+        let scene = ir::Scene::new(ir::Camera::default(), ir::Settings::default());
         let (shared, files, sizings) = (BTreeMap::new(), NamedFiles::default(), Vec::new());
         Self {
             scene,

@@ -11,6 +11,12 @@ use rtc_math::{GradientNoise, TextureMapping, TexturePattern};
 use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
+/// Black and white.
+const COLORS: ColorPair = ColorPair([Color([0.0; 3]), Color([1.0; 3])]);
+const SCALE: NonNegative = NonNegative(8.0);
+const SEED: Seed = Seed(0);
+const OCTAVES: Octaves = Octaves(4);
+
 record! {
     /// A pattern as a texture. Its word alone is a texture too, with the defaults.
     struct PatternMap, "pattern" {
@@ -19,19 +25,18 @@ record! {
         /// random points, one in each cell.
         pattern: Spanned<PatternKind>, required, keys!["pattern"];
         /// The two colours, each red, green, blue; noise and distances blend them.
-        colors: Spanned<ColorPair>, default(ColorPair([Color([0.0; 3]), Color([1.0; 3])])),
-            keys!["colors"];
+        colors: Spanned<ColorPair>, default(COLORS), keys!["colors"];
         /// The number of cells per unit of the coordinates: 8 cells across texture coordinates from
         /// 0 to 1, for `mapping: world` the cells per scene unit.
-        scale: Spanned<NonNegative>, default(NonNegative(8.0)), keys!["scale"];
+        scale: Spanned<NonNegative>, default(SCALE), keys!["scale"];
         /// The coordinates of the pattern: `uv` are the texture coordinates of the surface; `world`
         /// is the point in space, for surfaces without texture coordinates, too.
         mapping: Spanned<TextureMapping>, default(TextureMapping::Uv), keys!["mapping"];
         /// The seed of `noise` and `worley`: another number is another picture.
-        seed: Spanned<Seed>, default(Seed(0)), keys!["seed"];
+        seed: Spanned<Seed>, default(SEED), keys!["seed"];
         /// The number of octaves of `noise`: each has twice the frequency and half the weight of
         /// the one before.
-        octaves: Spanned<Octaves>, default(Octaves(4)), keys!["octaves"];
+        octaves: Spanned<Octaves>, default(OCTAVES), keys!["octaves"];
     }
 }
 
@@ -99,11 +104,11 @@ impl PatternMap {
     fn of(pattern: PatternKind) -> Self {
         Self {
             pattern: Spanned::without_span(pattern),
-            colors: Spanned::without_span(ColorPair([Color([0.0; 3]), Color([1.0; 3])])),
-            scale: Spanned::without_span(NonNegative(8.0)),
+            colors: Spanned::without_span(COLORS),
+            scale: Spanned::without_span(SCALE),
             mapping: Spanned::without_span(TextureMapping::Uv),
-            seed: Spanned::without_span(Seed(0)),
-            octaves: Spanned::without_span(Octaves(4)),
+            seed: Spanned::without_span(SEED),
+            octaves: Spanned::without_span(OCTAVES),
         }
     }
 

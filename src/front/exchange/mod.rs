@@ -7,6 +7,7 @@ pub(crate) mod material;
 pub(crate) mod tessellate;
 pub(crate) mod transform;
 
+use rtc_ir::{Mode, PathSettings, Settings};
 use rtc_source::Span;
 
 /// A string of a text and its span.
@@ -14,4 +15,17 @@ use rtc_source::Span;
 pub(crate) struct Text {
     pub(crate) text: String,
     pub(crate) span: Span,
+}
+
+/// The settings of a scene that is path traced.
+pub(crate) fn traced(samples: u32, max_depth: u32) -> Settings {
+    Settings {
+        mode: Mode::Path(PathSettings {
+            samples,
+            multiple_scattering: true,
+        }),
+        shadows: true,
+        max_depth,
+        ..Settings::default()
+    }
 }

@@ -2,9 +2,10 @@
 
 use super::Lowering;
 use super::xml::Node;
+use crate::exchange::traced;
 use crate::exchange::transform::Transform;
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{Camera, EntityKind, Lens, Mode, PathSettings, Projection, Settings};
+use rtc_ir::{Camera, EntityKind, Lens, Mode, Projection, Settings};
 use rtc_math::{cos, sin};
 
 /// The bounces of paths without a limit: Russian roulette ends almost all of them long before.
@@ -35,15 +36,7 @@ pub(super) fn default_camera() -> Camera {
 
 /// The settings before an integrator and a sampler are read.
 pub(super) fn default_settings() -> Settings {
-    Settings {
-        mode: Mode::Path(PathSettings {
-            samples: SAMPLES,
-            multiple_scattering: true,
-        }),
-        shadows: true,
-        max_depth: UNLIMITED,
-        ..Settings::default()
-    }
+    traced(SAMPLES, UNLIMITED)
 }
 
 impl<'run> Lowering<'run> {

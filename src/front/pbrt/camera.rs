@@ -3,9 +3,10 @@
 use super::Lowering;
 use super::parameter::Parameters;
 use crate::exchange::Text;
+use crate::exchange::traced;
 use crate::exchange::transform::Transform;
 use rtc_diag::{Diagnostic, clip, codes};
-use rtc_ir::{Camera, EntityKind, Lens, Mode, PathSettings, Projection, Settings};
+use rtc_ir::{Camera, EntityKind, Lens, Mode, Projection, Settings};
 use rtc_math::{Vec3, cos, sin};
 use rtc_source::Span;
 
@@ -61,15 +62,7 @@ pub(super) fn default_camera() -> Camera {
 
 /// The settings before an integrator and a sampler are read.
 pub(super) fn default_settings() -> Settings {
-    Settings {
-        mode: Mode::Path(PathSettings {
-            samples: SAMPLES,
-            multiple_scattering: true,
-        }),
-        shadows: true,
-        max_depth: MAX_DEPTH,
-        ..Settings::default()
-    }
+    traced(SAMPLES, MAX_DEPTH)
 }
 
 impl Lowering<'_> {

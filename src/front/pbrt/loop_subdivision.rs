@@ -1,5 +1,5 @@
-//! The subdivision of Loop 1987, "Smooth subdivision surfaces based on triangles", with the rules for
-//! boundaries and the limit surface of Hoppe et al. 1994.
+//! The subdivision of Loop 1987, "Smooth subdivision surfaces based on triangles", with the rules
+//! for boundaries and the limit surface of Hoppe et al. 1994.
 
 use rtc_ir::{Column, Mesh};
 use rtc_math::Vec3;

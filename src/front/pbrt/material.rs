@@ -21,6 +21,9 @@ pub(super) type EmittingMaterialKey = (usize, [u64; 3], u64);
 /// The memory of a material, in bytes, rounded up.
 const MATERIAL_BYTES: u64 = 2048;
 
+/// The names of the roughness for both directions, along u and along v.
+const ROUGHNESS: [&str; 3] = ["roughness", "uroughness", "vroughness"];
+
 const MATERIALS: [&str; 10] = [
     "diffuse",
     "coateddiffuse",
@@ -140,6 +143,13 @@ impl Lowering<'_> {
         })
     }
 
+    /// Reports that the standard material stands for a material, or for a part of it.
+    fn nearest(&mut self, plugin: &Text, part: &str) {
+        let name = &plugin.text;
+        let message = format!("the standard material takes the place of {part}`{name}`");
+        self.approximate(plugin.span, message);
+    }
+
     fn diffuse(&mut self, parameters: &Parameters, name: &'static str) -> Standard {
         let channel = self.channel(parameters, name, [0.5; 3]);
         textured(channel)
@@ -148,7 +158,7 @@ impl Lowering<'_> {
     /// A mirror that reflects `Kr` at all angles.
     fn mirror(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
         let Channel { color, map } = self.channel(parameters, "Kr", [0.9; 3]);
-        let most = color.iter().copied().fold(0.0, f64::max);
+        let most = greatest(color);
         if color.iter().any(|channel| *channel != most) || map.is_some() {
             let message = "a coloured mirror is white at grazing angles";
             self.approximate(plugin.span, message);
@@ -158,12 +168,7 @@ impl Lowering<'_> {
 
     fn metal(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
         let default = if plugin.text == "metal" { 0.01 } else { 0.0 };
-        let alpha = self.alpha(
-            plugin,
-            parameters,
-            ["roughness", "uroughness", "vroughness"],
-            default,
-        );
+        let alpha = self.alpha(plugin, parameters, ROUGHNESS, default);
         let Channel { color, map } = self.conductor_color(plugin, parameters, ["eta", "k"]);
         parameters.skip(&["Kr"]);
         rough(
@@ -196,8 +201,7 @@ impl Lowering<'_> {
     }
 
     fn coated_conductor(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
-        let message = "the standard material takes the place of the layers of `coatedconductor`";
-        self.approximate(plugin.span, message);
+        self.nearest(plugin, "the layers of ");
         let names = [
             "conductor.roughness",
             "conductor.uroughness",
@@ -234,14 +238,8 @@ impl Lowering<'_> {
     }
 
     fn coated_diffuse(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
-        let message = "the standard material takes the place of the layers of `coateddiffuse`";
-        self.approximate(plugin.span, message);
-        let alpha = self.alpha(
-            plugin,
-            parameters,
-            ["roughness", "uroughness", "vroughness"],
-            0.0,
-        );
+        self.nearest(plugin, "the layers of ");
+        let alpha = self.alpha(plugin, parameters, ROUGHNESS, 0.0);
         let base = self.channel(parameters, "reflectance", [0.5; 3]);
         let (ior, _) = self.refraction(parameters, ["eta", "index"]);
         parameters.skip(&["thickness", "maxdepth", "nsamples", "albedo", "g"]);
@@ -257,21 +255,15 @@ impl Lowering<'_> {
     /// of glass, times `Ks`.
     fn plastic(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
         let is_uber = plugin.text == "uber";
-        let message = format!("the standard material takes the place of `{}`", plugin.text);
-        self.approximate(plugin.span, message);
-        let alpha = self.alpha(
-            plugin,
-            parameters,
-            ["roughness", "uroughness", "vroughness"],
-            0.1,
-        );
+        self.nearest(plugin, "");
+        let alpha = self.alpha(plugin, parameters, ROUGHNESS, 0.1);
         let base = self.channel(parameters, "Kd", [0.25; 3]);
         let specular = self.channel(parameters, "Ks", [0.25; 3]);
         let (ior, _) = match is_uber {
             true => self.refraction(parameters, ["eta", "index"]),
             false => (1.5, 0.0),
         };
-        let most = specular.color.iter().copied().fold(0.0, f64::max);
+        let most = greatest(specular.color);
         let mut standard = Standard {
             ior: ior.max(1.0),
             specular: most.min(1.0),
@@ -288,9 +280,8 @@ impl Lowering<'_> {
     /// What `uber` has beside `plastic`: a mirror, clear glass and opacity.
     fn uber(&mut self, plugin: &Text, parameters: &Parameters, standard: &mut Standard) {
         let mirror = self.channel(parameters, "Kr", [0.0; 3]).color;
-        standard.clearcoat = mirror.iter().copied().fold(0.0, f64::max).min(1.0);
-        let [r, g, b] = self.channel(parameters, "Kt", [0.0; 3]).color;
-        let clear = r.max(g).max(b).min(1.0);
+        standard.clearcoat = greatest(mirror).min(1.0);
+        let clear = greatest(self.channel(parameters, "Kt", [0.0; 3]).color).min(1.0);
         if clear > 0.0 {
             let message = "what shines through `uber` has the colour of its diffuse part";
             self.approximate(plugin.span, message);
@@ -311,14 +302,8 @@ impl Lowering<'_> {
 
     /// The model of Ashikhmin and Shirley: a diffuse part under a reflection by Schlick's formula.
     fn substrate(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
-        let message = "the standard material takes the place of `substrate`";
-        self.approximate(plugin.span, message);
-        let alpha = self.alpha(
-            plugin,
-            parameters,
-            ["roughness", "uroughness", "vroughness"],
-            0.1,
-        );
+        self.nearest(plugin, "");
+        let alpha = self.alpha(plugin, parameters, ROUGHNESS, 0.1);
         let base = self.channel(parameters, "Kd", [0.5; 3]);
         let specular = self.channel(parameters, "Ks", [0.5; 3]);
         let standard = Standard {
@@ -332,12 +317,7 @@ impl Lowering<'_> {
     }
 
     fn dielectric(&mut self, plugin: &Text, parameters: &Parameters, is_solid: bool) -> Standard {
-        let alpha = self.alpha(
-            plugin,
-            parameters,
-            ["roughness", "uroughness", "vroughness"],
-            0.0,
-        );
+        let alpha = self.alpha(plugin, parameters, ROUGHNESS, 0.0);
         let (ior, dispersion) = self.refraction(parameters, ["eta", "index"]);
         let ior = match ior < 1.0 {
             true => {
@@ -397,7 +377,7 @@ impl Lowering<'_> {
             (part("reflectance"), part("transmittance"))
         };
         // Of light, the share `through` goes through, and the rest is reflected.
-        let most = |channel: &Channel| channel.color.iter().copied().fold(0.0, f64::max);
+        let most = |channel: &Channel| greatest(channel.color);
         let (back, through) = (most(&reflected), most(&transmitted));
         let share = if through > 0.0 {
             through / (back + through)
@@ -420,8 +400,7 @@ impl Lowering<'_> {
 
     /// Disney's material (Burley 2012 and 2015), as far as the standard material has its parts.
     fn disney(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
-        let message = "the standard material takes the place of `disney`";
-        self.approximate(plugin.span, message);
+        self.nearest(plugin, "");
         let base = self.channel(parameters, "color", [0.5; 3]);
         let mut fraction = |name, default| self.scalar(parameters, name, default).clamp(0.0, 1.0);
         let sheen = fraction("sheen", 0.0);
@@ -468,23 +447,21 @@ impl Lowering<'_> {
             "eta",
             "g",
             "scale",
-        ]);
-        parameters.skip(&[
             "roughness",
             "uroughness",
             "vroughness",
             "remaproughness",
             "bsdffile",
-        ]);
-        parameters.skip(&[
             "filename",
             "beta_m",
             "beta_n",
             "alpha",
             "eumelanin",
             "pheomelanin",
+            "color",
+            "Kr",
+            "Kt",
         ]);
-        parameters.skip(&["color", "Kr", "Kt"]);
         textured(base)
     }
 
@@ -522,7 +499,7 @@ impl Lowering<'_> {
             (Some(first), Some(second)) => {
                 let message = "a mix is shown as one material with the mean of their parameters";
                 self.approximate(plugin.span, message);
-                Some(mixed(first, second, amount))
+                Some(mixed(&first, &second, amount))
             }
             (Some(shown), None) => Some(covering(shown, 1.0 - amount)),
             (None, Some(shown)) => Some(covering(shown, amount)),
@@ -658,6 +635,11 @@ fn reflector(color: [f64; 3], most: f64, map: Option<Map>) -> Standard {
     }
 }
 
+/// The greatest channel of a colour, at least 0.
+fn greatest(color: [f64; 3]) -> f64 {
+    color.into_iter().fold(0.0, f64::max)
+}
+
 /// A colour over the greatest of its channels.
 fn relative(color: [f64; 3], most: f64) -> [f64; 3] {
     match most > 0.0 {
@@ -677,10 +659,11 @@ fn covering(standard: Standard, share: f64) -> Standard {
 }
 
 /// The mean of two materials; maps are those of the one with the larger weight.
-fn mixed(first: Standard, second: Standard, amount: f64) -> Standard {
+fn mixed(first: &Standard, second: &Standard, amount: f64) -> Standard {
     let number = |a: f64, b: f64| a * (1.0 - amount) + b * amount;
     let triple = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|c| number(a[c], b[c]));
-    let numbers = Standard {
+    let shown = if amount > 0.5 { second } else { first };
+    Standard {
         base_color: std::array::from_fn(|c| number(first.base_color[c], second.base_color[c])),
         metallic: number(first.metallic, second.metallic),
         roughness: number(first.roughness, second.roughness),
@@ -691,21 +674,7 @@ fn mixed(first: Standard, second: Standard, amount: f64) -> Standard {
         clearcoat: number(first.clearcoat, second.clearcoat),
         clearcoat_roughness: number(first.clearcoat_roughness, second.clearcoat_roughness),
         diffuse_transmission: number(first.diffuse_transmission, second.diffuse_transmission),
-        ..Standard::default()
-    };
-    let shown = if amount > 0.5 { second } else { first };
-    Standard {
-        base_color: numbers.base_color,
-        metallic: numbers.metallic,
-        roughness: numbers.roughness,
-        specular: numbers.specular,
-        specular_color: numbers.specular_color,
-        transmission: numbers.transmission,
-        thickness: numbers.thickness,
-        clearcoat: numbers.clearcoat,
-        clearcoat_roughness: numbers.clearcoat_roughness,
-        diffuse_transmission: numbers.diffuse_transmission,
-        ..shown
+        ..shown.clone()
     }
 }
 

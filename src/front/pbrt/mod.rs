@@ -5,8 +5,8 @@
 //! ```
 //!
 //! - [`token`] splits the text into words with their spans, [`parameter`] reads typed parameters.
-//! - [`directive`] reads a file and those that it includes, one directive after the other, and keeps
-//!   the graphics state of [`state`]: transform, material, area light, attributes.
+//! - [`directive`] reads a file and those that it includes, one directive after the other, and
+//!   keeps the graphics state of [`state`]: transform, material, area light, attributes.
 //! - [`camera`], [`material`], [`texture`], [`light`] and [`shape`] lower one kind of plugin each.
 //!   Names of version 3 (`matte`, `Kd`, `mapname`) have the meaning that they had there. A plugin
 //!   that is not supported is replaced by the closest one, and a parameter without effect is

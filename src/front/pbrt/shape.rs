@@ -281,11 +281,9 @@ impl Lowering<'_> {
             "loopsubdiv" => self.subdivided(plugin, parameters),
             "bilinearmesh" => return self.bilinear_mesh(plugin, parameters),
             _ => {
-                for name in [
+                parameters.skip(&[
                     "P", "N", "indices", "type", "width", "width0", "width1", "degree",
-                ] {
-                    parameters.skip(&[name]);
-                }
+                ]);
                 self.unsupported("shape", plugin, &SHAPES, "it is left out");
                 None
             }

@@ -8,7 +8,7 @@ use rtc_math::Vec3;
 ///
 /// 0 stands for an infinite index, as KHR_materials_ior says.
 #[must_use]
-pub(super) fn normal_reflectance(ior: f64) -> f64 {
+pub(crate) fn normal_reflectance(ior: f64) -> f64 {
     let root = (ior - 1.0) / (ior + 1.0);
     root * root
 }
@@ -24,7 +24,7 @@ pub fn dispersed(ior: f64, dispersion: f64) -> [f64; 3] {
 /// `(1 − x)⁵`, the shape of Schlick's curve.
 #[must_use]
 #[inline]
-pub(super) fn schlick(cosine: f64) -> f64 {
+pub(crate) fn schlick(cosine: f64) -> f64 {
     let x = (1.0 - cosine).clamp(0.0, 1.0);
     let square = x * x;
     square * square * x

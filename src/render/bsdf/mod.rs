@@ -7,7 +7,7 @@
 mod albedo;
 mod coat;
 mod compensation;
-mod fresnel;
+pub(crate) mod fresnel;
 mod ggx;
 mod lobe_pdf;
 mod microfacet;

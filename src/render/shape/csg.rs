@@ -16,7 +16,7 @@ use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes, Sol
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::tie;
 use crate::shape::triangle::WatertightRay;
-use rtc_math::{Bounds, SetStep, evaluate_set};
+use rtc_math::{Bounds, SetStep, Vec3, evaluate_set};
 use rtc_plan::MIN_HIT_DISTANCE;
 use std::sync::Arc;
 
@@ -58,6 +58,11 @@ struct OperandFace {
 }
 
 impl OperandFace {
+    /// The normal of the solid for one of the operand, or the other way round.
+    fn turned(self, normal: Vec3) -> Vec3 {
+        if self.is_turned { -normal } else { normal }
+    }
+
     fn prim_id(self) -> u32 {
         let operand = u32::try_from(self.operand).unwrap_or(u32::MAX);
         self.part << 7 | (operand & 63) << 1 | u32::from(self.is_turned)
@@ -203,11 +208,7 @@ impl Intersect for Csg {
         let face = OperandFace::of(prim_id);
         let at = self.expression.operands[face.operand].interaction_on(ray, t, face.part);
         Interaction {
-            normal: if face.is_turned {
-                -at.normal
-            } else {
-                at.normal
-            },
+            normal: face.turned(at.normal),
             offset: APART * at.offset,
             ..at
         }
@@ -215,10 +216,6 @@ impl Intersect for Csg {
 
     fn has_uv(&self) -> bool {
         self.expression.operands.iter().any(Shape::has_uv)
-    }
-
-    fn has_shading_normals(&self) -> bool {
-        false
     }
 
     fn shading_attributes(
@@ -230,11 +227,7 @@ impl Intersect for Csg {
     ) -> ShadingAttributes {
         let face = OperandFace::of(prim_id);
         let own = Interaction {
-            normal: if face.is_turned {
-                -at.normal
-            } else {
-                at.normal
-            },
+            normal: face.turned(at.normal),
             ..*at
         };
         let shape = &self.expression.operands[face.operand];
@@ -298,7 +291,6 @@ mod tests {
     use crate::shape::plane::Plane;
     use crate::shape::sphere::{Sphere, TexturedSphere};
     use SetStep::{Difference, Intersection, Operand, Union};
-    use rtc_math::Vec3;
 
     fn ball(x: f64) -> Shape {
         Shape::Sphere(TexturedSphere {

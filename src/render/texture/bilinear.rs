@@ -1,7 +1,7 @@
 //! Texture lookup, normal maps and bump maps by the rules of the course.
 
 use super::sampled::{ColorSpace, sample};
-use super::{Image, Texture, TexturePlace, pattern_point};
+use super::{Image, Texture, TexturePlace};
 use rtc_math::{SolidTexture, TextureMapping, Vec3, cross};
 
 /// A height field over a surface.
@@ -53,7 +53,7 @@ fn mean_channel(color: Vec3) -> f64 {
 /// that it needs.
 pub(crate) fn look_up(texture: &Texture, place: &TexturePlace) -> Option<Vec3> {
     if let Texture::Procedural(texture) = texture {
-        return pattern_point(texture, place.uv, place.point).map(|point| texture.color(point));
+        return texture.color_at(place.uv, place.point);
     }
     place.uv.map(|uv| value(texture, uv))
 }

@@ -5,7 +5,7 @@ mod footprint;
 pub(crate) mod sampled;
 
 use rtc_image::{Texel, Texels};
-use rtc_math::{SolidTexture, TextureMapping, Vec3};
+use rtc_math::{SolidTexture, Vec3};
 use std::sync::Arc;
 
 /// A texture that holds its image.
@@ -33,14 +33,6 @@ pub(crate) struct TexturePlace {
     pub(crate) uv: Option<[f64; 2]>,
     /// The point in world coordinates.
     pub(crate) point: Vec3,
-}
-
-/// The point at which a pattern is evaluated; `None` without the texture coordinates it needs.
-fn pattern_point(texture: &SolidTexture, uv: Option<[f64; 2]>, point: Vec3) -> Option<Vec3> {
-    match texture.mapping {
-        TextureMapping::Uv => uv.map(|[u, v]| Vec3::new(u, v, 0.0)),
-        TextureMapping::World => Some(point),
-    }
 }
 
 /// An image of at least one texel.

@@ -1,7 +1,7 @@
 //! Texture sampling by the rules of glTF: texture coordinates and colour spaces.
 
 use super::footprint::{Footprint, Layout, single};
-use super::{Filter, Image, Texture, Wrap, pattern_point};
+use super::{Filter, Image, Texture, Wrap};
 use rtc_color::srgb_decoded;
 use rtc_image::Texels;
 use rtc_math::{Lanes, Vec3};
@@ -70,8 +70,8 @@ impl Map {
     pub(crate) fn look_up(&self, uvs: &UvSets) -> Option<[f64; 4]> {
         if let Texture::Procedural(texture) = &self.texture {
             let uv = uvs.sets[self.set].map(|uv| self.mapped(uv));
-            let point = pattern_point(texture, uv, uvs.point)?;
-            return Some(texture.color(point).extend(1.0).to_array());
+            let color = texture.color_at(uv, uvs.point)?;
+            return Some(color.extend(1.0).to_array());
         }
         let [u, v] = uvs.sets[self.set]?;
         if let (

@@ -1,7 +1,7 @@
 //! What a case says of itself: what it shows, and how it is rendered, in the words of `rtc render`:
-//! `# options: spp=16 tonemap=agx aov=depth:2..8 env=files/sky.hdr threads=2`. It stands in the first
-//! comments of a YAML or pbrt file, in the `shows` and `options` of `asset.extras` in a `.gltf`, and as
-//! comments of `<case>.options` beside any other file.
+//! `# options: spp=16 tonemap=agx aov=depth:2..8 env=files/sky.hdr threads=2`. It stands in the
+//! first comments of a YAML or pbrt file, in the `shows` and `options` of `asset.extras` in a
+//! `.gltf`, and as comments of `<case>.options` beside any other file.
 
 use libtest_mimic::Failed;
 use rtc::internals::color::Tone;

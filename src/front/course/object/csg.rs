@@ -187,7 +187,10 @@ impl Lowering {
         }
         let count = whole.operands.len();
         if count > MAX_SET_OPERANDS {
-            let message = format!("a {} of more than 64 solids", word(operation));
+            let message = format!(
+                "a {} of more than {MAX_SET_OPERANDS} solids",
+                word(operation)
+            );
             report(kind.span, &message, "too many", context);
             return None;
         }

@@ -2,6 +2,7 @@
 
 use super::Tracer;
 use super::shade::ShadingPoint;
+use crate::bsdf::fresnel::{normal_reflectance, schlick};
 use crate::bsdf::optics::{reflect, refract};
 use crate::integrator::Integrator;
 use crate::material::phong::PhongMaterial;
@@ -231,14 +232,12 @@ fn mirror_direction(direction: Vec3, shading_point: &ShadingPoint<'_>) -> Vec3 {
 /// ray on its side of the surface. A surface of index 1 reflects nothing.
 fn reflected_part(direction: Vec3, shading_point: &ShadingPoint<'_>) -> f64 {
     let PhongMaterial { eta, fresnel, .. } = shading_point.material;
-    let amplitude = (eta.get() - 1.0) / (eta.get() + 1.0);
-    if !fresnel || amplitude == 0.0 {
+    let along_normal = normal_reflectance(eta.get());
+    if !fresnel || along_normal == 0.0 {
         return 0.0;
     }
-    let normal_reflectance = amplitude * amplitude;
-    let cosine = direction.dot(shading_point.normal).abs().min(1.0);
-    let [x, square] = [1.0 - cosine, (1.0 - cosine) * (1.0 - cosine)];
-    normal_reflectance + (1.0 - normal_reflectance) * square * square * x
+    let cosine = direction.dot(shading_point.normal).abs();
+    along_normal + (1.0 - along_normal) * schlick(cosine)
 }
 
 /// The refracted direction, if the material transmits light and there is no total reflection.
