@@ -1,10 +1,10 @@
-# Eight boxes against a beam in single precision (BoxLanes::meet): what a ray enters before it leaves
+# Eight boxes against a conservative ray in single precision (BoxLanes::meet): what a ray enters before it leaves
 # is met.
 #
 # from src/render/accel/conservative_ray.rs: let shift = (origin.abs() * ({SHIFT} * ROUND) + {BASE} * base).copysign(direction);
 # from src/render/accel/lanes.rs: pub(in crate::accel) const FAR_SCALE: f32 = 1.0 + {GROWN} * f32::EPSILON;
 #
-# The origin o, shifted along the beam and rounded, is more than base beyond o: base is what the beam
+# The origin o, shifted along the conservative ray and rounded, is more than base beyond o: base is what the conservative ray
 # may be off by. So what is left to the near end of a box is less than it was, to the far end
 # more; then each takes four roundings: of the direction, its inverse, the difference and the product.
 # Where a ray enters an axis at t it is computed below t * entered, where it leaves at t above

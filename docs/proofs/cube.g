@@ -1,5 +1,5 @@
-# The way of a ray into the cube, in double precision (ConservativeRay::new): for the length that may matter a beam
-# is within `base` of the ray, and a ray that meets the cube is not told to miss it.
+# The way of a ray into the cube, in double precision (ConservativeRay::new): for the length that may matter a conservative ray
+# is within `base` of the ray, and a ray that meets the cube is not reported as a miss.
 #
 # from src/render/accel/conservative_ray.rs: const MIN_SLOPE: f64 = 1.0 / {STEEP};
 # from src/render/accel/conservative_ray.rs: const MIN_DISTANCE: f64 = 1.0 / {FLOOR};
@@ -9,7 +9,7 @@
 #
 # All is divided by 1 + distance, and q is 1 of the cube so divided. x and d are a coordinate of the
 # exact origin in the cube and of the exact direction, whose largest is 1; s is the start. The
-# scale is a power of two and the main direction is exact. A beam begins within REACH + base of the
+# scale is a power of two and the main direction is exact. A conservative ray begins within REACH + base of the
 # centre and moves by 1 along its main axis, so it is through the cube after REACH + 1 + base. In that
 # length the direction adds its error: two roundings, and STEEP where it was made that steep.
 STEEP = 1099511627776;

@@ -1,4 +1,4 @@
-# Edge functions of a triangle in single precision (TriangleLanes::verdict): what is computed is
+# Edge functions of a triangle in single precision (TriangleLanes::hit_mask): what is computed is
 # within `bound` of the exact edge function of the exact corners, so a sign beyond it is right.
 #
 # from src/render/accel/lanes.rs: size * (size * ({EDGE_ROUNDING} * f32::EPSILON) + error * {EDGE_ERROR});

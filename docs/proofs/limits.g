@@ -1,4 +1,4 @@
-# The ends of a beam (ConservativeRay::t_far, ConservativeRay::t_certain): a root may be wrong by 2^-21 of itself, and the one end
+# The ends of a conservative ray (ConservativeRay::t_far, ConservativeRay::t_certain): a root may be wrong by 2^-21 of itself, and the one end
 # still lies beyond it, the other before it.
 #
 # from src/render/accel/conservative_ray.rs: end as f32 * (1.0 + {UP} * f32::EPSILON) + self.error
@@ -7,7 +7,7 @@
 #
 # end is t_max * rate * (1 + or - ROUNDED) - start. With a = t_max * rate, and d the exact end for a root
 # wrong by 2^-21, it is a * more + d or d - a * less, times a rounding, as a * more and a * less are
-# not negative. What the beam's error adds is only more room. Roundings of f64 are factors 1 + g,
+# not negative. What the conservative ray's error adds is only more room. Roundings of f64 are factors 1 + g,
 # of f32 1 + e.
 UP = 2;
 DOWN = 4;

@@ -1,11 +1,11 @@
-# The corner of a triangle, seen from a beam and sheared along it, in single precision
-# (TriangleLanes::sheared): within the beam's error of what exact arithmetic gives.
+# The corner of a triangle, seen from a conservative ray and sheared along it, in single precision
+# (TriangleLanes::sheared): within the conservative ray's error of what exact arithmetic gives.
 #
 # from src/render/accel/conservative_ray.rs: error: ({CORNER} * ROUND * (1.0 + largest) + 2.0 * base + 2.0 * frame.error_bound) as f32,
 #
-# All is divided by 1 + largest. o and w are coordinates of the origin, across and along the beam; a
+# All is divided by 1 + largest. o and w are coordinates of the origin, across and along the conservative ray; a
 # and b those of the corner as seen from it, s the slope. The origin and the slope are rounded when the
-# beam is made. A rounding is a factor 1 + e. The main direction is 1; for -1 all signs along it change.
+# conservative ray is made. A rounding is a factor 1 + e. The main direction is 1; for -1 all signs along it change.
 # What underflows is off by 2^-150, and base is at least 2^-36.
 CORNER = 10;
 u = 1b-24;

@@ -1,4 +1,4 @@
-//! What goes with what: each cell of the table in `docs/book/src/reference/long-renders.md`.
+//! Combinations: each cell of the table in `docs/book/src/reference/long-renders.md`.
 
 use super::parts::{bytes, reported, scenes};
 use super::*;
@@ -41,7 +41,7 @@ const ROWS: [(&str, &[&str], &str, [Cell; 4]); 10] = [
         ],
     ),
     (
-        "exposure found by itself",
+        "automatic exposure",
         &["paths.json", "--spp", "24", "--exposure", "auto"],
         "a.png",
         [Same; 4],
@@ -181,7 +181,7 @@ fn the_table_in_the_docs_has_these_cells() {
     let docs =
         Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/book/src/reference/long-renders.md");
     let docs = fs::read_to_string(docs).unwrap();
-    let (_, docs) = docs.split_once("## What goes with what").unwrap();
+    let (_, docs) = docs.split_once("## Combinations").unwrap();
     for (name, _, _, cells) in ROWS {
         let row = docs
             .lines()

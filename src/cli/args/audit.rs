@@ -6,13 +6,13 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Everything that the metadata say is checked. Then tiles are drawn at random, made anew from the
-scene, and compared bit by bit: the values of which they were made, and the pixels of the file. If
-none differs, the report says how many may: with 98 % confidence fewer than the number given.
+The metadata are checked first. Then random tiles are rendered again from the scene and compared bit
+by bit: the film values, and the pixels of the file. If none differs, the report bounds the number
+of wrong tiles at a confidence of 98 %.
 
-Size, samples, exposure and the other settings of the picture are those in its metadata; those that
-the scene has otherwise are listed. Exit code 1: the picture is not what it says. Exit code 2: it
-can't be audited, as a denoised one.
+Size, samples, exposure and other settings are taken from the metadata; differences from the scene
+are listed. Exit code 1: the picture does not match its metadata. Exit code 2: the picture can't be
+audited, for example because it was denoised.
 
 Examples:
   rtc audit glass.png scenes/glass.yaml
@@ -22,7 +22,9 @@ pub(crate) struct Audit {
     /// The picture, as PNG, WebP or EXR, or a part that `rtc render --part` wrote
     #[arg(value_name = "PICTURE", value_hint = ValueHint::FilePath)]
     pub(crate) picture: PathBuf,
-    /// Its scene, as YAML, glTF, a mesh or IR; `-` is standard input
+    /// Its scene; `-` is standard input
+    ///
+    /// Formats: YAML or JSON of the course, glTF, Mitsuba XML, pbrt, mesh files, and the IR.
     #[arg(value_name = "SCENE", value_hint = ValueHint::FilePath)]
     pub(crate) scene: PathBuf,
     #[command(flatten)]
@@ -45,10 +47,10 @@ pub(crate) struct Audit {
     pub(crate) reporter: ReporterArgs,
 }
 
-/// Which tiles are drawn.
+/// The random choice of tiles.
 #[derive(Debug, Args)]
 pub(crate) struct DrawArgs {
-    /// Make N tiles anew, or all if there are fewer
+    /// Render N tiles again, or all if there are fewer
     #[arg(
         long,
         value_name = "N",
@@ -57,9 +59,9 @@ pub(crate) struct DrawArgs {
         help_heading = "Audit",
     )]
     pub(crate) tiles: u64,
-    /// Draw the tiles by this seed [default: a random one, which is printed]
+    /// Set the seed of the choice of tiles [default: random, printed]
     ///
-    /// Whoever knows the seed before the picture is made knows which tiles will be looked at.
+    /// A seed that is known before the render reveals which tiles will be checked.
     #[arg(long, value_name = "N", help_heading = "Audit")]
     pub(crate) seed: Option<u64>,
 }

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 /// How the input is read.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct Reading {
-    /// Call standard input by this name in messages
+    /// Name standard input in messages
     #[arg(long, value_name = "NAME", help_heading = "Input")]
     pub(crate) stdin_name: Option<String>,
     /// Treat unknown keys as errors
@@ -102,8 +102,7 @@ impl Reading {
         Ok(levels)
     }
 
-    /// What the run may take, where by default it is what `settle` makes of the limits of the
-    /// house.
+    /// The limits of the run; `settle` changes the defaults before the flags do.
     pub(crate) fn limits(&self, settle: impl FnOnce(&mut Limits)) -> Limits {
         let mut limits = Limits::default();
         settle(&mut limits);
@@ -201,7 +200,7 @@ pub(crate) enum MessageFormat {
     Human,
     /// One line each, for editors
     Short,
-    /// One JSON object a line; the last of a picture is `{"rendered": …}`
+    /// One JSON object per line; the last of a picture is `{"rendered": …}`
     Json,
     /// SARIF 2.1.0
     Sarif,
@@ -226,7 +225,7 @@ impl From<MessageFormat> for diag::Format {
 pub(crate) enum UpAxisArg {
     /// As in glTF
     Y,
-    /// As in most programs of engineering
+    /// As in most CAD programs
     Z,
 }
 

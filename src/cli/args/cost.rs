@@ -36,48 +36,72 @@ pub(crate) struct Cost {
     ///
     /// It needs a reference. Measures: error (in grey levels, beyond noise), and the ratios time,
     /// rays and noise.
-    #[arg(long, value_name = "GATES", value_parser = of_scenes)]
+    #[arg(long, value_name = "GATES", value_parser = of_scenes, help_heading = "Study")]
     pub(crate) gate: Option<Gates>,
     /// Write the report to this file; `-` is standard output
-    #[arg(short, long, value_name = "FILE", default_value = "-", value_hint = ValueHint::FilePath)]
+    #[arg(
+        short,
+        long,
+        value_name = "FILE",
+        default_value = "-",
+        value_hint = ValueHint::FilePath,
+        help_heading = "Output",
+    )]
     pub(crate) output: PathBuf,
     /// Select the format of the report
-    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    #[arg(
+        long,
+        value_enum,
+        default_value_t,
+        value_name = "FORMAT",
+        help_heading = "Output"
+    )]
     pub(crate) format: StudyFormat,
     /// Also write an HTML page with plots and pictures
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = "Output")]
     pub(crate) html: Option<PathBuf>,
     /// Also write maps of the rays and the error of each pixel into this folder
     ///
     /// The maps are PNGs, for the setting of the scene and for the recommended one; `maps.html`
     /// shows their scales. The folder is created if necessary.
-    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, help_heading = "Output")]
     pub(crate) maps: Option<PathBuf>,
     /// Select the ray budget of the study
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_enum, default_value_t, help_heading = "Study")]
     pub(crate) effort: EffortArg,
-    /// Seed for tile selection, timing order and comparison
-    #[arg(long, value_name = "N", default_value = "1")]
+    /// Set the seed of the choice of tiles, the timing order and the comparison
+    #[arg(long, value_name = "N", default_value = "1", help_heading = "Study")]
     pub(crate) seed: u64,
     /// Save progress into this file; the same command resumes from it
     ///
     /// It is also saved when the program is interrupted. Times measured before count.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(
+        long,
+        value_name = "FILE",
+        value_hint = ValueHint::FilePath,
+        help_heading = "Checkpoints",
+    )]
     pub(crate) checkpoint: Option<PathBuf>,
-    /// Save a checkpoint every so many seconds
+    /// Set the time between checkpoints, in seconds
     #[arg(
         long,
         value_name = "SECONDS",
         default_value = "60s",
         value_parser = interval,
         requires = "checkpoint",
+        help_heading = "Checkpoints",
     )]
     pub(crate) every: Duration,
     /// Ignore an existing checkpoint and start over
-    #[arg(long, requires = "checkpoint")]
+    #[arg(long, requires = "checkpoint", help_heading = "Checkpoints")]
     pub(crate) restart: bool,
     /// Use N threads for work that is not timed [default: one for each core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u16).range(1..=1024),
+        help_heading = "Performance",
+    )]
     pub(crate) threads: Option<u16>,
     #[command(flatten)]
     pub(crate) stage: StageArgs,

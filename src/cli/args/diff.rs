@@ -28,18 +28,30 @@ pub(crate) struct Diff {
     /// Count pixels as different if a channel differs by more than this
     ///
     /// In grey levels of 8 bits, from 0 to 255.
-    #[arg(long, value_name = "LEVELS", default_value = "1", value_parser = levels)]
+    #[arg(
+        long,
+        value_name = "LEVELS",
+        default_value = "1",
+        value_parser = levels,
+        help_heading = "Comparison",
+    )]
     pub(crate) levels: f64,
     /// Exit with 1 if a measure exceeds its limit, as `rmse<=1,share<=0.5%`
     ///
     /// Measures: rmse, max, relmse, flip, and share (as `0.5%` or 0.005).
-    #[arg(long, value_name = "GATES", value_parser = of_pictures)]
+    #[arg(long, value_name = "GATES", value_parser = of_pictures, help_heading = "Comparison")]
     pub(crate) gate: Option<Gates>,
     /// Write a PNG map of the perceived difference (FLIP) of each pixel
-    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(
+        short,
+        long,
+        value_name = "FILE",
+        value_hint = ValueHint::FilePath,
+        help_heading = "Output",
+    )]
     pub(crate) output: Option<PathBuf>,
     /// Write an HTML page with a slider between the two pictures
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = "Output")]
     pub(crate) html: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) format: ReportFormatArgs,

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Keys, values, their order, comments and line ends stay as they are. A text that would change its
-meaning is left as it is. YAML and JSON are formatted; assets, meshes and IR are not.
+Only whitespace changes: keys, values, their order, comments and line endings stay. A file whose
+meaning would change is not written. Assets, meshes and IR files are not formatted.
 
 Examples:
   rtc fmt scene.yaml
@@ -21,10 +21,10 @@ pub(crate) struct Fmt {
     #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) files: Vec<PathBuf>,
     /// Write nothing; list unformatted files, and exit with 1 if there are any
-    #[arg(long)]
+    #[arg(long, help_heading = "Output")]
     pub(crate) check: bool,
     /// Write nothing; print the changes
-    #[arg(long)]
+    #[arg(long, help_heading = "Output")]
     pub(crate) diff: bool,
     #[command(flatten)]
     pub(crate) reporter: ReporterArgs,

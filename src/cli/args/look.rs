@@ -40,8 +40,8 @@ pub(crate) struct OutputTransformArgs {
     pub(crate) background: BackgroundArg,
     /// Write layers beside the colours: albedo, normal, depth, …
     ///
-    /// Each value is the mean over the first hits of a pixel, or tells of its samples. An EXR holds
-    /// the numbers; for a PNG each layer is a picture of its own, as `picture.depth.png`.
+    /// Each value is a mean over the first hits of a pixel, or a statistic of its samples. An EXR
+    /// holds the numbers; beside a PNG each layer is a picture, as `picture.depth.png`.
     #[arg(
         long,
         value_enum,
@@ -63,14 +63,14 @@ pub(crate) struct OutputTransformArgs {
 /// A background as typed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum BackgroundArg {
-    /// That of the picture.
+    /// A fill that does not depend on the file format.
     Fill(BackgroundFill),
-    /// A colour as a screen shows it: sRGB in 8 bits a channel.
+    /// An sRGB colour, 8 bits per channel.
     Color([u8; 3]),
 }
 
 impl BackgroundArg {
-    /// That of a picture in a kind of file: an EXR holds linear values, other kinds those of sRGB.
+    /// The fill for a file format: an EXR holds linear values, other formats sRGB values.
     pub(crate) fn fill(self, kind: FileFormat) -> BackgroundFill {
         match self {
             Self::Fill(fill) => fill,
@@ -102,21 +102,21 @@ pub(crate) enum Layer {
     Albedo,
     /// Channels normal.X, .Y, .Z: shading normals in the world, towards the viewer
     Normal,
-    /// Channel depth.Z: the distance along the axis of view; 1e10 where there is nothing
+    /// Channel depth.Z: the distance along the view axis; 1e10 where nothing is hit
     Depth,
     /// Channels uv.U, .V: the first texture coordinates
     Uv,
-    /// Channel instance.X: the number of the surface, from 1, that the first ray meets; 0 of none
+    /// Channel instance.X: the number of the surface, from 1, that the first ray hits; 0 for none
     Instance,
-    /// Channels position.X, .Y, .Z: places in the world
+    /// Channels position.X, .Y, .Z: world coordinates
     Position,
     /// Channels error.R, .G, .B: standard errors, of display values, of a picture with
     /// `--target-error` or `--time-budget`
     Error,
     /// Channel samples.X: the number of samples of such a picture
     Samples,
-    /// Channel unmet.X: the largest change by light that no sample may have met, in multiples of
-    /// white; 1 where no bound can be given
+    /// Channel unmet.X: a bound on the light that no sample may have hit, in multiples of white; 1
+    /// where there is no bound
     #[value(name = "unmet")]
     Undersampled,
 }
@@ -139,13 +139,13 @@ impl From<Layer> for Aov {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Tonemap {
-    /// As they are
+    /// Linear values
     None,
-    /// Cut off at 1, coded by sRGB
+    /// Clipped at 1, sRGB encoding
     Srgb,
     /// AgX: highlights roll off over many stops and fade to white
     Agx,
-    /// Khronos PBR Neutral: colours below the highlights stay what they are
+    /// Khronos PBR Neutral: colours below the highlights keep their values
     PbrNeutral,
 }
 

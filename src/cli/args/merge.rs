@@ -12,9 +12,16 @@ pub(crate) struct Merge {
     #[arg(required = true, value_name = "PART", value_hint = ValueHint::FilePath)]
     pub(crate) parts: Vec<PathBuf>,
     /// Write the picture, or a larger part (.rtp), to this file
-    #[arg(short, long, required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(
+        short,
+        long,
+        required = true,
+        value_name = "FILE",
+        value_hint = ValueHint::FilePath,
+        help_heading = "Output",
+    )]
     pub(crate) output: PathBuf,
-    /// Make N tiles of each part anew, and refuse parts that differ; see `rtc audit`
+    /// Render N tiles of each part again, and reject parts that differ; see `rtc audit`
     #[arg(
         long,
         value_name = "N",
@@ -23,7 +30,7 @@ pub(crate) struct Merge {
         help_heading = "Audit",
     )]
     pub(crate) audit: Option<u64>,
-    /// The scene of the parts, for `--audit`
+    /// Name the scene of the parts, for `--audit`
     #[arg(
         long,
         value_name = "FILE",
@@ -32,7 +39,7 @@ pub(crate) struct Merge {
         help_heading = "Audit",
     )]
     pub(crate) scene: Option<PathBuf>,
-    /// Draw the tiles by this seed [default: a random one, which is printed]
+    /// Set the seed of the choice of tiles [default: random, printed]
     #[arg(long, value_name = "N", requires = "audit", help_heading = "Audit")]
     pub(crate) seed: Option<u64>,
     #[command(flatten)]

@@ -43,14 +43,14 @@ static LONG_VERSION: LazyLock<String> = LazyLock::new(|| {
 
 /// As in the book (`reference/command-line.md`).
 const EXIT_CODES: &str = "Exit codes:
-    0  it is done; there may be warnings
-    1  the input has errors, or a gate is not met
-    2  usage, files, or a fault of ours
+    0  success; there may be warnings
+    1  the input has errors, or a gate failed
+    2  a usage or file error, or a bug in rtc
   130  ended by SIGINT, as by Ctrl-C
   143  ended by SIGTERM";
 
-/// A compiler for 3-D scenes: checks them, lowers them to one IR, renders the IR, the same bytes
-/// every time.
+/// A compiler and renderer for 3-D scenes: checks them, lowers them to one IR, and renders it, with
+/// the same bytes on every machine.
 #[derive(Debug, Parser)]
 #[command(name = "rtc", version = LONG_VERSION.as_str(), max_term_width = 100)]
 #[command(after_help = EXIT_CODES)]
@@ -63,7 +63,7 @@ pub(super) struct Cli {
 pub(super) enum Command {
     /// Write a first scene, with comments
     New(New),
-    /// Report mistakes in scenes, and fix them
+    /// Check scenes for errors, and fix them
     Check(CheckArgs),
     /// Format scene files; comments stay
     Fmt(Fmt),
@@ -75,7 +75,7 @@ pub(super) enum Command {
     Preview(Box<Preview>),
     /// Run the language server (diagnostics, quick fixes, hover, completion)
     Lsp(Lsp),
-    /// Join parts of `rtc render --part` into the picture
+    /// Merge the parts of `rtc render --part` into the picture
     Merge(Box<Merge>),
     /// Write a job that renders a picture in parts on many machines
     Farm(Box<Farm>),
@@ -83,7 +83,7 @@ pub(super) enum Command {
     Cost(Cost),
     /// Compare two pictures or scenes, and apply gates
     Diff(Diff),
-    /// Check that a picture is what it says: make some of its tiles anew
+    /// Verify a picture against its metadata: render some tiles again
     Audit(Box<Audit>),
     /// Show contents, size and required features of a scene
     Info(Box<Info>),
@@ -109,7 +109,7 @@ pub(super) struct New {
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(super) enum TemplateArg {
-    /// Balls, a light and shadows, in the format of the course
+    /// Spheres, a light and shadows, in the format of the course
     #[default]
     Course,
     /// A path-traced scene with a sun and physical materials
@@ -123,23 +123,25 @@ pub(super) enum TemplateArg {
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("change").args(["fix", "diff"]).multiple(true))]
 pub(super) struct CheckArgs {
-    /// Scenes, as YAML, glTF, a mesh or IR; folders, all scenes below them; or patterns, as
-    /// 'a/*.glb'. `-` is standard input
+    /// Scenes, folders of scenes, or patterns such as 'a/*.glb'; `-` is standard input
+    ///
+    /// Formats: YAML or JSON of the course, glTF, Mitsuba XML, pbrt, mesh files, and the IR.
     #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) files: Vec<PathBuf>,
     /// Apply the suggested fixes that keep the meaning
-    #[arg(long)]
+    #[arg(long, help_heading = "Fixes")]
     pub(super) fix: bool,
     /// Print what `--fix` would change; write nothing
-    #[arg(long)]
+    #[arg(long, help_heading = "Fixes")]
     pub(super) diff: bool,
     /// With `--fix` or `--diff`: also apply fixes that are guesses
-    #[arg(long = "unsafe", requires = "change")]
+    #[arg(long = "unsafe", requires = "change", help_heading = "Fixes")]
     pub(super) guesses: bool,
     /// Skip YAML, JSON and XML files that do not look like scenes, as in folders
     ///
-    /// A scene has at least one top-level key of the format, nearly right, or names its schema.
-    #[arg(long)]
+    /// A file looks like a scene if it names its schema, or has a top-level key of the format,
+    /// possibly misspelt.
+    #[arg(long, help_heading = "Input")]
     pub(super) skip_others: bool,
     #[command(flatten)]
     pub(super) reading: Reading,
@@ -149,7 +151,7 @@ pub(super) struct CheckArgs {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "An editor starts it and talks to it by standard input and output.\n\n\
+    after_help = "The editor starts it, and exchanges messages over standard input and output.\n\n\
 Example, for Helix (languages.toml):\n  [language-server.rtc]\n  command = \"rtc\"\n  args = [\"lsp\"]"
 )]
 pub(super) struct Lsp {
@@ -159,7 +161,9 @@ pub(super) struct Lsp {
 
 #[derive(Debug, Args)]
 pub(super) struct Info {
-    /// The scene, as YAML, glTF, a mesh or IR; `-` is standard input
+    /// The scene; `-` is standard input
+    ///
+    /// Formats: YAML or JSON of the course, glTF, Mitsuba XML, pbrt, mesh files, and the IR.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) file: PathBuf,
     #[command(flatten)]
@@ -174,13 +178,23 @@ pub(super) struct Info {
 
 #[derive(Debug, Args)]
 pub(super) struct Compile {
-    /// The scene, as YAML, glTF, a mesh or IR; `-` is standard input
+    /// The scene; `-` is standard input
+    ///
+    /// Formats: YAML or JSON of the course, glTF, Mitsuba XML, pbrt, mesh files, and the IR.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) file: PathBuf,
-    /// Where to write; `-` is standard output [default: `-`, or nowhere with `--explain`]
-    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    /// Write to this file; `-` is standard output
+    ///
+    /// [default: `-`, or nothing with `--explain`]
+    #[arg(
+        short,
+        long,
+        value_name = "FILE",
+        value_hint = ValueHint::FilePath,
+        help_heading = "Output",
+    )]
     pub(super) output: Option<PathBuf>,
-    /// Explain which effects the picture needs, and why not the others
+    /// Explain which effects the picture needs, and why it does not need the others
     #[arg(
         long,
         value_enum,
@@ -188,17 +202,18 @@ pub(super) struct Compile {
         num_args = 0..=1,
         require_equals = true,
         default_missing_value = "table",
+        help_heading = "Output",
     )]
     pub(super) explain: Option<Explanation>,
     /// Select the format [default: by the extension of the output, or `ir`]
     ///
     /// Extensions: .json, .rtir, .yaml, .glb, .gltf, .xml (Mitsuba), .pov.
-    #[arg(long, value_enum)]
+    #[arg(long, value_enum, help_heading = "Output")]
     pub(super) emit: Option<Emit>,
     /// Set the tolerance of tessellation for glTF, in scene units
     ///
     /// [default: a thousandth of the radius of each shape]
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    #[arg(long, value_name = "LENGTH", value_parser = length, help_heading = "Output")]
     pub(super) tolerance: Option<f64>,
     #[command(flatten)]
     pub(super) stage: StageArgs,
@@ -210,7 +225,7 @@ pub(super) struct Compile {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Explanation {
-    /// A table to read
+    /// A table
     #[value(alias = "human")]
     Table,
     /// One JSON object
@@ -219,7 +234,7 @@ pub(super) enum Explanation {
 
 #[derive(Debug, Args)]
 pub(super) struct Explain {
-    /// The code of a diagnostic, as VA001, or the name of a rule, as E-SPEC [default: list both]
+    /// A code such as VA001, or a rule such as E-SPEC [default: list both]
     pub(super) code: Option<String>,
     /// Print the pages of all codes, as Markdown
     #[arg(long, conflicts_with = "code")]
@@ -241,7 +256,7 @@ pub(super) struct Completions {
 
 #[derive(Debug, Args)]
 pub(super) struct Man {
-    /// The command the page is about [default: all of rtc]
+    /// The command that the page describes [default: all]
     pub(super) command: Option<String>,
 }
 
@@ -255,7 +270,7 @@ pub(super) enum Emit {
     Yaml,
     /// A binary glTF 2.0 asset: shapes become meshes
     Glb,
-    /// The same as text, with its vertices and pictures in a folder beside it
+    /// The same as text, with vertices and images in a folder beside it
     Gltf,
     /// A scene of Mitsuba 3 (XML), with meshes in a folder beside it; warnings name approximations
     Mitsuba,
@@ -280,11 +295,11 @@ pub(super) enum SchemaFormat {
     Audit,
     /// A line of `rtc check --message-format json`
     Check,
-    /// Scenes, as a page to read in Markdown
+    /// The scene format, as a Markdown page
     Page,
-    /// What a run may take of the machine, as a page to read in Markdown
+    /// The resource limits of a run, as a Markdown page
     Limits,
-    /// The extensions of glTF that are read, as a page to read in Markdown
+    /// The supported glTF extensions, as a Markdown page
     Extensions,
 }
 

@@ -15,23 +15,30 @@ Examples:
   rtc preview scene.yaml --against golden.png
   rtc preview scene.yaml --against HEAD~1")]
 pub(crate) struct Preview {
-    /// The scene, as YAML, glTF, a mesh or IR
+    /// The scene
+    ///
+    /// Formats: YAML or JSON of the course, glTF, Mitsuba XML, pbrt, mesh files, and the IR.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) file: PathBuf,
     /// Listen on this port; 0 selects a free one
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Server")]
     pub(crate) port: u16,
     /// Open the page in the browser
-    #[arg(long)]
+    #[arg(long, help_heading = "Server")]
     pub(crate) open: bool,
     /// Compare with a picture, another scene, or a git commit of the scene
     ///
     /// The page shows both behind a slider. Pictures: PNG, JPEG, WebP, EXR or HDR. Scenes are
     /// rendered with the view of the first one.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = "Comparison")]
     pub(crate) against: Option<PathBuf>,
     /// Use N threads [default: one for each core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u16).range(1..=1024),
+        help_heading = "Performance",
+    )]
     pub(crate) threads: Option<u16>,
     #[command(flatten)]
     pub(crate) wanted: WantedArgs,

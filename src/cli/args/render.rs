@@ -156,7 +156,7 @@ pub(crate) struct Render {
         help_heading = "Checkpoints and parts",
     )]
     pub(crate) checkpoint: Option<PathBuf>,
-    /// Save a checkpoint every so many seconds
+    /// Set the time between checkpoints, in seconds
     #[arg(
         long,
         value_name = "SECONDS",
@@ -209,10 +209,10 @@ impl Render {
     }
 }
 
-/// What is left out of the work for a picture.
+/// The plan rules that are applied.
 #[derive(Debug, Args)]
 pub(crate) struct Pruning {
-    /// Simulate effects that a plan rule would leave out: all, or those of the rules named
+    /// Simulate effects that plan rules remove: all, or those of the named rules
     ///
     /// For example `--no-prune=E-SPEC`.
     #[arg(
@@ -225,7 +225,7 @@ pub(crate) struct Pruning {
         help_heading = "Debugging",
     )]
     pub(crate) no_prune: Option<Vec<Rule>>,
-    /// Also leave out what changes the picture by less than half a grey level
+    /// Also remove effects that change the picture by less than half a grey level
     #[arg(long, help_heading = "Performance")]
     pub(crate) approx: bool,
     /// Also render without the plan's rules, and fail at the first pixel that differs

@@ -1,11 +1,11 @@
-//! The view and the light, for every command that shows a scene.
+//! The view and the light, for every command that renders a scene.
 
 use super::super::parse::{color, degrees, orbit, sun, vector};
 use clap::{Args, ValueEnum, ValueHint};
 use rtc_passes as passes;
 use std::path::PathBuf;
 
-/// From where a scene is seen, and what lights it.
+/// The camera and the lights.
 #[derive(Debug, Args)]
 pub(crate) struct StageArgs {
     /// Set the position of the camera [default: as in the scene]
@@ -17,7 +17,7 @@ pub(crate) struct StageArgs {
         help_heading = "View",
     )]
     pub(crate) eye: Option<[f64; 3]>,
-    /// Set the point in the middle of the picture [default: with `--eye` the middle of the scene]
+    /// Set the centre of the picture [default: with `--eye` the centre of the scene]
     #[arg(
         long,
         value_name = "X,Y,Z",
@@ -42,15 +42,15 @@ pub(crate) struct StageArgs {
     ///
     /// The azimuth goes from the front to the right [default of an asset without a camera:
     /// 34,23].
-    #[arg(long, value_name = "AZIMUTH,ELEVATION[,ROLL]", value_parser = orbit, allow_hyphen_values = true,
+    #[arg(long, value_name = "AZ,EL[,ROLL]", value_parser = orbit, allow_hyphen_values = true,
         conflicts_with_all = ["eye", "center", "up"], help_heading = "View")]
     pub(crate) orbit: Option<passes::Orbit>,
     /// Light the scene by an environment map, .hdr or .exr
     ///
-    /// Longitude goes across, the middle of the picture is towards -z.
+    /// The map is equirectangular; its centre is towards -z.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = "Light")]
     pub(crate) env: Option<PathBuf>,
-    /// Light the scene by a constant environment; 0 is darkness
+    /// Light the scene by a constant environment; 0 is black
     #[arg(
         long,
         value_name = "R,G,B",
@@ -89,13 +89,13 @@ pub(crate) struct StageArgs {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum StudioArg {
-    /// If it has no light; dimmed in `render`, if the light of a glTF asset shows little of it
+    /// If the scene has no light; in `render` also dimmed, if a glTF asset is mostly dark
     Auto,
     /// Always
     On,
-    /// Never: what has no light is black
+    /// Never: a scene without light is black
     Off,
-    /// Dimmed, beside its own light
+    /// Dimmed, with the lights of the scene
     Fill,
 }
 
@@ -112,7 +112,7 @@ impl From<StudioArg> for passes::StudioChoice {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum GroundArg {
-    /// Also in other light and for its own camera; not where it has a ground of its own
+    /// With any light and camera, unless the scene has a ground of its own
     On,
     /// Never
     Off,
@@ -120,9 +120,9 @@ pub(crate) enum GroundArg {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum IntegratorArg {
-    /// Direct light, mirrors and refraction
+    /// Direct light, reflection and refraction
     Whitted,
-    /// All the light along all paths
+    /// Path tracing: global illumination
     Path,
 }
 
@@ -138,7 +138,7 @@ impl From<IntegratorArg> for passes::IntegratorChoice {
 fn direction(text: &str) -> Result<[f64; 3], String> {
     vector(text).and_then(|up| {
         if up == [0.0; 3] {
-            Err("it has no direction".to_owned())
+            Err("the direction is zero".to_owned())
         } else {
             Ok(up)
         }

@@ -76,7 +76,7 @@ pub(crate) struct WantedArgs {
 }
 
 impl WantedArgs {
-    /// What replaces the settings of the scene.
+    /// The overrides of the settings of the scene.
     pub(crate) fn overrides(&self) -> Overrides {
         Overrides {
             size: self.size,
@@ -92,12 +92,12 @@ impl WantedArgs {
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ArithmeticArg {
-    /// With bounds on all errors, in f64
+    /// f64 with bounds on all errors
     #[default]
     Robust,
-    /// By the formulas of textbooks, in f64
+    /// f64, textbook formulas
     Plain,
-    /// By the formulas of textbooks, in f32
+    /// f32, textbook formulas
     F32,
 }
 

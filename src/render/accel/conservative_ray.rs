@@ -192,7 +192,7 @@ impl ConservativeRay {
     /// be wrong.
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "rounded up")]
-    pub(crate) fn limit(&self, t_max: f64) -> f32 {
+    pub(crate) fn t_far(&self, t_max: f64) -> f32 {
         let end = t_max * self.rate * (1.0 + T_SLACK) - self.start;
         end as f32 * (1.0 + 2.0 * f32::EPSILON) + self.error
     }
@@ -200,7 +200,7 @@ impl ConservativeRay {
     /// Where the conservative ray is certainly before a `t_max` of the ray.
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "rounded down")]
-    pub(in crate::accel) fn sure_limit(&self, t_max: f64) -> f32 {
+    pub(in crate::accel) fn t_certain(&self, t_max: f64) -> f32 {
         let end = t_max * self.rate * (1.0 - T_SLACK) - self.start;
         end as f32 * (1.0 - 4.0 * f32::EPSILON) - 2.0 * self.error
     }

@@ -156,7 +156,7 @@ impl<S: Simd> BoxLanes<S> {
         (ends - self.far_origin[AXIS]) * self.inverse[AXIS]
     }
 
-    /// Which boxes of a node the conservative ray may meet before `limit`, as bits, and where.
+    /// Which boxes of a node the conservative ray may meet before `t_far`, as bits, and where.
     ///
     /// As in Ize, "Robust BVH ray traversal" (JCGT 2, 2013): the far end is [`FAR_SCALE`].
     #[inline(always)]
@@ -164,7 +164,7 @@ impl<S: Simd> BoxLanes<S> {
         &self,
         simd: S,
         node: &WideNode,
-        limit: f32,
+        t_far: f32,
     ) -> (u32, [f32; WIDTH]) {
         let enter = self
             .enter::<0>(simd, node)
@@ -175,7 +175,7 @@ impl<S: Simd> BoxLanes<S> {
             .min(self.leave::<1>(simd, node))
             .min(self.leave::<2>(simd, node))
             * f32x8::splat(simd, FAR_SCALE);
-        let met = enter.simd_le(leave.min(f32x8::splat(simd, limit)));
+        let met = enter.simd_le(leave.min(f32x8::splat(simd, t_far)));
         (bits(met.to_bitmask()), enter.into())
     }
 }
@@ -205,8 +205,8 @@ pub(in crate::accel) struct TriangleLanes<V> {
 /// Which lanes may be hits, and which of them are certain hits, as bits.
 #[derive(Clone, Copy)]
 pub(in crate::accel) struct HitMask {
-    pub(in crate::accel) may: u32,
-    pub(in crate::accel) sure: u32,
+    pub(in crate::accel) maybe: u32,
+    pub(in crate::accel) certain: u32,
 }
 
 impl<S: Simd> TriangleLanes<f32x4<S>> {
@@ -223,16 +223,16 @@ impl<S: Simd> TriangleLanes<f32x4<S>> {
         }
     }
 
-    /// Which triangles of a leaf the conservative ray may hit before `limit`; if `SURE`, also which
-    /// it certainly hits before `sure_limit`.
+    /// Which triangles of a leaf the conservative ray may hit before `t_far`; if `CERTAIN`, also which
+    /// it certainly hits before `t_certain`.
     #[inline(always)]
-    pub(in crate::accel) fn intersect4<const SURE: bool>(
+    pub(in crate::accel) fn intersect4<const CERTAIN: bool>(
         &self,
         simd: S,
         leaf: WideLeaf<'_>,
         limits: [f32; 2],
     ) -> HitMask {
-        self.hit_mask::<SURE, S>(
+        self.hit_mask::<CERTAIN, S>(
             #[inline(always)]
             |place: usize| leaf.numbers(simd, place),
             [f32x4::splat(simd, limits[0]), f32x4::splat(simd, limits[1])],
@@ -263,17 +263,17 @@ impl<V> TriangleLanes<V> {
         ]
     }
 
-    /// Which lanes may be hits before their limit; if `SURE`, also which certainly are before their
-    /// second limit. `coordinate` gives those of the triangles at a place.
+    /// Which lanes may be hits before their `t_far`; if `CERTAIN`, also which certainly are before their
+    /// `t_certain`. `coordinate` gives those of the triangles at a place.
     ///
     /// The signs of the edge functions are those of exact arithmetic where they exceed a bound on
     /// their error: a triangle with two sure signs that differ is missed, one with three that agree
     /// is hit.
     #[inline(always)]
-    pub(in crate::accel) fn hit_mask<const SURE: bool, S: Simd>(
+    pub(in crate::accel) fn hit_mask<const CERTAIN: bool, S: Simd>(
         &self,
         coordinate: impl Fn(usize) -> V,
-        [limit, sure_limit]: [V; 2],
+        [t_far, t_certain]: [V; 2],
     ) -> HitMask
     where
         V: SimdFloat<S, Element = f32>,
@@ -291,15 +291,15 @@ impl<V> TriangleLanes<V> {
         let outside = min.simd_lt(-bound) & max.simd_gt(bound);
         let nearest = a[2].min(b[2]).min(c[2]) - error;
         let farthest = a[2].max(b[2]).max(c[2]) + error;
-        let beyond = nearest.simd_gt(limit) | farthest.simd_lt(0.0);
-        let may = bits((!(outside | beyond)).to_bitmask());
-        if !SURE {
-            return HitMask { may, sure: 0 };
+        let beyond = nearest.simd_gt(t_far) | farthest.simd_lt(0.0);
+        let maybe = bits((!(outside | beyond)).to_bitmask());
+        if !CERTAIN {
+            return HitMask { maybe, certain: 0 };
         }
         let inside = min.simd_gt(bound) | max.simd_lt(-bound);
-        let between = nearest.simd_gt(error) & farthest.simd_lt(sure_limit);
-        let sure = bits((inside & between).to_bitmask()) & may;
-        HitMask { may, sure }
+        let between = nearest.simd_gt(error) & farthest.simd_lt(t_certain);
+        let certain = bits((inside & between).to_bitmask()) & maybe;
+        HitMask { maybe, certain }
     }
 }
 

@@ -158,14 +158,14 @@ impl<S: Simd> Packet<S> {
         a.max(b)
     }
 
-    /// Which boxes of a node any of the conservative rays may meet before `limit`, as bits, and
+    /// Which boxes of a node any of the conservative rays may meet before `t_far`, as bits, and
     /// where at the earliest.
     #[inline(always)]
     pub(in crate::accel) fn meet(
         &self,
         simd: S,
         node: &WideNode,
-        limit: f32,
+        t_far: f32,
     ) -> (u32, [f32; WIDTH]) {
         let enter = self
             .enter(simd, node, 0)
@@ -176,11 +176,11 @@ impl<S: Simd> Packet<S> {
             .min(self.leave(simd, node, 1))
             .min(self.leave(simd, node, 2))
             * FAR_SCALE;
-        let met = enter.simd_le(leave.min(limit));
+        let met = enter.simd_le(leave.min(t_far));
         (bits(met.to_bitmask()), enter.into())
     }
 
-    /// Whether any conservative ray meets the box of a child before its own limit.
+    /// Whether any conservative ray meets the box of a child before its own `t_far`.
     #[inline(always)]
     pub(in crate::accel) fn is_met(
         &self,
@@ -203,17 +203,17 @@ impl<S: Simd> Packet<S> {
         bits(met.to_bitmask()) != 0
     }
 
-    /// Which conservative rays may hit a triangle of a leaf before their limits; if `SURE`, also
+    /// Which conservative rays may hit a triangle of a leaf before their limits; if `CERTAIN`, also
     /// which certainly hit it before the second ones.
     #[inline(always)]
-    pub(in crate::accel) fn intersect4<const SURE: bool>(
+    pub(in crate::accel) fn intersect4<const CERTAIN: bool>(
         &self,
         simd: S,
         leaf: WideLeaf<'_>,
         lane: usize,
         limits: &[OfRays; 2],
     ) -> HitMask {
-        self.triangles.hit_mask::<SURE, S>(
+        self.triangles.hit_mask::<CERTAIN, S>(
             #[inline(always)]
             |place: usize| f32x8::splat(simd, leaf.number(place, lane)),
             [

@@ -40,7 +40,7 @@ impl<'traverse, S> AnySearch<'traverse, S> {
 }
 
 impl<S: Intersect> Visitor for AnySearch<'_, S> {
-    const IS_SURE: bool = true;
+    const IS_CERTAIN: bool = true;
 
     #[inline(always)]
     fn visit(&mut self, candidate: Candidate<'_>) -> f64 {
@@ -50,7 +50,7 @@ impl<S: Intersect> Visitor for AnySearch<'_, S> {
 
     /// A certain hit in single precision is a hit in double precision.
     #[inline(always)]
-    fn is_settled_by(&mut self, item: u32) -> bool {
+    fn accepts_certain(&mut self, item: u32) -> bool {
         self.is_hit = !self.triangles.starts_at(item);
         self.is_hit
     }

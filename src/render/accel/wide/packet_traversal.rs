@@ -9,7 +9,7 @@ use crate::accel::simd::at_level;
 use crate::ray::Ray;
 use fearless_simd::Simd;
 
-/// The limit of a ray that looks for nothing more.
+/// The `t_far` of a finished ray.
 const ENDED: f32 = f32::NEG_INFINITY;
 
 /// Where a packet is in the BVH.
@@ -18,10 +18,10 @@ struct PacketTraversal<'traverse, 'rays, S: Simd, V> {
     packet: Packet<S>,
     conservative_rays: [ConservativeRay; RAYS],
     rays: &'rays mut [(Ray, f64, V); RAYS],
-    /// The limits of the conservative rays, and their sure limits.
+    /// `t_far` and `t_certain` of the conservative rays.
     limits: [[f32; RAYS]; 2],
     /// The greatest of the limits.
-    limit: f32,
+    t_far: f32,
     open: TraversalStack,
 }
 
@@ -59,8 +59,8 @@ impl Wide {
         for lane in 0..RAYS {
             if let Some(conservative_ray) = conservative_rays[lane] {
                 full[lane] = conservative_ray;
-                limits[0][lane] = conservative_ray.limit(rays[lane].1);
-                limits[1][lane] = conservative_ray.sure_limit(rays[lane].1);
+                limits[0][lane] = conservative_ray.t_far(rays[lane].1);
+                limits[1][lane] = conservative_ray.t_certain(rays[lane].1);
             }
         }
         let Some(packet) = Packet::new(simd, &full) else {
@@ -77,7 +77,7 @@ impl Wide {
             conservative_rays: full,
             rays,
             limits,
-            limit: greatest(&limits[0]),
+            t_far: greatest(&limits[0]),
             open: TraversalStack::new(),
         };
         packet_traversal.traverse(simd);
@@ -110,8 +110,8 @@ impl Wide {
 #[inline(always)]
 fn greatest(limits: &[f32; RAYS]) -> f32 {
     let mut greatest = ENDED;
-    for limit in limits {
-        greatest = greatest.max(*limit);
+    for t_far in limits {
+        greatest = greatest.max(*t_far);
     }
     greatest
 }
@@ -138,7 +138,7 @@ impl<S: Simd, V: Visitor> PacketTraversal<'_, '_, S, V> {
     #[inline(always)]
     fn last_left(&mut self) -> Option<u32> {
         while let Some((near, next)) = self.open.pop() {
-            if near <= self.limit {
+            if near <= self.t_far {
                 return Some(next);
             }
         }
@@ -150,7 +150,7 @@ impl<S: Simd, V: Visitor> PacketTraversal<'_, '_, S, V> {
     #[inline(always)]
     fn nearest_child(&mut self, simd: S, link: u32) -> Option<u32> {
         let node = &self.wide.nodes.rows()[link as usize];
-        let (mut met, enter) = self.packet.meet(simd, node, self.limit);
+        let (mut met, enter) = self.packet.meet(simd, node, self.t_far);
         let mut nearest = None;
         while met != 0 {
             let lane = met.trailing_zeros() as usize & (WIDTH - 1);
@@ -176,14 +176,14 @@ impl<S: Simd, V: Visitor> PacketTraversal<'_, '_, S, V> {
     fn visit_leaf(&mut self, simd: S, link: u32) {
         let leaf = leaf_at(self.wide.triangles.rows(), link);
         for lane in 0..leaf.count() {
-            let hit_mask = if V::IS_SURE {
+            let hit_mask = if V::IS_CERTAIN {
                 self.packet
                     .intersect4::<true>(simd, leaf, lane, &self.limits)
             } else {
                 self.packet
                     .intersect4::<false>(simd, leaf, lane, &self.limits)
             };
-            if hit_mask.may == 0 {
+            if hit_mask.maybe == 0 {
                 continue;
             }
             let candidate = Candidate {
@@ -192,10 +192,10 @@ impl<S: Simd, V: Visitor> PacketTraversal<'_, '_, S, V> {
                 lane,
                 unit: self.wide.unit,
             };
-            for ray in lanes_of(hit_mask.may) {
+            for ray in lanes_of(hit_mask.maybe) {
                 let (_, _, visitor) = &mut self.rays[ray];
-                let is_sure = hit_mask.sure & 1 << ray != 0;
-                let is_over = is_sure && visitor.is_settled_by(candidate.item);
+                let is_certain = hit_mask.certain & 1 << ray != 0;
+                let is_over = is_certain && visitor.accepts_certain(candidate.item);
                 let end = if is_over {
                     -1.0
                 } else {
@@ -204,10 +204,10 @@ impl<S: Simd, V: Visitor> PacketTraversal<'_, '_, S, V> {
                 self.limits[0][ray] = if end < 0.0 {
                     ENDED
                 } else {
-                    self.conservative_rays[ray].limit(end)
+                    self.conservative_rays[ray].t_far(end)
                 };
             }
-            self.limit = greatest(&self.limits[0]);
+            self.t_far = greatest(&self.limits[0]);
         }
     }
 }

@@ -19,8 +19,8 @@ struct Traversal<'traverse, S: Simd> {
     conservative_ray: ConservativeRay,
     boxes: BoxLanes<S>,
     triangles: TriangleLanes<f32x4<S>>,
-    limit: f32,
-    sure_limit: f32,
+    t_far: f32,
+    t_certain: f32,
     link: u32,
     open: TraversalStack,
 }
@@ -31,14 +31,14 @@ pub(crate) trait Visitor {
     /// visited whose boxes the ray may hit.
     const CULLS: bool = true;
 
-    /// Whether certain hits before the end of the ray are reported to [`Visitor::is_settled_by`].
-    const IS_SURE: bool = false;
+    /// Whether certain hits before the end of the ray are reported to [`Visitor::accepts_certain`].
+    const IS_CERTAIN: bool = false;
 
     /// Visits a candidate and returns the new far bound of t; a value below 0 ends the traversal.
     fn visit(&mut self, candidate: Candidate<'_>) -> f64;
 
     /// Receives a triangle that is certainly hit. Returns whether to end the traversal.
-    fn is_settled_by(&mut self, _item: u32) -> bool {
+    fn accepts_certain(&mut self, _item: u32) -> bool {
         false
     }
 }
@@ -135,9 +135,9 @@ impl Wide {
             unit: self.unit,
             boxes: BoxLanes::new(simd, &conservative_ray),
             triangles: TriangleLanes::new(simd, &conservative_ray),
-            limit: conservative_ray.limit(t_max),
-            sure_limit: if V::IS_SURE {
-                conservative_ray.sure_limit(t_max)
+            t_far: conservative_ray.t_far(t_max),
+            t_certain: if V::IS_CERTAIN {
+                conservative_ray.t_certain(t_max)
             } else {
                 0.0
             },
@@ -180,7 +180,7 @@ impl<S: Simd> Traversal<'_, S> {
     fn step<V: Visitor>(&mut self, simd: S, visitor: &mut V) -> TraversalStep {
         if self.link & LEAF == 0 {
             let node = &self.nodes[self.link as usize];
-            let (met, enter) = self.boxes.meet(simd, node, self.limit);
+            let (met, enter) = self.boxes.meet(simd, node, self.t_far);
             if met != 0 {
                 self.link = nearest(&mut self.open, met, &enter, node);
                 return TraversalStep::GoesOn;
@@ -190,7 +190,7 @@ impl<S: Simd> Traversal<'_, S> {
         }
         // The last one left for later that may still count.
         while let Some((near, next)) = self.open.pop() {
-            if near <= self.limit {
+            if near <= self.t_far {
                 self.link = next;
                 return TraversalStep::GoesOn;
             }
@@ -202,23 +202,26 @@ impl<S: Simd> Traversal<'_, S> {
     fn visit_leaf<V: Visitor>(&mut self, simd: S, visitor: &mut V) -> TraversalStep {
         let leaf = leaf_at(self.rows, self.link);
         let all = 0b1111 >> (3 - (self.link & 3));
-        let hit_mask = match (V::CULLS, V::IS_SURE) {
-            (false, _) => HitMask { may: all, sure: 0 },
+        let hit_mask = match (V::CULLS, V::IS_CERTAIN) {
+            (false, _) => HitMask {
+                maybe: all,
+                certain: 0,
+            },
             (true, false) => self
                 .triangles
-                .intersect4::<false>(simd, leaf, [self.limit, 0.0]),
+                .intersect4::<false>(simd, leaf, [self.t_far, 0.0]),
             (true, true) => {
-                let limits = [self.limit, self.sure_limit];
+                let limits = [self.t_far, self.t_certain];
                 self.triangles.intersect4::<true>(simd, leaf, limits)
             }
         };
-        for lane in lanes_of(hit_mask.sure & all) {
-            if visitor.is_settled_by(leaf.item(lane)) {
+        for lane in lanes_of(hit_mask.certain & all) {
+            if visitor.accepts_certain(leaf.item(lane)) {
                 return TraversalStep::Ends;
             }
         }
         let mut t_max = None;
-        for lane in lanes_of(hit_mask.may & all) {
+        for lane in lanes_of(hit_mask.maybe & all) {
             let item = leaf.item(lane);
             let unit = self.unit;
             let end = visitor.visit(Candidate {
@@ -233,7 +236,7 @@ impl<S: Simd> Traversal<'_, S> {
             t_max = Some(end);
         }
         if let Some(t_max) = t_max {
-            self.limit = self.conservative_ray.limit(t_max);
+            self.t_far = self.conservative_ray.t_far(t_max);
         }
         TraversalStep::GoesOn
     }

@@ -97,20 +97,20 @@ impl<F: FnMut(u32) -> f64> Visitor for Boxed<F> {
 /// Visits triangles that may be hit, and records the certain hits.
 #[derive(Default)]
 struct Sure {
-    may: Vec<u32>,
-    sure: Vec<u32>,
+    maybe: Vec<u32>,
+    certain: Vec<u32>,
 }
 
 impl Visitor for Sure {
-    const IS_SURE: bool = true;
+    const IS_CERTAIN: bool = true;
 
     fn visit(&mut self, candidate: Candidate<'_>) -> f64 {
-        self.may.push(candidate.item);
+        self.maybe.push(candidate.item);
         2.0
     }
 
-    fn is_settled_by(&mut self, item: u32) -> bool {
-        self.sure.push(item);
+    fn accepts_certain(&mut self, item: u32) -> bool {
+        self.certain.push(item);
         false
     }
 }
@@ -131,9 +131,9 @@ fn what_is_hit_for_sure_is_hit_before_the_end_of_the_ray() {
                 let t = all[**item as usize].intersect(&ray, &WatertightRay::new(&ray));
                 t.is_some_and(|t| t < t_max)
             };
-            let wrong = found.sure.iter().filter(|item| !is_hit(item)).count() as u64;
-            let hits = found.may.iter().filter(is_hit).count() as u64;
-            [hits, found.sure.len() as u64, wrong]
+            let wrong = found.certain.iter().filter(|item| !is_hit(item)).count() as u64;
+            let hits = found.maybe.iter().filter(is_hit).count() as u64;
+            [hits, found.certain.len() as u64, wrong]
         };
         let add = |a: [u64; 3], b: [u64; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
         let [hits, sure, wrong] = (0..ray_count(60_000))
@@ -163,7 +163,7 @@ fn all_levels_visit_the_same_in_the_same_order_alone_and_by_turns() {
         let alone = |ray: &Ray| {
             let mut found = Sure::default();
             wide.traverse(ray, 2.0, &mut found);
-            (found.may, found.sure)
+            (found.maybe, found.certain)
         };
         let alone: Vec<_> = rays.iter().map(alone).collect();
         let mut packet_traversal: Vec<_> = rays
@@ -173,7 +173,7 @@ fn all_levels_visit_the_same_in_the_same_order_alone_and_by_turns() {
         wide.traverse_all(&mut packet_traversal);
         let packet_traversal = packet_traversal
             .into_iter()
-            .map(|(_, _, found)| (found.may, found.sure));
+            .map(|(_, _, found)| (found.maybe, found.certain));
         assert!(
             packet_traversal.eq(alone.iter().cloned()),
             "{}",

@@ -37,13 +37,15 @@ fn rays_together_visit_whatever_they_hit_at_all_levels_the_same() {
                     for (item, triangle) in (0..).zip(&all) {
                         let t = triangle.intersect(ray, &watertight);
                         let is_hit = t.is_some_and(|t| t < *t_max);
-                        let is_missing = is_hit && !found.may.contains(&item);
-                        let is_false = !is_hit && found.sure.contains(&item);
+                        let is_missing = is_hit && !found.maybe.contains(&item);
+                        let is_false = !is_hit && found.certain.contains(&item);
                         hits += u64::from(is_hit);
                         wrong += u64::from(is_missing || is_false);
                     }
                 }
-                let visits = rays.map(|(_, _, found)| (found.may, found.sure)).to_vec();
+                let visits = rays
+                    .map(|(_, _, found)| (found.maybe, found.certain))
+                    .to_vec();
                 wrong += u64::from(*expected.get_or_insert_with(|| visits.clone()) != visits);
             }
             [hits, wrong]
@@ -77,16 +79,20 @@ fn rays_that_do_not_go_along_find_what_they_find_alone() {
         let alone = rays.each_ref().map(|(ray, t_max, _)| {
             let mut found = Sure::default();
             wide.traverse(ray, *t_max, &mut found);
-            found.may.sort_unstable();
-            found.may
+            found.maybe.sort_unstable();
+            found.maybe
         });
         wide.traverse_packets(&mut rays);
         for ((ray, t_max, found), alone) in rays.iter_mut().zip(alone) {
-            found.may.sort_unstable();
+            found.maybe.sort_unstable();
             let t = |item: u32| all[item as usize].intersect(ray, &WatertightRay::new(ray));
             let is_hit = |item: &u32| t(*item).is_some_and(|t| t < *t_max);
             let hits = |items: Vec<u32>| items.into_iter().filter(is_hit).collect::<Vec<_>>();
-            assert_eq!(hits(std::mem::take(&mut found.may)), hits(alone), "{ray:?}");
+            assert_eq!(
+                hits(std::mem::take(&mut found.maybe)),
+                hits(alone),
+                "{ray:?}"
+            );
         }
     }
 }
