@@ -5,12 +5,11 @@
 //!
 //! - [`Scene`] is a scene that was read or built; [`Reading`] has the options of reading it.
 //! - [`SceneBuilder`] builds a scene in code, and changes one: [`Camera`], [`Shape`], [`Mesh`],
-//!   [`Material`], [`Texture`], [`Light`], [`Environment`]. [`Tree`] shows what a scene consists
-//!   of.
+//!   [`Material`], [`Texture`], [`Light`], [`Environment`]. [`Tree`] lists the contents of a scene.
 //! - [`Diagnostic`] is an error, a warning or a note about a scene, with [`Label`]s and [`Hint`]s.
 //! - [`Options`] has the options of rendering, [`Progress`] says how far it is, [`Picture`] is the
 //!   result.
-//! - [`Cost`] says what accuracy costs, [`Export`] is the scene as a file of another program.
+//! - [`Cost`] is the cost of accuracy, [`Export`] is the scene as a file of another program.
 //! - [`Effect`] says whether a picture needs an effect such as shadows, and why not; [`explain()`]
 //!   gives the long text of a code or a rule.
 //! - [`Error`] is returned if there is no scene or no picture.

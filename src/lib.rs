@@ -31,8 +31,8 @@
 //!
 //! `Scene::open("scene.yaml")` reads a file and the files it refers to, `picture.save("scene.png")`
 //! writes one. [`SceneBuilder`] builds a scene in code, and [`Scene::edit`] changes one. The
-//! library does not print, exit or read the environment; it reads the clock only for what is asked
-//! in seconds. The number of threads does not change a picture. The cargo feature `cli`, on by
+//! library does not print, exit or read the environment; it reads the clock only for options in
+//! seconds. The number of threads does not change a picture. The cargo feature `cli`, on by
 //! default, adds the command line (`run`); `default-features = false` leaves it out. The library
 //! builds for `wasm32-unknown-unknown`, where scenes come from memory, one thread renders, and
 //! there is no `Picture::save`.

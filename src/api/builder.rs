@@ -46,7 +46,7 @@ pub struct SceneBuilder {
     /// A new camera, lowered at the end.
     camera: Option<Camera>,
     overrides: Overrides,
-    /// What is wrong by itself.
+    /// The errors in single values.
     faults: Vec<Finding>,
 }
 
@@ -132,7 +132,7 @@ impl SceneBuilder {
     /// Validates the scene.
     ///
     /// # Errors
-    /// All errors, warnings and notes, if any is an error. Their places are paths such as
+    /// All errors, warnings and notes, if any is an error. Their locations are paths such as
     /// `objects[3].material.ior`.
     pub fn build(self) -> Result<Scene, Vec<Diagnostic>> {
         let input = Input::built("scene".to_owned(), Options::default());
@@ -140,7 +140,7 @@ impl SceneBuilder {
         Scene::of_builder(input.into(), empty, self)
     }
 
-    /// The scene, what is wrong with its values by themselves, and whether it has a new camera.
+    /// The scene, the errors in its single values, and whether it has a new camera.
     pub(super) fn finish(self) -> (Lowered, Vec<Finding>, bool) {
         let Self {
             mut lowered,
@@ -223,7 +223,7 @@ impl SceneBuilder {
         self.overrides.supersampling = Some(side);
     }
 
-    /// Renders by path tracing, with so many paths per pixel, at least 1.
+    /// Renders by path tracing, with this many paths per pixel, at least 1.
     pub fn trace_paths(&mut self, paths: u32) {
         passes::use_path_integrator(self.scene());
         self.overrides.spp = Some(paths);
@@ -259,14 +259,14 @@ impl SceneBuilder {
 
 /// Meshes, textures and materials.
 impl SceneBuilder {
-    /// Adds a mesh. It is seen where [`Shape::instance`] places it.
+    /// Adds a mesh. [`Shape::instance`] places it in the scene.
     pub fn mesh(&mut self, mesh: Mesh) -> MeshId {
         let meshes = &mut self.scene().meshes;
         meshes.push(mesh.0);
         MeshId(to_u32(meshes.len() - 1))
     }
 
-    /// Replaces a mesh, wherever it is placed; does nothing if there is none with this index.
+    /// Replaces a mesh in all its instances; does nothing if there is none with this index.
     pub fn set_mesh(&mut self, id: MeshId, mesh: Mesh) {
         let index = id.0 as usize;
         self.lowered

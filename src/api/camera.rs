@@ -70,7 +70,7 @@ impl Camera {
         self
     }
 
-    /// Width and height of the picture in pixels; what is seen in the vertical stays.
+    /// Width and height of the picture in pixels; the vertical extent stays.
     pub fn size(mut self, width: u32, height: u32) -> Self {
         let ratio = f64::from(self.ir.size[1]) / f64::from(height.max(1));
         let scaled = |step: [f64; 3]| step.map(|component| component * ratio);
@@ -155,7 +155,7 @@ impl Camera {
     /// The camera of the IR.
     ///
     /// # Errors
-    /// What is wrong with the view or the field of view.
+    /// The error in the view or the field of view.
     pub(super) fn lower(&self) -> Result<ir::Camera, Box<Diagnostic>> {
         let mut camera = self.ir.clone();
         let is_flat = camera.projection == Projection::Orthographic;

@@ -1,4 +1,4 @@
-//! The clock, for what is asked in seconds.
+//! The clock, for options in seconds.
 
 use std::time::Duration;
 

@@ -66,7 +66,7 @@ pub struct Cost {
 pub struct CostRow {
     /// The options that render the scene in this setting.
     pub options: Options,
-    /// The setting in words, for example `4×4, depth 3`.
+    /// The setting as text, for example `4×4, depth 3`.
     pub setting: String,
     /// Whether it is the scene's own setting.
     pub is_own: bool,
@@ -85,8 +85,8 @@ pub struct CostRow {
 }
 
 impl Scene {
-    /// Studies what accuracy costs in the scene, as `rtc cost` does: renders it in many settings,
-    /// with all threads or one where time is measured.
+    /// Studies the cost of accuracy in the scene, as `rtc cost` does: renders it in many settings,
+    /// with all threads, or one where time is measured.
     ///
     /// # Errors
     /// [`Error::Invalid`] if the scene has errors, [`Error::Refused`] if there are no threads.

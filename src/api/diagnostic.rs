@@ -31,7 +31,7 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// The message: one sentence, lower case, without a full stop.
     pub message: String,
-    /// The position of the fault, if it has one.
+    /// The position of the error, if it has one.
     pub primary: Option<Label>,
     /// Related positions.
     pub secondary: Vec<Label>,
@@ -67,7 +67,7 @@ pub type Finding = Diagnostic;
 pub struct Label {
     /// The position.
     pub location: Location,
-    /// What is at this position, in a few words; may be empty.
+    /// A short description of the text at this position; may be empty.
     pub text: String,
 }
 

@@ -25,7 +25,7 @@ pub struct Effect {
     /// Whether it is simulated.
     pub state: EffectState,
     /// The rule that proves that the picture is the same without it, if any; `rtc explain` prints
-    /// its proof.
+    /// the proof.
     pub rule: Option<&'static str>,
     /// The reason: one line, lower case, without a full stop.
     pub because: String,

@@ -92,7 +92,7 @@ impl Export {
         files.map(|(name, bytes)| (name.as_str(), bytes.as_slice()))
     }
 
-    /// What is approximated or lacks in the file, besides warnings and notes about the scene.
+    /// The approximated and missing parts of the file, besides warnings and notes about the scene.
     #[must_use]
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics

@@ -4,8 +4,8 @@ use rtc_ir::{self as ir, Emitter, Photometry, PointLight, Punctual};
 
 /// A light. Colours are linear red, green and blue, each at least 0; lengths are in scene units.
 ///
-/// A scene with a physical light (any except [`Light::plain`]) is rendered by path tracing. Light
-/// of an area is a surface whose material is emissive.
+/// A scene with a physical light (any except [`Light::plain`]) is rendered by path tracing. An area
+/// light is a surface with an emissive material.
 ///
 /// ```
 /// use rtc::Light;

@@ -246,7 +246,7 @@ impl Options {
         self
     }
 
-    /// Takes samples where they lower the error most until the time is over; with a target error,
+    /// Adds samples where they reduce the error most until the time is over; with a target error,
     /// whichever is reached first. The picture depends on the machine.
     /// [`Picture::error`](super::Picture::error) is the error reached.
     #[cfg(not(target_family = "wasm"))]
@@ -310,7 +310,7 @@ impl Options {
         self
     }
 
-    /// The colour of the background, in the values that the picture holds.
+    /// The colour of the background, in the values of the picture.
     pub fn background(mut self, color: [f64; 3]) -> Self {
         self.background = BackgroundFill::Color(color);
         self

@@ -1,4 +1,4 @@
-//! The places of values in scenes that were built in code.
+//! The paths of values in scenes that were built in code.
 
 use rtc_ir::{ImageId, MaterialId, Scene, Texture};
 

@@ -92,7 +92,7 @@ impl Picture {
     }
 
     /// Red, green and blue of each pixel. For EXR formats: linear (Rec. 709), premultiplied by
-    /// alpha. For PNG formats: display values, of which [0, 1] can be shown.
+    /// alpha. For PNG formats: display values, where [0, 1] is the range of a display.
     #[must_use]
     pub fn pixels(&self) -> &[[f64; 3]] {
         &self.held.image.pixels

@@ -45,7 +45,7 @@ impl fmt::Debug for OnProgress {
 /// The number of reports of a render, or of each of its rounds.
 const REPORTS: u64 = 100;
 
-/// What the share that is done is measured by.
+/// The measure of progress.
 pub(super) enum ProgressMeasure<'a> {
     /// Pixels.
     Pixels,
@@ -120,7 +120,7 @@ impl<'a> ProgressCounter<'a> {
 
     /// Reports a share below 1; one thread at a time, so that shares and rays never fall.
     fn report(&self, share: f64, rays: u64) {
-        /// The largest share of a render that goes on.
+        /// The largest progress before the end.
         const MOST: f64 = 0.999;
         let Some(OnProgress(on_progress)) = self.on_progress else {
             return;

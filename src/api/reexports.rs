@@ -1,4 +1,4 @@
-//! What other packages define and this API hands out, with examples.
+//! Types of other packages in this API, with examples.
 
 /// ```
 /// use rtc::{Format, Options, Tone};

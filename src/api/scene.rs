@@ -97,7 +97,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// The scene of a builder, validated, in place of `loaded`.
+    /// The scene of a builder, validated, instead of `loaded`.
     pub(super) fn of_builder(
         input: Arc<Input>,
         mut loaded: Loaded,
@@ -123,7 +123,7 @@ impl Scene {
         self.run().check()
     }
 
-    /// What the scene consists of; `None` if it can't be read.
+    /// The contents of the scene; `None` if it can't be read.
     #[must_use]
     pub fn tree(&self) -> Option<Tree<'_>> {
         let loaded = self.loaded.as_ref()?;
@@ -267,7 +267,7 @@ impl Run<'_> {
                 let picture = setup.develop(&mut subject, film, &quality, input, is_stopped)?;
                 Ok((picture, counts, error))
             });
-        // Attach what describes the picture.
+        // Attach the metadata of the picture.
         let (picture, counts, error) = made.map_err(|error| self.error(error))?;
         let origin = setup.origin(&subject.validated.lowered.scene);
         let look = setup.look.resolve(&subject.validated.scene.settings().mode);

@@ -101,21 +101,21 @@ impl Shape {
         }))
     }
 
-    /// What is in any of these solids. The operands of this, of an intersection and of a difference
-    /// are 1 to 64 shapes with an inside: of a plane that is the side away from its normal;
-    /// triangles, quads, discs and instances have none.
+    /// The union of these solids. The operands of this, of an intersection and of a difference are
+    /// 1 to 64 shapes with an inside: of a plane that is the side away from its normal; triangles,
+    /// quads, discs and instances have none.
     #[must_use]
     pub fn union(operands: impl IntoIterator<Item = Self>) -> Self {
         Self::solid(operands, SetStep::Union)
     }
 
-    /// What is in all of these solids.
+    /// The intersection of these solids.
     #[must_use]
     pub fn intersection(operands: impl IntoIterator<Item = Self>) -> Self {
         Self::solid(operands, SetStep::Intersection)
     }
 
-    /// What is in the first of these solids and in none of the others.
+    /// The first of these solids without the others.
     #[must_use]
     pub fn difference(operands: impl IntoIterator<Item = Self>) -> Self {
         Self::solid(operands, SetStep::Difference)
@@ -142,9 +142,9 @@ impl Shape {
         Self(ir::Shape::Csg(csg))
     }
 
-    /// Only the part of a union, intersection or difference that lies on these of its solids,
-    /// counted from 0 in the order in which they were given. Parts with other materials are objects
-    /// of their own; other shapes stay whole.
+    /// Selects the part of a union, intersection or difference that lies on these operands,
+    /// numbered from 0. Parts with other materials are separate objects; other shapes are
+    /// unchanged.
     #[must_use]
     pub fn part(mut self, solids: &[u32]) -> Self {
         if let ir::Shape::Csg(csg) = &mut self.0 {
@@ -252,7 +252,7 @@ impl Transform {
     }
 
     /// Rotates about an axis through the origin, by an angle in radians, counterclockwise as seen
-    /// against the axis; an axis without a direction turns nothing.
+    /// against the axis; a zero axis is ignored.
     #[must_use]
     pub fn rotate(self, axis: [f64; 3], angle: f64) -> Self {
         match unit(Vec3::from_array(axis)) {

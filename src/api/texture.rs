@@ -106,7 +106,7 @@ impl Texture {
         Self::of(Source::Image(image([width, height], kind, pixels)))
     }
 
-    /// Gives a pattern world coordinates in place of texture coordinates; other textures keep
+    /// Gives a pattern world coordinates instead of texture coordinates; other textures keep
     /// theirs.
     pub fn in_world(mut self) -> Self {
         if let Source::Pattern(pattern) = &mut self.source {

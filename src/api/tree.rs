@@ -1,4 +1,4 @@
-//! What a scene consists of, to be read.
+//! The contents of a scene, read-only.
 
 use super::{Camera, Light, Location, Material, MaterialId, ObjectId, Shape};
 use rtc_ir::{self as ir, EntityKind, Field, Lowered, ValuePath};
@@ -6,8 +6,8 @@ use rtc_math::Vec3;
 use rtc_source::{SourceMap, Span};
 use std::sync::OnceLock;
 
-/// What a scene consists of: camera, objects, materials and lights. [`super::Scene::edit`] changes
-/// it.
+/// The contents of a scene: camera, objects, materials and lights. [`super::Scene::edit`] changes
+/// them.
 ///
 /// ```
 /// use rtc::Scene;

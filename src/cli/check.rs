@@ -5,9 +5,9 @@ use super::args::CheckArgs;
 use super::reporter::{self, Reporter};
 use super::{files, fix, input};
 
-/// Checks the files and tells what was found.
+/// Checks the files and reports their diagnostics.
 pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
-    // What is shown of a change is a result of its own.
+    // The printed diff is the result of the command.
     let mut reporter = match args.diff {
         true => Reporter::beside_result(&args.reporter),
         false => Reporter::as_result(&args.reporter),
@@ -44,7 +44,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
     worst
 }
 
-/// That all is well with so many files.
+/// The summary for files without errors.
 fn nothing_found(files: usize) -> String {
     match files {
         1 => "1 scene, no findings".to_owned(),

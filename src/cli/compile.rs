@@ -1,6 +1,5 @@
 //! `rtc compile`: a scene to the IR as text or binary, back to its canonical spelling, to glTF, or
-//! to
-//! the files of other renderers.
+//! to the files of other renderers.
 
 use super::Failure;
 use super::args::{Compile, Emit, Explanation, MessageFormat};
@@ -81,9 +80,9 @@ fn write_gltf(
 }
 
 /// Why a text with files beside it is not written to standard output.
-const NO_FOLDER: &str = "its vertices and pictures are to be files beside the text: give `-o FILE`";
+const NO_FOLDER: &str = "its vertices and images are files beside the text: give `-o FILE`";
 
-/// Writes the scene for another renderer, whose meshes are files beside it or stand in the text.
+/// Writes the scene for another renderer, with meshes in files beside it or inline.
 fn write_twin(
     emit: Emit,
     target: &Path,
@@ -152,7 +151,7 @@ fn carry_out_text(
     }
 }
 
-/// Tells the plan, if that is asked for.
+/// Reports the plan, if requested.
 fn explain(args: &Compile, validated: &Validated, input: &Input) -> Result<(), Failure> {
     let Some(form) = args.explain else {
         return Ok(());
@@ -197,7 +196,7 @@ fn cannot(input: &Input, reason: &str) -> Failure {
     Failure::Input(format!("`{}` can't be written so: {reason}", input.name()))
 }
 
-/// Where the IR goes, if anywhere: an explanation takes its place on standard output.
+/// The destination of the IR, if any: an explanation goes to standard output instead.
 fn target(args: &Compile) -> Option<&Path> {
     let default = args.explain.is_none().then_some(Path::new("-"));
     args.output.as_deref().or(default)
@@ -216,7 +215,7 @@ fn by_extension(output: &Path) -> Result<Emit, Failure> {
         Some("xml") => Ok(Emit::Mitsuba),
         Some("pov") => Ok(Emit::Pov),
         _ => Err(Failure::Trouble(format!(
-            "can't tell from `{}` what to write; name it .json, .rtir, .yaml, .glb, .gltf, .xml \
+            "unknown format `{}`; use .json, .rtir, .yaml, .glb, .gltf, .xml \
             or .pov, or give `--emit`",
             output.display()
         ))),

@@ -1,4 +1,4 @@
-//! `rtc cost`: what accuracy costs in a scene, as a table, for programs, and as a page.
+//! `rtc cost`: the cost of accuracy in a scene, as a table, for programs, and as a page.
 
 use super::Failure;
 use super::args::{self, StudyFormat};
@@ -22,7 +22,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::{Duration, Instant};
 
-/// The most bytes that are read of what was rendered.
+/// The largest checkpoint that is read, in bytes.
 const MAX_BYTES: u64 = 1 << 36;
 
 /// Studies the scene, or compares it with its reference, and writes the report.
@@ -137,7 +137,7 @@ fn measure(
     })
 }
 
-/// Does the work in a runtime with the threads wanted and the clock of the machine.
+/// Runs the study in a runtime with the requested threads and the clock of the machine.
 #[expect(
     clippy::disallowed_methods,
     reason = "the study is handed the clock from here"
@@ -161,7 +161,7 @@ pub(super) fn with_runtime<T>(
     Ok(work(runtime.with_simd(simd)))
 }
 
-/// What is rendered of the study, if that is kept.
+/// The finished renders of the study, if they are saved.
 fn journal(
     args: &args::Cost,
     about: &StudyProvenance,

@@ -6,7 +6,7 @@ use rtc_diag::{clip, codes};
 use rtc_pipeline::{explain_code, explanation};
 use rtc_plan::Rule;
 
-/// Prints the text of the code asked for.
+/// Prints the text of a code.
 pub(super) fn run(args: &Explain) -> Result<(), Failure> {
     let text = match &args.code {
         Some(id) => explanation(id).ok_or_else(|| unknown(id))?,
@@ -42,7 +42,7 @@ fn unknown(id: &str) -> Failure {
     ))
 }
 
-/// What stands before the codes.
+/// The text before the codes.
 const HEAD: &str = "\
 # Diagnostics
 

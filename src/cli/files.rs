@@ -1,11 +1,10 @@
 //! Scenes by folders and patterns: which files are meant.
 //!
-//! In a folder, and among what fits a pattern, a YAML, JSON or XML file is a scene only if it looks
-//! like one, and a pbrt file only if it is no part of another one. A file that the command line
-//! names always is.
+//! In a folder, or matching a pattern, a YAML, JSON or XML file is a scene only if it looks like
+//! one, and a pbrt file only if no other file includes it. A file named on the command line always
+//! is a scene.
 //!
-//! No link is followed but the one that the command line names: it may lead round in circles, or to
-//! what is no matter of the folder.
+//! Only a link named on the command line is followed: others may form cycles or leave the folder.
 
 use super::{Failure, reporter};
 use globset::{GlobBuilder, GlobMatcher};
@@ -16,7 +15,7 @@ use std::collections::BTreeSet;
 use std::path::{Component, Path, PathBuf};
 use walkdir::{DirEntry, WalkDir};
 
-/// What makes a part of a path a pattern.
+/// The characters that make a path component a pattern.
 const WILD: [char; 3] = ['*', '?', '['];
 
 /// Whether a file of this name is meant where a folder is given.
@@ -37,7 +36,7 @@ pub(super) struct SceneFiles {
 }
 
 impl SceneFiles {
-    /// Says how many files were skipped, if any, unless only errors are wanted.
+    /// Reports how many files were skipped, unless only errors are wanted.
     pub(super) fn report_skipped(&self, is_quiet: bool) {
         match self.skipped {
             _ if is_quiet => {}
@@ -48,10 +47,9 @@ impl SceneFiles {
     }
 }
 
-/// The scenes that are meant: each path as it is; of a folder all scenes below it; of a pattern
-/// that is no file by itself, the scenes that fit it. What is found comes in the order of its
-/// names, without hidden files and without links, and once. With `skip_others` a path that does not
-/// look like a scene is skipped, too.
+/// The scenes of the arguments: a path as it is, all scenes below a folder, the scenes that match a
+/// pattern. A path that exists is no pattern. Results are sorted by name and unique, without hidden
+/// files and links. With `skip_others`, paths that do not look like a scene are skipped, too.
 pub(super) fn scenes(paths: &[PathBuf], skip_others: bool) -> Result<SceneFiles, Failure> {
     named(paths, is_scene_name, skip_others)
 }
@@ -61,8 +59,8 @@ pub(super) fn texts(paths: &[PathBuf]) -> Result<SceneFiles, Failure> {
     named(paths, is_scene_text_name, false)
 }
 
-/// Whether a file is a scene as far as its name and its first look tell. A file that can't be read
-/// is one: the command that reads it reports why it can't.
+/// Whether a file is a scene judging by its name and its first bytes. True for an unreadable file:
+/// the command that reads it reports the error.
 fn looks_like_scene(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default();
     let is_shared = SHARED_EXTENSIONS
@@ -137,7 +135,7 @@ fn fitting(pattern: &Path, is_meant: NameTest) -> Result<Vec<PathBuf>, Failure> 
 struct FilePattern {
     /// The folder that it begins with, which is none itself.
     base: PathBuf,
-    /// What follows, part by part, and as a whole.
+    /// The rest of the pattern, by component and as a whole.
     parts: Vec<String>,
     rest: GlobMatcher,
 }
@@ -163,7 +161,7 @@ impl FilePattern {
         })
     }
 
-    /// What lies so deep that it may fit, but for what is hidden and not named.
+    /// The entries at a depth that may match, except hidden ones that are not named.
     fn traverse(&self) -> impl Iterator<Item = walkdir::Result<DirEntry>> {
         let is_deep = self.parts.iter().any(|part| part.contains("**"));
         let depth = if is_deep {
@@ -186,7 +184,7 @@ impl FilePattern {
             .filter_entry(is_named)
     }
 
-    /// The path of what was found, as who wrote the pattern would write it.
+    /// The path of an entry in the style of the pattern.
     fn shown<'e>(&self, entry: &'e DirEntry) -> &'e Path {
         let path = entry.path();
         match self.base.as_os_str().is_empty() {
@@ -219,12 +217,12 @@ fn below(folder: &Path, is_meant: NameTest) -> Result<Vec<PathBuf>, Failure> {
     }
 }
 
-/// Whether the name of what was found, not of what was named, begins with a dot.
+/// Whether the name of a found entry, not of a named one, begins with a dot.
 fn is_hidden(entry: &DirEntry) -> bool {
     entry.depth() > 0 && entry.file_name().as_encoded_bytes().starts_with(b".")
 }
 
-/// What the system said.
+/// The error of the system.
 fn reason(error: &walkdir::Error) -> String {
     let said = error.io_error().map(ToString::to_string);
     said.unwrap_or_else(|| error.to_string())

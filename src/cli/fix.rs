@@ -1,4 +1,4 @@
-//! `rtc check --fix` and `--diff`: what hints propose, put into files or shown.
+//! `rtc check --fix` and `--diff`: applies the suggested fixes to files or prints them.
 
 use super::args::CheckArgs;
 use super::project::Project;
@@ -7,7 +7,7 @@ use super::{Failure, edit, input, output};
 use rtc_pipeline::{self as pipeline, FixFilter, FixedText, Input};
 use std::path::Path;
 
-/// Fixes the scene that was read from `path`, or shows how that would be: the scene as it is then.
+/// Fixes the scene that was read from `path`, or prints the changes; returns the fixed scene.
 pub(super) fn run(
     path: &Path,
     read: Input,
@@ -48,7 +48,7 @@ pub(super) fn run(
     Ok(input)
 }
 
-/// Says what was done, and what was not and why.
+/// Reports the applied fixes, and the rejected ones with reasons.
 fn tell(name: &str, fixed: &FixedText, is_shown: bool) {
     let changes = |count| match count {
         1 => "1 change".to_owned(),
@@ -72,7 +72,7 @@ fn tell(name: &str, fixed: &FixedText, is_shown: bool) {
     }
     if guesses > 0 {
         reporter::say(&format!(
-            "{name}: {} left out, which only guess what was meant; `--unsafe` takes them",
+            "{name}: {} skipped as guesses; `--unsafe` applies guesses, too",
             changes(guesses)
         ));
     }

@@ -1,4 +1,4 @@
-//! `rtc fmt`: scene texts in the layout of the house, each by itself.
+//! `rtc fmt`: formats scene texts, each by itself.
 
 use super::args::Fmt;
 use super::reporter::{self, Reporter};
@@ -6,7 +6,7 @@ use super::{Failure, edit, files, input, output};
 use rtc_pipeline::{Input, LayoutError, Options};
 use std::path::Path;
 
-/// Lays out the files, or tells which are not laid out.
+/// Formats the files, or lists the unformatted ones.
 pub(super) fn run(args: &Fmt) -> Result<(), Failure> {
     let mut reporter = Reporter::beside_result(&args.reporter);
     let mut worst = Ok(());
@@ -52,7 +52,7 @@ fn one(path: &Path, args: &Fmt, reporter: &mut Reporter) -> Result<(), Failure> 
     } else if !is_same {
         edit::write(path, before, &text)?;
         if !reporter.is_quiet() {
-            reporter::say(&format!("{}: laid out", input.name()));
+            reporter::say(&format!("{}: formatted", input.name()));
         }
     }
     match args.check && !is_same {
@@ -74,10 +74,10 @@ fn unformatted(input: &Input, fault: LayoutError, is_quiet: bool) -> Result<(), 
             return Ok(());
         }
         LayoutError::NoText => {
-            format!("`{name}` is left as it is: only scene texts, YAML and JSON, are laid out")
+            format!("`{name}` is unchanged: only scene texts, YAML and JSON, are formatted")
         }
         LayoutError::Differs => {
-            format!("`{name}` is left as it is: laid out, it would say something else")
+            format!("`{name}` is unchanged: formatting would change its meaning")
         }
     }))
 }

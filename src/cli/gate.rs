@@ -1,19 +1,18 @@
-//! Gates: limits of measured numbers, for which a command ends with exit code 1 where one is not
-//! met.
+//! Gates: limits of measured values. A command exits with code 1 if one is exceeded.
 
 use super::{Failure, reporter};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt;
 
-/// What may follow the limit of a measure.
+/// The unit after a limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Unit {
     /// Nothing.
     Plain,
-    /// `%`: a share may be told in hundredths.
+    /// `%`: a fraction in hundredths.
     Share,
-    /// `x`: so many times as much.
+    /// `x`: a ratio.
     Ratio,
 }
 
@@ -51,7 +50,7 @@ struct Gate {
 /// Reads gates of the difference of two pictures as typed.
 ///
 /// # Errors
-/// If something else is written; in words that name what may be.
+/// If the text is not a gate; the message lists the valid measures.
 pub(super) fn of_pictures(text: &str) -> Result<Gates, String> {
     gates(text, OF_PICTURES)
 }
@@ -71,11 +70,11 @@ fn gates(text: &str, measures: &Measures) -> Result<Gates, String> {
         .map(Gates)
 }
 
-/// Tells which gates are met, or if it is to be quiet which are not; a failure if one is not.
+/// Reports each gate, or in quiet mode only the failed ones; an error if one failed.
 pub(super) fn pass(gates: &[JudgedGate], is_quiet: bool) -> Result<(), Failure> {
-    let reported = gates.iter().filter(|gate| !(gate.is_met && is_quiet));
+    let reported = gates.iter().filter(|gate| !(gate.passed && is_quiet));
     reported.for_each(|gate| reporter::say(&gate.to_string()));
-    match gates.iter().all(|gate| gate.is_met) {
+    match gates.iter().all(|gate| gate.passed) {
         true => Ok(()),
         false => Err(Failure::Findings),
     }
@@ -117,7 +116,7 @@ impl Gate {
     }
 }
 
-/// A gate, and what was measured.
+/// A gate and its measured value.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct JudgedGate {
@@ -128,11 +127,11 @@ pub(super) struct JudgedGate {
     /// The limit.
     most: f64,
     /// Whether the value is within the limit.
-    pub(super) is_met: bool,
+    pub(super) passed: bool,
 }
 
 impl Gates {
-    /// Which gates are met, given the measures.
+    /// The gates with their measured values.
     pub(super) fn is_resolved(&self, measured: impl Fn(&str) -> f64) -> Vec<JudgedGate> {
         let is_resolved = |gate: &Gate| {
             let (measure, most, value) = (gate.measure, gate.most, measured(gate.measure));
@@ -140,7 +139,7 @@ impl Gates {
                 measure,
                 value,
                 most,
-                is_met: value <= most,
+                passed: value <= most,
             }
         };
         self.0.iter().map(is_resolved).collect()
@@ -153,13 +152,10 @@ impl fmt::Display for JudgedGate {
             measure,
             value,
             most,
-            is_met,
+            passed,
         } = self;
-        let words = if *is_met { "met" } else { "not met" };
-        write!(
-            f,
-            "gate {words}: {measure} is {value:.6}, at most {most} wanted"
-        )
+        let words = if *passed { "passed" } else { "failed" };
+        write!(f, "gate {words}: {measure} is {value:.6}, limit {most}")
     }
 }
 
@@ -217,13 +213,13 @@ mod tests {
         assert_eq!(
             is_resolved
                 .iter()
-                .map(|gate| gate.is_met)
+                .map(|gate| gate.passed)
                 .collect::<Vec<_>>(),
             [true, false]
         );
         assert_eq!(
             is_resolved[1].to_string(),
-            "gate not met: max is 3.500000, at most 3 wanted"
+            "gate failed: max is 3.500000, limit 3"
         );
     }
 }

@@ -27,7 +27,7 @@ pub(super) fn read(path: &Path, reading: &Reading) -> Result<Input, Failure> {
     Ok(input)
 }
 
-/// Reads the file at `path`, or standard input, under a name, if it is `-`, as told alone.
+/// Reads the file at `path`, or standard input for `-`, without an `rtc.toml`.
 pub(super) fn open(path: &Path, stdin_name: Option<&str>, options: Options) -> Input {
     if path.as_os_str() == "-" {
         let name = stdin_name.unwrap_or("<stdin>").to_owned();
@@ -37,7 +37,7 @@ pub(super) fn open(path: &Path, stdin_name: Option<&str>, options: Options) -> I
     }
 }
 
-/// How an input is read, where its project says nothing else.
+/// The input options before the `rtc.toml` of the project.
 pub(super) fn options(reading: &Reading, project: Option<&Project>) -> Result<Options, Failure> {
     let Reading {
         stdin_name: _,
@@ -132,7 +132,7 @@ pub(super) fn set_stage(mut input: Input, stage: &args::StageArgs) -> Result<Inp
     Ok(input)
 }
 
-/// Tells what was found since the last time, and whether the input is fit for use.
+/// Reports new diagnostics, and fails if there are errors.
 pub(super) fn tell(input: &mut Input, reporter: &mut Reporter) -> Result<(), Failure> {
     let sink = input.take_diagnostics();
     let status = match input.is_read() {
@@ -144,7 +144,7 @@ pub(super) fn tell(input: &mut Input, reporter: &mut Reporter) -> Result<(), Fai
     status
 }
 
-/// Lights the scene of a picture that needs light, and tells what was found.
+/// Lights the scene of a picture that needs light, and reports the diagnostics.
 pub(super) fn light(
     setup: &mut PictureSetup,
     subject: &mut RenderSubject,
@@ -160,7 +160,7 @@ pub(super) fn light(
     tell(input, reporter)
 }
 
-/// Proves a scene for a command that needs it, and tells what was found.
+/// Validates a scene, and reports the diagnostics.
 pub(super) fn require(
     input: &mut Input,
     reporter: &mut Reporter,
@@ -181,7 +181,7 @@ pub(super) fn is_picture(path: &Path) -> bool {
         .any(|kind| extension.eq_ignore_ascii_case(kind))
 }
 
-/// The scene as a picture of it is asked for, proven; what is found is told.
+/// The validated scene in the requested settings; its diagnostics are reported.
 pub(super) fn subject(
     setup: &mut PictureSetup,
     input: &mut Input,
@@ -200,7 +200,7 @@ pub(super) fn subject(
     }
 }
 
-/// What was made of the input, after telling what was found; none if it is refused.
+/// The result of a step, after its diagnostics are reported; an error if the input was rejected.
 pub(super) fn unless_refused<T>(
     made: Option<T>,
     input: &mut Input,
@@ -210,9 +210,8 @@ pub(super) fn unless_refused<T>(
     Ok(made.expect("what is refused has an error in the sink, and `tell` has returned it"))
 }
 
-/// Lets the studio fill in beside the light of a scene if that is asked for, for commands that do
-/// not
-/// look what its own light shows.
+/// Adds the studio as a fill light if requested, for commands that do not measure the scene's own
+/// light.
 pub(super) fn fill(lowered: &mut Lowered, provenance: &Provenance) {
     if provenance.fill == FillLight::Always {
         passes::fill(&mut lowered.scene, 0.0);

@@ -1,8 +1,8 @@
-//! Ctrl-C, and being told to terminate: a flag for whoever works long, so that nothing half-written
-//! stays behind.
+//! Ctrl-C and other requests to terminate: a flag that long tasks poll, so that no half-written
+//! file is left.
 //!
-//! Whoever does not hear the first signal, a writer whose reader sleeps for instance, is ended by
-//! the second.
+//! The second signal ends a process that does not react to the first, for example one that waits
+//! for a blocked pipe.
 
 use super::Failure;
 use rtc_pipeline::WriteObserver;
@@ -11,13 +11,13 @@ use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::{fs, io, process};
 
-/// The number of the first signal heard, 0 before; signals are sent to the whole process.
+/// The number of the first signal, or 0; signals address the whole process.
 static HEARD: AtomicU8 = AtomicU8::new(0);
 
 /// The number of SIGINT, and of Ctrl-C where there are no signals.
 const INTERRUPT: u8 = 2;
 
-/// Who listens, once someone does.
+/// The listener, once there is one.
 static LISTENER: OnceLock<Interrupt> = OnceLock::new();
 
 /// Whether the user wants us to stop.
@@ -30,7 +30,7 @@ struct InterruptState {
     draft: Mutex<Option<PathBuf>>,
 }
 
-/// The exit code of who was told to stop: 128 and the number of the signal, as a shell has it.
+/// The exit code after a signal: 128 plus its number, as in a shell.
 pub(super) fn exit_code() -> u8 {
     match HEARD.load(Ordering::Relaxed) {
         0 => 128 + INTERRUPT,
@@ -44,8 +44,8 @@ pub(super) fn is_heard() -> bool {
 }
 
 impl Interrupt {
-    /// From now on the first signal only raises the flag. To be called after reading: a read would
-    /// not see the flag. Who listens already goes on with the same flag.
+    /// From now on the first signal only sets the flag. Call this after reading input, since a
+    /// blocking read does not check the flag. An existing listener keeps its flag.
     pub(super) fn listen() -> Result<Self, Failure> {
         if let Some(listener) = LISTENER.get() {
             return Ok(listener.clone());
@@ -80,7 +80,7 @@ pub(super) fn outlive_full_files() {
     }
 }
 
-/// Calls `on_signal` with the number of each signal that asks us to stop, in a thread of its own.
+/// Calls `on_signal` with the number of each terminating signal, in a thread of its own.
 #[cfg(unix)]
 fn listen_for(on_signal: impl Fn(u8) + Send + 'static) -> io::Result<()> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXCPU};
@@ -93,7 +93,7 @@ fn listen_for(on_signal: impl Fn(u8) + Send + 'static) -> io::Result<()> {
     listener.spawn(listen).map(drop)
 }
 
-/// The same for Ctrl-C and its kin, which no number tells apart.
+/// The same for Ctrl-C and similar events, which have no distinct numbers.
 #[cfg(not(unix))]
 fn listen_for(on_signal: impl Fn(u8) + Send + 'static) -> io::Result<()> {
     ctrlc::set_handler(move || on_signal(INTERRUPT)).map_err(io::Error::other)
@@ -120,7 +120,7 @@ impl InterruptState {
     )]
     fn end(&self) {
         if let Some(draft) = self.draft().take() {
-            // There is nobody left to tell.
+            // The reporter is gone.
             let _ = fs::remove_file(draft);
         }
         process::exit(i32::from(Failure::Interrupted.exit_code()));

@@ -1,7 +1,34 @@
-//! The command line: arguments as typed, resolved, carried out; streams and exit codes.
+//! The command line of rtc: parses the arguments, runs a command, returns an exit code.
 //!
-//! Standard output is for results, standard error for talk. A closed pipe is success; a panic is
-//! reported as ours.
+//! # Overview
+//!
+//! [`run`] is the only entry point. `main` passes it the arguments and exits with its result.
+//!
+//! 1. `args` declares every command and option with clap, exactly as typed. `parse` has the parsers
+//!    of values.
+//! 2. Each command is a module with a function `run`: `check`, `compile`, `render`, `cost`, `diff`,
+//!    `audit`, `info`, `fmt`, `new`, `merge`, `batch` (for `rtc farm`), `preview`, `lsp`,
+//!    `explain`, and `tell`
+//!    for schemas, completions and manual pages.
+//! 3. `input` reads the scene of a command with the defaults of its `rtc.toml` (`project`), and
+//!    validates it. The work itself is done by `pipeline`, `study` and `render`.
+//! 4. `reporter` prints diagnostics in the requested format; `output` writes results atomically.
+//!
+//! Shared parts: `files` expands folders and patterns, `gate` parses and checks limits, `interrupt`
+//! turns signals into a flag, `progress` draws the bar, `suggest` completes errors of the
+//! arguments. [`trial`] has the entry points of the fuzz targets.
+//!
+//! # Streams and exit codes
+//!
+//! - Standard output is for results, standard error for messages. A closed pipe is success.
+//! - `Failure` lists the reasons why a command fails, with their exit codes: 1 for errors in the
+//!   input and failed gates, 2 for usage and file errors, 128 plus the number of a signal.
+//! - A panic is reported as an internal error with exit code 2.
+//!
+//! # Guarantees
+//!
+//! - No rule about scenes is decided here.
+//! - Results are written as a whole or not at all, except to standard output.
 
 mod args;
 mod audit;
@@ -46,7 +73,7 @@ use rtc_diag::clip_words;
 use std::ffi::OsString;
 use std::panic::{self, AssertUnwindSafe, PanicHookInfo};
 
-/// A line of the help is shorter than this; one that repeats what was typed may not be.
+/// The maximum length of a line of the help; a line that repeats arguments may be longer.
 const LONG_LINE: usize = 500;
 
 /// What `rtc` alone prints.
@@ -64,17 +91,17 @@ Commands to begin with:
 /// Why a command did not do its work.
 #[derive(Debug)]
 enum Failure {
-    /// The input has errors, and they were told.
+    /// The input has errors, which were reported.
     Findings,
     /// The input can't be used so, for this reason.
     Input(String),
-    /// A file could not be read, and that was told.
+    /// A file could not be read, which was reported.
     Unreadable,
-    /// Usage, files or something internal, in words.
+    /// A usage, file or internal error, with its message.
     Trouble(String),
     /// Ctrl-C, or another signal to stop.
     Interrupted,
-    /// Whoever read our output has had enough.
+    /// The reader of our output closed the pipe.
     ClosedPipe,
 }
 
@@ -97,7 +124,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     guarded(|| dispatch(arguments))
 }
 
-/// The exit code of the work, or of a fault of ours.
+/// The exit code of a command, or of an internal error.
 fn guarded(work: impl FnOnce() -> u8) -> u8 {
     panic::catch_unwind(AssertUnwindSafe(work)).unwrap_or(2)
 }
@@ -112,7 +139,7 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(cli) => cli,
         Err(mut error) => {
             suggest::suggest(&mut error, &typed);
-            // Help and version come this way too. That nobody reads them is no failure.
+            // Help and version also arrive here. A closed pipe is no failure for them.
             let text = error.render().to_string();
             if text.lines().any(|line| line.len() > LONG_LINE) {
                 let lines: Vec<_> = text.lines().map(clip_words).collect();
@@ -154,15 +181,15 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 fn internal_error(info: &PanicHookInfo) -> String {
-    let words = info.payload_as_str().unwrap_or("no words");
+    let words = info.payload_as_str().unwrap_or("no message");
     let place = info
         .location()
         .map(|at| format!(" at {}:{}", at.file(), at.line()))
         .unwrap_or_default();
     let version = env!("CARGO_PKG_VERSION");
     format!(
-        "internal error: {words}{place}\nThis is a fault of rtc {version}, please report it with \
-        the scene."
+        "internal error: {words}{place}\nThis is a bug in rtc {version}: please report it with the \
+        scene."
     )
 }
 

@@ -16,7 +16,7 @@ use std::path::Path;
 /// The largest part that is read, in bytes.
 const MAX_BYTES: u64 = 1 << 36;
 
-/// Merges the parts and writes what they become.
+/// Merges the parts and writes the result.
 pub(super) fn run(args: &Merge) -> Result<(), Failure> {
     let limits = args.reading.limits(|_| ());
     let map = SourceMap::with_limits(limits);
@@ -98,7 +98,7 @@ fn audit_part(
     audit::judge_part(path, args, seed, &result)
 }
 
-/// Reads a part of a picture of at most so many pixels; the map notes the file.
+/// Reads a part of a picture with at most the given pixels; the map records the file.
 pub(super) fn read_part(
     path: &Path,
     max_pixels: u64,
@@ -109,12 +109,12 @@ pub(super) fn read_part(
     part_of(path, &bytes, max_pixels)
 }
 
-/// The part in the bytes of a file, of a picture of at most so many pixels.
+/// The part in the bytes of a file, of a picture with at most the given pixels.
 pub(super) fn part_of(path: &Path, bytes: &[u8], max_pixels: u64) -> Result<RenderShard, Failure> {
     RenderShard::load(bytes, max_pixels).map_err(|error| unfit(path, &error))
 }
 
-/// What to say of a part that is not as it should be.
+/// The message for an invalid part.
 pub(super) fn unfit(path: &Path, error: &dyn fmt::Display) -> Failure {
     Failure::Input(said_of(path, error))
 }
@@ -123,7 +123,7 @@ fn said_of(path: &Path, error: &dyn fmt::Display) -> String {
     format!("`{}`: {error}", path.display())
 }
 
-/// Refuses to write a picture of another kind than that which the parts are of.
+/// Rejects a picture format other than that of the parts.
 fn refuse_other_kind(args: &Merge, merged: &RenderShard) -> Result<(), Failure> {
     let asked = kind(&args.output, None)?;
     let ((is, own), (_, other)) = (merged.look().kind.names(), asked.names());
@@ -135,7 +135,7 @@ fn refuse_other_kind(args: &Merge, merged: &RenderShard) -> Result<(), Failure> 
     )))
 }
 
-/// What to say of parts that make no picture.
+/// The message for parts that can't be merged.
 fn refused(error: ShardError, merged: &RenderShard) -> Failure {
     let words = match &error {
         ShardError::Missing(shares, _) => {

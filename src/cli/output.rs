@@ -13,13 +13,13 @@ use std::time::Duration;
 /// How long to wait for a reader before looking again, and for a signal.
 const WAIT: Duration = Duration::from_millis(10);
 
-/// Whether a result goes to standard output: by `-`, or by what the system calls it.
+/// Whether a result goes to standard output: by `-`, or by a system name for it.
 pub(super) fn is_stdout(path: &Path) -> bool {
     const NAMES: [&str; 4] = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
     NAMES.iter().any(|own| path.as_os_str() == *own)
 }
 
-/// A place for a result, fit to be written.
+/// A writable destination of a result.
 pub(super) struct Output {
     /// As the user calls it.
     name: String,
@@ -37,13 +37,13 @@ enum OutputTarget {
 type OutputWriter<'w> = &'w dyn Fn(&mut dyn Write) -> io::Result<()>;
 
 impl Output {
-    /// Looks whether `path`, `-` being standard output, can be written, so that a long work is not
-    /// done in vain: it may be none of what was read.
+    /// Checks that `path` (`-` is standard output) can be written and is none of the input files,
+    /// before a long computation.
     pub(super) fn open(path: &Path, input: &Input) -> Result<Self, Failure> {
         Self::apart_from(path, input.map())
     }
 
-    /// The same for what was read into a map, or noted there.
+    /// The same with the input files of a source map.
     pub(super) fn apart_from(path: &Path, read: &SourceMap) -> Result<Self, Failure> {
         if is_stdout(path) {
             return Ok(Self {
@@ -65,7 +65,7 @@ impl Output {
         Ok(Self { name, place })
     }
 
-    /// The name of a folder beside the result for files that it needs; none beside what is no file.
+    /// The name of a folder for files beside the result; `None` if the result is no file.
     pub(super) fn sidecar_folder(&self, path: &Path) -> Option<String> {
         let is_file = matches!(self.place, OutputTarget::File(_));
         sidecar_folder(path).filter(|_| is_file)
@@ -76,7 +76,7 @@ impl Output {
         self.commit_by(&|out| out.write_all(bytes), interrupt)
     }
 
-    /// The same with a file that is written while work goes on; nothing else can be.
+    /// The same for a file that is written during the computation; it must be a file.
     pub(super) fn commit_slowly(
         self,
         write: &mut dyn FnMut(&mut File) -> io::Result<()>,
@@ -107,7 +107,7 @@ impl Output {
         self.reported(written, interrupt)
     }
 
-    /// How the writing ended, in words.
+    /// The message of a failed write.
     fn reported(&self, written: io::Result<()>, interrupt: &Interrupt) -> Result<(), Failure> {
         written.map_err(|error| match interrupt.is_raised() {
             true => Failure::Interrupted,
@@ -134,9 +134,8 @@ impl Companions {
         }
     }
 
-    /// Writes one, by its path from the folder of the result. What is there with the same bytes
-    /// stays;
-    /// anything else is never written over.
+    /// Writes a file at a path relative to the folder of the result. An identical file is kept; any
+    /// other existing file is an error.
     pub(super) fn put(
         &mut self,
         name: &str,
@@ -187,7 +186,7 @@ impl Companions {
 
 impl Drop for Companions {
     fn drop(&mut self) {
-        // What can't be removed stays: the fault that led here is told.
+        // A folder that can't be removed stays: the original error is reported.
         for file in self.files.drain(..) {
             let _ = fs::remove_file(file);
         }
@@ -197,7 +196,7 @@ impl Drop for Companions {
     }
 }
 
-/// Whether a file holds these bytes.
+/// Whether a file has these bytes.
 fn is_same(there: &fs::Metadata, path: &Path, bytes: &[u8]) -> bool {
     let length = bytes.len() as u64;
     let read = || Loader.bytes(path, length, &SourceMap::default());
@@ -271,7 +270,7 @@ fn failure(name: &str, error: &io::Error) -> Failure {
     Failure::Trouble(format!("can't write {name}: {error}"))
 }
 
-/// Writes to standard output; if its reader has gone that is no failure of ours.
+/// Writes to standard output; a closed pipe is no failure.
 pub(super) fn to_stdout(bytes: &[u8]) -> Result<(), Failure> {
     through_stdout(&|out| out.write_all(bytes)).map_err(|error| failure("standard output", &error))
 }

@@ -1,4 +1,4 @@
-//! Values of arguments: the words people type to the values they mean, or what was expected.
+//! Parsers of argument values; errors state the expected form.
 
 use super::args::BackgroundArg;
 use rtc_image::BackgroundFill;

@@ -1,4 +1,4 @@
-//! How far a long render is: a bar on a terminal, nothing elsewhere; and how long it took.
+//! The progress of a long render: a bar on a terminal, nothing elsewhere; and the elapsed time.
 
 use indicatif::{
     HumanCount, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle,
@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-/// Counts the pixels done and the rays they took; all threads may tell it.
+/// Counts the finished pixels and their rays; all threads may report to it.
 pub(super) struct RenderProgress {
     bar: ProgressBar,
     /// Nobody sees the bar, so it need not know how far the render is: it would look at the clock
@@ -48,7 +48,7 @@ impl RenderProgress {
         self.bar.inc(u64::from(step.is_done));
     }
 
-    /// A round of `pixels` more begins, of a render of which `words` say how good it is.
+    /// Begins a round of `pixels` more; `words` describe the quality reached.
     pub(super) fn round(&self, pixels: u64, words: String) {
         self.bar.set_length(self.bar.position() + pixels);
         self.bar.set_message(words);
@@ -70,7 +70,7 @@ impl RenderProgress {
 fn style(rays: Arc<AtomicU64>) -> ProgressStyle {
     let rate = move |state: &ProgressState, text: &mut dyn Write| {
         let rays = rays.load(Ordering::Relaxed);
-        // A bar that can't be drawn is no fault of the render.
+        // A bar that can't be drawn is no failure of the render.
         let _ = write!(text, "{}", per_second(rays, state.elapsed()));
     };
     let left = |state: &ProgressState, text: &mut dyn Write| {

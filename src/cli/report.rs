@@ -1,5 +1,5 @@
-//! The report of `rtc compile --explain`: each effect with its verdict, rule, reason and place, and
-//! how often it is simulated: its rays, or its evaluations.
+//! The report of `rtc compile --explain`: each effect with its status, rule, reason and source, and
+//! its count of rays or evaluations.
 //!
 //! Rays are counted by tracing: the picture without the rule that left an effect out, less the
 //! picture as planned; on every k-th pixel where the whole would take long.
@@ -17,14 +17,14 @@ use std::num::NonZeroU32;
 /// About the most rays of one pass.
 const MAX_RAYS: u64 = 200_000;
 
-/// The fewest pixels and paths of one pass where paths are traced, if the picture has so many.
+/// The minimum pixels and paths of one pass of path tracing, if the picture has as many.
 const MIN_PIXELS: u64 = 4_096;
 const MIN_PATHS: u64 = 20_480;
 
 /// Columns of the table.
 const WIDTH: usize = 80;
 
-/// What is said of a plan.
+/// The report of a plan.
 pub(super) struct PlanReport {
     /// The integrator, and out of how many it was chosen.
     kernel: (&'static str, usize),
@@ -86,7 +86,7 @@ fn saved(
     }
 }
 
-/// One verdict, with what the effect costs.
+/// The status of one effect, with its cost.
 struct ReportRow {
     status: EffectStatus,
     /// `file:line` of the values that decided.
@@ -198,7 +198,7 @@ impl PlanReport {
         lines.collect()
     }
 
-    /// The report in the form asked for.
+    /// The report in the requested format.
     pub(super) fn print(&self, form: Explanation) -> String {
         match form {
             Explanation::Table => self.table(),
@@ -216,7 +216,7 @@ impl PlanReport {
         text + &self.totals(about)
     }
 
-    /// The kernel, and the rays of all effects together, with `about` before what is estimated.
+    /// The kernel, and the rays of all effects together, with `about` for estimates.
     fn totals(&self, about: &str) -> String {
         let (kernel, kernels) = self.kernel;
         let all = self.counter.all;
@@ -282,7 +282,7 @@ impl<'scene> Counter<'scene> {
         let pixels = u64::from(width) * u64::from(height);
         let all = pixels.saturating_mul(pixel);
         let (samples, wanted) = match scene.settings().mode {
-            // Paths are long: some of each pixel say enough, and pixels that are far apart more.
+            // Paths are long: some of each pixel suffice, and distant pixels are more informative.
             Mode::Path(_) => (
                 pixel.min((MIN_PATHS / pixels.clamp(1, MIN_PIXELS)).max(1)),
                 MIN_PIXELS,
@@ -363,7 +363,7 @@ fn at(file: &str, line: u32) -> String {
     format!("{name}:{line}")
 }
 
-/// The words in indented lines of at most [`WIDTH`] columns.
+/// The text in indented lines of at most [`WIDTH`] columns.
 fn folded(words: &str) -> String {
     const INDENT: &str = "    ";
     let mut text = String::new();

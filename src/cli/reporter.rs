@@ -1,4 +1,4 @@
-//! What is said, and on which stream: findings for people on standard error, those for programs on
+//! Messages and their streams: diagnostics for people on standard error, those for programs on
 //! standard output.
 
 use super::render::MadePicture;
@@ -11,7 +11,7 @@ use std::io::{self, IsTerminal, Write};
 /// Where the terminal does not say how wide it is.
 const WIDTH: usize = 100;
 
-/// Tells the findings about one file after another.
+/// Reports the diagnostics of one file after another.
 pub(super) struct Reporter {
     printer: Printer,
     to_stdout: bool,
@@ -19,12 +19,12 @@ pub(super) struct Reporter {
     verbose: bool,
     /// Findings are JSON objects.
     tells_objects: bool,
-    /// Something was told of a file.
+    /// A diagnostic of a file was printed.
     has_told: bool,
 }
 
 impl Reporter {
-    /// For a command whose result is its findings: those for programs go to standard output.
+    /// For a command whose result is its diagnostics: those for programs go to standard output.
     pub(super) fn as_result(args: &args::ReporterArgs) -> Self {
         let format = Format::from(args.message_format);
         Self {
@@ -33,7 +33,7 @@ impl Reporter {
         }
     }
 
-    /// For a command with another result: all findings go to standard error.
+    /// For a command with another result: all diagnostics go to standard error.
     pub(super) fn beside_result(args: &args::ReporterArgs) -> Self {
         let args::ReporterArgs {
             message_format,
@@ -67,15 +67,14 @@ impl Reporter {
         }
     }
 
-    /// Tells the findings about the file `name`.
+    /// Reports the diagnostics of the file `name`.
     pub(super) fn file(&mut self, name: &str, sink: Sink, map: &SourceMap) -> Result<(), Failure> {
         let text = self.printer.file(name, sink, map);
         self.has_told |= !text.is_empty();
         write(self.to_stdout, &text)
     }
 
-    /// Tells of a picture that was made: in words, or where findings are objects as one more of
-    /// them.
+    /// Reports a finished picture: as text, or as an object where diagnostics are objects.
     pub(super) fn made(&self, picture: &MadePicture) {
         if self.quiet {
             return;
@@ -86,24 +85,23 @@ impl Reporter {
         }
     }
 
-    /// Tells what follows the last finding.
+    /// Prints the end of the report.
     pub(super) fn finish(self) -> Result<(), Failure> {
         write(self.to_stdout, &self.printer.finish())
     }
 
-    /// True if a person at a terminal was told nothing, and did not ask for that.
+    /// True if the terminal of a user has received no message, and quiet mode is off.
     pub(super) fn left_in_doubt(&self) -> bool {
         !self.has_told && !self.to_stdout && !self.quiet && io::stderr().is_terminal()
     }
 
-    /// True if only errors are wanted.
+    /// True in quiet mode.
     pub(super) fn is_quiet(&self) -> bool {
         self.quiet
     }
 }
 
-/// Says something on standard error, without what would command a terminal. If nobody listens there
-/// is nobody to tell.
+/// Prints to standard error, without control characters. A closed stream is ignored.
 pub(super) fn say(words: &str) {
     let harmless = words.replace(|c: char| c.is_control() && c != '\n', "\u{fffd}");
     let _ = writeln!(io::stderr(), "{harmless}");

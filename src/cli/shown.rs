@@ -17,7 +17,7 @@ pub(super) fn read(path: &Path, map: &SourceMap) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
-/// A picture file of which the header was read.
+/// A picture file whose header was read.
 pub(super) fn opened<'b>(
     path: &Path,
     bytes: &'b [u8],
@@ -27,7 +27,7 @@ pub(super) fn opened<'b>(
     file.map_err(|error| Failure::Trouble(format!("`{}` {error}", path.display())))
 }
 
-/// Takes what decoding a file takes, unless that is too much.
+/// Charges the memory for decoding a file, unless it exceeds the limit.
 pub(super) fn charge(path: &Path, cost: DecodeCost, budget: &Budget) -> Result<(), Failure> {
     let DecodeCost {
         pixels,
@@ -47,7 +47,7 @@ pub(super) fn decoded(path: &Path, file: ShownFile<'_>) -> Result<ShownPicture, 
     picture.map_err(|error| Failure::Trouble(format!("`{}` {error}", path.display())))
 }
 
-/// That there is not so much to take.
+/// The error that the memory exceeds the limit.
 pub(super) fn over_limit(what: &str, fault: &Exceeded) -> Failure {
     Failure::Trouble(format!("{what}: {fault}; {}", fault.hint()))
 }

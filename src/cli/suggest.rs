@@ -1,5 +1,5 @@
-//! Where a mistyped command leads: to the subcommand that was left out, and to the flag that means
-//! for this scene what a flag of other renderers means.
+//! Suggestions for mistyped commands: a missing subcommand, or the equivalent of another renderer's
+//! flag.
 
 use super::args::{Cli, Command};
 use super::input;
@@ -20,7 +20,7 @@ const SAMPLES: [&str; 4] = ["--samples", "--sample-count", "--aa", "--antialiasi
 /// Flags of other renderers for the size of a picture.
 const SIZES: [&str; 4] = ["--width", "--height", "--resolution", "--res"];
 
-/// Adds to a fault of the arguments, as typed with the name of the program, where they lead.
+/// Adds suggestions to an argument error, given the arguments with the name of the program.
 pub(super) fn suggest(error: &mut Error, typed: &[OsString]) {
     let tip = if error.kind() == ErrorKind::InvalidSubcommand {
         verb(typed)
@@ -44,7 +44,7 @@ fn verb(typed: &[OsString]) -> Option<String> {
     is_scene.then(|| format!("did you mean `rtc render {}`?", clip_words(&name)))
 }
 
-/// The flag that means what an unknown one does elsewhere.
+/// The flag that is equivalent to an unknown one.
 fn flag(error: &Error, typed: &[OsString]) -> Option<String> {
     let Some(ContextValue::String(wrong)) = error.get(ContextKind::InvalidArg) else {
         return None;
@@ -75,7 +75,7 @@ fn flag(error: &Error, typed: &[OsString]) -> Option<String> {
 /// A flag, and the value that it was given.
 type RequestedFlag = (String, Option<String>);
 
-/// The words without the flags of other renderers, and those flags.
+/// The arguments without the flags of other renderers, and those flags.
 fn apart(typed: &[OsString]) -> (Vec<OsString>, Vec<RequestedFlag>) {
     let (mut kept, mut asked) = (Vec::new(), Vec::new());
     let mut words = typed.iter().peekable();
@@ -129,7 +129,7 @@ fn scene(kept: &[OsString]) -> Option<Option<Scene>> {
     Some(validated.map(|validated| validated.lowered.scene))
 }
 
-/// The flag for so many samples of a pixel.
+/// The flag for a number of samples per pixel.
 fn samples(scene: Option<&Scene>, count: Option<u32>) -> String {
     match scene.map(|scene| &scene.settings.mode) {
         Some(Mode::Path(_)) => {
@@ -146,15 +146,14 @@ fn samples(scene: Option<&Scene>, count: Option<u32>) -> String {
     }
 }
 
-/// The side of the smallest square of so many sub-samples.
+/// The side of the smallest square with at least this many sub-samples.
 fn side(count: u32) -> u32 {
     let root = count.isqrt();
     root + u32::from(root * root < count)
 }
 
 /// The flag for a picture of this width, this height or this size; one side alone keeps the shape
-/// of
-/// the picture.
+/// of the picture.
 fn pixels(scene: Option<&Scene>, sides: [Option<u32>; 2], whole: Option<[u32; 2]>) -> String {
     let scaled = |side: u32, [own, other]: [u32; 2]| {
         let scaled = f64::from(side) * f64::from(other) / f64::from(own);
@@ -173,18 +172,21 @@ fn pixels(scene: Option<&Scene>, sides: [Option<u32>; 2], whole: Option<[u32; 2]
     }
 }
 
-/// What to say of samples that were asked for and that a scene has no use for, if any.
+/// The message for requested samples that a scene does not use, if any.
 pub(super) fn idle(asked: &Overrides, mode: &Mode) -> Option<&'static str> {
     let (is_spp, is_side) = (asked.spp.is_some(), asked.supersampling.is_some());
     match mode {
         Mode::Path(_) => is_side.then_some(
-            "warning: `--supersampling` changes nothing: paths are traced; `--spp N` takes N of a \
-            pixel",
+            "warning: `--supersampling` has no effect: the scene is path-traced; `--spp N` traces \
+            N paths in each pixel",
         ),
-        Mode::Depth => is_spp.then_some("warning: `--spp` changes nothing: no paths are traced"),
+        Mode::Depth => is_spp.then_some(
+            "warning: `--spp` has no effect: the scene is not \
+        path-traced",
+        ),
         Mode::Phong | Mode::Gooch(_) | Mode::Normal => is_spp.then_some(
-            "warning: `--spp` changes nothing: no paths are traced; `--supersampling N` takes N×N \
-            samples of a pixel",
+            "warning: `--spp` has no effect: the scene is not path-traced; `--supersampling N` \
+            takes N×N samples in each pixel",
         ),
     }
 }

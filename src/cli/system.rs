@@ -1,4 +1,4 @@
-//! What the system tells in its files; nothing where there are none.
+//! Statistics from system files; none on systems without them.
 
 use rtc_source::{Loader, SourceMap};
 use std::path::Path;
@@ -8,14 +8,14 @@ pub(super) fn processor() -> Option<String> {
     reported("/proc/cpuinfo", "model name")
 }
 
-/// The bytes of this process on huge pages, as hierarchies ask for.
+/// The bytes of this process on huge pages, as hierarchies request them.
 pub(super) fn huge_pages() -> Option<u64> {
     let granted = reported("/proc/self/smaps_rollup", "AnonHugePages")?;
     let kib: u64 = granted.strip_suffix("kB")?.trim().parse().ok()?;
     kib.checked_mul(1024)
 }
 
-/// What stands behind a name in a file.
+/// The value of a name in a file.
 fn reported(file: &str, name: &str) -> Option<String> {
     let mut map = SourceMap::default();
     let file = Loader.file(Path::new(file), &mut map).ok()?;

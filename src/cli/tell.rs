@@ -1,4 +1,4 @@
-//! What rtc tells about itself: `rtc schema`, `rtc completions`, `rtc man`.
+//! The descriptions of rtc itself: `rtc schema`, `rtc completions`, `rtc man`.
 
 use super::args::{Cli, Completions, Man, Schema, SchemaFormat};
 use super::audit::AuditReport;
@@ -45,7 +45,7 @@ enum CostReport<'a> {
     Versus(VersusReport<'a>),
 }
 
-/// The schema describes what is written: a key that may be null is always there.
+/// The schema describes the written form: a key that may be null is always present.
 fn settings() -> SchemaSettings {
     SchemaSettings::draft2020_12().for_serialize()
 }

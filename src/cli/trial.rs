@@ -1,13 +1,13 @@
-//! Arguments and messages nobody vouches for: what the fuzz targets call, and the suite with what
-//! they found.
+//! Untrusted arguments and messages: entry points of the fuzz targets, and of the tests with their
+//! findings.
 
 use super::args::{Cli, Command};
 use super::lsp;
 use clap::Parser;
 use std::ffi::OsString;
 
-/// Parses arguments, one a line, the program's name left out. No command is carried out; of the
-/// files that are named only a folder of assets is asked whether it is there.
+/// Parses arguments, one per line, without the program's name. No command runs; only the existence
+/// of an asset folder is checked.
 ///
 /// # Panics
 /// If arguments are refused without a reason, or with the exit code of something else.
@@ -29,7 +29,7 @@ pub fn arguments(bytes: &[u8]) {
 /// Hears the messages of an editor, one JSON object a line, the greeting left out.
 ///
 /// # Panics
-/// If a fault of ours is told of.
+/// If a message causes an internal error.
 pub fn messages(bytes: &[u8]) {
     let cli = Cli::try_parse_from(["rtc", "lsp"]);
     if let Ok(Cli {

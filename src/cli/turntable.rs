@@ -1,4 +1,4 @@
-//! A turntable: views all around a scene, which is proven once; and what their files are called.
+//! A turntable: views around a scene that is validated once, and the names of their files.
 
 use super::Failure;
 use rtc_ir::{Camera, Scene};
@@ -64,8 +64,7 @@ impl Turntable {
         }
     }
 
-    /// Shows the scene as it is in one frame, from 0; the camera goes round anticlockwise, seen
-    /// from above.
+    /// Sets the scene to one frame, from 0; the camera moves anticlockwise, seen from above.
     pub(super) fn turn(&self, validated: &mut Validated, frame: u32) -> Result<(), Failure> {
         let angle = TAU * f64::from(frame) / f64::from(self.count);
         let camera = match frame {
@@ -84,8 +83,8 @@ impl Turntable {
     }
 }
 
-/// The name of a frame's file: its number, from 1, in place of `%04d` (any width will do), or
-/// before the extension.
+/// The name of a frame's file: its number, from 1, replaces `%04d` (of any width), or precedes the
+/// extension.
 pub(super) fn name(pattern: &Path, frame: u32) -> PathBuf {
     let number = frame + 1;
     let file = pattern.file_name().unwrap_or_default().to_string_lossy();

@@ -1,10 +1,9 @@
-//! The words of a command as they were typed, to be said again.
+//! The typed arguments of a command, for messages that repeat them.
 
 use std::ffi::OsString;
 
-/// The words without the program and without these options, each of which has a value: the next
-/// word, or
-/// the rest of its own.
+/// The arguments without the program and without these options and their values, which are the next
+/// argument or the rest of their own.
 pub(super) fn without(typed: &[OsString], options: &[&str]) -> Vec<String> {
     let mut words = typed.iter().skip(1).map(|word| word.to_string_lossy());
     let mut kept = Vec::new();
@@ -18,13 +17,13 @@ pub(super) fn without(typed: &[OsString], options: &[&str]) -> Vec<String> {
     kept
 }
 
-/// Whether a word is an option and its value in one.
+/// Whether an argument is an option with its value.
 fn holds(word: &str, option: &str) -> bool {
     let rest = word.strip_prefix(option);
     rest.is_some_and(|rest| !option.starts_with("--") || rest.starts_with('='))
 }
 
-/// A word as a shell of POSIX takes it.
+/// An argument quoted for a POSIX shell.
 pub(super) fn quoted(word: &str) -> String {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "_-./:=,+@%".contains(letter);
     match !word.is_empty() && word.chars().all(is_plain) {

@@ -1,5 +1,4 @@
-//! `rtc cost SCENE REFERENCE`: what a scene costs and shows against another, and whether that is
-//! within gates.
+//! `rtc cost SCENE REFERENCE`: the cost and the picture of a scene against another, with gates.
 
 use super::Failure;
 use super::args::{self, StudyFormat};
@@ -34,7 +33,7 @@ pub(super) fn run(args: &args::Cost, files: [&Path; 2]) -> Result<(), Failure> {
     outcome
 }
 
-/// Refuses what is for the study of one scene.
+/// Rejects options for the study of one scene.
 fn refuse_others(args: &args::Cost, files: [&Path; 2]) -> Result<(), Failure> {
     let refused = if args.html.is_some() {
         "`--html` is for the study of one scene"
@@ -88,7 +87,7 @@ fn carry_out(args: &args::Cost, files: [&Path; 2], reporter: &mut Reporter) -> R
     gate::pass(&is_resolved, reporter.is_quiet())
 }
 
-/// A scene, proven, and what is told of it.
+/// A validated scene with its diagnostics.
 fn validated(
     input: &mut Input,
     reporter: &mut Reporter,

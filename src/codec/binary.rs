@@ -1,11 +1,10 @@
 //! The binary encoding, `.rtir`: 8 bytes of magic, container version and header length (u32 each),
 //! a CRC-32 of these and of the header, the header as JSON, then sections.
 //!
-//! The header holds the small parts of the scene, the tables of its lists, and the indices of the
-//! sections that hold mesh columns and image pixels. Any changed bit is detected, and decoding
-//! allocates memory in proportion to the length of the file only. Files are read, not
-//! memory-mapped: reading takes 40 ms for a million triangles, and a mapped file could be truncated
-//! by another process.
+//! The header holds the entities of the scene, the tables of its lists, and the indices of the
+//! sections with mesh columns and image pixels. Any changed bit is detected, and decoding allocates
+//! memory in proportion to the length of the file only. Files are read, not memory-mapped: reading
+//! takes 40 ms for a million triangles, and a mapped file could be truncated by another process.
 
 use super::columns::{self, SectionReader, Table};
 use super::section::{self, ALIGNMENT, SectionEntry, SectionWriter};
@@ -148,7 +147,7 @@ pub(super) fn encode<'s>(
 fn head(header: &Header) -> Vec<u8> {
     let header = serde_json::to_vec(header)
         .expect("the header is made of maps with string keys, lists and numbers");
-    let length = u32::try_from(header.len()).expect("no file that is read has so many parts");
+    let length = u32::try_from(header.len()).expect("no file that is read has 2³² parts");
     let mut head = Vec::with_capacity(PREAMBLE + header.len() + ALIGNMENT);
     head.extend(MAGIC);
     head.extend(CONTAINER_VERSION.to_le_bytes());
@@ -189,7 +188,7 @@ pub(super) fn decode(file: FileId, bytes: &[u8]) -> Decoded<Scene> {
     let malformed = |message| container.error_at(&codes::MALFORMED, message, PREAMBLE, end);
     let (Some(images), Some(meshes)) = (images, meshes) else {
         return Err(malformed(
-            "an image or a mesh has no sections of the kind it says".to_owned(),
+            "an image or a mesh has no sections of its declared kind".to_owned(),
         ));
     };
     // Unpack each table to a list of entities; surfaces are typed one by one.
@@ -218,7 +217,7 @@ pub(super) fn decode(file: FileId, bytes: &[u8]) -> Decoded<Scene> {
             )));
         }
     }
-    // Upgrade and type the tree, then add what bypassed it.
+    // Upgrade and type the tree, then add the sections.
     let mut scene = typed(header.ir_version, Value::Object(tree), span)?;
     scene.images.extend(images);
     scene.meshes.extend(meshes);
@@ -326,7 +325,7 @@ impl Container<'_> {
     /// The error for a file that ends before `end`, the end of `what`.
     pub(super) fn truncated(&self, end: usize, what: &str) -> Box<Diagnostic> {
         let length = self.bytes.len();
-        let message = format!("the file ends at byte {length}, but {what} goes on to byte {end}");
+        let message = format!("the file ends at byte {length}, but {what} ends at byte {end}");
         self.error_at(&codes::TRUNCATED, message, length, length)
     }
 

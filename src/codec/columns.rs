@@ -31,7 +31,7 @@ pub(super) struct Table {
 struct EntityTemplate {
     /// The entity with null for each number, long list or long string.
     entity: Value,
-    /// What each null replaces, in order.
+    /// The values that the nulls replace, in order.
     numbers: Vec<TemplateSlot>,
     /// The section of the floats, one record per entity.
     floats: usize,
@@ -42,7 +42,7 @@ struct EntityTemplate {
     runs: Vec<Run>,
 }
 
-/// What a null replaces.
+/// The value that a null replaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 enum TemplateSlot {
@@ -240,10 +240,10 @@ pub(super) fn unpack(
         let source = kind
             .source(reader.sections, records)
             .filter(|_| reader.spend(&kind.runs));
-        sources.push(
-            source
-                .ok_or_else(|| malformed("has sections of another length or kind than it says"))?,
-        );
+        sources
+            .push(source.ok_or_else(|| {
+                malformed("has sections of another length or kind than declared")
+            })?);
     }
     // Fill the templates in order.
     order.iter().try_for_each(|kind| {

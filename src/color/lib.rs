@@ -1,5 +1,25 @@
-//! Colour: tone mapping of linear values to display values, and quantization to integers. A display
-//! value of 1 is the largest integer; there is no gamma.
+//! Colour: luminance, sRGB coding, quantization, and tone mapping.
+//!
+//! # Overview
+//!
+//! A linear value is proportional to radiance; colours are red, green and blue with Rec. 709
+//! primaries. A display value is in [0, 1]; 1 is the largest integer of a pixel file.
+//!
+//! - [`Tone`] maps linear colours to display values: none, sRGB, AgX, or PBR Neutral of Khronos.
+//! - [`srgb_encoded`] and [`srgb_decoded`] are the transfer function of sRGB and its inverse.
+//! - [`quantize8`] and [`quantize16`] turn display values into integers.
+//! - [`luminance`] is the weighted sum of the channels.
+//!
+//! # Data flow
+//!
+//! `render` sums linear values. `image` applies the [`Tone`] of a picture and quantizes the result.
+//! Front ends decode sRGB colours of scene files with [`srgb_decoded`]. Scenes of the course use
+//! display values throughout, with [`Tone::None`].
+//!
+//! # Guarantees
+//!
+//! - Every function accepts all f64 values; NaN quantizes to 0.
+//! - Results have the same bits on every machine, since `pow` comes from `libm`.
 
 mod tone;
 

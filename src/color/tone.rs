@@ -10,15 +10,15 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase")]
 pub enum Tone {
-    /// As they are.
+    /// Linear values, unchanged.
     None,
-    /// Cut off at 1 and coded by sRGB.
+    /// Clipped at 1, with sRGB encoding.
     Srgb,
     /// Troy Sobotka's AgX, the base look: highlights roll off over 16.5 stops and lose their colour
     /// on the way.
     Agx,
-    /// The PBR Neutral tone map of Khronos, coded by sRGB: colours below the highlights stay what
-    /// they are.
+    /// The PBR Neutral tone map of Khronos with sRGB encoding: colours below the highlights keep
+    /// their values.
     PbrNeutral,
 }
 

@@ -29,7 +29,7 @@ impl DiagnosticLevel {
     }
 }
 
-/// What a level applies to.
+/// The subject of a level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LevelSubject {
     /// The diagnostics of one code.

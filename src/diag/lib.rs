@@ -1,8 +1,8 @@
 //! Diagnostics: one struct, one table of codes, one sink, and the printers.
 //!
-//! A stage that detects a mistake of the user creates a [`Diagnostic`] and pushes it into the
-//! [`Sink`]; a user's mistake is never an `Err`. The work goes on, so that one run reports all
-//! mistakes. When a file is finished, a [`Printer`] turns the contents of the sink into text:
+//! A stage that detects an error of the user creates a [`Diagnostic`] and pushes it into the
+//! [`Sink`]; a user's error is never an `Err`. The stage continues, so that one run reports all
+//! errors. When a file is finished, a [`Printer`] turns the contents of the sink into text:
 //!
 //! ```text
 //! stage → Diagnostic → Sink (levels, capacity) → Printer (sort, fold, cap) → text
@@ -11,15 +11,15 @@
 //! - [`Diagnostic`]: the code, the severity, the message, a primary label, secondary labels, hints
 //!   with replacements, and for JSON a pointer.
 //! - [`codes`]: the table of codes. The page of each code is a Markdown file in `codes/pages`.
-//! - [`DiagnosticLevels`]: what `--deny`, `--warn` and `--allow` set for a code.
+//! - [`DiagnosticLevels`]: the levels that `--deny`, `--warn` and `--allow` set for a code.
 //! - [`Sink`]: applies the levels, counts errors, and keeps a limited number of diagnostics.
 //! - [`Printer`]: formats for people ([`Format::Human`]), editors, programs, SARIF and GitHub.
 //!
 //! Callers may rely on this: no text of the input can send commands to a terminal, an error is kept
 //! even after a flood of notes, and the order of the output depends on the input alone.
 //!
-//! A message is in lower case without a full stop and says what is wrong. A hint says what to do. A
-//! label says what is at its span.
+//! A message is in lower case without a full stop and states the error. A hint is an instruction. A
+//! label describes the text at its span.
 
 mod clip;
 pub mod codes;
@@ -37,12 +37,12 @@ pub use sink::Sink;
 
 use rtc_source::Span;
 
-/// A span and a short text about what is there; the text may be empty.
+/// A span and a short description of it; the text may be empty.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
     /// Where.
     pub span: Span,
-    /// What is here.
+    /// The description.
     pub text: String,
 }
 
@@ -58,13 +58,11 @@ pub struct Hint {
 /// New text for a span; an empty span is an insertion.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Replacement {
-    /// What is replaced.
+    /// The replaced span.
     pub span: Span,
-    /// By what.
+    /// The replacement.
     pub text: String,
-    /// Whether the replacement is a guess at what the author meant. Otherwise it has the same
-    /// meaning
-    /// as the original text.
+    /// Whether the replacement is a guess. Otherwise it has the same meaning as the original text.
     pub is_guess: bool,
 }
 
@@ -75,13 +73,13 @@ pub struct Diagnostic {
     pub code: &'static Code,
     /// Usually the severity of the code; `--strict` and `--lenient` change it.
     pub severity: Severity,
-    /// What is wrong, in one sentence.
+    /// The error, in one sentence.
     pub message: String,
     /// The span that is wrong.
     pub primary: Option<Label>,
     /// Other spans that matter.
     pub secondary: Vec<Label>,
-    /// What to do.
+    /// The instruction.
     pub hints: Vec<Hint>,
     /// A JSON pointer to the value, for input that is JSON or has no text.
     pub pointer: Option<String>,

@@ -47,8 +47,7 @@ impl Sink {
     }
 
     /// Adds a diagnostic of this code and severity. It is created only if it is kept, so many of
-    /// them
-    /// cost little.
+    /// them cost little.
     pub fn push_with(
         &mut self,
         code: &Code,

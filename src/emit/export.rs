@@ -46,7 +46,7 @@ pub(super) fn used_materials(scene: &Scene) -> impl Iterator<Item = (usize, &Mat
     used_materials.into_iter().filter_map(material)
 }
 
-/// How many surfaces from the first on are parts of one solid made of solids; 1 for another shape.
+/// The number of surfaces from the first on that are parts of one CSG solid; 1 for another shape.
 pub(super) fn parts_of_one(surfaces: &[Surface]) -> usize {
     let Some(Shape::Csg(first)) = surfaces.first().map(|surface| &surface.shape) else {
         return 1;
@@ -65,7 +65,7 @@ pub(super) fn parts_of_one(surfaces: &[Surface]) -> usize {
     count.max(1)
 }
 
-/// The surface among the parts of a solid made of solids that shows an operand.
+/// The surface among the parts of a CSG solid that shows an operand.
 pub(super) fn part_of(parts: &[Surface], operand: usize) -> Option<&Surface> {
     let shows = |face: &u32| usize::try_from(*face) == Ok(operand);
     parts

@@ -1,18 +1,18 @@
 //! Exports: writes the IR in other formats, one module per format.
 //!
 //! - [`course`]: YAML of the course, without loss.
-//! - [`gltf`]: glTF 2.0. What it can't express goes to `extras.rtc`, so that rtc reads it back.
+//! - [`gltf`]: glTF 2.0. Values that it can't express go to `extras.rtc`, so that rtc reads them
+//!   back.
 //! - [`mitsuba`]: Mitsuba 3 (XML), for path-traced scenes.
 //! - [`pov`]: POV-Ray 3.7, for scenes of the course.
 //!
-//! Each `emit` takes a scene that was validated, its source spans, a budget and a sink. It returns
-//! the text and its sidecar files in memory ([`ExportedScene`] for the last two formats); it writes
-//! nothing to disk. Values that a format can't express exactly are reported as diagnostics at their
-//! source spans (`reporter`). `None` means that the scene can't be exported, and the sink has the
-//! error.
+//! Each `emit` takes a validated scene, its source spans, a budget and a sink. It returns the text
+//! and its sidecar files in memory ([`ExportedScene`] for the last two formats); it writes nothing
+//! to disk. Values that a format can't express exactly are reported as diagnostics at their source
+//! spans (`reporter`). `None` means that the scene can't be exported, and the sink has the error.
 //!
 //! Shared parts: `approximation` (the Phong model as a glTF material), `flat` (planes as squares),
-//! `tessellate` (meshes in place of shapes), `ply` (meshes as PLY files), `sidecar` (names of
+//! `tessellate` (meshes instead of shapes), `ply` (meshes as PLY files), `sidecar` (names of
 //! sidecar files), `export` (helpers for other renderers).
 
 mod approximation;

@@ -67,7 +67,7 @@ fn declare<const N: usize>(column: &Column<N>, names: [&str; N], head: &mut Stri
     }
 }
 
-/// Writes the values of a vertex; nothing for an empty column.
+/// Writes the values of a vertex; skips an empty column.
 fn store<const N: usize>(column: &Column<N>, vertex: usize, bytes: &mut Vec<u8>) {
     match column {
         Column::Single(vectors) => {

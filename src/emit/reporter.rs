@@ -28,6 +28,6 @@ impl<'t> ExportReporter<'t> {
     fn push(&mut self, diagnostic: Diagnostic, path: ValuePath) {
         let span = self.source_spans.span(path);
         self.sink
-            .push(diagnostic.at(span, "this").pointer(path.to_string()));
+            .push(diagnostic.at(span, "").pointer(path.to_string()));
     }
 }

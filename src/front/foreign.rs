@@ -58,7 +58,7 @@ const FOREIGN: &[ForeignFile] = &[
     (
         "a pointer of Git LFS",
         |b| b.starts_with(b"version https://git-lfs"),
-        "fetch the file that it stands for: `git lfs pull`",
+        "fetch the real file: `git lfs pull`",
     ),
     (
         "a page of HTML",
@@ -148,7 +148,7 @@ const XML: &[(&str, &str, &str)] = &[
 /// The number of bytes that are examined.
 const HEAD: usize = 4096;
 
-/// The finding that a file is no scene, if its first bytes are those of another format.
+/// The diagnostic that a file is no scene, if its first bytes are those of another format.
 pub fn foreign(name: &str, bytes: &[u8]) -> Option<Diagnostic> {
     // A scene of pbrt may be compressed.
     if crate::pbrt::is_pbrt_gzip(name, bytes) {

@@ -107,7 +107,7 @@ pub fn is_scene_text_name(name: &str) -> bool {
     extension.is_some_and(|extension| matches!(extension.as_str(), "yaml" | "yml"))
 }
 
-/// The finding that a file exceeds the budget.
+/// The diagnostic that a file exceeds the budget.
 fn over_limit(what: &str, fault: &Exceeded) -> Diagnostic {
     Diagnostic::new(
         &codes::OVER_LIMIT,

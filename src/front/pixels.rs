@@ -52,8 +52,7 @@ pub struct ChargedFile<'a> {
 }
 
 /// Charges the cost of a PNG, JPEG, WebP or KTX2. The decoder is dropped, because it holds memory
-/// of its
-/// own.
+/// of its own.
 ///
 /// # Errors
 /// As [`decode`], except for errors behind the header.
@@ -130,14 +129,14 @@ pub fn environment(name: &str, bytes: &[u8], budget: &Budget) -> Result<ir::Imag
     })
 }
 
-/// The finding about the file of an environment that can't be decoded.
+/// The diagnostic for an environment file that can't be decoded.
 #[must_use]
 pub fn environment_rejection(fault: &PixelFault, name: &str) -> Diagnostic {
     let formats = "environments are Radiance HDR or OpenEXR";
     rejection(fault, &format!("the environment `{name}`"), formats)
 }
 
-/// The finding about a file that can't be decoded. `what` names it, `formats` lists the accepted
+/// The diagnostic for a file that can't be decoded. `what` names it, `formats` lists the accepted
 /// formats.
 pub(super) fn rejection(fault: &PixelFault, what: &str, formats: &'static str) -> Diagnostic {
     let fault = match fault {

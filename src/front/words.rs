@@ -23,9 +23,9 @@ pub struct WordSpan {
 #[derive(Debug)]
 pub struct WordFault {
     at: WordSpan,
-    /// What is wrong.
+    /// The message.
     pub message: String,
-    /// What is here.
+    /// The label.
     pub label: String,
 }
 
@@ -199,7 +199,7 @@ impl<'a> Lines<'a> {
         Self { file, at }
     }
 
-    /// Whether nothing is left of the file.
+    /// Whether the file is at its end.
     pub(super) fn is_at_end(&self) -> bool {
         self.at >= self.file.len()
     }

@@ -7,15 +7,15 @@ use super::png::pack;
 use ::png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent, Writer};
 use std::io::{self, Write};
 
-/// An APNG of which some pictures are written, 8 bits per channel.
+/// An APNG that is partly written, 8 bits per channel.
 pub struct AnimatedPng<W: Write> {
     writer: Writer<W>,
     height: u32,
 }
 
 impl<W: Write> AnimatedPng<W> {
-    /// Begins a file of so many pictures, at least 1, so many a second, that begins anew after the
-    /// last; they have the size of the head, and opacities if that has.
+    /// Begins a file of a number of pictures, at least 1, at a number of frames per second, that
+    /// loops for ever; the header gives the size, and whether there is an alpha channel.
     ///
     /// # Errors
     /// If it can't be written, or there are no pictures or pixels.

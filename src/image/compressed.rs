@@ -77,7 +77,7 @@ mod tests {
     use super::super::{FileFormat, Image, Picture};
     use rtc_color as color;
 
-    /// A picture of smooth colours, half of it transparent if that is wanted.
+    /// A picture of smooth colours, optionally half transparent.
     fn picture(is_clear: bool) -> Picture {
         let at = |index: u32| f64::from(index) / 255.0;
         Picture {
@@ -120,8 +120,8 @@ mod tests {
         };
         assert_eq!(read(FileFormat::Webp), bytes);
         let jpeg = read(FileFormat::Jpeg);
-        let apart = jpeg.iter().zip(&bytes).map(|(a, b)| a.abs_diff(*b)).max();
-        assert!(apart.unwrap() <= 12, "{apart:?}");
+        let difference = jpeg.iter().zip(&bytes).map(|(a, b)| a.abs_diff(*b)).max();
+        assert!(difference.unwrap() <= 12, "{difference:?}");
     }
 
     #[test]

@@ -1,9 +1,9 @@
-//! EXR: floats of 32 or 16 bits per channel, as they are but finite, in one part, with what colours
-//! the numbers mean, the view, and where the picture came from.
+//! EXR: floats of 32 or 16 bits per channel, unchanged except that they are finite, in one part,
+//! with the chromaticities, the view, and the provenance.
 //!
-//! The encoder keeps free attributes in hashed maps, whose order changes from run to run: `ordered`
-//! makes them anew until it is the wanted one. The Merkle tree is known last and stands in the
-//! head, where there is room for it.
+//! The encoder keeps free attributes in hash maps with a random order: `ordered` creates them again
+//! until they have the required one. The Merkle tree is known last and is stored in reserved space
+//! of the header.
 
 use super::file::{BLOCK_ROWS, PictureHead, StripSource};
 use super::range::{is_half, narrow};
@@ -33,14 +33,14 @@ const REC_709: Chromaticities = Chromaticities {
 pub(super) const TREE: &str = "rtc:tiles";
 const TREE_TYPE: &str = "rtc:tree";
 
-/// Which number of a pixel a channel holds.
+/// The value of a pixel that a channel stores.
 #[derive(Clone, Copy)]
 enum ChannelSource {
-    /// A colour, by its place in the pixel.
+    /// A colour, by its index in the pixel.
     Color(usize),
     /// The opacity.
     Alpha,
-    /// A number of the layers, by its place among those of the pixel.
+    /// A value of the layers, by its index among those of the pixel.
     Layer(usize),
 }
 
@@ -96,7 +96,7 @@ pub(super) fn write(
     Ok(())
 }
 
-/// Where in a file with this header the tree goes, if there is room for one.
+/// The offset of the tree in a file with this header, if it has space for one.
 fn place_of_tree(header: &Header) -> Option<u64> {
     // A file that ends with its head.
     let mut file = Vec::new();
@@ -110,7 +110,7 @@ fn place_of_tree(header: &Header) -> Option<u64> {
     Some((start + name.len() + 4) as u64)
 }
 
-/// Where the picture comes from, and its channels in blocks of so many rows.
+/// The provenance of the picture, and its channels in blocks of rows.
 fn header(head: &PictureHead, sources: &[(&str, ChannelSource)]) -> Header {
     const COMPRESSION: Compression = Compression::ZIP16;
     const _: () = assert!(BLOCK_ROWS == 16, "as many rows as ZIP16 has in a block");
@@ -244,7 +244,7 @@ pub(super) fn samples(picture: &Picture, form: FileFormat) -> Vec<u8> {
     bytes
 }
 
-/// EXR text is Latin-1; what is not becomes a question mark.
+/// EXR text is Latin-1; other characters become question marks.
 fn text(words: &str) -> Text {
     Text::new_or_none(words).unwrap_or_else(|| {
         let latin = words

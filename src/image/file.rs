@@ -1,5 +1,5 @@
-//! A pixel file, written as the strips of its picture come, each a few whole rows from the top:
-//! what is written is let go. A picture as a whole is one strip, so that the bytes are the same.
+//! A pixel file, written as the strips of its picture arrive, each some whole rows from the top;
+//! written rows are freed. A whole picture is one strip, so that the bytes are the same.
 
 use super::compressed::{self, CompressedForm};
 use super::{
@@ -9,10 +9,10 @@ use ::png::BitDepth;
 use std::borrow::Cow;
 use std::io::{self, Cursor, Seek, Write};
 
-/// Strips have a multiple of so many rows, but for the last: those of a block of an EXR.
+/// The rows of a strip, except the last, are a multiple of this: the block height of an EXR.
 pub const BLOCK_ROWS: u32 = 16;
 
-/// What is known of a picture before any pixel is.
+/// The properties of a picture before any pixel is rendered.
 #[derive(Clone, Debug)]
 pub struct PictureHead {
     /// Width and height in pixels.
@@ -26,7 +26,7 @@ pub struct PictureHead {
     /// Whether its values are colours as a display shows them, where its form can say so; else
     /// numbers.
     pub is_color: bool,
-    /// What it says of where it came from.
+    /// Its provenance.
     pub origin: Origin,
     /// Whether it keeps the hashes of its tiles, which come with its strips.
     pub has_tiles: bool,
@@ -49,7 +49,7 @@ impl<'s> StripSource<'s> {
         }
     }
 
-    /// The next strip; to be asked for while there are rows left.
+    /// The next strip; call it while there are rows left.
     pub(super) fn next_strip(&mut self) -> io::Result<Cow<'s, Picture>> {
         let strip = (self.next)()?;
         if strip.image.height == 0 {
@@ -127,7 +127,7 @@ mod tests {
     use super::super::tile_count;
     use super::*;
 
-    /// A picture with opacities and layers, of which no two rows are alike.
+    /// A picture with opacities and layers, all of whose rows differ.
     fn picture([width, height]: [u32; 2]) -> Picture {
         let pixels = u16::try_from(width * height).unwrap();
         let color = |at: u16| [f64::from(at) / 999.0, f64::from(at * 7 % 64) / 63.0, 0.5];
@@ -207,7 +207,7 @@ mod tests {
 
     #[test]
     fn a_fault_of_a_strip_or_of_the_disk_is_told() {
-        /// Takes so many bytes.
+        /// Reserves this many bytes.
         struct Full(usize);
 
         impl Write for Full {

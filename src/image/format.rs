@@ -1,4 +1,4 @@
-//! The formats of pictures, told apart by the first bytes of a file.
+//! The formats of pictures, detected by the first bytes of a file.
 
 use super::decode::ktx2::MAGIC;
 
@@ -22,7 +22,7 @@ impl PictureFormat {
         plain.or_else(|| head.starts_with(MAGIC).then_some(Self::Ktx2))
     }
 
-    /// What it is called: its media type, without `image/`.
+    /// Its name: the media type without `image/`.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Png => "png",
@@ -78,7 +78,7 @@ fn boxed(head: &[u8]) -> Option<PictureFormat> {
 mod tests {
     use super::*;
 
-    /// What the crate `image` calls a file.
+    /// The name of the format in the crate `image`.
     fn witness(head: &[u8]) -> Option<&'static str> {
         let format = ::image::guess_format(head).ok()?;
         Some(format.to_mime_type().trim_start_matches("image/"))

@@ -10,7 +10,7 @@ use std::io::{self, ErrorKind, Write};
 /// How many pixels the choice of colours leaves out, from 1 to 30: all count.
 const SPEED: i32 = 1;
 
-/// A GIF of which some pictures are written.
+/// A GIF that is partly written.
 pub struct AnimatedGif<W: Write> {
     encoder: Encoder<W>,
     size: [u16; 2],
@@ -19,8 +19,8 @@ pub struct AnimatedGif<W: Write> {
 }
 
 impl<W: Write> AnimatedGif<W> {
-    /// Begins a file of pictures of the size of the head, about so many a second, that begins anew
-    /// after the last. Opacities are left out.
+    /// Begins a file of pictures of the size of the header, at about this many frames per second,
+    /// that loops for ever. Opacities are dropped.
     ///
     /// # Errors
     /// If it can't be written, or has more pixels than a GIF on a side.
@@ -30,7 +30,7 @@ impl<W: Write> AnimatedGif<W> {
         let size = [width.ok_or_else(too_large)?, height.ok_or_else(too_large)?];
         let mut encoder = Encoder::new(out, size[0], size[1], &[]).map_err(into_io)?;
         encoder.set_repeat(Repeat::Infinite).map_err(into_io)?;
-        // Programs show what is to be shown for less than two hundredths more slowly than that.
+        // Programs slow down frames of less than two hundredths of a second.
         let delay = ((100 + rate / 2) / rate.max(1)).max(2);
         Ok(Self {
             encoder,

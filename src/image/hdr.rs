@@ -9,16 +9,16 @@ const FORMAT: &[u8] = b"32-bit_rle_rgbe";
 /// Red, green, blue, and the exponent that they share.
 type Rgbe = [u8; 4];
 
-/// A file of which the header was read.
+/// A file whose header was read.
 pub(super) struct Hdr<'a> {
     pub(super) size: ImageSize,
-    /// What follows the header.
+    /// The bytes after the header.
     rest: HdrBytes<'a>,
 }
 
 impl<'a> Hdr<'a> {
     /// Reads the header: lines up to an empty one, and one with the size. Of the lines only the
-    /// format is looked at.
+    /// format is used.
     pub(super) fn open(file: &'a [u8], most_pixels: u64) -> Result<Self, DecodeError> {
         let mut rest = HdrBytes(file);
         loop {
@@ -59,7 +59,7 @@ impl<'a> Hdr<'a> {
     }
 }
 
-/// What a line says of the format, if it does.
+/// The format that a line states, if any.
 fn format_of(line: &[u8]) -> Option<&[u8]> {
     let equals = line.iter().position(|byte| *byte == b'=')?;
     let (key, value) = (line.get(..equals)?, line.get(equals + 1..)?);
@@ -83,8 +83,8 @@ fn sides(line: &[u8]) -> Result<[u32; 2], DecodeError> {
     }
 }
 
-/// A mantissa times two to the exponent, less 136. The least exponents give subnormal numbers, of
-/// which none is rounded.
+/// A mantissa times two to the exponent minus 136. The least exponents give subnormal numbers, none
+/// of which is rounded.
 fn light([red, green, blue, exponent]: Rgbe) -> [f32; 3] {
     let exponent = u32::from(exponent);
     let power = match exponent {
@@ -95,13 +95,13 @@ fn light([red, green, blue, exponent]: Rgbe) -> [f32; 3] {
     [red, green, blue].map(|mantissa| scale * f32::from(mantissa))
 }
 
-/// A run at the start of what is left of a row, and the rest.
+/// A run at the start of the rest of a row, and the bytes after it.
 fn split(row: &mut [Rgbe], length: usize) -> Result<(&mut [Rgbe], &mut [Rgbe]), DecodeError> {
     row.split_at_mut_checked(length)
         .ok_or_else(|| DecodeError::damaged("a run is longer than its row"))
 }
 
-/// What is left of a file.
+/// The rest of a file.
 struct HdrBytes<'a>(&'a [u8]);
 
 impl<'a> HdrBytes<'a> {
@@ -133,7 +133,9 @@ impl<'a> HdrBytes<'a> {
     fn row(&mut self, row: &mut [Rgbe]) -> Result<(), DecodeError> {
         match self.array()? {
             [2, 2, 0..128, _] => (0..4).try_for_each(|channel| self.channel(row, channel)),
-            [1, 1, 1, _] => Err(DecodeError::damaged("a row begins with a run of nothing")),
+            [1, 1, 1, _] => Err(DecodeError::damaged(
+                "a row begins with a run of length zero",
+            )),
             first => self.pixels(row, first),
         }
     }
@@ -158,8 +160,8 @@ impl<'a> HdrBytes<'a> {
         Ok(())
     }
 
-    /// Whole pixels of a row, of which the first was read. One of three ones repeats the pixel
-    /// before it; of several in turn, each counts 256 times what the last one did.
+    /// Uncompressed pixels of a row, of which the first was read. A pixel of three ones repeats the
+    /// one before it; of several in sequence, each counts 256 times the last one.
     fn pixels(&mut self, row: &mut [Rgbe], first: Rgbe) -> Result<(), DecodeError> {
         let Some((to, mut left)) = row.split_first_mut() else {
             return Ok(());

@@ -1,5 +1,5 @@
-//! Layers as pictures, for people: colours as a display shows them, directions and places as
-//! colours, distances from white to black, surfaces in colours of their own.
+//! Layers as pictures for people: display colours, directions and positions as colours, distances
+//! from white to black, surfaces in distinct colours.
 
 use super::{Image, Picture};
 use rtc_color::srgb_encoded;
@@ -10,12 +10,12 @@ const FAR: f32 = 1e10;
 /// A layer as a picture. Errors and numbers of samples are shown from 0 to the greatest of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LayerPicture {
-    /// What is shown, in [0, 1].
+    /// The displayed value, in [0, 1].
     pub image: Image,
     /// Whether it shows colours; else numbers as colours.
     pub is_color: bool,
-    /// What 0 and 1 stand for, of distances, places, errors and numbers of samples: of each
-    /// channel, the least and the most.
+    /// The values shown as 0 and 1, for distances, positions, errors and numbers of samples: the
+    /// minimum and the maximum of each channel.
     pub ranges: Vec<[f32; 2]>,
 }
 
@@ -46,8 +46,8 @@ impl Picture {
     }
 }
 
-/// The least and the most of each channel where a surface is, of places without the outermost
-/// fiftieth on either side, as a ground may be wide; [0, 0] if there is none.
+/// The minimum and the maximum of each channel where a surface is hit, for positions without the
+/// outermost fiftieth on either side, since a ground may be wide; [0, 0] if there is none.
 fn ranges<'v>(pixels: impl Iterator<Item = &'v [f32]>, channels: usize) -> Vec<[f32; 2]> {
     let surfaces: Vec<_> = pixels.filter(|values| is_surface(values)).collect();
     let range = |channel: usize| {
@@ -69,8 +69,8 @@ fn greatest<'v>(pixels: impl Iterator<Item = &'v [f32]>) -> f32 {
     values.filter(|value| value.is_finite()).fold(0.0, f32::max)
 }
 
-/// Whether these are values of a surface: a distance that is near, or a place that is not that of
-/// no hit.
+/// Whether these are values of a surface: a finite distance, or a position other than that of a
+/// miss.
 fn is_surface(values: &[f32]) -> bool {
     let is_finite = values.iter().all(|value| value.is_finite());
     is_finite && values[0].abs() < FAR && (values.len() == 1 || values.iter().any(|v| *v != 0.0))
@@ -113,7 +113,7 @@ fn nearness(distance: f64, [near, far]: [f64; 2]) -> f64 {
 }
 
 /// A colour for a surface by its number: hues a golden angle apart, so that neighbours differ;
-/// black for none.
+/// black for a miss.
 fn own_color(number: f64) -> [f64; 3] {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     if number < 1.0 {
@@ -122,8 +122,8 @@ fn own_color(number: f64) -> [f64; 3] {
     let hue = 6.0 * (number * GOLDEN - (number * GOLDEN).floor());
     // The distance on the circle of hues from red, green and blue (HSV, value and saturation 1).
     [0.0, 2.0, 4.0].map(|pure: f64| {
-        let apart = (hue - pure).abs();
-        (2.0 - apart.min(6.0 - apart)).clamp(0.15, 1.0)
+        let difference = (hue - pure).abs();
+        (2.0 - difference.min(6.0 - difference)).clamp(0.15, 1.0)
     })
 }
 
@@ -185,7 +185,12 @@ mod tests {
         let layer = with(&["instance.X"], &numbers).layer_picture(&["instance.X"]);
         let colors = layer.unwrap().image.pixels;
         assert_eq!(colors[0], [0.0; 3]);
-        let apart = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).abs()).sum::<f64>();
-        assert!(colors.windows(2).all(|pair| apart(pair[0], pair[1]) > 0.3));
+        let difference =
+            |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).abs()).sum::<f64>();
+        assert!(
+            colors
+                .windows(2)
+                .all(|pair| difference(pair[0], pair[1]) > 0.3)
+        );
     }
 }

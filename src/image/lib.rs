@@ -77,14 +77,14 @@ pub struct Image {
     pub pixels: Vec<[f64; 3]>,
 }
 
-/// A picture as a file holds it.
+/// The contents of a pixel file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Picture {
     /// The colours.
     pub image: Image,
     /// The opacity of each pixel in [0, 1], if not all are opaque.
     pub alpha: Option<Vec<f32>>,
-    /// What an EXR holds beside the colours; no other form does.
+    /// The additional channels of an EXR; other formats have none.
     pub layers: Layers,
     /// The hashes of the tiles of the film that it shows, which its file keeps; none, if the file
     /// is to keep none.
@@ -94,8 +94,8 @@ pub struct Picture {
 /// Further numbers of each pixel of a picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Layers {
-    /// The name of each channel, layer and channel apart by a dot, as `normal.X`; none of them
-    /// twice.
+    /// The name of each channel, layer and channel separated by a dot, as `normal.X`; all are
+    /// distinct.
     pub names: Vec<&'static str>,
     /// The values of all channels, pixel after pixel.
     pub values: Vec<f32>,
@@ -113,15 +113,15 @@ pub enum FileFormat {
     Jpeg,
     /// WebP with ⌊255·v⌋ per channel, lossless.
     Webp,
-    /// EXR with 32-bit floats per channel, clamped only to what those hold: all are finite.
+    /// EXR with 32-bit floats per channel, clamped to their range: all are finite.
     Exr,
     /// EXR with 16-bit floats for colours, opacity, albedo, normals and texture coordinates, and
-    /// 32-bit floats for distances, places and numbers of surfaces; clamped alike.
+    /// 32-bit floats for distances, positions and numbers of surfaces; clamped alike.
     ExrHalf,
 }
 
 impl FileFormat {
-    /// What it is called, and what the names of its files end in.
+    /// Its name, and the extension of its files.
     #[must_use]
     pub fn names(self) -> (&'static str, &'static str) {
         match self {
@@ -132,15 +132,15 @@ impl FileFormat {
         }
     }
 
-    /// Whether it holds linear values, however large; else what a display shows.
+    /// Whether it has linear values of any size; otherwise display values.
     #[must_use]
     pub fn is_linear(self) -> bool {
         matches!(self, Self::Exr | Self::ExrHalf)
     }
 }
 
-/// What a file says about where it came from: in a PNG as international text (`iTXt`), in an EXR as
-/// attributes of text, in a WebP as XMP.
+/// The provenance in a file: in a PNG as international text (`iTXt`), in an EXR as text attributes,
+/// in a WebP as XMP.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Origin {
     /// The program and its version: `Software` in a PNG, the standard attribute `software`.
@@ -151,12 +151,12 @@ pub struct Origin {
     pub settings: String,
     /// The view, of an EXR alone: the standard attribute `worldToCamera`.
     pub world_to_camera: Option<WorldToCamera>,
-    /// Which layer a PNG shows, and what its values stand for: `rtc:layer`; empty for colours.
+    /// The layer of a PNG, and the meaning of its values: `rtc:layer`; empty for colours.
     pub layer: String,
 }
 
 impl Origin {
-    /// What the pixels mean, without what made them.
+    /// The meaning of the pixels, without their provenance.
     #[must_use]
     pub fn meaning(self) -> Self {
         Self {
@@ -166,7 +166,7 @@ impl Origin {
         }
     }
 
-    /// The texts by their names, those that there are.
+    /// The texts that are present, by name.
     fn texts(&self) -> impl Iterator<Item = (&'static str, &str)> {
         let texts = [
             ("Software", &self.software),
@@ -179,11 +179,11 @@ impl Origin {
     }
 }
 
-/// From places in the world to places before the camera, which looks along -z, y up: rows of a
-/// matrix that a row vector is multiplied by, as EXR has them.
+/// From world to camera coordinates (the camera looks along -z, y up): a row-major matrix for row
+/// vectors, as in EXR.
 pub type WorldToCamera = [f32; 16];
 
-/// Why a picture has no pixel file, in the encoder's words; a width or height of 0 is such a
+/// Why a picture has no pixel file, with the message of the encoder; a width or height of 0 is a
 /// reason.
 #[derive(Debug)]
 pub struct EncodeError(String);

@@ -1,10 +1,9 @@
-//! A Merkle tree over the tiles of a picture: by it a picture, or a part of one, commits to the
-//! values of which it was made.
+//! A Merkle tree over the tiles of a picture: with it a picture, or a part of one, commits to its
+//! film values.
 //!
 //! The tree is that of RFC 6962, section 2.1, with SHA-256: a leaf is the hash of a byte 0 and the
 //! values of a tile, a node that of a byte 1 and its two children. The root is the hash of a byte
-//! 2, of what the picture says of itself (each text after its length in 64 bits, little-endian),
-//! and of the node at the top.
+//! 2, of the metadata (each text after its length in 64 bits, little-endian), and of the top node.
 
 use super::{BLOCK_ROWS, Image, Origin};
 use sha2::{Digest as _, Sha256};
@@ -100,7 +99,7 @@ pub fn tile_count([width, height]: [u32; 2]) -> usize {
     width.div_ceil(TILE) as usize * height.div_ceil(TILE) as usize
 }
 
-/// A Merkle tree, of which the nodes of one level are kept.
+/// A Merkle tree of which one level is kept.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MerkleTree {
     root: TileHash,
@@ -122,7 +121,7 @@ impl MerkleTree {
         tree
     }
 
-    /// The same without its lowest levels, so that it has few nodes.
+    /// The same without its lowest levels, so that it has fewer nodes.
     #[must_use]
     pub fn pruned(mut self) -> Self {
         while self.nodes.len() > MAX_NODES {
@@ -144,13 +143,13 @@ impl MerkleTree {
         &self.nodes
     }
 
-    /// How many tiles a node stands for; fewer only at the end.
+    /// The number of tiles that a node covers; fewer only at the end.
     #[must_use]
     pub fn tiles_of_node(&self) -> usize {
         1 << self.level
     }
 
-    /// The tiles of a node, of so many.
+    /// The tiles of a node, out of all.
     #[must_use]
     pub fn tiles(&self, node: usize, count: usize) -> Range<usize> {
         let first = node << self.level;

@@ -8,14 +8,14 @@ use ::png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent};
 use rtc_color as color;
 use std::io::{self, Write};
 
-/// Bytes of a chunk of pixels, compressed: so much is held before it is written.
+/// The compressed bytes of a pixel chunk that are buffered before writing.
 const CHUNK: usize = 1 << 16;
 
 /// The chunk of the Merkle tree, at the end of the file: it may be left out, is of this program,
 /// and is void for other pixels (PNG, third edition, 5.4).
 pub(super) const TREE: ChunkType = ChunkType(*b"rtMT");
 
-/// Writes a picture in so many bits per channel, row after row, as its strips come.
+/// Writes a picture with a number of bits per channel, row by row, as its strips arrive.
 pub(super) fn write(
     head: &PictureHead,
     depth: BitDepth,
@@ -63,12 +63,12 @@ pub fn png_bytes(size: [u32; 2], has_alpha: bool, pixels: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let kind = (BitDepth::Eight, has_alpha);
     let write = |rows: &mut dyn Write| rows.write_all(pixels).map(|()| None);
-    png(size, kind, None, &mut bytes, write).expect("the pixels are as many as the size says");
+    png(size, kind, None, &mut bytes, write).expect("the number of pixels matches the size");
     bytes
 }
 
-/// A PNG of the rows that are written, which end in the tree over their tiles if there is one; with
-/// a head, of which colours they are and where they came from.
+/// A PNG of the written rows, followed by the tree over their tiles if there is one; with a header,
+/// the colour space and the provenance.
 fn png(
     size: [u32; 2],
     kind: (BitDepth, bool),
@@ -112,7 +112,7 @@ fn encode(
     Ok(())
 }
 
-/// Remembers the first fault, for the encoder writes its last bytes where it can't tell of one.
+/// Remembers the first error, since the encoder writes its last bytes where it can't return one.
 struct CheckedWriter<W> {
     out: W,
     fault: Option<io::Error>,

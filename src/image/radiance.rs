@@ -1,4 +1,4 @@
-//! Pictures of light read: Radiance HDR and OpenEXR, told apart by content, to 32-bit floats. A
+//! Readers of linear pictures: Radiance HDR and OpenEXR, detected by content, to 32-bit floats. A
 //! file is opened first, as a [`super::PixelFile`] is.
 
 use super::decode::{DecodeCost, DecodeError, ImageSize};
@@ -24,10 +24,10 @@ pub struct Radiance {
     pub bytes: Vec<u8>,
 }
 
-/// A picture of light of which the header was read.
+/// A linear picture whose header was read.
 pub struct RadianceFile<'a> {
     size: ImageSize,
-    /// Bytes that the decoder takes for what it has read and not yet handed on.
+    /// The bytes that the decoder has read and not yet returned.
     block: u64,
     decoder: RowDecoder<'a>,
 }
@@ -41,7 +41,7 @@ impl<'a> RadianceFile<'a> {
     /// Reads the header of a Radiance HDR or OpenEXR file.
     ///
     /// # Errors
-    /// If the bytes are no such file, the header is damaged, or it tells of more pixels than are
+    /// If the bytes are no such file, the header is damaged, or it has more pixels than are
     /// allowed.
     pub fn open(bytes: &'a [u8], most_pixels: u64) -> Result<Self, DecodeError> {
         match (is_exr(bytes), is_hdr(bytes)) {
@@ -75,7 +75,7 @@ impl<'a> RadianceFile<'a> {
     /// filters leave behind, become 0.
     ///
     /// # Errors
-    /// If the file is damaged or holds a value that is not finite, or there is no memory for it.
+    /// If the file is damaged or has a value that is not finite, or there is no memory for it.
     pub fn decode(self) -> Result<Radiance, DecodeError> {
         let Self {
             mut size,
@@ -153,8 +153,8 @@ fn scratch(header: &Header) -> u64 {
         .saturating_add((header.max_block_byte_size() as u64).saturating_mul(3))
 }
 
-/// Decodes into the buffer, which has room for the largest layer, and says of what size the layer
-/// is that was decoded.
+/// Decodes into the buffer, which has room for the largest layer, and returns the size of the
+/// decoded layer.
 fn decode_exr(file: &[u8], buffer: Vec<u8>) -> Result<(ImageSize, Vec<u8>), DecodeError> {
     let buffer = std::cell::Cell::new(buffer);
     let image = read()

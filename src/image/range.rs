@@ -1,14 +1,14 @@
-//! What a file can't hold of a picture: values that are no number, or beyond its floats.
+//! Values of a picture that a file can't represent: NaN, or beyond its floats.
 
 use super::{FileFormat, Image, Layers, Picture};
 
-/// What of a picture its files don't show as it is.
+/// The values of a picture that its files change.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RangeClipping {
     /// How many pixels have a value that is no number: 0 in every file.
     pub unnumbered: u64,
     /// The channels with values beyond the largest float that an EXR has for them, 3.4e38 in 32
-    /// bits and 65 504 in 16: it has that in their place.
+    /// bits and 65 504 in 16, which replaces them.
     pub beyond: Vec<&'static str>,
 }
 
@@ -24,7 +24,7 @@ impl Image {
 }
 
 impl Picture {
-    /// What a file of this picture can't hold.
+    /// The values of this picture that a file can't represent.
     #[must_use]
     pub fn lost(&self, form: FileFormat) -> RangeClipping {
         let Self {
@@ -58,7 +58,7 @@ impl Picture {
     }
 }
 
-/// Whether a channel has floats of 16 bits. Distances, places and numbers of surfaces want more.
+/// Whether a channel has 16-bit floats. Distances, positions and numbers of surfaces need more.
 pub(super) fn is_half(form: FileFormat, channel: &str) -> bool {
     let layer = channel.split('.').next();
     form == FileFormat::ExrHalf
@@ -74,8 +74,7 @@ fn largest(is_half: bool) -> f64 {
     }
 }
 
-/// The float nearest to a number, of those that are finite, in 32 bits and perhaps in 16; 0 for
-/// what is no number.
+/// The nearest finite float of 32 or 16 bits; 0 for NaN.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "rounds to the nearest float"

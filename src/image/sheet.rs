@@ -5,8 +5,8 @@ use font8x8::{BASIC_FONTS, UnicodeFonts};
 use rtc_color::quantize16;
 use std::ops::Range;
 
-/// A picture of display values, of at most so many pixels across and down, of the same shape: each
-/// pixel the mean of those it stands for. One that fits stays as it is.
+/// A picture of display values, of at most this many pixels across and down, with the same aspect
+/// ratio: each pixel is the mean of the pixels it covers. A picture that fits is unchanged.
 #[must_use]
 pub fn shrunk(image: Image, [width, height]: [u32; 2]) -> Image {
     if image.width <= width && image.height <= height {
@@ -34,7 +34,7 @@ pub fn shrunk(image: Image, [width, height]: [u32; 2]) -> Image {
     }
 }
 
-/// The places of a side that one of fewer places stands for; at least one.
+/// The pixels of a side that one of fewer pixels covers; at least one.
 fn span(from: u32, to: u32, place: u32) -> Range<usize> {
     let ratio = from as f32 / to as f32;
     let start = place as f32 * ratio;
@@ -61,7 +61,8 @@ fn mean(image: &Image, columns: &Range<usize>, rows: &Range<usize>) -> [f64; 3] 
 /// The side of a glyph in pixels.
 const GLYPH: usize = 8;
 
-/// A picture of a sheet has at most so many pixels across and down, its name so many glyphs.
+/// The maximum width and height of a picture on a sheet in pixels, and the maximum length of its
+/// name.
 const PICTURE: [u32; 2] = [160, 120];
 const NAME: usize = 160 / GLYPH;
 
@@ -72,7 +73,7 @@ const CELL: [usize; 2] = [160 + MARGIN, 120 + 2 * MARGIN + GLYPH];
 /// The most cells of a row.
 const COLUMNS: usize = 8;
 
-/// What is behind pictures, the place of one that is missing, and names.
+/// The colours of the background, of a missing picture, and of names.
 const BEHIND: f64 = 0.1;
 const MISSING: f64 = 0.25;
 const INK: f64 = 0.9;
@@ -129,7 +130,7 @@ pub fn for_sheet(image: Image) -> Image {
     shrunk(image, PICTURE)
 }
 
-/// The last letters of a name, those that the font lacks replaced.
+/// The last characters of a name, with those that the font lacks replaced.
 fn shown_name(name: &str) -> Vec<char> {
     let known = |letter: char| match BASIC_FONTS.get(letter) {
         Some(_) => letter,

@@ -1,11 +1,11 @@
-//! Picture files read for what they show: pixel files as they are stored, to 16 bits a channel, and
-//! pictures of light by the code of sRGB. What is decoded stays as small as it was coded.
+//! Picture files as display values: pixel files as stored, up to 16 bits per channel, and linear
+//! pictures encoded as sRGB. Decoded pictures keep their compact type.
 
 use super::decode::{CodedPixels, DecodeCost, DecodeError, PixelFile};
 use super::{Image, Opacity, RadianceFile, is_radiance};
 use rtc_color::Tone;
 
-/// A picture file of which the header was read.
+/// A picture file whose header was read.
 pub struct ShownFile<'a>(DisplaySource<'a>);
 
 enum DisplaySource<'a> {
@@ -32,10 +32,10 @@ enum DisplayValues {
 }
 
 impl<'a> ShownFile<'a> {
-    /// Reads the header of a PNG, JPEG, WebP, HDR or EXR of at most so many pixels.
+    /// Reads the header of a PNG, JPEG, WebP, HDR or EXR of at most this many pixels.
     ///
     /// # Errors
-    /// If the bytes are no such file, its header is damaged or tells of more pixels.
+    /// If the bytes are no such file, its header is damaged or has more pixels.
     pub fn open(bytes: &'a [u8], most_pixels: u64) -> Result<Self, DecodeError> {
         Ok(Self(if is_radiance(bytes) {
             DisplaySource::Light(RadianceFile::open(bytes, most_pixels)?)
@@ -53,7 +53,7 @@ impl<'a> ShownFile<'a> {
         }
     }
 
-    /// Whether it holds values of light.
+    /// Whether it has linear values.
     #[must_use]
     pub fn holds_light(&self) -> bool {
         matches!(self.0, DisplaySource::Light(_))
@@ -98,7 +98,7 @@ impl ShownPicture {
         }
     }
 
-    /// Reads a file of at most so many pixels, as [`ShownFile`] does.
+    /// Reads a file of at most this many pixels, as [`ShownFile`] does.
     ///
     /// # Errors
     /// As of [`ShownFile::open`] and [`ShownFile::decode`].
@@ -131,7 +131,7 @@ impl ShownPicture {
         }
     }
 
-    /// The light of a pixel, if the file holds that.
+    /// The linear value of a pixel, if the file has them.
     #[must_use]
     pub fn light(&self, index: usize) -> Option<[f64; 3]> {
         match &self.values {

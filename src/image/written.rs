@@ -1,5 +1,5 @@
-//! Picture files of this program, read back as they were written: every bit of their samples, and
-//! what they say of where they came from.
+//! Picture files of this program, read back exactly: every bit of their samples, and their
+//! provenance.
 
 use super::decode::{DecodeCost, DecodeError, ImageSize};
 use super::png::{TREE as TREE_CHUNK, pack};
@@ -12,16 +12,16 @@ use ::png::{BitDepth, ColorType, Decoder, Limits};
 use image_webp::WebPDecoder;
 use std::io::Cursor;
 
-/// What is said of a file that this program does not write.
+/// The message for a file of another program.
 const FOREIGN: DecodeError = DecodeError::Unsupported("picture of another program");
 
-/// A picture file of which the header was read.
+/// A picture file whose header was read.
 pub struct WrittenFile<'a> {
     bytes: &'a [u8],
     cost: DecodeCost,
 }
 
-/// A picture as its file holds it.
+/// The contents of a picture file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WrittenPicture {
     /// The form of the file.
@@ -30,7 +30,7 @@ pub struct WrittenPicture {
     pub size: [u32; 2],
     /// The names of its channels but for red, green, blue and opacity, in the order of the file.
     pub layers: Vec<String>,
-    /// What it says of where it came from.
+    /// Its provenance.
     pub origin: Origin,
     /// The tree over the tiles of its film, if it has one.
     pub tree: Option<MerkleTree>,
@@ -39,10 +39,10 @@ pub struct WrittenPicture {
 }
 
 impl<'a> WrittenFile<'a> {
-    /// Reads the header of a PNG, WebP or EXR of at most so many pixels.
+    /// Reads the header of a PNG, WebP or EXR of at most this many pixels.
     ///
     /// # Errors
-    /// If the bytes are no such file, its header is damaged or tells of more pixels.
+    /// If the bytes are no such file, its header is damaged or has more pixels.
     pub fn open(bytes: &'a [u8], most_pixels: u64) -> Result<Self, DecodeError> {
         let cost = if is_radiance(bytes) {
             let header = header(bytes)?;
@@ -101,8 +101,8 @@ impl WrittenPicture {
     }
 }
 
-/// The samples of a picture as a file of this form holds them, pixel after pixel: of a PNG in the
-/// order of its bytes, of an EXR its channels by their names, little-endian.
+/// The samples of a picture as a file of this format stores them, pixel by pixel: of a PNG in the
+/// order of its bytes, of an EXR its channels by name, little-endian.
 #[must_use]
 pub fn samples(picture: &Picture, form: FileFormat) -> Vec<u8> {
     let depth = match form {

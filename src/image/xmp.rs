@@ -1,4 +1,4 @@
-//! What a WebP says of where it came from, as XMP (ISO 16684-1): attributes of one description.
+//! The provenance of a WebP, as XMP (ISO 16684-1): attributes of one description.
 
 use super::merkle::from_hex;
 use super::{MerkleTree, Origin};
@@ -10,7 +10,7 @@ const RDF: &str = "http://www.w3.org/1999/02/22-rdf-syntax-ns#";
 const XMP: &str = "http://ns.adobe.com/xap/1.0/";
 const RTC: &str = "urn:rtc:picture";
 
-/// The packet; none if there is nothing to say.
+/// The packet; `None` if there is no provenance.
 pub(super) fn packet(origin: &Origin, tree: Option<MerkleTree>) -> Option<String> {
     let Origin {
         software,
@@ -43,14 +43,14 @@ pub(super) fn packet(origin: &Origin, tree: Option<MerkleTree>) -> Option<String
     })
 }
 
-/// What such a packet says; nothing, if it is another one.
+/// The provenance in such a packet; empty for another one.
 pub(super) fn read(packet: &[u8]) -> (Origin, Option<MerkleTree>) {
     let text = std::str::from_utf8(packet).unwrap_or_default();
-    let few = ParsingOptions {
+    let options = ParsingOptions {
         nodes_limit: 64,
         ..ParsingOptions::default()
     };
-    let document = Document::parse_with_options(text, few).ok();
+    let document = Document::parse_with_options(text, options).ok();
     let described = document.as_ref().and_then(|document| {
         let mut nodes = document.descendants();
         nodes.find(|node| node.has_tag_name((RDF, "Description")))
@@ -90,8 +90,8 @@ mod tests {
             ..Origin::default()
         };
         let tree = MerkleTree::new(vec![TileHash::of_tile(b"a")], &origin);
-        let said = packet(&origin, Some(tree.clone())).unwrap();
-        assert_eq!(read(said.as_bytes()), (origin.clone(), Some(tree)));
+        let packet_text = packet(&origin, Some(tree.clone())).unwrap();
+        assert_eq!(read(packet_text.as_bytes()), (origin.clone(), Some(tree)));
         let bare = packet(&origin, None).unwrap();
         assert_eq!(read(bare.as_bytes()), (origin, None));
         assert_eq!(packet(&Origin::default(), None), None);

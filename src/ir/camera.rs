@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 
 /// A camera with any frustum, including sheared ones.
 ///
-/// Sub-sample (i, j) of pixel (x, y), y downwards, looks from the eye through
-/// `center + (x + (i+½)/factor − width/2)·right + (height/2 − y − (j+½)/factor)·up`.
+/// Sub-sample (i, j) of pixel (x, y), y downwards, looks from the eye through `center + (x +
+/// (i+½)/factor − width/2)·right + (height/2 − y − (j+½)/factor)·up`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Camera {
@@ -144,8 +144,8 @@ impl Camera {
         (self.projection == Projection::Perspective && angle > 0.0 && angle < PI).then_some(angle)
     }
 
-    /// Changes the image size in pixels. The new image shows at least what the old one showed; if
-    /// the aspect ratio differs, it shows more at two sides.
+    /// Changes the image size in pixels. The new image shows at least the old one; if the aspect
+    /// ratio differs, it shows more at two sides.
     pub fn fit(&mut self, size: [u32; 2]) {
         let ratio = |side: usize| f64::from(self.size[side]) / f64::from(size[side]);
         let ratio = ratio(0).max(ratio(1));

@@ -1,4 +1,4 @@
-//! Solids made of solids.
+//! CSG solids.
 
 use super::shape::{
     Bounded, Cone, Cylinder, Ellipsoid, InfiniteCylinder, Paraboloid, Plane, Shape, Sphere, Torus,
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// Declares the solids: the shapes that have an inside.
 macro_rules! solids {
     ($($(#[$doc:meta])* $Name:ident)+) => {
-        /// An operand of a solid made of solids: a shape with an inside.
+        /// An operand of a CSG solid: a shape with an inside.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
         #[serde(rename_all = "camelCase", deny_unknown_fields)]
         pub enum Solid {
@@ -58,8 +58,8 @@ solids! {
     InfiniteCylinder
 }
 
-/// A part of the boundary of a solid made of solids: that which lies on some of its operands. The
-/// parts of different materials are surfaces of their own, and alike but for `faces`.
+/// A part of the boundary of a CSG solid: the part that lies on some of its operands. Parts of
+/// different materials are separate surfaces that differ only in `faces`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Csg {
@@ -80,7 +80,7 @@ impl Csg {
 }
 
 impl Bounded for Csg {
-    /// The bounds of its operands; those that are infinite count as none.
+    /// The bounds of its operands; infinite ones are empty.
     fn visit_bounds(&self, meshes: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self {
             operands,

@@ -51,7 +51,7 @@ impl From<TextureId> for Map {
     }
 }
 
-/// The alpha mode: how a surface covers what is behind it.
+/// The alpha mode: how a surface covers the background.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub enum Alpha {
@@ -190,7 +190,7 @@ macro_rules! material {
 
 parameters!(material);
 
-/// The `skip_serializing_if` of what is always written.
+/// The `skip_serializing_if` of fields that are always written.
 fn never<T>(_: &T) -> bool {
     false
 }

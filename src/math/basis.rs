@@ -32,7 +32,7 @@ pub fn camera_basis(eye: Vec3, center: Vec3, up: Vec3) -> Result<(Vec3, Vec3), B
     view_basis(view_dir, up)
 }
 
-/// As [`camera_basis`] for a view direction, but refuses only what is exactly parallel.
+/// As [`camera_basis`] for a view direction, but rejects only exactly parallel vectors.
 ///
 /// Every component is right to within 8 u·‖up‖ for any length of either vector, subnormal ones
 /// included: the cross products are Kahan's, on vectors scaled by powers of two.

@@ -12,13 +12,13 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The box that holds nothing.
+    /// The empty box.
     pub const EMPTY: Self = Self {
         min: Vec3::INFINITY,
         max: Vec3::NEG_INFINITY,
     };
 
-    /// The box that holds everything.
+    /// The infinite box.
     pub const EVERYTHING: Self = Self {
         min: Vec3::NEG_INFINITY,
         max: Vec3::INFINITY,
@@ -55,7 +55,7 @@ impl Bounds {
             let (b, a): (Self, Self) = (stack.pop()?, stack.pop()?);
             stack.push(match step {
                 SetStep::Union => a.union(b),
-                // Of boxes that do not meet, a box between them.
+                // The intersection; for disjoint boxes, a box between them.
                 SetStep::Intersection => Self {
                     min: a.min.max(b.min).min(a.max.min(b.max)),
                     max: a.max.min(b.max).max(a.min.max(b.min)),
@@ -133,7 +133,7 @@ impl Bounds {
         }
     }
 
-    /// The smallest box that holds both.
+    /// The union.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
         Self {

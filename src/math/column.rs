@@ -1,8 +1,8 @@
-//! Columns: vectors of a few numbers, one for each vertex of a mesh, in the precision of their
-//! source.
+//! Columns: vectors of a fixed number of components, one per vertex of a mesh, in the precision of
+//! their source.
 //!
-//! They are shared, not copied: who reads them holds the columns of the scene itself.
-//! In JSON a column of 64-bit floats is a list, and one of 32-bit floats a map of `f32` to a list.
+//! They are shared, not copied: all readers hold the columns of the scene itself. In JSON a column
+//! of 64-bit floats is a list, and one of 32-bit floats a map of `f32` to a list.
 
 use arbitrary::Arbitrary;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -13,7 +13,7 @@ use std::fmt;
 use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
 
-/// A list that its copies share; who changes it gets one of their own.
+/// A list shared by its copies (copy on write).
 #[derive(Debug, PartialEq, Arbitrary)]
 pub struct Shared<T>(Arc<Vec<T>>);
 
@@ -101,7 +101,7 @@ impl<const N: usize> Column<N> {
         vectors.into_iter().map(round).collect::<Vec<_>>().into()
     }
 
-    /// How many vertices it speaks of.
+    /// The number of vertices.
     #[must_use]
     pub fn len(&self) -> usize {
         match self {
@@ -110,7 +110,7 @@ impl<const N: usize> Column<N> {
         }
     }
 
-    /// Whether it speaks of none.
+    /// Whether there are no vertices.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -125,7 +125,7 @@ impl<const N: usize> Column<N> {
         }
     }
 
-    /// What it says of vertex `index`, which is below the length.
+    /// The value at vertex `index`, which is below the length.
     #[must_use]
     #[inline]
     pub fn at(&self, index: usize) -> [f64; N] {
@@ -142,12 +142,12 @@ impl<const N: usize> Column<N> {
         }
     }
 
-    /// What it says of each vertex, in order.
+    /// The values in order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = [f64; N]> + Clone {
         (0..self.len()).map(|index| self.at(index))
     }
 
-    /// What it says of these vertices, whose indices are below the length; an empty column stays
+    /// The values at these vertices, whose indices are below the length; an empty column stays
     /// empty.
     #[must_use]
     pub fn pick(&self, vertices: &[u32]) -> Self {
@@ -171,7 +171,7 @@ impl<const N: usize> Default for Column<N> {
     }
 }
 
-/// Empty columns are equal, of whatever precision: nothing tells them apart in a file.
+/// Empty columns are equal regardless of precision: a file does not distinguish them.
 impl<const N: usize> PartialEq for Column<N> {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {

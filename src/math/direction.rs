@@ -32,8 +32,8 @@ pub fn unit_scale(v: Vec3) -> Option<(Vec3, i32)> {
 #[must_use]
 #[inline]
 pub fn unit(v: Vec3) -> Option<Vec3> {
-    /// Of vectors with such squares, scaling first changes no bit: what underflows is too small to
-    /// round the sum.
+    /// For vectors with such squares, scaling first changes no bit: terms that underflow are too
+    /// small to affect the rounded sum.
     const SQUARES: std::ops::RangeInclusive<f64> = MIN_SQUARE..=1.0 / MIN_SQUARE;
     if SQUARES.contains(&v.length_squared()) {
         return Some(v.normalize());

@@ -29,7 +29,7 @@ impl DoubleDouble {
         self.high
     }
 
-    /// The square root; 0 for what is not above 0.
+    /// The square root; 0 for values not above 0.
     #[must_use]
     pub fn sqrt(self) -> Self {
         if self.high <= 0.0 {

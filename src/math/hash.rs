@@ -1,8 +1,7 @@
 //! SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014):
-//! bits
-//! that look random, the same on every machine.
+//! bits that look random, the same on every machine.
 
-/// By so much the state of the generator grows with each number.
+/// The increment of the generator's state per number.
 pub const GAMMA: u64 = 0x9E37_79B9_7F4A_7C15;
 
 /// The number after state `x` of the generator: equal numbers for equal states, and no likeness for

@@ -1,6 +1,34 @@
-//! Numbers: vectors, bases, ranges, and arithmetic that gives the same bits on every machine.
+//! Numbers and vectors: arithmetic with the same bits on every machine.
 //!
-//! Everything geometric is f64. `u` in comments is the unit round-off, 2⁻⁵³.
+//! # Overview
+//!
+//! - Vectors: [`Vec3`] (glam, f64), [`Bounds`], [`Basis`], [`unit`] and [`length`] for vectors of
+//!   any
+//!   size, [`camera_basis`] and [`view_basis`], rotations ([`rotated_about`], [`axis_and_angle`]).
+//! - Exact arithmetic: error-free transformations ([`two_sum`], [`two_product`]), compensated sums
+//!   ([`dot`], [`cross`], [`difference_of_products`]), and [`DoubleDouble`] with 106 bits.
+//! - Elementary functions from `libm`: [`sin`], [`pow`], [`ln`] and others. std's differ between
+//!   platforms and are forbidden by a lint.
+//! - Ranges as types: [`Positive`], [`NonNegative`], [`UnitInterval`], [`Weight`]. A value of such
+//!   a
+//!   type needs no further check.
+//! - Mesh data: [`Column`], a shared list of vectors in the precision of its source.
+//! - Hashes and angles for sampling: [`mix`], [`cos_sin_revolutions`], [`golden_revolutions`].
+//! - Sets in postfix notation ([`SetStep`], [`evaluate_set`]), which CSG solids use; procedural
+//!   textures ([`SolidTexture`]).
+//! - [`shortest`] prints a number with the fewest digits that read back to the same bits.
+//!
+//! # Conventions
+//!
+//! Geometry is f64. `u` in comments is the unit round-off [`U`], 2⁻⁵³. A bound such as "3 u" is
+//! relative to the result, unless stated otherwise.
+//!
+//! # Guarantees
+//!
+//! - Results depend on the arguments only: no platform function, no fused multiply-add unless it is
+//!   exact everywhere, no random state.
+//! - Functions accept any f64. Where a result may be undefined, the type says so (`Option`,
+//!   [`Weight`]).
 
 mod basis;
 mod bounds;

@@ -48,7 +48,7 @@ impl NonNegative {
     /// 1.
     pub const ONE: Self = Self(1.0);
 
-    /// The nearest to a value; 0 for what is no number.
+    /// The nearest to a value; 0 for NaN.
     #[must_use]
     pub const fn saturating(value: f64) -> Self {
         Self(if value > 0.0 {
@@ -107,13 +107,13 @@ impl UnitInterval {
         (0.0..=1.0).contains(&value).then_some(Self(value + 0.0))
     }
 
-    /// The nearest to a value; 0 for what is no number.
+    /// The nearest to a value; 0 for NaN.
     #[must_use]
     pub const fn saturating(value: f64) -> Self {
         Self(if value > 0.0 { value.min(1.0) } else { 0.0 })
     }
 
-    /// What is missing to 1.
+    /// 1 − x.
     #[must_use]
     pub fn complement(self) -> Self {
         Self(1.0 - self.0)
@@ -131,7 +131,7 @@ impl UnitInterval {
 #[must_use]
 pub fn shortest<T: Display + LowerExp>(value: T) -> String {
     let (plain, scientific) = (format!("{value}"), format!("{value:e}"));
-    // People read 0.0001 and 100000 better than the few characters less.
+    // 0.0001 and 100000 are more readable than shorter exponents.
     if plain.len() <= scientific.len() + 4 {
         plain
     } else {

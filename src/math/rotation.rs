@@ -9,8 +9,8 @@ pub fn rotated_about(v: Vec3, axis: Vec3, [sine, cosine]: [f64; 2]) -> Vec3 {
     v * cosine + axis.cross(v) * sine + axis * (axis.dot(v) * (1.0 - cosine))
 }
 
-/// The rows of a rotation: the shortest one that takes the unit
-/// vector `axis` to +z, then one that lowers φ by `angle` degrees. `None` if nothing turns.
+/// The rows of a rotation: the shortest one that maps the unit vector `axis` to +z, then one that
+/// lowers φ by `angle` degrees. `None` for the identity.
 #[must_use]
 pub fn rotated_to_z(axis: Vec3, angle: f64) -> Option<[[f64; 3]; 3]> {
     if axis == Vec3::Z && angle == 0.0 {

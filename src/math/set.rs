@@ -13,11 +13,11 @@ pub const MAX_SET_OPERANDS: usize = 64;
 pub enum SetStep {
     /// Pushes the next operand.
     Operand,
-    /// Replaces the two sets on top by what is in either.
+    /// Replaces the two sets on top by their union.
     Union,
-    /// Replaces the two sets on top by what is in both.
+    /// Replaces the two sets on top by their intersection.
     Intersection,
-    /// Replaces the two sets on top by what is in the lower and not in the upper one.
+    /// Replaces the two sets on top by the lower one without the upper one.
     Difference,
 }
 
@@ -41,7 +41,7 @@ pub fn is_set_expression(steps: &[SetStep], operands: usize) -> bool {
 /// Whether a point is in the set, by a bit for each operand that it is in.
 #[must_use]
 pub fn evaluate_set(steps: &[SetStep], inside: u64) -> bool {
-    // The stack is a word too, with its top at the lowest bit.
+    // The stack is one machine word, with its top at the lowest bit.
     let (mut stack, mut rest) = (0_u64, inside);
     for step in steps {
         if *step == SetStep::Operand {

@@ -67,7 +67,7 @@ pub struct SolidTexture {
     pub mapping: TextureMapping,
 }
 
-/// The borders of cells lie by this share of a cell below whole numbers, so that a surface on a
+/// The borders of cells lie by this fraction of a cell below integers, so that a surface on a
 /// border, such as a floor at y = 0, lies in one cell in spite of rounding.
 const BORDER: f64 = 1e-6;
 
@@ -78,7 +78,7 @@ impl SolidTexture {
         self.blended(self.pattern.value(point * self.scale.get()))
     }
 
-    /// The colour at a place of a surface: its texture coordinates and its point in the world.
+    /// The colour at a point of a surface: by its texture coordinates, or by its world coordinates.
     /// `None` without the texture coordinates that the pattern needs.
     #[must_use]
     pub fn color_at(&self, uv: Option<[f64; 2]>, point: Vec3) -> Option<Vec3> {

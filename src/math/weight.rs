@@ -2,12 +2,12 @@
 
 use super::{UnitInterval, Vec3};
 
-/// A factor that may be nothing.
+/// A factor that may be zero.
 pub trait Weight: Copy {
-    /// The weight of what is not there.
+    /// The weight of an absent term.
     const NOTHING: Self;
 
-    /// Whether it is more than nothing.
+    /// Whether it is above zero.
     fn is_nonzero(self) -> bool;
 }
 

@@ -12,7 +12,8 @@
 //!
 //! Passes know neither files nor the command line, and they do not validate: scenes may still have
 //! invalid indices or numbers, so every access is checked. A pass that replaces lights or the
-//! camera also removes their source spans, so that later findings do not point at replaced values.
+//! camera also removes their source spans, so that later diagnostics do not point at replaced
+//! values.
 
 mod emission;
 mod framing;

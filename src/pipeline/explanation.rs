@@ -46,7 +46,7 @@ pub fn explain_code(code: &Code) -> String {
     )
 }
 
-/// The words in lines of at most [`WIDTH`] characters.
+/// The text in lines of at most [`WIDTH`] characters.
 fn fill(text: &str) -> String {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {

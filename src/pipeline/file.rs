@@ -56,7 +56,7 @@ impl NewFile {
     pub fn edit(path: &Path, bytes: &[u8]) -> io::Result<()> {
         let target = path.canonicalize()?;
         if !target.starts_with(folder_of(path).canonicalize()?) {
-            let message = "it is a link that leaves its folder; name the file that it leads to";
+            let message = "it is a link that leaves its folder; name its target";
             return Err(io::Error::other(message));
         }
         Self::save(&target, bytes)
@@ -84,7 +84,7 @@ impl NewFile {
             None => None,
         };
         let folder = folder_of(&target);
-        // The errors name the temporary file, which means nothing to the user; their kind suffices.
+        // The errors name the temporary file, which the user does not know; their kind suffices.
         draft(folder).map_err(|error| io::Error::from(error.kind()))?;
         Ok(Some(Self {
             target,
@@ -149,7 +149,7 @@ pub struct NewFolder {
 }
 
 impl NewFolder {
-    /// Checks that a folder can be made at `path`: nothing is there, or an empty folder.
+    /// Checks that a folder can be created at `path`: nothing exists there, or an empty folder.
     ///
     /// # Errors
     /// If it can't be made.

@@ -1,6 +1,6 @@
 //! Applies suggested fixes to the text of a scene where they improve it.
 //!
-//! A changed text is checked in place of the file before it is accepted. It is an improvement if
+//! A changed text is checked instead of the file before it is accepted. It is an improvement if
 //! each fixed diagnostic is gone, and there is no new error, and no new warning either unless an
 //! error is gone (errors hide warnings). A change that inserts an unknown key is never accepted,
 //! because the setting below it would be lost. Errors that a change reveals may be fixed by the
@@ -122,7 +122,7 @@ impl<'w> FixSession<'w> {
     }
 
     fn check(&mut self, text: String, changes: usize) -> FixCandidate {
-        // Check the text in place of the file.
+        // Check the text instead of the file.
         self.checks = self.checks.saturating_sub(1);
         let bytes = text.clone().into_bytes();
         let mut input = Input::edited(self.path, bytes, self.options.clone());
@@ -207,7 +207,7 @@ impl<'w> FixSession<'w> {
         None
     }
 
-    /// An improved text with these changes and with fixes of what they reveal.
+    /// An improved text with these changes and with fixes of the errors they reveal.
     fn apply_and_follow(
         &mut self,
         candidate: &FixCandidate,

@@ -1,4 +1,4 @@
-//! A scene from its files to validation, with the diagnostics on the way.
+//! A scene from its files to validation, with its diagnostics.
 
 use super::{Options, SourceKind, load, stage, validate};
 use rtc_diag::{Diagnostic, Sink, codes};
@@ -73,7 +73,7 @@ pub struct Validated {
     pub scene: ValidScene,
 }
 
-/// The origin of a scene, and what was chosen for it.
+/// The origin of a scene, and the choices made for it.
 pub struct Provenance {
     /// Whether it is an asset: glTF, or a mesh.
     pub is_asset: bool,
@@ -191,7 +191,7 @@ impl Input {
 
     /// Lowers the scene. Call it once: loading may release the bytes of its files.
     pub fn load(&mut self) -> Option<Loaded> {
-        // The whole file decides what it is.
+        // Detecting the format needs the whole file.
         let is_asset = self.is_asset();
         let map = Arc::get_mut(&mut self.map).expect(UNSHARED);
         let lowered = load(self.file?, map, &self.options, &mut self.sink)?;

@@ -11,8 +11,8 @@
 //! - [`RayCounter`] limits the rays of a render, deterministically.
 //! - [`ShardPlan`] divides a picture among several renders; each makes a [`RenderShard`], which can
 //!   be saved, resumed and merged.
-//! - [`PictureAudit`] and [`RenderShard::audit`] make some tiles of a picture, or of a part of one,
-//!   anew, and compare.
+//! - [`PictureAudit`] and [`RenderShard::audit`] render some tiles of a picture, or of a part of
+//!   one, again, and compare.
 //! - [`fix()`] applies suggested fixes; [`Input::lay_out`] formats a text.
 //! - [`NewFile`] writes files atomically; no other code writes files.
 //! - [`trial`] has the entry points of the fuzz targets.
@@ -191,7 +191,7 @@ pub fn stage(
             if staged.lacks_light {
                 let note = Diagnostic::new(
                     &codes::STUDIO,
-                    "the scene has no light, so it stands in the studio",
+                    "the scene has no light, so the studio lights it",
                 );
                 sink.push(note.hint(
                     "light it by `--env`, `--env-color` or `--sun`; `--env-color 0,0,0` is \
@@ -202,15 +202,12 @@ pub fn stage(
         }
         Err(BasisFault::ZeroGaze) => (
             &codes::EYE_IS_CENTER,
-            "the view asked for is from the point that it looks at",
+            "the requested eye is at the requested centre",
         ),
-        Err(BasisFault::ZeroUp) => (
-            &codes::ZERO_UP,
-            "the upward direction asked for has no length",
-        ),
+        Err(BasisFault::ZeroUp) => (&codes::ZERO_UP, "the requested upward direction is zero"),
         Err(BasisFault::Parallel) => (
             &codes::UP_PARALLEL,
-            "the upward direction asked for is along the view",
+            "the requested upward direction is along the view",
         ),
     };
     sink.push(Diagnostic::new(mismatch.0, mismatch.1));
@@ -250,7 +247,7 @@ fn unseen(scene: &ValidScene, lowered: &Lowered, sink: &mut Sink) {
         .collect();
     let more = objects.len().saturating_sub(MAX_UNSEEN);
     for (at, (index, _)) in objects.iter().take(MAX_UNSEEN).enumerate() {
-        let message = "no ray of any pixel meets this object";
+        let message = "no ray of any pixel hits this object";
         let mut diagnostic = Diagnostic::new(&codes::NEVER_SEEN, message);
         if more > 0 && at + 1 == MAX_UNSEEN {
             diagnostic = diagnostic.hint(format!("and {more} more like it"));

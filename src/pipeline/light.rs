@@ -31,7 +31,7 @@ impl PictureSetup {
         input: &mut Input,
         observer: &Observer<'_>,
     ) -> Result<(), RenderError> {
-        // Report what was found during validation.
+        // Report the diagnostics of validation.
         let pending = subject.pending.drain(..);
         pending.for_each(|remark| input.push(remark));
         let FirstView {

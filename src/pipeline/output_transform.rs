@@ -52,7 +52,7 @@ impl OutputTransform {
         background: BackgroundFill,
         layers: &[Aov],
     ) -> Result<Self, &'static str> {
-        // Reject what the format does not support.
+        // Reject settings that the format does not support.
         let is_linear = kind.is_linear();
         if is_linear && tone.is_some_and(|tone| tone != Tone::None) {
             return Err("`--tonemap` is for PNG; an EXR holds linear values");
@@ -185,7 +185,7 @@ impl OutputTransform {
         }
     }
 
-    /// Whether what shows no surface is transparent.
+    /// Whether pixels without a surface are transparent.
     #[must_use]
     pub fn is_transparent(&self) -> bool {
         self.background == BackgroundFill::Transparent
@@ -332,7 +332,7 @@ impl ResolvedOutputTransform {
         head.encode(picture)
     }
 
-    /// What is known about the file before rendering, given its size and layers.
+    /// The properties of the file before rendering, given its size and layers.
     pub(super) fn head(
         &self,
         size: [u32; 2],
@@ -354,7 +354,7 @@ impl ResolvedOutputTransform {
         }
     }
 
-    /// Whether the file keeps hashes of what it was made of; a JPEG has no metadata.
+    /// Whether the file stores the hashes of its film tiles; a JPEG has no metadata.
     fn has_tiles(&self) -> bool {
         self.has_metadata && self.kind != FileFormat::Jpeg
     }

@@ -21,7 +21,7 @@ pub(super) fn exposed(stops: f64) -> Diagnostic {
     let message =
         format!("the picture is exposed by {stops:+.2} stops, to show what its lights light");
     let hint = format!(
-        "`--exposure {stops:.4}` says the same, `--exposure 0` shows the values as they are"
+        "`--exposure {stops:.4}` sets the same, `--exposure 0` leaves the values unchanged"
     );
     Diagnostic::new(&codes::EXPOSED, message).hint(hint)
 }
@@ -51,8 +51,8 @@ pub(super) fn fitted(before: [u32; 2], requested: [u32; 2]) -> Option<Diagnostic
 /// A note that the studio adds light to the scene.
 pub(super) fn filled(seen: f64) -> Diagnostic {
     let message = format!(
-        "the scene's own light shows {:.0} % of what is in the picture, so the dimmed studio \
-        fills in",
+        "the scene's own lights illuminate {:.0} % of the visible surfaces, so the dimmed studio \
+        is added",
         100.0 * seen
     );
     Diagnostic::new(&codes::FILLED, message).hint(
@@ -68,7 +68,7 @@ pub(super) fn imprecise(validated: &Validated, arithmetic: plan::Arithmetic) -> 
     let (problem, label) = match loss.symptom {
         Symptom::SelfHit => {
             let off = format!(
-                "rays start about {:.0e} off this surface and meet it again",
+                "rays start about {:.0e} off this surface and hit it again",
                 loss.error
             );
             ("surfaces shade or mirror themselves", off)
@@ -78,7 +78,7 @@ pub(super) fn imprecise(validated: &Validated, arithmetic: plan::Arithmetic) -> 
             format!("points are about {:.0e} off", loss.error),
         ),
         Symptom::Skipped => (
-            "rays pass by what is near",
+            "rays miss near surfaces",
             "hardly larger than the 1e-5 that rays skip".to_owned(),
         ),
     };
@@ -118,7 +118,7 @@ pub(super) fn out_of_range(
     let beyond = (!beyond.is_empty()).then(|| {
         let diagnostic = Diagnostic::new(
             &codes::BEYOND_FLOAT,
-            format!("values beyond what the file holds in {names}"),
+            format!("values beyond the range of the file in {names}"),
         );
         diagnostic.hint(if form == FileFormat::ExrHalf {
             "the file has its largest number there, 65504 in 16 bits; leave out `--bits 16`"

@@ -28,7 +28,8 @@ pub struct PictureSetup {
     pub overrides: Overrides,
     /// IR settings by name and value, applied last.
     pub set: Vec<(String, String)>,
-    /// Lens and settings in place of those of the scene: those of a picture that is made anew.
+    /// Lens and settings that replace those of the scene: those of a picture that is rendered
+    /// again.
     pub settings: Option<(Lens, Settings)>,
     /// The arithmetic of intersections.
     pub arithmetic: plan::Arithmetic,
@@ -191,7 +192,7 @@ impl PictureSetup {
         );
         if window.width == 0 || window.height == 0 {
             return Err(RenderError::Refused(format!(
-                "the crop lies outside the picture of {width}×{height} pixels"
+                "the crop is outside the picture of {width}×{height} pixels"
             )));
         }
         Ok(window)
@@ -315,7 +316,7 @@ impl PictureSetup {
         }
     }
 
-    /// Refuses layers that tell of samples where no goal is set.
+    /// Rejects layers of sample statistics without a target.
     ///
     /// # Errors
     /// If there is such a layer.
@@ -436,7 +437,7 @@ impl PictureSetup {
         settings
     }
 
-    /// The settings of the picture that the scene shows where nothing else is asked for.
+    /// The settings of the picture that the scene defines by itself.
     fn unasked(&self, scene: &Scene) -> Value {
         let look = self.look.unasked(&scene.display);
         Self::new(look).described(scene)
@@ -479,7 +480,7 @@ fn difference(path: &str, new: &Value, old: &Value, found: &mut Vec<[String; 3]>
     }
 }
 
-/// Changes the picture size. The view of an asset shows at least what it showed before, which may
+/// Changes the picture size. The view of an asset shows at least its former contents, which may
 /// give a diagnostic; other scenes keep their vertical field of view.
 fn resize(
     scene: &mut Scene,

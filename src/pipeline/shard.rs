@@ -272,7 +272,7 @@ impl RenderShard {
         self.layers.contains_key(&tile)
     }
 
-    /// What it has of a tile, as bytes: its sums and its layers.
+    /// The bytes of a tile: its sums and its layers.
     pub(super) fn tile_bytes(&self, tile: usize) -> Vec<u8> {
         let mut bytes = self.film.tile_bytes(tile);
         let layers = self.layers.get(&tile).into_iter().flatten();

@@ -19,9 +19,8 @@ const BUFFER: usize = 1 << 20;
 /// Why a picture can't be rendered in strips.
 const WHOLE: &str =
     "a JPEG or WebP is compressed as a whole, and has no strips; name it .png or .exr";
-const GOAL: &str = "what is left of an error is known of a whole picture alone, so \
-`--target-error` and \
-     `--time-budget` have no strips; give the samples, by `--spp` or `--supersampling`";
+const GOAL: &str = "the error is known for a whole picture only, so `--target-error` and \
+`--time-budget` have no strips; set the samples with `--spp` or `--supersampling`";
 const DISTANCES: &str = "the brightness of a distance depends on all others, so a depth buffer \
 has no \
      strips; `--aov depth` of another mode holds distances as they are";

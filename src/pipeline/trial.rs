@@ -1,7 +1,7 @@
 //! The stages on untrusted bytes: the entry points of the fuzz targets, also run by the test suite
 //! on regression inputs.
 //!
-//! None may panic for any bytes. What a stage guarantees beyond that is asserted here.
+//! No function may panic for any bytes. The other guarantees of a stage are asserted here.
 
 use super::{FixFilter, Input, Options, RenderShard, load, render, validate};
 use arbitrary::{Arbitrary, Unstructured};
@@ -175,7 +175,7 @@ pub fn decode(bytes: &[u8]) {
     }
 }
 
-/// Validates the scene that `Arbitrary` makes of the bytes.
+/// Validates the scene that `Arbitrary` makes from the bytes.
 ///
 /// # Panics
 /// If there is neither a valid scene nor an error, or both.
@@ -197,8 +197,8 @@ pub fn validate_any(bytes: &[u8]) {
     );
 }
 
-/// Exports a scene of any format, and the scene that `Arbitrary` makes of the bytes, to the formats
-/// that can be read again.
+/// Exports a scene of any format, and the scene that `Arbitrary` makes from the bytes, to the
+/// formats that can be read again.
 ///
 /// # Panics
 /// As [`is_written`].

@@ -125,7 +125,7 @@ macro_rules! of_paths {
 rtc_tables::layers!(of_paths);
 
 impl EffectState {
-    /// The state as one word.
+    /// The name of the state.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -158,7 +158,7 @@ pub struct EffectStatus {
     pub state: EffectState,
     /// The rule that removed it.
     pub rule: Option<Rule>,
-    /// The reason in plain words: one line, lower case, no full stop.
+    /// The reason: one line, lower case, no full stop.
     pub reason: String,
     /// The scene values that decide it.
     pub facts: Vec<ValuePath>,

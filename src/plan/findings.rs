@@ -1,4 +1,4 @@
-//! Facts about a scene before any rule is applied, and the findings of the rules, for the Whitted
+//! Facts about a scene before any rule is applied, and the results of the rules, for the Whitted
 //! integrator.
 
 use super::light::LightFindings;
@@ -89,7 +89,7 @@ pub(super) fn is_pinhole(scene: &ValidScene) -> bool {
         || matches!(scene.settings().mode, Mode::Depth)
 }
 
-/// What the rules found.
+/// The results of the rules.
 pub(super) struct Findings<'scene> {
     pub(super) facts: Facts<'scene>,
     pub(super) visibility: Visibility,

@@ -8,7 +8,7 @@ use super::{Facts, LightPlan, MAX_PAIRS};
 use rtc_math::{Bounds, Vec3};
 use rtc_valid::{Ambient, CourseLight, Mode};
 
-/// What the rules found about lights and shadows.
+/// The results of the rules about lights and shadows.
 pub(super) struct LightFindings {
     /// Per light.
     pub(super) plans: Vec<LightPlan>,

@@ -227,10 +227,12 @@ pub(crate) mod tests {
     fn have_margin(
         margin: f64,
         boxes: impl Fn(f64) -> [Bounds; 3],
-        are_apart: impl Fn([Bounds; 3]) -> bool,
+        are_disjoint: impl Fn([Bounds; 3]) -> bool,
     ) {
         for (axis, mirror) in (0..3).flat_map(|axis| [(axis, false), (axis, true)]) {
-            has_margin(margin, |gap| are_apart(permuted(boxes(gap), axis, mirror)));
+            has_margin(margin, |gap| {
+                are_disjoint(permuted(boxes(gap), axis, mirror))
+            });
         }
     }
 

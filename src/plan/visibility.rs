@@ -47,7 +47,7 @@ impl Visibility {
             .zip(&visible)
             .map(seen)
             .collect();
-        // Add those that reflected and refracted rays can hit.
+        // Add the surfaces that reflected and refracted rays can hit.
         let visibility = Self {
             visible,
             sides,

@@ -15,7 +15,7 @@ use std::ops::Range;
 pub struct Kernel {
     /// Its name.
     pub name: &'static str,
-    /// What it can do.
+    /// Its features.
     pub features: Features,
 }
 
@@ -29,7 +29,7 @@ const WHITTED: Features = PHONG
     .with(Features::BOUNCE)
     .with(Features::CAMERA);
 
-/// All integrators: those that `benches/kernels.md` shows to be worth their code.
+/// The compiled integrators: `benches/kernels.md` has the measurements behind the selection.
 pub const KERNELS: [Kernel; 7] = [
     kernel("phong", PHONG),
     kernel("phong, camera", PHONG.with(Features::CAMERA)),
@@ -96,7 +96,7 @@ pub const PATH_KERNELS: [PathKernel; 3] = [
 pub struct PathKernel {
     /// Its name.
     pub name: &'static str,
-    /// What it can do.
+    /// Its features.
     pub features: PathFeatures,
 }
 

@@ -9,8 +9,8 @@
 //! 3. `frame` loops over the tiles on all threads of the pool. Each thread calls the integrator for
 //!    each pixel of its tile.
 //! 4. `integrator` traces the camera rays of a pixel and shades their hits.
-//! 5. `film` sums the samples of each pixel and returns the [`Film`]; a [`PartialFilm`] holds part
-//!    of the picture, a [`ProgressiveFilm`] can be refined.
+//! 5. `film` sums the samples of each pixel and returns the [`Film`]; a [`PartialFilm`] has part of
+//!   the picture, a [`ProgressiveFilm`] can be refined.
 //!
 //! # Modules
 //!

@@ -42,9 +42,8 @@ impl Ray {
         (1.0 / MOST..=MOST).contains(&size)
     }
 
-    /// The unit vector along what leads out of the surface that was met. Where the eye is 10¹⁶
-    /// times as far as the surface is large, rounding may leave that no length: then the
-    /// surface faces the ray.
+    /// The unit normal of the hit surface, on the outside. Where the eye is 10¹⁶ times as far away
+    /// as the surface is large, it may round to zero: then the surface faces the ray.
     #[must_use]
     pub(crate) fn outward(&self, out: Vec3) -> Vec3 {
         out.normalize_or(-self.direction.normalize())
@@ -82,9 +81,8 @@ impl Interaction {
 
     /// A start for rays along `direction`, on the side of the surface the direction points to.
     ///
-    /// On the side the ray came from, the start also goes back along that ray, where it is known
-    /// that nothing stands: so a ray from the very edge of two mirrors starts on the inner side
-    /// of both.
+    /// On the side that the ray came from, the start also moves back along that ray, where nothing
+    /// is hit: so a ray from the very edge of two mirrors starts on the inner side of both.
     #[must_use]
     pub fn start(&self, direction: Vec3) -> Vec3 {
         let side = if direction.dot(self.normal) < 0.0 {

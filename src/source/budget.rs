@@ -87,7 +87,7 @@ const TABLE: [LimitRow; COUNT] = [
         base: 1 << 20,
         per_kib: 1 << 6,
         first: NONE,
-        description: "surfaces placed: primitives times the instances of each",
+        description: "surfaces: primitives times their instances",
     },
     LimitRow {
         resource: Resource::Nodes,
@@ -95,7 +95,7 @@ const TABLE: [LimitRow; COUNT] = [
         base: 1 << 21,
         per_kib: 1 << 10,
         first: NONE,
-        description: "values in the texts of scenes and assets, those behind aliases each time",
+        description: "values in the texts of scenes and assets; aliases count each time",
     },
     LimitRow {
         resource: Resource::Findings,
@@ -137,7 +137,7 @@ impl Resource {
 /// The limit of each resource.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Limits {
-    /// Limits that were set in place of the default.
+    /// The limits that override the defaults.
     set_limits: [Option<u64>; COUNT],
     /// Upper bounds of the defaults.
     max_defaults: [Option<u64>; COUNT],
@@ -246,7 +246,7 @@ impl fmt::Display for ByteSize {
     }
 }
 
-/// What a run has used so far.
+/// The amounts that a run has used so far.
 #[derive(Debug, Default)]
 pub struct Budget {
     limits: Limits,
@@ -255,7 +255,7 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// A budget of which nothing is used.
+    /// An unused budget.
     #[must_use]
     pub fn new(limits: Limits) -> Self {
         Self {
@@ -272,7 +272,7 @@ impl Budget {
     /// Charges an amount of a resource.
     ///
     /// # Errors
-    /// If that would exceed the limit; then nothing is charged.
+    /// If that would exceed the limit; nothing is charged in this case.
     pub fn charge(&self, resource: Resource, amount: u64) -> Result<(), Exceeded> {
         let limit = self.limit(resource);
         let spend = |spent: u64| spent.checked_add(amount).filter(|total| *total <= limit);
@@ -324,11 +324,11 @@ pub fn page() -> String {
     let mut page = "\
 # Limits
 
-What one run may take, printed by `rtc schema limits`. It is charged before memory is taken, for all files of a run
-together, and what is used often is charged once if it is made once. `--limit NAME=NUMBER` sets a limit (`KiB`, `MiB`
-and `GiB` may follow the number), `--allow-huge` lifts all of them.
+The resource limits of a run, printed by `rtc schema limits`. Resources are charged before memory is taken, for all
+files of a run together; shared ones are charged once. `--limit NAME=NUMBER` sets a limit (`KiB`, `MiB` and `GiB` may
+follow the number), `--allow-huge` lifts all of them.
 
-| name | limit | and for every KiB read | of what |
+| name | limit | and for every KiB read | resource |
 | --- | ---: | --- | --- |
 "
     .to_owned();

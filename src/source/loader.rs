@@ -292,7 +292,7 @@ fn key(file: &Metadata) -> FileKey {
     (file.dev(), file.ino())
 }
 
-/// Whether both belong to one file, as far as the system can tell.
+/// Whether both are the same file according to the system.
 #[cfg(unix)]
 fn is_same(a: &Metadata, b: &Metadata) -> bool {
     key(a) == key(b)

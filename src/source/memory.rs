@@ -1,4 +1,4 @@
-//! Files in memory, in place of a folder.
+//! Files in memory, instead of a folder.
 
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};

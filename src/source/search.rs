@@ -47,7 +47,7 @@ pub struct Found {
     pub path: PathBuf,
     /// Its path as the user would write it.
     pub shown: PathBuf,
-    /// Whether its name or folder differs from the path that was asked for.
+    /// Whether its name or folder differs from the requested path.
     pub elsewhere: bool,
     opened: Opened,
 }

@@ -163,7 +163,7 @@ fn best(study: &Study, rows: &[&StudyRow]) -> String {
 
 fn about_scene_setting(study: &Study, scene_row: &StudyRow, front: &[&StudyRow]) -> String {
     let label = scene_row.setting.label(&study.used());
-    // The same setting with the other arithmetic may be on the front in its place.
+    // The same setting with the other arithmetic may be on the front instead.
     let is_on_front = scene_row.front || front.iter().any(|row| row.setting == scene_row.setting);
     if is_on_front {
         let is_better_value = |row: &&&StudyRow| {

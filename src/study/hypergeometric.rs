@@ -1,12 +1,12 @@
-//! What a sample without a fault says of all that it was drawn from: the hypergeometric
-//! distribution, in whole numbers.
+//! Bounds from a sample without a defect: the hypergeometric distribution, in integers.
 
-/// The least number of faults among `all` that `drawn` of them, drawn at random without
-/// replacement, miss altogether with a probability of at most one in `odds`. So if they hit none,
-/// there are fewer faults than that, with a confidence of 1 − 1/`odds`. `None` if even all faults
-/// would be missed, as nothing was drawn.
+/// The least number of defects among `all` that `drawn` of them, chosen at random without
+/// replacement, all miss with a probability of at most one in `odds`. So if the sample has none,
+/// there are fewer defects than that, with a confidence of 1 − 1/`odds`. `None` if nothing was
+/// drawn.
 ///
-/// Of `d` faults none is hit with the probability C(N−d, k) / C(N, k), which falls as `d` grows.
+/// None of `d` defects is in the sample with the probability C(N−d, k) / C(N, k), which falls as
+/// `d` grows.
 #[must_use]
 pub fn least_faults(all: u64, drawn: u64, odds: u64) -> Option<u64> {
     let (mut low, mut high) = (0, all);
@@ -36,7 +36,7 @@ fn is_rare(all: u64, drawn: u64, faults: u64, odds: u64) -> bool {
     missed <= chances
 }
 
-/// A natural number, in digits of 64 bits, the highest first of which none is 0 in front.
+/// A natural number, in digits of 64 bits, the highest first, without leading zeros.
 #[derive(PartialEq, Eq)]
 struct Natural(Vec<u64>);
 
@@ -76,8 +76,8 @@ impl PartialOrd for Natural {
 mod tests {
     use super::*;
 
-    /// How many of the ways to draw `drawn` of `all` hit none of the first `faults`, and how many
-    /// ways there are: all subsets, one by one.
+    /// The number of ways to draw `drawn` of `all` that miss the first `faults`, and the number of
+    /// all ways, by enumeration.
     fn enumerated(all: u32, drawn: u32, faults: u32) -> [u64; 2] {
         let subsets = (0..1_u32 << all).filter(|subset| subset.count_ones() == drawn);
         subsets.fold([0, 0], |[missed, ways], subset| {
@@ -105,10 +105,10 @@ mod tests {
 
     #[test]
     fn known_bounds() {
-        // All are drawn: there is none. None is drawn: nothing is known.
+        // All are drawn: no defect. None is drawn: no bound.
         assert_eq!(least_faults(1000, 1000, 50), Some(1));
         assert_eq!(least_faults(1000, 0, 50), None);
-        // Many tiles, few of them drawn: 1 − 0.02^(1/32) of them, by the binomial distribution.
+        // Many tiles, a small sample: 1 − 0.02^(1/32) of them, by the binomial distribution.
         let all = 1 << 30;
         let share = least_faults(all, 32, 50).unwrap() as f64 / all as f64;
         let binomial = 1.0 - rtc_math::pow(0.02, 1.0 / 32.0);

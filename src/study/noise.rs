@@ -170,7 +170,7 @@ impl SampleAllocation {
         let [count, _] = film.pixel(index).counts();
         let scale = self.gain * self.mean / (2.0 * square);
         let best = scale * (self.deviations[index] + MIN_DEVIATION * self.mean);
-        // If the pilots missed what the replicates differ by, refine all pixels.
+        // If the pilots did not find the difference of the replicates, refine all pixels.
         doubled_if(count, self.mean == 0.0 || best >= 2.0 * f64::from(count))
     }
 }

@@ -105,7 +105,7 @@ impl Parameter {
         (self != Self::Denoise).then(|| self.cell(value))
     }
 
-    /// A value in short form, for example "4" or "plain".
+    /// A short form of a value, for example "4" or "plain".
     #[must_use]
     pub fn cell(self, value: u32) -> String {
         if self == Self::Precision {

@@ -3,20 +3,20 @@
 use rtc_image::Layers;
 use rtc_render::Aov;
 
-/// What is known of a pixel.
+/// The statistics of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelQuality {
     /// The standard error of each channel, of display values, for a white of 1.
     pub error: [f32; 3],
     /// The number of samples, those of the pilot included.
     pub samples: u64,
-    /// The largest change, in multiples of white, by light that no sample may have met, with a
-    /// probability of 95 %; 1 where there is no bound.
+    /// A bound, in multiples of white, on the light that no sample may have hit, with a probability
+    /// of 95 %; 1 where there is no bound.
     pub undersampled: f32,
 }
 
 impl PixelQuality {
-    /// The values of the channels of a layer; none if it tells of first hits.
+    /// The values of the channels of a layer; `None` for layers of first hits.
     #[expect(clippy::cast_precision_loss, reason = "rounds to the nearest float")]
     fn values(&self, aov: Aov) -> Vec<f32> {
         match aov {
@@ -30,7 +30,7 @@ impl PixelQuality {
     }
 }
 
-/// Adds those of the layers wanted that tell of the quality to others of the same pixels.
+/// Adds the requested layers of statistics to other layers of the same pixels.
 #[must_use]
 pub fn with_quality(layers: Layers, wanted: &[Aov], quality: &[PixelQuality]) -> Layers {
     let wanted = || wanted.iter().filter(|aov| aov.is_of_samples());

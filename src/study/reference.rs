@@ -57,7 +57,7 @@ pub enum DepthEnd {
     Exact,
     /// One more bounce changes nothing visible.
     Still,
-    /// The study could not afford to go on; deeper paths may show.
+    /// The study could not afford more; deeper paths may be visible.
     Open,
 }
 

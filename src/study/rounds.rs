@@ -22,18 +22,18 @@ const MAX_UNBOUNDED: u32 = 1 << 14;
 /// Where all pixels get samples, a replicate has at least this many for each one of its pilot.
 const PILOT_SHARE: u32 = 8;
 
-/// What a render lacks for its target.
+/// The lack of a render relative to its target.
 enum MissingSamples {
     Nothing,
     /// The noise must fall below this mean square.
     Samples(f64),
-    /// All pixels need so many samples per replicate: some bright light may be undersampled.
+    /// All pixels need this many samples per replicate: some bright light may be undersampled.
     RareLight(u32),
 }
 
 impl MissingSamples {
-    /// Where bright light may be undersampled, all pixels come first: pilots that have not met it
-    /// would leave out some of them.
+    /// Where bright light may be undersampled, all pixels come first: pilots that have not hit it
+    /// would skip some of them.
     fn of(film: &ProgressiveFilm, noise: &Noise, tail: f64, error: f64) -> Self {
         let bound = noise.bound(tail, Some(error));
         let is_open = bound.undersampled.is_some_and(|white| white > 1.0);
@@ -95,7 +95,7 @@ pub(super) fn next_round(
     let (mut requested, mut more) = round(square);
     while more == 0.0 {
         if goal.is_some() {
-            // The pilots missed what the replicates differ by.
+            // The pilots did not find the difference of the replicates.
             return doubled(film, u32::MAX, max_samples);
         }
         if square < f64::MIN_POSITIVE {

@@ -196,7 +196,7 @@ impl<'runtime> Subject<'runtime> {
     }
 
     /// Renders in a setting on one thread, `repeats` times as decided from the first result, each
-    /// as `reseeded` says. If the picture of the first is not wanted, it may be missing.
+    /// as `reseeded` selects. If the first picture is not needed, it may be missing.
     pub(super) fn time(
         &self,
         setting: Setting,

@@ -325,7 +325,7 @@ pub(super) fn light_samples(
     {
         return Ok((scene_samples, tried));
     }
-    // Choose a few random tiles of the crop.
+    // Choose some random tiles of the crop.
     let Crop {
         x,
         y,

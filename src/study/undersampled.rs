@@ -20,7 +20,7 @@ const MAX_SAMPLES: u32 = 256;
 pub(super) struct UndersampledError {
     /// Its mean square, for a white of 1.
     pub(super) square: f64,
-    /// What it is the error of.
+    /// The subject of the error.
     pub(super) source: Undersampled,
 }
 

@@ -4,10 +4,10 @@
 /// Calls a macro with the table of shapes; all stages list them in its order.
 ///
 /// A row holds the type, its key in the IR, how enums store it, and its values in one of two ways:
-/// - `derived { "type" value: rule "key" "words"; … }`: a rule says how each value is
-///   validated, prepared and written. The rules are `point`; `direction`, of any length but 0;
-///   `step`, a direction with a length; `length`, above 0. The type and the keys are what `emit` writes,
-///   the words name the value in a finding.
+/// - `derived { "type" value: rule "key" "words"; … }`: a rule defines how each value is validated,
+///   prepared and written. The rules are `point`; `direction`, of any length but 0; `step`, a
+///   direction with a length; `length`, above 0. The type and the keys are those of the scene
+///   format, the words name the value in a diagnostic.
 /// - `custom { "value" … }`: the paths to the values in the IR; each stage has an `impl` for the
 ///   shape.
 #[macro_export]
@@ -74,7 +74,7 @@ macro_rules! shapes {
                 axis: direction "direction" "axis of a cylinder";
                 radius: length "radius" "radius";
             }
-            /// A solid made of solids.
+            /// A CSG solid.
             Csg csg Box custom { "operands" }
         }
     };

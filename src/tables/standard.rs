@@ -1,13 +1,12 @@
 //! The table of the parameters of the glTF material (glTF 2.0, appendix B, and `KHR_materials_*`).
 //!
-//! A parameter is added here. The stages name a macro to which all rows are given, and make of them
-//! what they can: the fields of the IR, their proof, the objects of glTF.
+//! To add a parameter, add a row here. Each stage passes a macro to which all rows are given, and
+//! generates its part from them: the fields of the IR, their validation, the objects of glTF.
 
 /// The parameters in the order of the IR: `field: kind = default, omitted;`.
 ///
-/// The kind says which type a value has and from what range it is; `omitted` names the test by
-/// which an IR text leaves the value out. The scene format has a key for each, whose meaning is the
-/// doc.
+/// The kind defines the type of a value and its range; `omitted` names the test by which an IR text
+/// omits the value. The scene format has a key for each, described by the doc comment.
 #[macro_export]
 macro_rules! parameters {
     ($then:ident) => {
@@ -23,7 +22,7 @@ macro_rules! parameters {
             /// Its green multiplies the roughness, its blue the metal.
             metallic_roughness_map: map = None, "Option::is_none";
             /// The reflectance at normal incidence and the glossiness (rgb, a) of
-            /// `KHR_materials_pbrSpecularGlossiness`, in place of metallic, roughness and ior.
+            /// `KHR_materials_pbrSpecularGlossiness`, instead of metallic, roughness and ior.
             specular_glossiness: some_fractions = None, "Option::is_none";
             /// Multiplies them, alpha too; its colour is coded as sRGB.
             specular_glossiness_map: map = None, "Option::is_none";
@@ -36,7 +35,7 @@ macro_rules! parameters {
             normal_map: map = None, "Option::is_none";
             /// How much of its red and green counts.
             normal_scale: number = 1.0, "is_one";
-            /// What alpha means: nothing, a cut, or a fraction.
+            /// The alpha mode: opaque, cut off, or blended.
             alpha: alpha = Alpha::Opaque, "is_default";
             /// Whether camera rays of traced paths see the back. They always see the back of a
             /// transmitting material, and all other rays hit the back of any material.
@@ -55,7 +54,7 @@ macro_rules! parameters {
             specular_color: color = [1.0; 3], "never";
             /// Multiplies it; coded as sRGB.
             specular_color_map: map = None, "Option::is_none";
-            /// How much of the light that is not mirrored goes through.
+            /// The fraction of the light that is transmitted, after specular reflection.
             transmission: fraction = 0.0, "is_zero";
             /// Its red multiplies that.
             transmission_map: map = None, "Option::is_none";
@@ -103,11 +102,11 @@ macro_rules! parameters {
             iridescence_thickness: pair = [100.0, 400.0], "never";
             /// Its green says how thick, between both.
             iridescence_thickness_map: map = None, "Option::is_none";
-            /// How much of the diffuse light goes through.
+            /// The fraction of the diffuse light that is transmitted.
             diffuse_transmission: fraction = 0.0, "is_zero";
             /// Its alpha multiplies that.
             diffuse_transmission_map: map = None, "Option::is_none";
-            /// The colour of what goes through.
+            /// The colour of transmitted light.
             diffuse_transmission_color: fraction_color = [1.0; 3], "is_one";
             /// Multiplies it; coded as sRGB.
             diffuse_transmission_color_map: map = None, "Option::is_none";
@@ -115,8 +114,7 @@ macro_rules! parameters {
     };
 }
 
-/// The extensions whose properties are parameters as they stand: `"name" { field: kind "property";
-/// }`.
+/// The extensions whose properties are parameters unchanged: `"name" { field: kind "property"; }`.
 #[macro_export]
 macro_rules! extensions {
     ($then:ident) => {
@@ -173,9 +171,9 @@ macro_rules! extensions {
 
 /// The layers: lobes that a material may have beside those of its base.
 ///
-/// Of each: its name, why a scene does not need it, the factor and the channels of the map that
-/// weigh it, its maps with the factors that they multiply, and whether light goes through it. The
-/// word before the braces is its field in the parameters of the BSDF.
+/// Each layer has: its name, why a scene does not need it, its factor and the channels of its
+/// weight map, its maps with the factors that they multiply, and whether it transmits light. The
+/// name before the braces is its field in the parameters of the BSDF.
 #[macro_export]
 macro_rules! layers {
     ($then:ident) => {
@@ -238,7 +236,7 @@ macro_rules! plain_layers {
     };
 }
 
-/// The map that a parameter of a kind of the table holds.
+/// The map of a parameter of this kind.
 #[macro_export]
 macro_rules! map_of {
     (map, $map:expr) => {
@@ -279,7 +277,7 @@ macro_rules! camel_case {
     }};
 }
 
-/// The terms of Phong's model that a fit looks at, all of any size.
+/// The terms of Phong's model that are fitted, of any size.
 pub struct PhongTerms {
     /// The colour of the material.
     pub color: [f64; 3],
@@ -295,8 +293,7 @@ pub struct PhongTerms {
     pub ior: f64,
 }
 
-/// The parameters of the glTF material that comes nearest to Phong's model; of what it does not
-/// name, the default.
+/// The parameters of the glTF material closest to Phong's model; the others have defaults.
 pub struct PhongFit {
     /// The colour, its weight included.
     pub base_color: [f64; 3],
@@ -314,9 +311,8 @@ pub struct PhongFit {
     pub ior: f64,
 }
 
-/// The glTF material that comes nearest to Phong's model: the diffuse term becomes Lambert's, a
-/// mirror without one a smooth metal of its weight, and what refracts a volume with a smooth
-/// surface.
+/// The glTF material closest to Phong's model: the diffuse term becomes Lambert's, a mirror without
+/// one a smooth metal of its weight, and a refractive material a volume with a smooth surface.
 ///
 /// The exponent n of a highlight becomes the width α of a microfacet distribution by n = 2/α² − 2
 /// (Walter et al., "Microfacet models for refraction through rough surfaces", EGSR 2007, section

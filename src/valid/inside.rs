@@ -161,8 +161,7 @@ fn solid_angle([a, b, c]: [Vec3; 3]) -> f64 {
 }
 
 /// Reports each light inside a solid: with shadows, the solid blocks all its light to the outside.
-/// A
-/// solid that also contains the eye is a room.
+/// A solid that also contains the eye is a room.
 pub(super) fn lights(scene: &ir::Scene, check: &mut Checker<'_>) {
     if !scene.settings.shadows {
         return;
@@ -230,7 +229,7 @@ pub(super) fn eye(scene: &ir::Scene, check: &mut Checker<'_>) {
     }
     let mut is_alone = true;
     for (_, other) in others.clone() {
-        // A plane has no bounds: it goes through everything, and its part inside is visible.
+        // A plane has no bounds: it passes through the whole scene, and its part inside is visible.
         let mut is_bounded = false;
         other
             .shape

@@ -35,7 +35,7 @@ pub(super) fn lints(scene: &ir::Scene, check: &mut Checker<'_>) {
     }
 }
 
-/// A light may well have a colour of 10; a value of at least this is more likely a byte.
+/// A light may have a colour of 10; a value of at least this is more likely a byte.
 const BRIGHT: f64 = 100.0;
 
 /// Whether the channels of a colour are integers up to 255, the largest of them at least `least`.
@@ -80,7 +80,7 @@ fn weights(phong: &ir::Phong, index: usize, check: &mut Checker<'_>) {
         );
         check.report(
             ValuePath::new(EntityKind::Material, index, field),
-            "so many times as bright as what is lit",
+            "its brightness, relative to the surfaces it illuminates",
             Diagnostic::new(&codes::LARGE_WEIGHT, message).hint(hint),
         );
     }
@@ -169,7 +169,7 @@ fn shadows_of_paths(scene: &ir::Scene, check: &mut Checker<'_>) {
     if let (ir::Mode::Path(_), Some(index)) = (&settings.mode, first) {
         let diagnostic = Diagnostic::new(
             &codes::SHADOW_IN_PATHS,
-            "every object that paths meet casts a shadow",
+            "every object that paths hit casts a shadow",
         )
         .hint("`RenderMode: phong` takes `shadow: false` as it is written");
         check.report(
@@ -206,7 +206,7 @@ fn unsupported_features(scene: &ir::Scene, check: &mut Checker<'_>) {
             ir::Material::Phong(_) | ir::Material::Standard(_) => continue,
         };
         let diagnostic = Diagnostic::new(&codes::LOST_PARTS, message).hint(hint);
-        let label = "it says more than is shown";
+        let label = "more precise than the picture";
         check.report(
             ValuePath::new(EntityKind::Material, index, Field::Whole),
             label,

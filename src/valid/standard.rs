@@ -117,7 +117,7 @@ impl Standard {
     }
 }
 
-/// The alpha mode: how a surface covers what is behind it.
+/// The alpha mode: how a surface covers the background.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Alpha {
     /// Fully.

@@ -80,12 +80,12 @@ fn names_of_other_places_are_replaced_by_their_tails_with_a_note() {
 
 #[test]
 fn what_is_not_there_is_told_with_the_places() {
-    let absent = "RE001 error scene.yaml:1:3 there is no file `t/a.png`\n  looked for it at `F/inner/t/a.png`, `F/t/a.png`, \
-                  `F/inner/a.png`, `F/a.png`\n  put the file beside the scene, or allow its folder by `--asset-root`\n";
+    let absent = "RE001 error scene.yaml:1:3 there is no file `t/a.png`\n  searched at `F/inner/t/a.png`, `F/t/a.png`, \
+                  `F/inner/a.png`, `F/a.png`\n  put the file beside the scene, or allow its folder with `--asset-root`\n";
     assert_eq!(found(&[], "t/a.png", None), (None, absent.to_owned()));
-    let outside = "RE002 error scene.yaml:1:3 `/etc/a.png` leads out of the folder of the scene\n  looked for it at \
+    let outside = "RE002 error scene.yaml:1:3 `/etc/a.png` leaves the folder of the scene\n  searched at \
                    `F/inner/etc/a.png`, `F/etc/a.png`, `F/inner/a.png`, `F/a.png`\n  put the file beside the scene, or \
-                   allow its folder by `--asset-root`\n";
+                   allow its folder with `--asset-root`\n";
     assert_eq!(found(&[], "/etc/a.png", None), (None, outside.to_owned()));
     assert_eq!(
         found(&[("other/a.png", 1)], "../other/../../a.png", None).0,
@@ -192,7 +192,7 @@ fn a_path_that_climbs_is_told_of_the_root_that_finds_it() {
     let (none, told) = found(&files, "../pictures/floor.png", None);
     assert_eq!(none, None);
     assert!(
-        told.contains("allow its folder by `--asset-root`"),
+        told.contains("allow its folder with `--asset-root`"),
         "{told}"
     );
     assert_eq!(

@@ -71,7 +71,7 @@ fn the_words_say_how_sure_it_is_and_the_seed_repeats_them() {
     assert_eq!(code, 0);
     assert_eq!(
         words,
-        "a.png: 4 of 6 tiles of 256 pixels, made anew (seed 9), are the same\n\
+        "a.png: 4 of 6 tiles of 256 pixels, rendered again (seed 9), are the same\n\
          98 % sure that fewer than 50 % of the tiles differ (3)\n"
     );
     assert_eq!(audited(&folder, &args), (0, words));
@@ -216,7 +216,7 @@ fn parts_are_audited_before_they_are_merged() {
     );
     let output = merge(&["1.rtp", "3.rtp"], "b.png");
     assert_eq!(code(&output), 1, "{}", stderr(&output));
-    assert!(stderr(&output).contains("3.rtp: what it says of itself is not so"));
+    assert!(stderr(&output).contains("3.rtp: its metadata are wrong"));
     assert!(!folder.path().join("b.png").exists());
     // Both or none.
     assert_eq!(

@@ -103,7 +103,7 @@ fn a_render_that_is_told_to_end_saves_and_says_how_to_go_on() {
         // On a very slow machine it may be done before the signal comes.
         if output.status.code() != Some(0) {
             assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
-            let words = "the same command goes on from there";
+            let words = "the same command resumes";
             assert!(stderr(&output).contains(words), "{}", stderr(&output));
             assert!(!folder.path().join("a.png").exists());
         }
@@ -170,7 +170,7 @@ fn where_the_folder_becomes_read_only_the_render_goes_on_and_what_was_saved_stay
     let is_early = child.try_wait().unwrap().is_none();
     let output = child.wait_with_output().unwrap();
     assert_eq!(code(&output), 0, "{}", stderr(&output));
-    let words = "the render goes on, what was saved before stays";
+    let words = "the render continues, and the last checkpoint stays";
     assert!(
         !is_early || stderr(&output).contains(words),
         "{}",
@@ -212,7 +212,7 @@ fn what_was_saved_of_another_picture_is_refused_and_begun_anew_if_asked() {
     let other = [&render[..], &["--depth", "0"]].concat();
     let output = rtc(&folder, &other);
     assert_eq!(code(&output), 1);
-    let words = "settings.maxDepth: 1 here, 0 there; `--restart` begins anew";
+    let words = "settings.maxDepth: 1 here, 0 there; `--restart` starts over";
     assert!(stderr(&output).contains(words), "{}", stderr(&output));
     reported(&folder, &[&other[..], &["--restart"]].concat());
     fs::write(folder.path().join("a.rtp"), "something else").unwrap();
@@ -260,7 +260,7 @@ fn a_picture_that_grows_to_its_goal_goes_on_to_the_same_bytes() {
         .collect();
     let other: Vec<&str> = other.iter().map(String::as_str).collect();
     let output = rtc(&folder, &other);
-    let words = "targetError: 0.7 here, 0.8 there; `--restart` begins anew";
+    let words = "targetError: 0.7 here, 0.8 there; `--restart` starts over";
     assert_eq!(code(&output), 1);
     assert!(stderr(&output).contains(words), "{}", stderr(&output));
 }
@@ -344,6 +344,6 @@ fn a_study_goes_on_from_its_renders_with_the_seconds_measured() {
     let other = rtc(&folder, &[&cost[..], &["--seed", "2"]].concat());
     assert_eq!(code(&other), 1);
     let words =
-        "`c.rtc`: it belongs to another study: seed: 1 here, 2 there; `--restart` begins anew";
+        "`c.rtc`: it belongs to another study: seed: 1 here, 2 there; `--restart` starts over";
     assert!(stderr(&other).contains(words), "{}", stderr(&other));
 }

@@ -95,7 +95,7 @@ fn a_gate_that_is_not_met_ends_with_1() {
     );
     let (code, reported, said) = gate("rmse<=0.5,flip<=1");
     assert_eq!((code, reported.as_str(), said.lines().count()), (1, "", 1));
-    assert!(said.starts_with("gate not met: rmse is ") && said.ends_with("at most 0.5 wanted\n"));
+    assert!(said.starts_with("gate failed: rmse is ") && said.ends_with("limit 0.5\n"));
     let (code, _, said) = gate("speed<=1");
     assert!(
         code == 2 && said.contains("measures are rmse, max, relmse, flip, share"),

@@ -162,7 +162,7 @@ fn what_can_not_be_meant_is_told_before_anything_is_rendered() {
         (&["ball.json", "away.json", "-o", "-"], "error: `-` is one"),
         (
             &["ball.json", "-o", "{stem}.tiff"],
-            "error: can't tell what `ball.tiff`",
+            "error: unknown picture format `ball.tiff`",
         ),
         (
             &["ball.json", "away.json", "--part", "1/2"],

@@ -26,7 +26,7 @@ fn what_has_one_reading_is_fixed_and_guesses_wait() {
     let sure = TYPED.replace("[0 0 50]", "[0, 0, 50]").replace("'3'", "3");
     assert_eq!(text(&folder), sure);
     assert!(said.contains("a.yaml: 2 changes made"), "{said}");
-    assert!(said.contains("`--unsafe` takes them"), "{said}");
+    assert!(said.contains("`--unsafe` applies"), "{said}");
     let guessed = rtc(&folder, &["check", "--fix", "--unsafe", "a.yaml"]);
     assert!(guessed.status.success() && !stderr(&guessed).contains("warning["));
     assert_eq!(text(&folder), sure.replace("Shadws", "Shadows"));

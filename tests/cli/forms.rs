@@ -35,10 +35,7 @@ fn what_a_form_does_not_hold_is_refused() {
             &["-o", "a.webp", "--bits", "16"],
             "`--bits` is for PNG and EXR",
         ),
-        (
-            &["-o", "a.jpg", "--aov", "depth"],
-            "layers are PNGs beside a PNG",
-        ),
+        (&["-o", "a.jpg", "--aov", "depth"], "layers need a PNG"),
         (&["-o", "a.webp", "--strips"], "compressed as a whole"),
     ];
     for (args, words) in cases {

@@ -35,7 +35,7 @@ fn texts_are_laid_out_and_what_is_no_yaml_is_told() {
     let done = rtc(&shelf, &["fmt", "set"]);
     let said = stderr(&done);
     assert_eq!(code(&done), 1, "{said}");
-    assert!(said.contains("set/a.yaml: laid out\n"), "{said}");
+    assert!(said.contains("set/a.yaml: formatted\n"), "{said}");
     assert!(
         !said.contains("b.yml") && !said.contains("c.json"),
         "{said}"
@@ -48,7 +48,7 @@ fn texts_are_laid_out_and_what_is_no_yaml_is_told() {
     assert_eq!(text(&shelf, "set/d.yaml"), "Eye: [0, 0\n");
     let named = rtc(&shelf, &["fmt", "set/a.yaml", "set/c.json"]);
     assert_eq!(code(&named), 0, "{}", stderr(&named));
-    assert_eq!(stderr(&named), "set/c.json: laid out\n");
+    assert_eq!(stderr(&named), "set/c.json: formatted\n");
     assert_eq!(text(&shelf, "set/c.json"), "{\"Eye\": [0, 0, 50]}\n");
 }
 

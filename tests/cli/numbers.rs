@@ -55,7 +55,7 @@ fn layers_beyond_a_float_are_told_and_finite() {
     let names = "in `depth.Z`, `position.X`, `position.Y`, `position.Z`";
     assert!(
         reported.contains(&format!(
-            "warning[RD004]: values beyond what the file holds {names}"
+            "warning[RD004]: values beyond the range of the file {names}"
         )),
         "{reported}"
     );

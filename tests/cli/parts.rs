@@ -184,11 +184,11 @@ fn what_no_part_can_be_is_refused_before_work() {
     };
     refused(
         &["--target-error", "1"],
-        "can't know when the whole picture is good enough",
+        "can't estimate the error of the whole picture",
     );
     refused(
         &["--time-budget", "1"],
-        "can't know when the whole picture is good enough",
+        "can't estimate the error of the whole picture",
     );
     refused(&["-o", "a.png"], "name it .rtp");
     refused(

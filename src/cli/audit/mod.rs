@@ -1,5 +1,5 @@
-//! `rtc audit`: whether a picture, or a part of one, is what it says; some of its tiles are made
-//! anew.
+//! `rtc audit`: verifies that a picture, or a part of one, matches its metadata; some tiles are
+//! rendered again.
 
 mod report;
 
@@ -19,7 +19,7 @@ use rtc_pipeline::{
 use rtc_source::{Resource, SourceMap};
 use std::path::Path;
 
-/// Audits a picture and reports what was found.
+/// Audits a picture and reports the result.
 pub(super) fn run(args: &Audit) -> Result<(), Failure> {
     let mut reporter = Reporter::beside_result(&args.reporter);
     let outcome = carry_out(args, &mut reporter);
@@ -37,7 +37,7 @@ pub(super) fn run(args: &Audit) -> Result<(), Failure> {
     }
 }
 
-/// What was found, and the seed by which tiles were drawn.
+/// The report, and the seed of the choice of tiles.
 fn carry_out(args: &Audit, reporter: &mut Reporter) -> Result<(AuditResult, u64), Failure> {
     let map = SourceMap::with_limits(args.reading.limits(|_| ()));
     let bytes = read(&args.picture, &map)?;
@@ -96,7 +96,7 @@ pub(super) fn seed(given: Option<u64>) -> Result<u64, Failure> {
     Ok(seed)
 }
 
-/// The scene of what is audited, as it is to be read.
+/// The input for the scene of the audited picture.
 pub(super) struct AuditScene<'a> {
     pub(super) file: &'a Path,
     pub(super) stage: &'a StageArgs,
@@ -105,7 +105,7 @@ pub(super) struct AuditScene<'a> {
     pub(super) threads: usize,
 }
 
-/// A scene, validated in the settings of what is audited.
+/// A scene, validated in the settings of the audited picture.
 pub(super) struct AuditedScene {
     input: Input,
     setup: PictureSetup,
@@ -114,7 +114,7 @@ pub(super) struct AuditedScene {
 }
 
 impl AuditScene<'_> {
-    /// Reads the scene and lights it as the picture was lit; what is found is told.
+    /// Reads the scene, lights it as the picture was lit, and reports its diagnostics.
     pub(super) fn validate(
         &self,
         setup: PictureSetup,
@@ -156,7 +156,7 @@ impl AuditedScene {
         })
     }
 
-    /// Makes tiles anew by `audit`, with a bar that shows how far it is.
+    /// Renders tiles again by `audit`, with a progress bar.
     fn observed(
         &mut self,
         draw: AuditDraw,
@@ -181,7 +181,7 @@ impl AuditedScene {
     }
 }
 
-/// Tells of parts that were audited, or ends with what is wrong.
+/// Reports the audit of parts, or fails with the differences.
 pub(super) fn judge_part(
     path: &Path,
     args: &args::Merge,

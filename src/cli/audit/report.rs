@@ -1,4 +1,4 @@
-//! The report of an audit, in words and as JSON.
+//! The report of an audit, as text and as JSON.
 
 use super::super::Failure;
 use rtc_pipeline::{AUDIT_ODDS, AuditFinding, AuditResult, AuditSubject};
@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::path::Path;
 
-/// So many findings, or settings, are listed in words.
+/// The maximum number of diagnostics, or settings, in the text.
 const MOST: usize = 8;
 
 /// The JSON report of an audit.
@@ -21,7 +21,7 @@ pub(crate) struct AuditReport {
     picture: String,
     /// Its scene.
     scene: String,
-    /// Whether nothing differs.
+    /// Whether no tile differs.
     passes: bool,
     /// The seed by which tiles were drawn; a string, as it has 64 bits.
     seed: String,
@@ -29,11 +29,11 @@ pub(crate) struct AuditReport {
     tiles: u64,
     /// The pixels of a tile, but for those at the border.
     tile_pixels: u64,
-    /// How many were drawn and made anew.
+    /// The number of tiles that were rendered again.
     drawn: u64,
     /// The confidence of the bound.
     confidence: f64,
-    /// If nothing differs, fewer tiles than this do.
+    /// If no tile differs, an exclusive bound on the number of differing tiles.
     fewer_than: Option<u64>,
     /// The same as a fraction of all tiles.
     fraction: Option<f64>,
@@ -47,17 +47,17 @@ pub(crate) struct AuditReport {
 #[derive(Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 struct ReportedFinding {
-    /// What it is about: `root`, `scene`, `settings`, `view`, `size`, `values` or `samples`.
+    /// The subject: `root`, `scene`, `settings`, `view`, `size`, `values` or `samples`.
     subject: &'static str,
     /// The number of the tile.
     tile: Option<u64>,
-    /// Its place in the picture: x, y, width, height.
+    /// The tile: x, y, width, height.
     area: Option<[u32; 4]>,
     /// The first pixel that differs.
     pixel: Option<[u32; 2]>,
-    /// What the picture says or is.
+    /// The value in the picture or its metadata.
     stated: String,
-    /// What is so.
+    /// The actual value.
     anew: String,
 }
 
@@ -121,14 +121,14 @@ impl AuditReport {
             true => format!("all {tiles} tiles"),
             false => format!("{drawn} of {tiles} tiles"),
         };
-        let drawn = format!("{drawn} of {tile_pixels} pixels, made anew (seed {seed})");
+        let drawn = format!("{drawn} of {tile_pixels} pixels, rendered again (seed {seed})");
         lines.push(match (self.passes, tiles) {
             (true, _) => format!("{picture}: {drawn}, are the same"),
-            (false, 0) => format!("{picture}: what it says of itself is not so"),
+            (false, 0) => format!("{picture}: its metadata are wrong"),
             (false, _) => format!("{picture}: {drawn}, and {} differ", findings.len()),
         });
         if let Some((bound, fraction)) = self.fewer_than.zip(self.fraction) {
-            // Rounded up, so that the words promise no more than is so.
+            // Rounded up, so that the text promises no more than the value.
             let percent = (fraction * 1000.0).ceil() / 10.0;
             lines.push(match bound {
                 1 => "so none differs".to_owned(),
@@ -202,7 +202,7 @@ impl ReportedFinding {
         });
         let what = match *subject {
             "root" => "the root of its hashes and its metadata",
-            "scene" => "the hash of the scene, in the view and light asked for",
+            "scene" => "the hash of the scene, with the requested view and light",
             "settings" => "its settings",
             "view" => "its view",
             "size" => "its size",

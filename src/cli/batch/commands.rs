@@ -8,12 +8,12 @@ use rtc_pipeline::Exposure;
 use rtc_render::Crop;
 use rtc_source::Resource;
 
-/// The words of the commands, without those that differ from task to task.
+/// The arguments of the commands, without those that differ between tasks.
 pub(super) struct Commands<'a> {
     frames: &'a Frames,
-    /// How a picture is rendered, beside what the scene says.
+    /// The settings of the picture that are not part of the scene.
     look: Vec<String>,
-    /// What the run may take.
+    /// The resource limits of the run.
     limits: Vec<String>,
     parts: u32,
     by: String,
@@ -45,7 +45,7 @@ impl<'a> Commands<'a> {
 
     /// The command that renders the picture of a frame in one process.
     pub(super) fn whole(&self, frame: &str) -> Vec<String> {
-        // A turntable numbers its views by itself.
+        // A turntable numbers its views itself.
         let output = match self.frames {
             Frames::Turntable(..) => self.picture.clone(),
             Frames::One | Frames::Animation(..) => self.output(frame),
@@ -108,9 +108,9 @@ impl<'a> Commands<'a> {
         }
     }
 
-    /// What the commands for a part and for the whole have in common.
+    /// The arguments that the commands for a part and for the whole share.
     fn render(&self, folder: &str, frame: &str) -> Vec<String> {
-        // The scene has its light: what is dark stays so.
+        // The scene already has its light: a dark scene stays dark.
         let scene = format!("{folder}{}", self.frames.scene(frame));
         let scene = ["render", &scene, "--studio", "off"];
         let mut words = scene.map(str::to_owned).to_vec();
@@ -125,7 +125,7 @@ impl<'a> Commands<'a> {
     }
 }
 
-/// What of the look is no part of the scene.
+/// The output settings that are not part of the scene.
 fn look(args: &Farm) -> Vec<String> {
     let mut words = Vec::new();
     let mut say = |flag: &str, value: String| words.push(format!("--{flag}={value}"));

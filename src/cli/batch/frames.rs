@@ -1,6 +1,5 @@
 //! The pictures of a job: one, views of a turntable, or moments of an animation; and which scenes
-//! they
-//! are of.
+//! they are of.
 
 use super::super::Failure;
 use super::super::args::{Engine, Farm};
@@ -9,9 +8,9 @@ use super::super::turntable::Views;
 /// The pictures of a job.
 pub(super) enum Frames {
     One,
-    /// The first and the last of so many views of one scene, from 1.
+    /// The first and the last of N views of one scene, from 1.
     Turntable([u32; 2], u32),
-    /// The first and the last of the moments of a scene, from 1, so many a second.
+    /// The first and the last of the frames of an animation, from 1, with the frames per second.
     Animation([u32; 2], f64),
 }
 
@@ -62,7 +61,7 @@ impl Frames {
         }
     }
 
-    /// The frames, as they are in names; a picture by itself is one without a number.
+    /// The frame numbers in names; a single picture has none.
     pub(super) fn names(&self) -> Vec<String> {
         match self.range() {
             Some([first, last]) => (first..=last).map(padded).collect(),

@@ -1,6 +1,4 @@
-//! `rtc diff`: how far two pictures, or two scenes and their pictures, are apart, and whether that
-//! is within
-//! gates.
+//! `rtc diff`: the differences between two pictures, or two scenes and their pictures, with gates.
 
 mod pictures;
 mod scenes;
@@ -56,7 +54,7 @@ pub(super) fn run(args: &Diff) -> Result<(), Failure> {
     }
 }
 
-/// What is compared.
+/// The inputs of the comparison.
 struct Compared<'a> {
     /// The new picture and the old one, of one size; none of files that are the same.
     pictures: Option<[&'a ShownPicture; 2]>,
@@ -86,7 +84,7 @@ pub(super) struct DiffReport<'a> {
     changes: Option<&'a [Change]>,
 }
 
-/// Writes what was asked for, tells how two pictures differ, and their scenes, and passes the
+/// Writes the requested files, reports the differences of pictures and scenes, and applies the
 /// gates.
 fn report(
     args: &Diff,
@@ -124,7 +122,7 @@ fn write(
     let [width, height] = compared.size.map(u64::from);
     let bytes = width * height * (MAP_PIXEL + u64::from(outputs.page.is_some()) * PAGE_PIXEL);
     let charged = budget.charge(Resource::Memory, bytes);
-    charged.map_err(|fault| over_limit("what is written of the difference", &fault))?;
+    charged.map_err(|fault| over_limit("the files of the difference", &fault))?;
     let [new, old] = pictures;
     let (found, flips) = Difference::mapped(new, old, args.levels);
     if let Some(output) = outputs.map {

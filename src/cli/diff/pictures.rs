@@ -1,4 +1,4 @@
-//! Two pictures from files: what decoding them takes is charged before.
+//! Two pictures from files; the memory for decoding is charged in advance.
 
 use super::super::Failure;
 use super::super::args::Diff;

@@ -1,4 +1,4 @@
-//! Two scenes: what differs in their IR, and their pictures by one camera, that of the new scene.
+//! Two scenes: the differences of their IR, and their pictures from the camera of the new scene.
 
 use super::super::Failure;
 use super::super::args::Diff;
@@ -68,7 +68,7 @@ fn carry_out(args: &Diff, reporter: &mut Reporter) -> Result<(), Failure> {
 }
 
 impl DiffSide {
-    /// Reads a scene, for a picture of this size if one is given; what is found in it is told.
+    /// Reads a scene, for a picture of the given size if any, and reports its diagnostics.
     fn read(
         args: &Diff,
         file: &Path,

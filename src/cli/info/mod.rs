@@ -25,7 +25,7 @@ const SCHEMA: &str = "rtc-info/1";
 /// Columns before the values of the text.
 const INDENT: usize = 12;
 
-/// Tells what is in the scene.
+/// Reports the contents of the scene.
 pub(super) fn run(args: &Info) -> Result<(), Failure> {
     let mut reporter = Reporter::beside_result(&args.reporter);
     let mut input = input::staged(&args.file, &args.reading, &args.stage)?;

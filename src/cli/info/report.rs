@@ -108,7 +108,7 @@ pub(super) struct PictureReport {
 pub(super) struct CameraReport {
     /// The position of the camera.
     pub(super) eye: [f64; 3],
-    /// The point that it looks at.
+    /// The point in the centre of the picture.
     pub(super) center: [f64; 3],
     #[schemars(extend("enum" = ["perspective", "orthographic"]))]
     pub(super) projection: &'static str,

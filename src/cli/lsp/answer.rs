@@ -41,7 +41,7 @@ impl Workspace {
         }
     }
 
-    /// The answer to a request for what a text holds.
+    /// The response to a request about a document.
     fn answer_of_whole(&self, id: RequestId, method: &str, params: Value) -> Response {
         match method {
             method::DOCUMENT_SYMBOL => reply(id, params, |params: TextDocumentParams| {
@@ -67,13 +67,13 @@ impl Workspace {
         }
     }
 
-    /// A text that is open, and the words of its format.
+    /// An open document, and the schema of its format.
     fn known(&self, uri: &DocumentUri) -> Option<(&OpenText, &Vocabulary)> {
         let document = self.document(uri)?;
         Some((document, self.vocabulary(document)))
     }
 
-    /// The fixes of what is found in a range.
+    /// The fixes of the diagnostics in a range.
     fn actions(&mut self, params: &CodeActionParams) -> Option<Vec<CodeAction>> {
         let (reading, columns) = (self.reading.clone(), self.columns);
         let document = self.checked(&params.text_document.uri)?;
@@ -87,7 +87,7 @@ impl Workspace {
         ))
     }
 
-    /// The text as `rtc fmt` lays it out.
+    /// The document as `rtc fmt` formats it.
     fn laid_out(&self, uri: &DocumentUri) -> Option<Vec<TextEdit>> {
         let document = self.document(uri)?;
         let (options, _) = document.options(&self.reading).ok()?;
@@ -101,7 +101,7 @@ impl Workspace {
     }
 }
 
-/// The answer that is made of parameters of the right shape.
+/// The response computed from valid parameters.
 fn reply<P: DeserializeOwned, R: Serialize>(
     id: RequestId,
     params: Value,

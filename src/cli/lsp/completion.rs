@@ -1,4 +1,4 @@
-//! What may be typed at a place: keys, words, anchors, and files beside the scene.
+//! Completions at a position: keys, keywords, anchors, and files beside the scene.
 
 use super::hover::{default, plain};
 use super::open_text::{OpenText, tree};
@@ -12,14 +12,14 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-/// What stands in for what is still to be typed.
+/// The placeholder for text that is not typed yet.
 const BLANK: &str = "rtc0blank";
 
 /// So many files are proposed at most, from folders so deep below the scene.
 const MOST_FILES: usize = 500;
 const DEPTH: usize = 3;
 
-/// What may be typed at a place.
+/// The completions at a position.
 pub(super) fn completions(
     document: &OpenText,
     place: Position,
@@ -33,7 +33,7 @@ pub(super) fn completions(
     let start = offset - typed;
     let (before, word) = before.split_at(before.len() - typed);
     let as_value = before.trim_end().ends_with(':') || word.starts_with('*');
-    // The rest of the word under the cursor is replaced with it.
+    // The completion replaces the rest of the token under the cursor.
     let rest = document.text.get(offset..).unwrap_or_default();
     let end = offset + rest.find(|c| !is_of_word(c)).unwrap_or(rest.len());
     let is_key = rest
@@ -59,7 +59,7 @@ pub(super) fn completions(
     Vec::new()
 }
 
-/// Whether what is put in needs quotes.
+/// Whether the inserted text needs quotes.
 #[derive(Clone, Copy)]
 enum Quotes {
     /// It needs none.
@@ -103,7 +103,7 @@ fn is_of_word(c: char) -> bool {
     c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '/' | '*' | '$')
 }
 
-/// What may stand at a byte of a tree, where something stands for it.
+/// The values allowed at a byte of a tree with a placeholder there.
 fn proposed(
     document: &OpenText,
     tree: &Tree<'_>,
@@ -145,7 +145,7 @@ fn key_item((name, schema): (&str, &Value)) -> CompletionItem {
     }
 }
 
-/// The words that a value may be.
+/// The keywords that a value may be.
 fn words(schemas: &[&Map<String, Value>]) -> Vec<CompletionItem> {
     let mut found: Vec<String> = Vec::new();
     for schema in schemas {

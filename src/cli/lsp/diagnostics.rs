@@ -1,6 +1,4 @@
-//! Findings as the diagnostics of editors, in the files that they are about, and what they propose
-//! as quick
-//! fixes.
+//! Diagnostics in the form of the protocol, by file, and their suggestions as quick fixes.
 
 use super::super::args::Reading;
 use super::open_text::{CheckedScene, CheckedText, OpenText};
@@ -18,15 +16,14 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Who says what is found.
+/// The `source` of the diagnostics.
 const SOURCE: &str = "rtc";
 
-/// A file and what is found in it.
+/// A file and its diagnostics.
 pub(super) type FileDiagnostics = (DocumentUri, Vec<EditorDiagnostic>);
 
-/// The diagnostics of a text, by the files that they stand in; those without a place stand at the
-/// beginning
-/// of the text.
+/// The diagnostics of a document, by file; those without a span are at the beginning of the
+/// document.
 pub(super) fn diagnostics(document: &OpenText, columns: Columns) -> Vec<FileDiagnostics> {
     let mut own = Vec::new();
     let mut others: Vec<FileDiagnostics> = Vec::new();
@@ -60,8 +57,7 @@ pub(super) fn diagnostics(document: &OpenText, columns: Columns) -> Vec<FileDiag
     others
 }
 
-/// The files of a checked text, each with its lines: they are looked for once, for findings are
-/// many.
+/// The files of a checked document with their line tables, which are computed once.
 struct Atlas<'d> {
     document: &'d OpenText,
     checked: &'d CheckedScene,
@@ -107,7 +103,7 @@ impl<'d> Atlas<'d> {
         (uri, diagnostic)
     }
 
-    /// Where a span stands.
+    /// The location of a span.
     fn location(&self, span: Span) -> Location {
         let Span { file, start, end } = span;
         let range = |lines: &TextLines<'_>| lines.range(start as usize, end as usize);
@@ -130,7 +126,7 @@ impl<'d> Atlas<'d> {
     }
 }
 
-/// What is wrong, what is here, and what to do, a line each.
+/// The message, the label and the hints, one per line.
 fn message(diagnostic: &diag::Diagnostic) -> String {
     let here = diagnostic.primary.as_ref().map(|label| label.text.as_str());
     let hints = diagnostic
@@ -144,9 +140,8 @@ fn message(diagnostic: &diag::Diagnostic) -> String {
     all.collect::<Vec<_>>().join("\n")
 }
 
-/// The quick fixes of what is found in a range of a text that is checked; all that is sure at once
-/// where
-/// it is asked for by its name, as that checks many times.
+/// The quick fixes of the diagnostics in a range of a checked document. All safe fixes at once only
+/// if requested by kind, since that needs many checks.
 pub(super) fn actions(
     document: &OpenText,
     range: Range,

@@ -1,6 +1,5 @@
-//! What a value comes to in the IR, where that is not as it is written: with its defaults, in the
-//! units of the
-//! renderer.
+//! The effective value in the IR, where it differs from the written one: with defaults, in the
+//! units of the renderer.
 
 use super::open_text::OpenText;
 use rtc_ir::{EntityKind, Field, Scene, ValuePath};
@@ -10,12 +9,11 @@ use rtc_source::tree::{NodeId, Tree};
 use serde::Serialize;
 use serde_json::Value;
 
-/// So many bytes of it are told at most.
+/// The maximum length of the reported value, in bytes.
 const MOST: usize = 1000;
 
-/// What the value of a key comes to, in Markdown; none of a text that is not sound, and of what is
-/// in effect
-/// as it is written.
+/// The effective value of a key, in Markdown; `None` if the document has errors, or the effective
+/// value is the written one.
 pub(super) fn value(
     document: &OpenText,
     tree: &Tree<'_>,
@@ -46,7 +44,7 @@ pub(super) fn value(
     })
 }
 
-/// The value at a place of the IR; none of what may be large.
+/// The value at a path of the IR; `None` for values that may be large.
 fn of(scene: &Scene, place: ValuePath) -> Option<Value> {
     let at = place.index as usize;
     let whole = match place.entity {

@@ -1,4 +1,4 @@
-//! What a key means, with its default and range, and what a code of a finding is about.
+//! The meaning of a key, with its default and range, and of the code of a diagnostic.
 
 use super::effective;
 use super::open_text::OpenText;
@@ -9,7 +9,7 @@ use rtc_pipeline::explain_code;
 use rtc_source::tree::Tree;
 use serde_json::{Map, Value};
 
-/// What is to be said at a place.
+/// The hover text at a position.
 pub(super) fn hover(
     document: &OpenText,
     place: Position,
@@ -33,7 +33,7 @@ pub(super) fn hover(
     })
 }
 
-/// What the key at a byte, or that of the value there, means; and where it stands.
+/// The meaning of the key at a byte, or of the key of the value there, and its range in the text.
 fn meaning(
     document: &OpenText,
     offset: usize,
@@ -63,7 +63,7 @@ fn meaning(
     Some((reported, (span.start as usize, span.end as usize)))
 }
 
-/// The range, the words and the default of a value.
+/// The range, the keywords and the default of a value.
 fn facts(schemas: &[&Map<String, Value>]) -> String {
     const LIMIT: f64 = 1e30;
     let mut facts = Vec::new();
@@ -115,7 +115,7 @@ pub(super) fn plain(value: &Value) -> String {
         .map_or_else(|| value.to_string(), str::to_owned)
 }
 
-/// What an alias stands for.
+/// The value of an alias.
 fn aliased(tree: &Tree<'_>, value: rtc_source::tree::NodeId) -> String {
     /// So many bytes of it at most.
     const MOST: usize = 400;
@@ -128,7 +128,7 @@ fn aliased(tree: &Tree<'_>, value: rtc_source::tree::NodeId) -> String {
     format!("here\n```yaml\n{}\n```", written.split_at(end).0)
 }
 
-/// The texts of the codes of what is found at a byte.
+/// The texts of the codes of the diagnostics at a byte.
 fn codes(document: &OpenText, offset: usize) -> Vec<String> {
     let checked = document.scene().into_iter();
     let diagnostics = checked.flat_map(|checked| {

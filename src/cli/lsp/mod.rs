@@ -1,6 +1,14 @@
 //! `rtc lsp`: a language server for scenes over standard input and output (Language Server Protocol
-//! 3.17): what
-//! `rtc check` finds while one types, with its fixes, and what keys mean.
+//! 3.17).
+//!
+//! `wire` reads and writes messages, `protocol` has their types, `workspace` the open documents.
+//! Each [`open_text`] is checked like a file by `rtc check`; `diagnostics` converts the result,
+//! with fixes. `answer` dispatches requests: `completion`, `hover`, `outline`. `path_at` finds the
+//! key at a position and its schema, `effective` its value in the IR. `text` converts positions,
+//! `uri` paths.
+//!
+//! Documents are checked when no message waits. An error in a message is a response; the server
+//! ends only when the editor closes the stream.
 
 mod answer;
 mod completion;
@@ -61,12 +69,12 @@ pub(super) fn run(args: args::Lsp) -> Result<(), Failure> {
     server.serve()
 }
 
-/// Hears messages, one a line; what there is to tell is told nobody.
+/// Processes messages, one per line, and drops the responses.
 ///
 /// # Panics
-/// If a fault of ours is told of.
+/// If a message causes an internal error.
 pub(super) fn hear_all(args: args::Lsp, messages: &[u8]) {
-    /// No more messages than these are heard.
+    /// The maximum number of messages.
     const MOST: usize = 64;
     let mut workspace = Workspace::new(args.reading);
     for line in messages.split(|byte| *byte == b'\n').take(MOST) {
@@ -84,7 +92,7 @@ pub(super) fn hear_all(args: args::Lsp, messages: &[u8]) {
 }
 
 impl Server {
-    /// Does what it is told, message by message; texts are checked when nothing else waits.
+    /// Processes messages in order; checks documents when no message waits.
     fn serve(&mut self) -> Result<(), Failure> {
         loop {
             let incoming = match self.inbox.next() {
@@ -140,7 +148,7 @@ impl Server {
         }
     }
 
-    /// The answer to a request; a fault of ours is one, too, and ends nothing.
+    /// The response to a request; an internal error is a response, too, and the server continues.
     fn answered(&mut self, request: Request) -> Response {
         let id = request.id.clone();
         let refused = |code: ErrorCode, words: &str| {
@@ -173,9 +181,9 @@ impl Server {
         }
     }
 
-    /// What the server can do, said to an editor that says how it counts columns.
+    /// The capabilities of the server, for an editor with the given position encoding.
     fn greet(&mut self, params: &Value) -> Value {
-        // Nothing else is asked of what the editor tells.
+        // Other notifications are ignored.
         let offered = params.pointer("/capabilities/general/positionEncodings");
         let offered = offered.and_then(|own| Vec::deserialize(own).ok());
         let columns = Columns::of(&offered.unwrap_or_default());

@@ -1,4 +1,4 @@
-//! A text that an editor has open, and what was found in it.
+//! A document that is open in an editor, and its diagnostics.
 
 use super::super::Failure;
 use super::super::args::Reading;
@@ -19,7 +19,7 @@ use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What is said of a fault of ours.
+/// The message of an internal error.
 pub(super) const FAULT: &str = "internal error of rtc; please report it";
 
 /// A text that an editor has open.
@@ -29,15 +29,15 @@ pub(super) struct OpenText {
     pub(super) version: i32,
     /// Shared with the others that name it.
     pub(super) text: Arc<String>,
-    /// The other texts that are open, which stand in place of files that it names.
+    /// The other open documents; they replace the files that this one names.
     pub(super) others: EditedFiles,
-    /// What was found in the text as it is; none until it is checked.
+    /// The diagnostics of the current version; `None` until it is checked.
     pub(super) checked: Option<CheckedText>,
-    /// What the editor was told of it last, by the files that it is about.
+    /// The diagnostics last sent to the editor, by file.
     pub(super) reported: Vec<FileDiagnostics>,
 }
 
-/// What was found in a text.
+/// The result of a check.
 pub(super) enum CheckedText {
     /// What `rtc check` finds.
     Read(Box<CheckedScene>),
@@ -48,7 +48,7 @@ pub(super) enum CheckedText {
 /// A scene that was checked.
 pub(super) struct CheckedScene {
     input: Input,
-    /// What the text says, if it is sound.
+    /// The scene, if the document has no errors.
     pub(super) lowered: Option<Lowered>,
     /// Errors and warnings, in the order of the text.
     pub(super) diagnostics: Vec<Diagnostic>,
@@ -88,7 +88,7 @@ impl OpenText {
         }
     }
 
-    /// The same text opened anew.
+    /// The same document, opened again.
     pub(super) fn replace(&mut self, other: Self) {
         let reported = std::mem::take(&mut self.reported);
         *self = Self { reported, ..other };
@@ -131,7 +131,7 @@ impl OpenText {
         TextLines::of(&self.text, columns)
     }
 
-    /// What was found in it, if it could be checked.
+    /// The result of the check, if it could run.
     pub(super) fn scene(&self) -> Option<&CheckedScene> {
         match self.checked.as_ref()? {
             CheckedText::Read(scene) => Some(scene.as_ref()),
@@ -139,7 +139,7 @@ impl OpenText {
         }
     }
 
-    /// Checks the text in the place of its file, as `rtc check` does, unless it is.
+    /// Checks the document under the path of its file, as `rtc check` does, unless it is checked.
     pub(super) fn check(&mut self, reading: &Reading) {
         if self.checked.is_some() {
             return;
@@ -165,7 +165,7 @@ impl OpenText {
         let validated = loaded.and_then(|loaded| input.validate(loaded, |_, _| ()));
         let lowered = validated.map(|validated| {
             let mut lowered = validated.lowered;
-            // What may be large is not told of.
+            // Values that may be large are not shown.
             (lowered.scene.meshes, lowered.scene.images) = (Vec::new(), Vec::new());
             lowered
         });

@@ -1,5 +1,5 @@
-//! What a text holds: its outline, its colours, the defaults that it leaves unsaid, and where names
-//! lead.
+//! The contents of a document: outline, colours, inlay hints for defaults, and the targets of
+//! names.
 
 use super::completion::is_file;
 use super::hover::default;
@@ -13,10 +13,10 @@ use super::protocol::{
 use super::text::{Columns, TextLines};
 use rtc_source::tree::{NodeContent, NodeId, Tree};
 
-/// So many of a kind are told at most.
+/// The maximum number of results of one kind.
 const MOST: usize = 5000;
 
-/// The keys of the scene, and what their lists hold.
+/// The keys of the scene, and the items of their lists.
 pub(super) fn symbols(document: &OpenText, columns: Columns) -> Vec<DocumentSymbol> {
     let Some(tree) = document.tree() else {
         return Vec::new();
@@ -46,7 +46,7 @@ pub(super) fn symbols(document: &OpenText, columns: Columns) -> Vec<DocumentSymb
     symbols.filter(|symbol| !symbol.name.is_empty()).collect()
 }
 
-/// What a map calls itself.
+/// The name or type of a map.
 fn named(tree: &Tree<'_>, id: NodeId) -> Option<String> {
     let mut names = ["name", "type", "file"].into_iter();
     let found = names.find_map(|key| tree.text(tree.get(id, key)?));
@@ -58,7 +58,7 @@ fn range(tree: &Tree<'_>, id: NodeId, lines: &TextLines<'_>) -> Range {
     lines.range(span.start as usize, span.end as usize)
 }
 
-/// The colours in the text: what a key with `color` in its name holds.
+/// The colours of a document: the values of keys with `color` in their name.
 pub(super) fn colors(document: &OpenText, columns: Columns) -> Vec<ColorInformation> {
     let Some(tree) = document.tree() else {
         return Vec::new();
@@ -115,7 +115,7 @@ pub(super) fn presentation(color: EditorColor) -> Vec<ColorPresentation> {
     }]
 }
 
-/// Where the alias, or the name of a file, at a place leads.
+/// The target of the alias, or of the file name, at a position.
 pub(super) fn definition(
     document: &OpenText,
     place: Position,
@@ -146,7 +146,7 @@ pub(super) fn hints(
     vocabulary: &Vocabulary,
     columns: Columns,
 ) -> Vec<InlayHint> {
-    /// So many of a map are told.
+    /// The maximum number of hints per map.
     const FIRST: usize = 4;
     /// Longer ones are passed over, as a matrix of glTF.
     const LONGEST: usize = 32;
@@ -161,7 +161,7 @@ pub(super) fn hints(
         if !is_shown || map == tree.root() {
             return None;
         }
-        // The way goes on to the first key, which may start with the map.
+        // The path continues to the first key, which may begin with the map.
         let mut steps = path_at(&tree, start);
         while steps.last().is_some_and(|step| step.node() != map) {
             steps.pop();

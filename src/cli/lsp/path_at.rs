@@ -1,11 +1,9 @@
-//! Where in a tree a byte stands: the keys and items that lead there, and what the schema of scenes
-//! says of
-//! each.
+//! The position of a byte in the tree: the keys and items that lead to it, and the schema of each.
 
 use rtc_source::tree::{NodeId, Tree};
 use serde_json::{Map, Value};
 
-/// A step from a list or a map to what it holds.
+/// A step from a list or a map to an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PathStep {
     /// The value of a key.
@@ -19,7 +17,7 @@ pub(super) enum PathStep {
 }
 
 impl PathStep {
-    /// What it leads to.
+    /// The node after the step.
     pub(super) fn node(self) -> NodeId {
         match self {
             Self::Key { value, .. } => value,
@@ -28,7 +26,7 @@ impl PathStep {
     }
 }
 
-/// The steps from the root to what stands at a byte.
+/// The steps from the root to the node at a byte.
 pub(super) fn path_at(tree: &Tree<'_>, offset: usize) -> Vec<PathStep> {
     let holds = |id: NodeId| {
         let span = tree.span(id);
@@ -36,7 +34,7 @@ pub(super) fn path_at(tree: &Tree<'_>, offset: usize) -> Vec<PathStep> {
     };
     let (mut steps, mut here) = (Vec::new(), tree.root());
     loop {
-        // What an alias stands for is written elsewhere.
+        // The value of an alias is written elsewhere.
         let is_alias = tree.target(here) != here;
         let key = tree
             .pairs(here)
@@ -62,7 +60,7 @@ pub(super) fn path_at(tree: &Tree<'_>, offset: usize) -> Vec<PathStep> {
     }
 }
 
-/// The schema of a format, asked by ways.
+/// The JSON Schema of a format, queried by path.
 pub(super) struct Vocabulary {
     schema: Value,
 }
@@ -72,7 +70,7 @@ impl Vocabulary {
         Self { schema }
     }
 
-    /// What may stand at the end of a way: schemas, without references.
+    /// The schemas at the end of a path, without references.
     pub(super) fn at<'v>(
         &'v self,
         tree: &Tree<'_>,
@@ -104,7 +102,7 @@ impl Vocabulary {
         here
     }
 
-    /// What the keys of a map may be: their names and schemas, those to be preferred alone.
+    /// The keys of a map: their names and schemas, without deprecated spellings.
     pub(super) fn keys<'v>(
         &'v self,
         tree: &Tree<'_>,
@@ -123,8 +121,8 @@ impl Vocabulary {
         keys
     }
 
-    /// A schema with what it refers to, its alternatives, and what the kind of the node asks for
-    /// beside it.
+    /// A schema with its references and alternatives resolved, and the parts that the kind of the
+    /// node selects.
     fn plain<'v>(
         &'v self,
         schema: &'v Value,

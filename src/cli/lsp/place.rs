@@ -5,9 +5,7 @@ use percent_encoding::percent_decode_str;
 use rtc_source::uri_path;
 use std::path::{Path, PathBuf};
 
-/// The path of a file; of what is no file, as a text that was not saved yet, its last component in
-/// the
-/// current folder.
+/// The path of a file; for an unsaved document its last component in the current folder.
 pub(super) fn path(uri: &DocumentUri) -> PathBuf {
     let decoded = percent_decode_str(uri.path()).decode_utf8_lossy();
     if uri.scheme() == Some("file") {

@@ -1,6 +1,5 @@
 //! The messages of the Language Server Protocol 3.17, by its names; of each message only the fields
-//! that
-//! are used here.
+//! that are used here.
 
 use super::uri::DocumentUri;
 use serde::{Deserialize, Serialize};
@@ -20,7 +19,7 @@ impl Position {
     }
 }
 
-/// From a place up to another.
+/// A half-open range of positions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Range {
     pub(super) start: Position,
@@ -55,7 +54,7 @@ impl PositionEncodingKind {
     pub(super) const UTF16: Self = Self(Cow::Borrowed("utf-16"));
 }
 
-/// How an editor tells of changes.
+/// How an editor sends changes.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(super) struct TextDocumentSyncKind(u8);
 
@@ -99,7 +98,7 @@ pub(super) struct DidChangeTextDocumentParams {
     pub(super) content_changes: Vec<TextDocumentContentChangeEvent>,
 }
 
-/// What stands now in a range, or as the whole text.
+/// The new text of a range, or of the whole document.
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct TextDocumentContentChangeEvent {
     pub(super) range: Option<Range>,
@@ -113,7 +112,7 @@ pub(super) struct TextDocumentParams {
     pub(super) text_document: TextDocumentIdentifier,
 }
 
-/// A place that is asked about: what it means, what may stand there, or where it leads.
+/// A request about a position: hover, completion or definition.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct TextDocumentPositionParams {
@@ -121,7 +120,7 @@ pub(super) struct TextDocumentPositionParams {
     pub(super) position: Position,
 }
 
-/// A range whose hints are asked for.
+/// A request for the hints in a range.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct InlayHintParams {
@@ -129,7 +128,7 @@ pub(super) struct InlayHintParams {
     pub(super) range: Range,
 }
 
-/// A range whose fixes are asked for.
+/// A request for the fixes in a range.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct CodeActionParams {
@@ -138,7 +137,7 @@ pub(super) struct CodeActionParams {
     pub(super) context: CodeActionContext,
 }
 
-/// The kinds of fixes that are asked for, if not all are.
+/// The requested kinds of fixes; `None` for all.
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct CodeActionContext {
     pub(super) only: Option<Vec<CodeActionKind>>,
@@ -150,7 +149,7 @@ pub(super) struct ColorPresentationParams {
     pub(super) color: EditorColor,
 }
 
-/// What is found in a file; `version` is that of its text, if it is open.
+/// The diagnostics of a file; `version` is that of its document, if open.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct PublishDiagnosticsParams {
     pub(super) uri: DocumentUri,
@@ -219,7 +218,7 @@ pub(super) struct WorkspaceEdit {
     pub(super) changes: BTreeMap<DocumentUri, Vec<TextEdit>>,
 }
 
-/// What is to stand in a range.
+/// The new text of a range.
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct TextEdit {
@@ -233,7 +232,7 @@ impl TextEdit {
     }
 }
 
-/// What is to be said at a place.
+/// The hover text.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Hover {
     pub(super) contents: MarkupContent,
@@ -255,7 +254,7 @@ pub(super) enum MarkupKind {
     Markdown,
 }
 
-/// What may be typed.
+/// A completion.
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct CompletionItem {
@@ -272,7 +271,7 @@ pub(super) struct CompletionItem {
 }
 
 impl CompletionItem {
-    /// One that says no more than what is typed.
+    /// A completion without further fields.
     pub(super) fn new(label: String, kind: CompletionItemKind) -> Self {
         Self {
             label,
@@ -285,7 +284,7 @@ impl CompletionItem {
     }
 }
 
-/// What it is that may be typed.
+/// The kind of a completion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub(super) struct CompletionItemKind(u8);
 
@@ -315,7 +314,7 @@ pub(super) struct DocumentSymbol {
     pub(super) children: Vec<Self>,
 }
 
-/// What it is that has a name.
+/// The kind of a symbol.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(super) struct SymbolKind(u8);
 
@@ -346,7 +345,7 @@ pub(super) struct ColorPresentation {
     pub(super) label: String,
 }
 
-/// What an editor shows in a text that does not stand there.
+/// An inlay hint: text that the editor shows without inserting it.
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct InlayHint {

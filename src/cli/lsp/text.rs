@@ -30,7 +30,7 @@ impl Columns {
         }
     }
 
-    /// The character of a rope at a place; beyond the end of its line, or of the text, that end.
+    /// The character index of a position in a rope; clamped to its line and to the text.
     pub(super) fn letter(self, rope: &Rope, place: Position) -> usize {
         let (line, column) = (place.line as usize, place.character as usize);
         if line >= rope.len_lines() {
@@ -71,7 +71,7 @@ pub(super) struct TextLines<'t> {
     columns: Columns,
     /// Where each line starts, in bytes.
     starts: Vec<usize>,
-    /// How many columns there are before each so many bytes: a line may be as long as the text.
+    /// Column counts at regular byte offsets, since a line may be as long as the text.
     widths: Vec<usize>,
 }
 
@@ -117,7 +117,7 @@ impl<'t> TextLines<'t> {
         self.starts.partition_point(|start| *start <= offset) - 1
     }
 
-    /// The place of a byte; of one that is within a character, that of the character.
+    /// The position of a byte; inside a character, that of the character.
     pub(super) fn position(&self, offset: usize) -> Position {
         let offset = self.text.floor_char_boundary(offset.min(self.text.len()));
         let line = self.line(offset);
@@ -125,12 +125,12 @@ impl<'t> TextLines<'t> {
         Position::new(to_u32(line), to_u32(column))
     }
 
-    /// The place of some bytes.
+    /// The range of some bytes.
     pub(super) fn range(&self, start: usize, end: usize) -> Range {
         Range::new(self.position(start), self.position(end.max(start)))
     }
 
-    /// The byte of a place; beyond the end of its line, or of the text, that end.
+    /// The byte of a position; clamped to its line and to the text.
     pub(super) fn offset(&self, place: Position) -> usize {
         let line = place.line as usize;
         let Some(start) = self.starts.get(line).copied() else {
@@ -144,7 +144,7 @@ impl<'t> TextLines<'t> {
         let own = self.text.get(start..next).unwrap_or_default();
         let own = own.trim_end_matches(['\n', '\r']);
         let (end, column) = (start + own.len(), place.character as usize);
-        // From the last place that is known to be before.
+        // Counted from the last cached position before it.
         let sought = self.width_before(start) + column;
         let known = self.widths.partition_point(|width| *width <= sought) - 1;
         let mut offset = self.text.floor_char_boundary(known * STRIDE);

@@ -8,7 +8,7 @@ use std::str::FromStr;
 #[serde(try_from = "String")]
 pub(super) struct DocumentUri(String);
 
-/// What stands before the path, the path, and what stands behind it.
+/// The parts before the path, the path, and the parts after it.
 struct UriParts<'t> {
     scheme: Option<&'t str>,
     authority: &'t str,
@@ -23,7 +23,7 @@ impl DocumentUri {
         &self.0
     }
 
-    /// What stands before the first colon, if it is no reference.
+    /// The scheme: the text before the first colon, if the URI is absolute.
     pub(super) fn scheme(&self) -> Option<&str> {
         UriParts::of(&self.0).scheme
     }
@@ -75,7 +75,7 @@ impl<'t> UriParts<'t> {
         }
     }
 
-    /// Whether each holds what it may; names of hosts are not looked into.
+    /// Whether each part has only allowed characters; host names are not checked.
     fn are_sound(&self) -> bool {
         self.scheme.is_none_or(is_scheme)
             && is_escaped(self.authority, b"[]")
@@ -90,7 +90,8 @@ fn is_scheme(text: &str) -> bool {
     text.starts_with(|first: char| first.is_ascii_alphabetic()) && text.bytes().all(is_of_scheme)
 }
 
-/// Whether a text holds what every part may hold, some bytes more, and whole escapes.
+/// Whether a text has only characters allowed in every part, the given extra bytes, and complete
+/// escapes.
 fn is_escaped(text: &str, more: &[u8]) -> bool {
     let is_plain = |byte: u8| {
         byte.is_ascii_alphanumeric() || b"-._~!$&'()*+,;=:@".contains(&byte) || more.contains(&byte)

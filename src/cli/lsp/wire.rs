@@ -1,6 +1,5 @@
-//! Messages as they stand on a wire: lines of a head, then JSON (Language Server Protocol 3.17,
-//! "Base Protocol"),
-//! and those that wait for an answer.
+//! Messages on the wire: header lines, then JSON (Language Server Protocol 3.17, "Base Protocol"),
+//! and the queue of pending requests.
 
 use lsp_server::{Message, RequestId};
 use serde::Deserialize;
@@ -16,7 +15,7 @@ const MAX_MESSAGE: u64 = 1 << 28;
 /// The longest line of a head, in bytes.
 const MAX_LINE: u64 = 1 << 12;
 
-/// The name of what takes a request back.
+/// The method of a cancellation.
 const CANCEL: &str = "$/cancelRequest";
 
 /// What came in.
@@ -24,11 +23,11 @@ const CANCEL: &str = "$/cancelRequest";
 pub(super) enum Incoming {
     /// A message.
     Message(Message),
-    /// A request that was taken back before it was begun.
+    /// A request that was cancelled before it began.
     Cancelled(RequestId),
-    /// A body that is no message, with the code and words of the answer.
+    /// An invalid body, with the code and message of the response.
     NoMessage(i32, String),
-    /// What can't be read on, in words.
+    /// A stream error, with its message.
     Broken(String),
 }
 
@@ -115,7 +114,7 @@ fn next(input: &mut impl BufRead) -> io::Result<Option<Incoming>> {
         return Ok(None);
     };
     let mut body = Vec::new();
-    // What is said to come is given room as it comes.
+    // Memory is allocated as data arrives, not by the announced length.
     if input.take(length).read_to_end(&mut body)? as u64 != length {
         return Ok(None);
     }
@@ -159,10 +158,10 @@ fn head(input: &mut impl BufRead) -> io::Result<Option<u64>> {
     Ok(Some(length))
 }
 
-/// Answers what has no number, as it is no message.
+/// Answers an invalid message, which has no id.
 ///
 /// # Errors
-/// If the stream takes nothing.
+/// If the stream can't be written.
 pub(super) fn refuse(out: &mut impl Write, code: i32, words: &str) -> io::Result<()> {
     let error = json!({ "code": code, "message": words });
     let answer = json!({ "jsonrpc": "2.0", "id": null, "error": error }).to_string();

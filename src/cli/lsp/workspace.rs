@@ -1,4 +1,4 @@
-//! The texts that an editor has open: what happens to them, and telling what is found in them.
+//! The open documents of an editor: their changes, and the publication of their diagnostics.
 
 use super::super::args::Reading;
 use super::diagnostics::{self, FileDiagnostics};
@@ -22,7 +22,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The texts that are open, and what is needed to answer questions about them.
+/// The open documents, with the state needed for responses.
 pub(super) struct Workspace {
     pub(super) reading: Reading,
     pub(super) columns: Columns,
@@ -62,7 +62,7 @@ impl Workspace {
         self.documents.iter_mut().find(|own| own.uri == *uri)
     }
 
-    /// The words of a text's format.
+    /// The schema of the format of a document.
     pub(super) fn vocabulary(&self, document: &OpenText) -> &Vocabulary {
         match document.kind() {
             SourceKind::Scene => &self.scenes,
@@ -74,9 +74,8 @@ impl Workspace {
         }
     }
 
-    /// Takes note of what happened in the editor, and returns what there is to tell; what is not as
-    /// it
-    /// should be is passed over.
+    /// Applies a notification of the editor, and returns the messages to send; invalid ones are
+    /// ignored.
     pub(super) fn note(&mut self, own: Notification) -> Vec<Message> {
         let Notification { method, params } = own;
         match method.as_str() {
@@ -101,7 +100,7 @@ impl Workspace {
         };
         let document = OpenText::new(own.uri, own.version, own.text);
         let path = document.path.clone();
-        // What was told of it before stays known, to be taken back.
+        // The diagnostics sent before stay recorded, to be cleared later.
         let before = self.document_mut(&document.uri);
         match before {
             Some(before) => before.replace(document),
@@ -165,7 +164,7 @@ impl Workspace {
         }
     }
 
-    /// Closes a text and takes back what was found in it.
+    /// Closes a document and clears its diagnostics.
     fn close(&mut self, uri: &DocumentUri) -> Vec<Message> {
         let Some(at) = self.documents.iter().position(|own| own.uri == *uri) else {
             return Vec::new();
@@ -176,7 +175,7 @@ impl Workspace {
         self.published(files.collect())
     }
 
-    /// Checks a text that was changed, and returns what there is to tell; none if all are checked.
+    /// Checks a changed document, and returns the messages to send; `None` if all are checked.
     pub(super) fn check_next(&mut self) -> Option<Vec<Message>> {
         let columns = self.columns;
         let at = self
@@ -201,7 +200,7 @@ impl Workspace {
             let reported = self.documents.iter().flat_map(|own| &own.reported);
             let of_file = reported.filter(|(own, _): &&FileDiagnostics| *own == file);
             for diagnostic in of_file.flat_map(|(_, list)| list) {
-                // The same may be found in a file by itself and by scenes that name it.
+                // A file and the scenes that name it may report the same diagnostic.
                 if known.insert(own_words(diagnostic)) {
                     all.push(diagnostic.clone());
                 }
@@ -219,7 +218,7 @@ impl Workspace {
     }
 }
 
-/// What tells a diagnostic from others.
+/// The identity of a diagnostic.
 fn own_words(own: &EditorDiagnostic) -> (Position, Position, Option<&str>, &str) {
     (own.range.start, own.range.end, own.code, &own.message)
 }

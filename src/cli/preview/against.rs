@@ -1,6 +1,5 @@
-//! What the picture is compared with: a picture file, or another scene, which is looked at as the
-//! first
-//! one: another file, or what a commit of git has in place of the scene's own.
+//! The reference of a preview: a picture file, or another scene rendered in the same view, from a
+//! file or from a git commit of the scene.
 
 use super::preview_state::{RenderedPicture, ViewSettings};
 use super::scene::{self, ReadScene, ShownScene};
@@ -23,7 +22,7 @@ const MAX_BYTES: u64 = 1 << 30;
 /// Bytes of a pixel that is made a PNG.
 const PNG_PIXEL: u64 = 32;
 
-/// What the picture is compared with.
+/// The reference of a preview.
 pub(super) enum Against {
     /// A picture, which is as it is.
     Picture(RenderedPicture),
@@ -35,12 +34,12 @@ pub(super) enum Against {
 pub(super) struct OtherScene {
     scene: ReadScene,
     shown: Option<ShownScene>,
-    /// How it was looked at last, and by which camera if not by its own.
+    /// The last view, and its camera unless it is the reference's own.
     seen: Option<(ViewSettings, Option<Camera>)>,
 }
 
 impl Against {
-    /// What is asked for, if it is; a scene is proven, and what is found in it told.
+    /// The requested reference, if any; a scene is validated, and its diagnostics reported.
     pub(super) fn new(args: &args::Preview) -> Result<Option<Self>, Failure> {
         let Some(path) = &args.against else {
             return Ok(None);
@@ -82,9 +81,8 @@ impl Against {
 }
 
 impl OtherScene {
-    /// Its picture as the first scene is looked at, by the same camera if that is not the scene's
-    /// own;
-    /// `None` if it is shown so already.
+    /// Its picture in the view of the first scene, by the same camera unless that is the scene's
+    /// own; `None` if it is already shown.
     pub(super) fn rendering(
         &mut self,
         setup: &PictureSetup,
@@ -98,7 +96,7 @@ impl OtherScene {
         }
         (self.shown, self.seen) = (None, None);
         let Some((mut setup, mut subject)) = self.scene.validate(setup, view_settings)? else {
-            let words = "what the scene is compared with can't be shown in these settings";
+            let words = "the reference can't be rendered in these settings";
             return Err(RenderError::Refused(words.to_owned()));
         };
         let input = &mut self.scene.input;

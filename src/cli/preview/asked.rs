@@ -1,6 +1,5 @@
-//! What the session tells when it is asked for: the effects of the picture and of a pixel, the
-//! settings
-//! and what they cost.
+//! Requested reports of a session: the effects of the picture and of a pixel, the settings and
+//! their costs.
 
 use super::preview_state::{ViewSettings, Work};
 use super::session::Session;
@@ -12,7 +11,7 @@ use rtc_pipeline::{Observer, PictureSetup};
 use serde_json::json;
 
 impl Session<'_> {
-    /// Shows which effects the picture needs, if that is asked for.
+    /// Publishes the effects that the picture needs, if requested.
     pub(super) fn tell_effects(&self, work: &Work) {
         if !work.wants_effects {
             return;
@@ -24,7 +23,7 @@ impl Session<'_> {
         }
     }
 
-    /// Shows which effects took part at the pixel that is asked for.
+    /// Publishes the effects at the requested pixel.
     pub(super) fn tell_pixel(&mut self, work: &Work) {
         let (Some(scene), Some((setup, subject)), Some(place)) =
             (&self.scene, &mut self.shown, work.orders.pixel)
@@ -36,7 +35,7 @@ impl Session<'_> {
             is_stopped: &|| self.preview_state.is_stale(work.age),
         };
         let counts = renderings::pixel(setup, subject, place, &scene.input, &observer);
-        // Of what can't be rendered nothing is told: the picture has shown that it can.
+        // Errors are not reported here: the picture has already been rendered.
         if let Ok(Some(counts)) = counts {
             let effects = effects(&counts).map(|(name, count)| json!([name, count]));
             let effects: Vec<_> = effects.collect();
@@ -45,7 +44,7 @@ impl Session<'_> {
         }
     }
 
-    /// Shows which settings the scene has, if that is asked for.
+    /// Publishes the settings of the scene, if requested.
     pub(super) fn tell_settings(&mut self, work: &Work) {
         let own = match work.wants_settings {
             true => self.own(work),
@@ -57,7 +56,7 @@ impl Session<'_> {
         }
     }
 
-    /// The scene as it is looked at, but in its own values.
+    /// The scene in the current view, with its own values.
     fn own(&mut self, work: &Work) -> Option<(PictureSetup, Scene)> {
         let scene = self.scene.as_mut()?;
         let view_settings = ViewSettings {
@@ -82,7 +81,7 @@ impl Session<'_> {
         lit
     }
 
-    /// Shows what accuracy costs in the scene, unless something newer is ordered meanwhile.
+    /// Publishes the costs of accuracy in the scene, unless a newer request arrives.
     pub(super) fn tell_costs(&mut self, work: &Work) -> Result<(), Failure> {
         self.tell_settings(work);
         let Some((setup, studied)) = self.own(work) else {

@@ -1,6 +1,4 @@
-//! Settings that the page chooses in place of those of the scene: what the scene has of them, and
-//! the
-//! same as flags of `rtc render`.
+//! Settings that the page overrides: the scene's own values, and the same as flags of `rtc render`.
 
 use crate::args::IntegratorArg;
 use clap::ValueEnum;
@@ -12,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// Values of knobs in place of those of the scene, and how light is followed.
+/// Values of parameters that override the scene's, and the integrator.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Choice {
@@ -48,7 +46,7 @@ impl Choice {
             .map(IntegratorChoice::from)
     }
 
-    /// The picture as it is asked for, in these settings.
+    /// The requested picture, in these settings.
     pub(super) fn settle(&self, setup: &PictureSetup) -> PictureSetup {
         let of = |parameter| self.values.get(&parameter).copied();
         let chosen = Overrides {
@@ -82,7 +80,7 @@ impl Choice {
     }
 }
 
-/// The words of the values of a knob, for one that does not count.
+/// The text of a value of a parameter that is not a number.
 fn words(parameter: Parameter) -> Option<Vec<String>> {
     let is_named = matches!(parameter, Parameter::Precision | Parameter::Denoise);
     is_named.then(|| {
@@ -102,9 +100,8 @@ pub(super) fn own_setting(scene: &Scene, setup: &PictureSetup) -> Setting {
     }
 }
 
-/// What the page is told of the settings of a scene, which is without the values of the choice:
-/// each
-/// knob with its own value, and why it is to be left alone, if it is.
+/// The settings of a scene for the page, without the overrides: each parameter with its own value,
+/// and why it does not apply, if so.
 pub(super) fn reported(scene: &Scene, own: &Setting) -> Value {
     let parameter = |parameter: Parameter| {
         json!({

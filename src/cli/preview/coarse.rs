@@ -1,4 +1,4 @@
-//! A crude picture on the way to the finished one: fewer pixels, and few samples of each.
+//! A coarse picture before the finished one: fewer pixels, and few samples of each.
 
 use super::preview_state::RenderedPicture;
 use super::renderings::rendering;
@@ -9,7 +9,7 @@ use rtc_render::Crop;
 use rtc_source::Limits;
 use rtc_valid::{self as valid, ValidationOptions};
 
-/// About so many pixels.
+/// The approximate number of pixels.
 const PIXELS: u64 = 20_000;
 
 /// So many paths a pixel.
@@ -65,7 +65,7 @@ fn trace(
     subject.turn();
     let window = setup.window(&subject.validated.lowered.scene)?;
     let Traced { film, .. } = setup.trace(subject, (window, input.rays()), observer)?;
-    // What is found in it is told of the finished one.
+    // Its diagnostics are reported with the finished picture.
     let found = input.take_diagnostics();
     let rendering = rendering(setup, subject, film, input, observer);
     input.restore_diagnostics(found);
@@ -91,7 +91,7 @@ fn coarsen(scene: &mut Scene) -> u32 {
     k
 }
 
-/// The same part of a picture of which every k-th pixel is left; not denoised.
+/// The same region of a picture with every k-th pixel; not denoised.
 fn coarse(setup: &PictureSetup, k: u32) -> PictureSetup {
     let crop = setup.crop.map(|crop| Crop {
         x: crop.x / k,

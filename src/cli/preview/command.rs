@@ -1,6 +1,5 @@
-//! The command that renders what the page shows: `rtc render` with what was typed for the preview,
-//! the
-//! view and the settings.
+//! The command that renders the picture of the page: `rtc render` with the arguments of the
+//! preview, the view and the settings.
 
 use super::choice::Choice;
 use crate::typed::{quoted, without};
@@ -10,15 +9,15 @@ use std::ffi::OsString;
 const OWN: [&str; 2] = ["--port", "--against"];
 const OPEN: &str = "--open";
 
-/// Where the camera stands, in place of a view by an angle.
+/// The position of the camera, instead of an orbit.
 const EYE: &str = "--eye";
 const ORBIT: &str = "--orbit";
 
-/// What was typed, as words of `rtc render`.
+/// The arguments of the preview as arguments of `rtc render`.
 pub(super) struct RenderWords(Vec<OsString>);
 
 impl RenderWords {
-    /// Of the words of a preview, program name first.
+    /// From the arguments of a preview, program name first.
     pub(super) fn new(typed: &[OsString]) -> Self {
         let kept = without(typed, &OWN).into_iter().skip(1);
         let words = ["rtc".to_owned(), "render".to_owned()].into_iter();
@@ -26,7 +25,7 @@ impl RenderWords {
         Self(words.map(OsString::from).collect())
     }
 
-    /// With the flags of a view, and a choice, in place of those that were typed.
+    /// With the flags of a view and of settings, instead of the typed ones.
     pub(super) fn command(&self, view: &[(&str, String)], choice: &Choice) -> String {
         let view = view
             .iter()

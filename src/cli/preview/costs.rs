@@ -1,6 +1,5 @@
 //! What accuracy costs in the scene that is shown, as `rtc cost --effort quick` measures it:
-//! settings,
-//! each with its seconds and its error.
+//! settings, each with its seconds and its error.
 
 use super::Failure;
 use crate::cost::{about, with_runtime};
@@ -12,7 +11,7 @@ use std::collections::BTreeMap;
 /// What draws the samples; that of `rtc cost` without a flag.
 const SEED: u64 = 1;
 
-/// The costs in a scene of this name, whose own setting this is; `None` if the work is to stop.
+/// The costs in a scene of this name with this setting; `None` if the work was cancelled.
 pub(super) fn costs(
     (name, scene, own): (&str, &Scene, &Setting),
     threads: usize,

@@ -1,34 +1,32 @@
-//! News for the page as server-sent events: what is shown, each time it has changed. Few follow at
-//! a
-//! time; where one more comes, the one that has followed longest is told so and ends.
-//! Nobody is woken while nothing changes.
+//! Server-sent events for the page: the state, each time it has changed. The number of subscribers
+//! is limited; a new one replaces the oldest, which gets a last event. No thread wakes up while
+//! nothing changes.
 
 use super::preview_state::PreviewState;
 use serde_json::Value;
 use std::sync::Arc;
 
 /// The most streams of events at a time: a browser opens six connections to a server, and some must
-/// be
-/// left for pictures.
+/// be left for pictures.
 pub(super) const MOST: usize = 4;
 
-/// What a stream that gives way says last.
+/// The last event of a replaced subscriber.
 const GIVES_WAY: &str = "event: full\ndata:\n\n";
 
 /// A stream of events, which ends when it is dropped.
 pub(super) struct Subscriber {
     preview_state: Arc<PreviewState>,
     number: u64,
-    /// The version that was told last.
+    /// The last version sent.
     since: Option<u64>,
     is_ended: bool,
 }
 
-/// What there is for a stream of events.
+/// The next item of a stream of events.
 pub(super) enum Event {
-    /// What is shown, and its version.
+    /// The state, and its version.
     Color(u64, Value),
-    /// Others took its place.
+    /// The subscriber was replaced.
     GaveWay,
     /// There will be no more.
     Ended,

@@ -1,5 +1,5 @@
-//! One request and one reply of HTTP/1.1 on a connection: heads and bodies are short, and who sends
-//! them slowly is left alone after a while.
+//! One request and one reply of HTTP/1.1 on a connection: sizes are limited, and slow clients time
+//! out.
 
 use httparse::{EMPTY_HEADER, Status};
 use std::io::{self, ErrorKind, Read, Write};
@@ -14,7 +14,7 @@ const MAX_LINES: usize = 64;
 /// The longest body of a request, in bytes.
 const MAX_BODY: usize = 4 << 10;
 
-/// Who may hold the page in a frame: an editor. No page of the web has such an address.
+/// The frame ancestors of the page: an editor. No web page has such an origin.
 const ANCESTORS: &str = "vscode-file: vscode-webview:";
 
 /// How long a request may take to arrive, and each piece of a reply to leave.
@@ -63,10 +63,10 @@ impl From<io::Error> for BadRequest {
 /// Pieces of a reply, as they come.
 pub(super) type Events = Box<dyn Iterator<Item = String>>;
 
-/// What follows the head of a reply.
+/// The body of a reply.
 enum Body {
     Whole(Arc<Vec<u8>>),
-    /// Sent until it ends, or who reads it is gone.
+    /// Sent until it ends or the client disconnects.
     Events(Events),
 }
 
@@ -80,7 +80,7 @@ pub(super) struct HttpReply {
 }
 
 impl HttpReply {
-    /// A reply that says nothing but its status.
+    /// A reply with a status only.
     pub(super) fn empty(status: u16) -> Self {
         Self::of(status, "text/plain; charset=utf-8", Vec::new())
     }
@@ -106,7 +106,7 @@ impl HttpReply {
         Self::of(200, "application/json", value.to_string().into_bytes())
     }
 
-    /// A reply in words, for instance on why something was not done.
+    /// A text reply, for example an error message.
     pub(super) fn words(status: u16, words: &str) -> Self {
         Self::of(status, "text/plain; charset=utf-8", words.into())
     }
@@ -241,8 +241,7 @@ pub(super) fn read(stream: &TcpStream) -> Result<HttpRequest, BadRequest> {
     }
 }
 
-/// Reads what is left of a request that was refused: a connection that is closed before loses its
-/// reply.
+/// Reads the rest of a rejected request: a connection that closes earlier loses its reply.
 pub(super) fn read_rest(stream: &TcpStream) {
     let mut patient = DeadlineReader::begin(stream);
     let mut bytes = Vec::new();

@@ -1,6 +1,21 @@
-//! `rtc preview`: a page that shows a scene while it is edited: a server on this machine, a watch
-//! on
-//! the files of the scene, and a session that renders.
+//! `rtc preview`: a local web page that shows a scene while it is edited.
+//!
+//! - `session` runs on the main thread: it reads the scene (`scene`), renders it (`coarse` first),
+//!   and
+//!   publishes the result. `against` renders the reference, `asked`, `costs` and `pixels` compute
+//!   reports.
+//! - `preview_state` is the state that all threads share: the published picture under a version,
+//!   and the
+//!   requests of the page. `events` streams the state to the page.
+//! - `serve` accepts connections of the loopback interface, `http` parses requests, `routes`
+//!   answers them.
+//! - `watch` polls the files of the scene and requests a new reading.
+//! - `view` and `choice` are the view and the settings that the page overrides; `command` writes
+//!   them as a
+//!   command line of `rtc render`.
+//!
+//! The finished picture has the bytes of `rtc render` with the same options. A request needs the
+//! token of the printed address.
 
 mod against;
 mod asked;
@@ -34,10 +49,10 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use watch::Watched;
 
-/// Shows the scene until told to stop.
+/// Shows the scene until the program is stopped.
 pub(super) fn run(args: &args::Preview, typed: &[OsString]) -> Result<(), Failure> {
     if args.file.as_os_str() == "-" {
-        let words = "standard input is read once, so there is nothing to preview; give a file";
+        let words = "standard input can be read only once, so it has no preview; give a file";
         return Err(Failure::Trouble(words.to_owned()));
     }
     Interrupt::listen()?;

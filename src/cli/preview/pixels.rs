@@ -1,6 +1,5 @@
-//! What a pixel of the finished picture shows: its value, which surface is met there and how far
-//! away,
-//! what it is called, and the line that says it.
+//! The readout of a pixel of the finished picture: its value, the surface hit there with its
+//! distance and name, and the line of its source.
 
 use rtc_image::{Image, Layers};
 use rtc_ir::{EntityKind, Field, ValuePath};
@@ -14,7 +13,7 @@ pub(super) struct PixelTable {
     values: Vec<[f32; 3]>,
     /// The number of the surface and its distance, for each pixel.
     hits: Vec<(u32, f32)>,
-    /// The name, or the shape, of each surface that is seen, and its place as `file:line`.
+    /// The name, or the shape, of each visible surface, and its source as `file:line`.
     surfaces: BTreeMap<u32, [String; 2]>,
 }
 
@@ -46,7 +45,7 @@ impl PixelTable {
         }
     }
 
-    /// What is said of a pixel; none of one outside.
+    /// The readout of a pixel; `None` outside of the picture.
     pub(super) fn reported(&self, x: u32, y: u32) -> Option<Value> {
         let [width, height] = self.size;
         if x >= width || y >= height {
@@ -70,7 +69,7 @@ impl PixelTable {
     }
 }
 
-/// What a surface is called, else its shape; and where it was written.
+/// The name of a surface, or else its shape; and its source.
 fn surface(index: usize, validated: &Validated, input: &Input) -> [String; 2] {
     let scene = &validated.lowered.scene;
     let name = scene.names.get(index).filter(|name| !name.is_empty());

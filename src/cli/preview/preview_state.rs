@@ -1,5 +1,5 @@
-//! What the page, the watch and the render have in common: what is shown, under a number that rises
-//! with every change, and what is asked for.
+//! The state that page, watcher and renderer share: the shown picture, under a version that rises
+//! with every change, and the requests.
 
 use super::choice::Choice;
 use super::events::{self, Event};
@@ -12,7 +12,7 @@ use std::collections::VecDeque;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
-/// How the scene is looked at.
+/// The requested view.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ViewSettings {
     /// From where, if not as the scene says.
@@ -26,20 +26,20 @@ pub(super) struct RenderedPicture {
     pub(super) png: Arc<Vec<u8>>,
     /// The size that it has when it is finished.
     pub(super) full: [u32; 2],
-    /// It is that of `rtc render`; else a crude one on the way to it.
+    /// Whether it is that of `rtc render`, or a coarse one before it.
     pub(super) is_finished: bool,
 }
 
-/// A finding as the page shows it.
+/// A diagnostic as the page shows it.
 pub(super) struct ReportedDiagnostic {
     pub(super) severity: &'static str,
     /// As `rtc check` prints it.
     pub(super) text: String,
-    /// What its hint would mend in the scene's own file, and whether that is a guess.
+    /// The fix that its hint suggests in the scene's own file, and whether it is a guess.
     pub(super) fix: Option<(DiagnosticRef, bool)>,
 }
 
-/// What is known of the scene as it was last read.
+/// The properties of the scene as it was last read.
 #[derive(Default)]
 pub(super) struct ReadState {
     /// How often it was read.
@@ -47,7 +47,7 @@ pub(super) struct ReadState {
     /// Its text, if it has one.
     pub(super) text: Option<Arc<str>>,
     pub(super) diagnostics: Vec<ReportedDiagnostic>,
-    /// Why there is no picture, beside the findings.
+    /// The reason why there is no picture, unless diagnostics give it.
     pub(super) fault: Option<String>,
     /// There is no picture of it.
     pub(super) is_failed: bool,
@@ -61,11 +61,11 @@ struct NumberedPicture {
     age: u64,
 }
 
-/// All that is shown and asked for.
+/// The shown state and the requests.
 #[derive(Default)]
 pub(super) struct PreviewData {
     version: u64,
-    /// Who follows what is shown, by the order in which they came, and how many ever did.
+    /// The subscribers in the order of arrival, and how many there ever were.
     subscribers: VecDeque<u64>,
     followed: u64,
     pub(super) read: ReadState,
@@ -73,16 +73,16 @@ pub(super) struct PreviewData {
     shown: NumberedPicture,
     /// Of which reading of the scene the picture is.
     load: u64,
-    /// What it is compared with.
+    /// The reference.
     against: NumberedPicture,
     pub(super) pixels: Option<PixelTable>,
     pub(super) scene_camera: Option<SceneCamera>,
     pub(super) effects: Option<String>,
-    /// Which effects took part at a pixel, once that was asked for.
+    /// The effects at a pixel, once requested.
     pub(super) pixel: Value,
-    /// The settings that the scene has, once they were asked for.
+    /// The settings of the scene, once requested.
     pub(super) settings: Value,
-    /// What accuracy costs in the scene as it is looked at, once that was asked for.
+    /// The costs of accuracy in the current view, once requested.
     pub(super) costs: Value,
     /// The command that renders the same.
     pub(super) command: String,
@@ -90,23 +90,23 @@ pub(super) struct PreviewData {
     is_moving: bool,
     wants_effects: bool,
     wants_settings: bool,
-    /// What is asked of the render.
+    /// The requests to the renderer.
     orders: Orders,
     is_ended: bool,
 }
 
-/// What is to be done.
+/// The next task.
 #[derive(Clone, Copy, Default, PartialEq)]
 pub(super) struct Orders {
     /// Files have changed.
     pub(super) reload: bool,
     /// The view has changed.
     pub(super) look: bool,
-    /// The effects are asked for.
+    /// The effects are requested.
     pub(super) effects: bool,
-    /// The costs are asked for.
+    /// The costs are requested.
     pub(super) costs: bool,
-    /// The effects of a pixel are asked for.
+    /// The effects of a pixel are requested.
     pub(super) pixel: Option<[u32; 2]>,
 }
 
@@ -122,7 +122,7 @@ pub(super) struct Work {
     pub(super) age: u64,
 }
 
-/// The state, and who waits for it to change.
+/// The state, and the threads that wait for a change.
 #[derive(Default)]
 pub(super) struct PreviewState {
     state: Mutex<PreviewData>,
@@ -132,12 +132,12 @@ pub(super) struct PreviewState {
 }
 
 impl PreviewState {
-    /// The state, to be looked at.
+    /// The state, read-only.
     pub(super) fn state(&self) -> MutexGuard<'_, PreviewData> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Changes what is shown.
+    /// Changes the shown state.
     pub(super) fn show(&self, change: impl FnOnce(&mut PreviewData)) {
         let mut state = self.state();
         change(&mut state);
@@ -155,7 +155,7 @@ impl PreviewState {
         });
     }
 
-    /// Shows what the picture is compared with, made by an order of this age.
+    /// Shows the reference, rendered for the request with this number.
     pub(super) fn put_against(&self, rendering: RenderedPicture, age: u64) {
         self.show(|state| state.against.put(rendering, age));
     }
@@ -170,7 +170,7 @@ impl PreviewState {
         self.order(|state| state.orders.reload = true);
     }
 
-    /// Has the scene looked at from elsewhere; as it says with `None`. The age of the order.
+    /// Requests another view, or with `None` the scene's own. Returns the number of the request.
     pub(super) fn look(&self, view_override: Option<ViewOverride>, is_moving: bool) -> u64 {
         self.order(|state| {
             state.view_settings.view_override = view_override;
@@ -188,7 +188,7 @@ impl PreviewState {
         })
     }
 
-    /// Has the effects told from now on. What is being done goes on.
+    /// Requests the effects. The current task continues.
     pub(super) fn want_effects(&self) {
         let mut state = self.state();
         if !state.wants_effects {
@@ -198,8 +198,7 @@ impl PreviewState {
         }
     }
 
-    /// Has the settings told from now on, and their costs measured. What is being done goes on
-    /// before.
+    /// Requests the settings, and their costs. The current task continues first.
     pub(super) fn want_costs(&self) {
         let mut state = self.state();
         state.wants_settings = true;
@@ -207,7 +206,7 @@ impl PreviewState {
         self.changed.notify_all();
     }
 
-    /// Has the effects of a pixel told. What is being done goes on before.
+    /// Requests the effects of a pixel. The current task continues first.
     pub(super) fn want_pixel(&self, place: [u32; 2]) {
         let mut state = self.state();
         state.orders.pixel = Some(place);
@@ -256,7 +255,7 @@ impl PreviewState {
         self.show(|state| state.is_working = false);
     }
 
-    /// A place for one more who follows what is shown; if need be, the oldest gives way.
+    /// Adds a subscriber; if all slots are taken, the oldest is removed.
     pub(super) fn admit(&self) -> u64 {
         let mut state = self.state();
         state.followed += 1;
@@ -269,12 +268,12 @@ impl PreviewState {
         number
     }
 
-    /// Takes the place back.
+    /// Removes the subscriber.
     pub(super) fn dismiss(&self, number: u64) {
         self.state().subscribers.retain(|own| *own != number);
     }
 
-    /// Waits until what is shown differs from that of a version.
+    /// Waits until the state differs from a version.
     pub(super) fn wait(&self, number: u64, since: Option<u64>) -> Event {
         let should_continue =
             |state: &PreviewData| !state.is_ended && state.subscribers.contains(&number);
@@ -326,7 +325,7 @@ impl PreviewData {
         self.against.png(number)
     }
 
-    /// What the page is told.
+    /// The state as the page receives it.
     fn reported(&self) -> Value {
         let diagnostic = |diagnostic: &ReportedDiagnostic| {
             let fix = match diagnostic.fix {

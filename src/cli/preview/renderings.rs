@@ -11,7 +11,7 @@ use std::num::NonZeroU32;
 use std::path::Path;
 use std::sync::Arc;
 
-/// How pictures are asked for.
+/// The settings of requested pictures.
 pub(super) fn setup(args: &args::Preview) -> Result<PictureSetup, Failure> {
     let setup = render::wanted(&args.wanted, &args.look, Path::new("preview.png"))?;
     render::refuse_layers(&setup)?;
@@ -58,8 +58,8 @@ pub(super) fn whole(
     rendering(setup, subject, film, input, observer)
 }
 
-/// What was simulated for a pixel of the picture, which is rendered again alone; none of a pixel
-/// outside.
+/// The effects simulated for a pixel of the picture, which is rendered again by itself; `None`
+/// outside of it.
 pub(super) fn pixel(
     setup: &PictureSetup,
     subject: &mut RenderSubject,

@@ -1,4 +1,4 @@
-//! What is answered: fixed paths alone, none of them a file.
+//! The replies: fixed paths only, none of them a file.
 
 use super::choice::Choice;
 use super::events::Subscriber;
@@ -22,26 +22,26 @@ const SCRIPT: &str = concat!(
 );
 const VIEW: &str = include_str!("page/view.js");
 
-/// What is needed to answer.
+/// The state needed for replies.
 pub(super) struct Routes {
     pub(super) path: PathBuf,
     pub(super) options: Options,
     pub(super) preview_state: Arc<PreviewState>,
-    /// Who holds it changes the scene.
+    /// A lock for changes of the scene file.
     pub(super) pen: Mutex<()>,
 }
 
-/// What is to be fixed: one finding or all of them.
+/// The diagnostics to fix: one or all.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FixOrder {
-    /// Of which reading of the scene the finding is.
+    /// The reading of the scene that the diagnostic belongs to.
     load: u64,
     #[serde(rename = "finding")]
     diagnostic: Option<usize>,
 }
 
-/// How the scene is to be looked at.
+/// The requested view.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 struct LookOrder {
@@ -101,7 +101,7 @@ impl Routes {
             return HttpReply::empty(503);
         };
         let name = self.path.file_name().unwrap_or_default().to_string_lossy();
-        // The scripts come last: they have words in braces of their own.
+        // The scripts are inserted last: they contain braces of their own.
         let page = PAGE
             .replace("{name}", &escaped(&name))
             .replace("{nonce}", &nonce)
@@ -134,7 +134,7 @@ impl Routes {
         HttpReply::json(&json!({ "age": age }))
     }
 
-    /// Writes the view into the scene, which is then shown as it says.
+    /// Writes the view into the scene, which is then shown in its own view.
     fn keep(&self) -> HttpReply {
         let _pen = self.pen.lock().unwrap_or_else(PoisonError::into_inner);
         let (text, view_override) = {
@@ -156,7 +156,7 @@ impl Routes {
         }
     }
 
-    /// Obeys what findings propose for the scene's own file.
+    /// Applies the suggested fixes to the scene's own file.
     fn fix(&self, body: &[u8]) -> HttpReply {
         let Ok(order) = serde_json::from_slice::<FixOrder>(body) else {
             return HttpReply::empty(400);
@@ -180,7 +180,7 @@ impl Routes {
     }
 }
 
-/// What is wanted of the findings of a scene as it was read; `None` if they are of another one.
+/// The requested fixes for the scene as it was read; `None` if they belong to another reading.
 fn wish(read: &ReadState, order: &FixOrder) -> Option<FixFilter> {
     if read.load != order.load {
         return None;
@@ -210,14 +210,14 @@ fn put(path: &Path, before: &str, after: &str) -> Result<(), String> {
     })
 }
 
-/// A text as it stands in HTML.
+/// A text escaped for HTML.
 fn escaped(text: &str) -> String {
     let entity = |letter: char| match letter {
         '&' => "&amp;".to_owned(),
         '<' => "&lt;".to_owned(),
         '>' => "&gt;".to_owned(),
         '"' => "&quot;".to_owned(),
-        // It would be taken for a place to fill.
+        // It would be taken for a placeholder.
         '{' => "&#123;".to_owned(),
         other => other.to_string(),
     };

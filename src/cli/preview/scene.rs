@@ -1,4 +1,4 @@
-//! A scene as it was read, to be looked at from anywhere in any setting.
+//! A scene that was read, to be rendered in any view and setting.
 
 use super::preview_state::{RenderedPicture, ViewSettings};
 use super::view::{self, SceneCamera};
@@ -12,9 +12,9 @@ use rtc_pipeline::{Input, Loaded, Observer, PictureSetup, RenderError, RenderSub
 pub(super) struct ReadScene {
     pub(super) input: Input,
     pub(super) loaded: Option<Loaded>,
-    /// What was found while it was read.
+    /// The diagnostics of reading it.
     found: Sink,
-    /// The view and the integrator that were asked for when it was read.
+    /// The view and the integrator of the command line.
     view: View,
     integrator: Option<IntegratorChoice>,
     /// Whether it has keys for another view.
@@ -48,7 +48,7 @@ impl ReadScene {
         }
     }
 
-    /// Proves the scene as it is looked at; the findings say why if it can't be.
+    /// Validates the scene in the current view; the diagnostics give the reason if it fails.
     pub(super) fn validate(
         &mut self,
         setup: &PictureSetup,
@@ -71,9 +71,7 @@ impl ReadScene {
         Ok(validated.map(|subject| (setup, subject)))
     }
 
-    /// A crude picture of what was rendered before, of which but the camera was changed; what is
-    /// found
-    /// in it is forgotten.
+    /// A coarse picture of the last scene with another camera; its diagnostics are dropped.
     pub(super) fn glance(
         &mut self,
         (setup, subject): &mut ShownScene,
@@ -86,7 +84,7 @@ impl ReadScene {
     }
 }
 
-/// Reads the file of the scene, to be shown as it is asked for.
+/// Reads the file of the scene, to be shown in the requested view.
 pub(super) fn of_file(args: &args::Preview, threads: usize) -> Result<ReadScene, Failure> {
     let input = input::staged(&args.file, &args.reading, &args.stage)?;
     Ok(ReadScene::read(input, args, threads))

@@ -1,6 +1,5 @@
-//! The server: bound to this machine alone, with few connections at a time. Where all are taken,
-//! the
-//! oldest of those that have said nothing gives way, so that idle ones keep nobody out.
+//! The server: bound to the loopback interface, with a limited number of connections. If all are
+//! taken, the oldest without a request is closed, so that idle ones block nobody.
 
 use super::Failure;
 use super::http::{self, BadRequest, HttpReply, HttpRequest};
@@ -21,14 +20,15 @@ const PAUSE: Duration = Duration::from_millis(20);
 /// What answers requests.
 pub(super) type Answer = dyn Fn(&HttpRequest) -> HttpReply + Send + Sync;
 
-/// Who may come in: who knows the token, under a name of this server, from its own page.
+/// Authorisation: requests must have the token, a host name of this server, and the page's own
+/// origin.
 pub(super) struct AuthGuard {
     token: String,
     port: u16,
 }
 
 impl AuthGuard {
-    /// A door with a new token, of a port.
+    /// A guard with a new token, for a port.
     pub(super) fn new(port: u16) -> Result<Self, Failure> {
         let token = random()?;
         Ok(Self { token, port })
@@ -126,7 +126,7 @@ struct ConnectionPool {
 
 struct Connection {
     stream: Arc<TcpStream>,
-    /// Its request is there, or it was asked to leave.
+    /// The request has arrived, or the connection was asked to close.
     is_settled: bool,
 }
 
@@ -136,7 +136,7 @@ impl ConnectionPool {
     }
 }
 
-/// The place of a connection, which it leaves when dropped.
+/// The permit of a connection, released when dropped.
 struct ConnectionPermit {
     room: Arc<ConnectionPool>,
     number: u64,
@@ -144,7 +144,7 @@ struct ConnectionPermit {
 }
 
 impl ConnectionPermit {
-    /// Waits until there is a place; if need be, the oldest that said nothing is asked to leave.
+    /// Waits for a permit; if necessary, closes the oldest connection without a request.
     fn take(room: &Arc<ConnectionPool>, stream: TcpStream) -> Self {
         let mut guests = room.guests();
         while guests.len() >= MOST {
@@ -185,13 +185,13 @@ impl ConnectionPermit {
             Err(BadRequest::Refused(status)) => (HttpReply::empty(status), false),
             Err(BadRequest::Gone) => return,
         };
-        // Who does not wait for the reply is not told.
+        // A client that has gone misses the reply.
         if reply.send(&self.stream).is_ok() && !is_whole {
             http::read_rest(&self.stream);
         }
     }
 
-    /// Its request is there: it is not asked to leave any more.
+    /// The request has arrived: the connection is not closed any more.
     fn settle(&self) {
         if let Some(connection) = self.room.guests().get_mut(&self.number) {
             connection.is_settled = true;

@@ -1,6 +1,5 @@
-//! The session: reads the scene, shows what is found, and renders it, crude first; all of it anew
-//! when
-//! a file or the view changes, whatever is under way.
+//! The session: reads the scene, shows its diagnostics, and renders it, coarsely first. A change of
+//! a file or of the view restarts it.
 
 use super::against::Against;
 use super::command::RenderWords;
@@ -15,27 +14,27 @@ use rtc_pipeline::{self as pipeline, Input, Observer, PictureSetup, RenderError,
 use serde_json::Value;
 use std::sync::Arc;
 
-/// Columns of what is told on the page.
+/// The width of reports on the page, in columns.
 const WIDTH: usize = 100;
 
-/// What is shown, as long as there is a scene.
+/// The current picture, if there is a scene.
 pub(super) struct Session<'a> {
     args: &'a args::Preview,
     pub(super) preview_state: Arc<PreviewState>,
     watched: Arc<Watched>,
     reporter: Reporter,
-    /// The picture as it is asked for.
+    /// The picture in the requested settings.
     pub(super) setup: PictureSetup,
-    /// What was typed, to be said again.
+    /// The arguments of the command, for the shown command line.
     words: RenderWords,
     loads: u64,
     pub(super) scene: Option<ReadScene>,
     /// The scene as it was rendered last.
     pub(super) shown: Option<ShownScene>,
     against: Option<Against>,
-    /// Of which reading and in which manner costs are told.
+    /// The reading and the view settings of the last costs.
     costed: (u64, ViewSettings),
-    /// What was told last.
+    /// The last report on the terminal.
     reported: Vec<Diagnostic>,
 }
 
@@ -69,7 +68,7 @@ impl<'a> Session<'a> {
         })
     }
 
-    /// Shows the scene until told to stop.
+    /// Shows the scene until the program is stopped.
     pub(super) fn run(mut self) -> Result<(), Failure> {
         self.preview_state.reload();
         while let Some(work) = self.preview_state.next() {
@@ -81,7 +80,7 @@ impl<'a> Session<'a> {
             } else if work.orders.effects {
                 self.tell_effects(&work);
             }
-            // What is newer is done first.
+            // Newer requests come first.
             if work.orders.pixel.is_some() && !self.preview_state.is_stale(work.age) {
                 self.tell_pixel(&work);
             }
@@ -114,7 +113,7 @@ impl<'a> Session<'a> {
         self.scene = Some(scene);
     }
 
-    /// Renders the scene as it is looked at: crude, and to the end unless the view is moving.
+    /// Renders the current view: coarsely, and completely unless the view is moving.
     fn look(&mut self, work: &Work) -> Result<(), Failure> {
         if work.is_moving && !work.orders.reload && self.move_on(work) {
             return Ok(());
@@ -132,7 +131,7 @@ impl<'a> Session<'a> {
                     return Ok(());
                 }
             }
-            // The findings say why.
+            // The diagnostics give the reason.
             Ok(false) => self.publish(true, &work.view_settings, None),
             Err(RenderError::Stopped) => return Ok(()),
             Err(RenderError::RanOut(diagnostic)) => {
@@ -181,7 +180,7 @@ impl<'a> Session<'a> {
         Ok(true)
     }
 
-    /// Shows what was rendered last from elsewhere, crudely; false if it can't be.
+    /// Shows the last scene from another view, coarsely; false if that is impossible.
     fn move_on(&mut self, work: &Work) -> bool {
         let (Some(shown), Some(view_override)) =
             (&mut self.shown, &work.view_settings.view_override)
@@ -213,7 +212,7 @@ impl<'a> Session<'a> {
         true
     }
 
-    /// Shows what the picture is compared with as it is looked at; false if it is to stop.
+    /// Shows the reference in the current view; false if the session ends.
     fn show_against(&mut self, work: &Work, is_stopped: &(dyn Fn() -> bool + Sync)) -> bool {
         let (Some(Against::Scene(other)), Some((_, subject))) = (&mut self.against, &self.shown)
         else {
@@ -234,7 +233,7 @@ impl<'a> Session<'a> {
         true
     }
 
-    /// Shows what was found so far, and the camera of what is rendered.
+    /// Shows the diagnostics so far, and the camera of the picture.
     fn publish(
         &mut self,
         is_failed: bool,
@@ -285,7 +284,7 @@ impl<'a> Session<'a> {
         });
     }
 
-    /// Shows and tells that there is no picture for a reason that is no finding.
+    /// Shows and reports the reason, which is no diagnostic, why there is no picture.
     fn fail(&mut self, words: &str) {
         self.publish(true, &ViewSettings::default(), None);
         let (load, is_read) = (self.loads, self.scene.is_some());
@@ -300,7 +299,7 @@ impl<'a> Session<'a> {
         super::reporter::say(&format!("error: {words}"));
     }
 
-    /// Tells what was found on the terminal, once.
+    /// Reports the diagnostics on the terminal, once.
     fn tell(&mut self) -> Result<(), Failure> {
         let Some(scene) = &mut self.scene else {
             return Ok(());
@@ -314,9 +313,7 @@ impl<'a> Session<'a> {
             .file(scene.input.name(), found, scene.input.map())
     }
 
-    /// Forgets the costs, if they are not of the scene as it is looked at now: a choice of values
-    /// alone
-    /// does not change them.
+    /// Discards the costs if they belong to another view; overrides of values do not change them.
     fn forget_costs(&mut self, work: &Work) {
         let ViewSettings {
             view_override,
@@ -337,7 +334,7 @@ impl<'a> Session<'a> {
     }
 }
 
-/// A finding as the page shows it.
+/// A diagnostic as the page shows it.
 fn reported(diagnostic: &Diagnostic, input: &Input) -> ReportedDiagnostic {
     let changes = diagnostic
         .hints

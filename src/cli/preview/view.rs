@@ -12,20 +12,20 @@ use serde_json::{Value, json};
 use std::ops::Range;
 use std::path::Path;
 
-/// How far a camera that was written may be from the one wanted, of its distance.
+/// The tolerance of a written camera, relative to its distance.
 const NEAR: f64 = 1e-9;
 
 /// The same of the steps between its pixels, whose digits are fewer.
 const NEAR_STEP: f64 = 2e-4;
 
-/// So many digits behind the first of the distance to the middle of the picture have the places of
-/// a view: less than a hundredth of a pixel is lost.
+/// The digits of a view's coordinates, relative to the distance to the centre: less than a
+/// hundredth of a pixel is lost.
 const PLACE_DIGITS: usize = 5;
 
 /// The same of the upward direction.
 const UP_DIGITS: usize = 4;
 
-/// A view that was asked for.
+/// A requested view.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ViewOverride {
@@ -34,7 +34,7 @@ pub(super) struct ViewOverride {
     up: [f64; 3],
 }
 
-/// The camera of the scene as it was read, and how another view of it is said.
+/// The camera of the scene as it was read, and the syntax for other views of it.
 #[derive(Clone, Debug)]
 pub(super) struct SceneCamera {
     eye: [f64; 3],
@@ -50,7 +50,7 @@ pub(super) struct SceneCamera {
 }
 
 impl ViewOverride {
-    /// A view as sent by the page; none of what is no place.
+    /// A view sent by the page; `None` for values that are not finite.
     pub(super) fn read(value: &Value) -> Option<Self> {
         let view_override = Self::deserialize(value).ok()?;
         let Self { eye, center, up } = view_override;
@@ -105,9 +105,8 @@ impl ViewOverride {
 }
 
 impl SceneCamera {
-    /// What the page is to know of the camera of a scene, seen from elsewhere if there is a gaze;
-    /// `own`
-    /// is how the scene itself sees it.
+    /// The camera of a scene for the page, with the override if there is one; `own` is the scene's
+    /// own view.
     pub(super) fn new(
         camera: &Camera,
         view_override: Option<&ViewOverride>,
@@ -156,7 +155,7 @@ impl SceneCamera {
     }
 }
 
-/// Where a scene text has the values of `eye`, `center` and `up`, each by itself.
+/// The spans of the values of `eye`, `center` and `up` in a scene text.
 pub(super) fn keys(lowered: &Lowered, map: &SourceMap, name: &str) -> Option<[Range<usize>; 3]> {
     let span = |field| {
         let span: Span = lowered
@@ -171,19 +170,19 @@ pub(super) fn keys(lowered: &Lowered, map: &SourceMap, name: &str) -> Option<[Ra
     let own = [eye?, center?, up?];
     let mut sorted = own.clone();
     sorted.sort_by_key(|range| range.start);
-    let are_apart = sorted.windows(2).all(|pair| pair[0].end <= pair[1].start);
+    let are_disjoint = sorted.windows(2).all(|pair| pair[0].end <= pair[1].start);
     let right = lowered
         .source_spans
         .span(ValuePath::new(EntityKind::Camera, 0, Field::Right));
     let is_square =
         right.is_none_or(|right| own.iter().any(|range| range.start == right.start as usize));
-    (are_apart && is_square).then_some(own)
+    (are_disjoint && is_square).then_some(own)
 }
 
-/// The text of a scene that is at `path`, looked at from elsewhere.
+/// The text of the scene at `path`, with another view.
 ///
 /// # Errors
-/// Why it can't be, in words.
+/// The reason why it is impossible.
 pub(super) fn written(
     path: &Path,
     text: &str,
@@ -213,7 +212,7 @@ pub(super) fn written(
     let changed = changed.load().map(|loaded| loaded.lowered.scene);
     let mut changed = changed.ok_or("the scene can't be read afterwards")?;
     let is_seen = is_near(&changed.camera, &lowered.scene.camera);
-    // Nothing else may be another: a value can stand for more than the camera.
+    // No other value may change: one value can set more than the camera.
     changed.camera = before.clone();
     lowered.scene.camera = before;
     match is_seen && changed == lowered.scene {
@@ -234,7 +233,7 @@ fn is_near(a: &Camera, b: &Camera) -> bool {
         && a.size == b.size
 }
 
-/// A vector to so many digits behind the first one of a length.
+/// A vector rounded to a number of digits relative to a length.
 fn rounded(vector: Vec3, length: f64, digits: usize) -> [f64; 3] {
     let shown = format!("{length:e}");
     let exponent = shown.split_once('e').and_then(|(_, e)| e.parse().ok());
@@ -279,7 +278,7 @@ mod tests {
         );
     }
 
-    /// A view as the mouse turns it has 16 digits; those that no pixel shows are not written.
+    /// A view from the mouse has 16 digits; digits below a hundredth of a pixel are not written.
     #[test]
     fn a_view_is_written_in_few_digits() {
         let sent = json!({
@@ -295,7 +294,7 @@ mod tests {
         let is_short = |number: &str| number.len() <= "-155.4744".len();
         let mut numbers = turned.split(|c: char| !c.is_ascii_digit() && !"-.".contains(c));
         assert!(numbers.all(is_short), "{turned}");
-        // What is shown is what was sent, but for less than a hundredth of a pixel.
+        // The written view is the sent one within a hundredth of a pixel.
         let before: ViewOverride = ViewOverride::deserialize(&sent).unwrap();
         for (own, sent) in [
             (view_override.eye, before.eye),

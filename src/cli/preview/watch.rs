@@ -1,6 +1,5 @@
-//! Who looks whether files have changed: by their length, the time of their last change and what
-//! the
-//! system calls them, some times a second.
+//! The file watcher: polls length, modification time and system id of files, several times a
+//! second.
 
 use super::interrupt;
 use super::preview_state::PreviewState;
@@ -11,23 +10,23 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, SystemTime};
 
-/// How often files are looked at.
+/// The polling interval.
 const EVERY: Duration = Duration::from_millis(50);
 
-/// So many files are looked at each time; where there are more, all are every so often.
+/// The maximum number of files per poll; more files are polled in turn.
 const AT_ONCE: usize = 100;
 
-/// What tells a file from one that it was before; `None` if there is none.
+/// The state that identifies a version of a file; `None` if there is none.
 type Stamp = Option<(u64, Option<SystemTime>, u64)>;
 
-/// The files that are looked at, as they were when they were read.
+/// The watched files, in the state in which they were read.
 #[derive(Default)]
 pub(super) struct Watched {
     stamps: Mutex<BTreeMap<PathBuf, Stamp>>,
 }
 
 impl Watched {
-    /// Looks at these files from now on. What is known of them is as of before they were read.
+    /// Watches these files from now on, relative to their state before they were read.
     pub(super) fn set(&self, known: &BTreeMap<PathBuf, Stamp>, paths: Vec<PathBuf>) {
         let with_stamp = |path: PathBuf| {
             let stamp = known.get(&path).copied();
@@ -36,7 +35,7 @@ impl Watched {
         *self.stamps() = paths.into_iter().map(with_stamp).collect();
     }
 
-    /// The files that are looked at, and this one, as they are now.
+    /// The watched files and this one, in their current state.
     pub(super) fn now(&self, first: &Path) -> BTreeMap<PathBuf, Stamp> {
         let stamps = self.stamps();
         let paths = stamps.keys().cloned().chain([first.to_owned()]);
@@ -63,7 +62,8 @@ impl Watched {
         self.stamps.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Has the scene read again when a file has changed and then rests; returns when told to stop.
+    /// Requests a new reading when a file has changed and then stays unchanged; returns when the
+    /// program is stopped.
     pub(super) fn run(&self, preview_state: &PreviewState) {
         let (mut pending, mut reported) = (Vec::new(), Vec::new());
         let mut pause = 0;
@@ -76,7 +76,7 @@ impl Watched {
             }
             pause = 0;
             let changed = self.changed();
-            // Whoever writes a file is given the time to end, and each change is told once.
+            // A writer gets time to finish, and each change is reported once.
             if !changed.is_empty() && changed == pending && changed != reported {
                 reported.clone_from(&changed);
                 preview_state.reload();

@@ -1,6 +1,4 @@
-//! `rtc.toml`: what holds for the scenes of a folder and of those below, where the command line
-//! says
-//! nothing else.
+//! `rtc.toml`: defaults of the command line for the scenes of a folder and of the folders below.
 
 mod read;
 mod trust;
@@ -27,17 +25,17 @@ const MAX_BYTES: u64 = 64 << 10;
 /// A folder that has one of these is where the search ends.
 const END: &str = ".git";
 
-/// What an `rtc.toml` says, and what is wrong with it.
+/// The contents of an `rtc.toml`, and its errors.
 pub(super) struct Project {
     path: PathBuf,
     bytes: Vec<u8>,
     settings: ProjectSettings,
     faults: Vec<ProjectFault>,
-    /// Why it was not read, and says nothing.
+    /// The reason why it was not read.
     withheld: Option<&'static str>,
 }
 
-/// What it says.
+/// Its contents.
 #[derive(Default)]
 struct ProjectSettings {
     /// Whether it may raise limits.
@@ -49,20 +47,19 @@ struct ProjectSettings {
     render: Overrides,
 }
 
-/// What is wrong in some of its bytes.
+/// An error in some of its bytes.
 struct ProjectFault {
     code: &'static Code,
     at: Range<usize>,
     message: String,
     hint: Option<String>,
-    /// What was most likely meant in these bytes.
+    /// The suggested spelling of these bytes.
     suggestion: Option<String>,
 }
 
 impl Project {
-    /// That of a scene: in its folder, or the nearest above up to the root of a repository.
-    /// Standard
-    /// input lies in the current folder.
+    /// The file of a scene: in its folder, or the nearest above up to the root of a repository.
+    /// Standard input belongs to the current folder.
     pub(super) fn of(scene: &Path, reading: &Reading) -> Result<Option<Self>, Failure> {
         let Some((path, scenes)) = nearest_file(scene) else {
             return Ok(None);
@@ -89,7 +86,7 @@ impl Project {
         }))
     }
 
-    /// Puts what it says of findings below what was said before.
+    /// Adds its levels of diagnostics below those of the command line.
     pub(super) fn levels(&self, typed: DiagnosticLevels) -> DiagnosticLevels {
         let mut levels = self.settings.levels.clone();
         levels.override_by(typed);
@@ -116,7 +113,7 @@ impl Project {
         self.settings.asset_root.clone()
     }
 
-    /// Tells of it among the findings of a scene.
+    /// Adds its diagnostics to those of a scene.
     pub(super) fn tell(&self, input: &mut Input) {
         let path = self.path.display().to_string();
         if let Some(reason) = self.withheld {
@@ -142,9 +139,8 @@ impl Project {
     }
 }
 
-/// How the pictures of a scene are made by its project. A compiled scene has that settled, and what
-/// is
-/// sampled until it is good enough has no number of samples.
+/// The settings of pictures of a scene. A compiled scene already has them; a picture with a target
+/// has no number of samples.
 pub(super) fn picture(scene: &Path, reading: &Reading, goal: Goal) -> Result<Overrides, Failure> {
     let is_compiled = scene.extension().is_some_and(|own| own == "rtir");
     let project = Project::of(scene, reading)?.filter(|_| !is_compiled);
@@ -163,7 +159,7 @@ pub(super) fn picture(scene: &Path, reading: &Reading, goal: Goal) -> Result<Ove
     })
 }
 
-/// What is in the file at a path in a folder free of links, or why it is not read.
+/// The contents of the file at a path in a folder without links, or the reason why it is not read.
 fn content(
     path: &Path,
     folder: &Path,
@@ -177,7 +173,7 @@ fn content(
             Ok(Err("it belongs to another user, or all may write it"))
         }
         Ok(file) => Ok(Ok(file.bytes)),
-        // Whether there is anything outside is not told.
+        // Whether a file outside exists is not revealed.
         Err(_) if is_link => Ok(Err(LINK)),
         Err(LoadError::NotRegular) => Ok(Err("it is no regular file")),
         Err(error) => Err(Failure::Trouble(format!(
@@ -187,8 +183,8 @@ fn content(
     }
 }
 
-/// The file that holds for a scene, and the folder of the scene, both free of links; the file
-/// itself may be one.
+/// The file that applies to a scene, and the folder of the scene, both without links; the file
+/// itself may be a link.
 fn nearest_file(scene: &Path) -> Option<(PathBuf, PathBuf)> {
     let own = scene.parent().filter(|own| !own.as_os_str().is_empty());
     let own = own.unwrap_or(Path::new(".")).canonicalize().ok()?;

@@ -1,4 +1,4 @@
-//! The text of an `rtc.toml`: each key and value, all mistakes with their place.
+//! The parser of an `rtc.toml`: each key and value, all errors with spans.
 
 use super::super::parse;
 use super::trust::Trust;
@@ -28,7 +28,7 @@ const RENDER_KEYS: [&str; 7] = [
 type ProjectKey<'t> = Spanned<DeString<'t>>;
 type Value<'t> = Spanned<DeValue<'t>>;
 
-/// What a text says that lies in a folder, as far as it is trusted, and what is wrong with it.
+/// The trusted contents of an `rtc.toml` in a folder, and its errors.
 pub(super) fn read(
     bytes: &[u8],
     folder: &Path,
@@ -228,7 +228,7 @@ impl ProjectReader<'_> {
         }
     }
 
-    /// Tells of what only a trusted file may have.
+    /// Reports keys that only a trusted file may have.
     fn untrusted(&mut self, at: Range<usize>, message: &str) {
         self.faults.push(ProjectFault {
             code: &codes::SETTINGS_UNTRUSTED,

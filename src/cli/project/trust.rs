@@ -1,4 +1,4 @@
-//! Whose `rtc.toml` the user trusts: those that the user's own settings list.
+//! The trust in `rtc.toml` files: the folders that the user's own settings list.
 
 use super::super::Failure;
 use super::MAX_BYTES;
@@ -10,16 +10,16 @@ use toml::de::{DeTable, DeValue};
 /// The key of the list.
 const LIST: &str = "trusted-projects";
 
-/// How far what an `rtc.toml` says is followed.
+/// The trust in an `rtc.toml`.
 pub(super) enum Trust {
     /// All of it.
     Full,
-    /// It lowers limits, and lends what lies in this folder, that of the scene.
+    /// It may lower limits, and add this folder, that of the scene, to the search.
     Within(PathBuf),
 }
 
-/// Whether the user's own settings list a folder that is free of links, or one above it. A list
-/// that others may have written lists nothing.
+/// Whether the user's own settings list a folder without links, or one above it. A list that others
+/// can write is ignored.
 pub(super) fn is_listed(folder: &Path) -> Result<bool, Failure> {
     let Some(path) = own_settings() else {
         return Ok(false);

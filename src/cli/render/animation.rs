@@ -1,6 +1,5 @@
 //! A turntable as one file, an animated PNG or a GIF: its pictures are written as they are
-//! rendered, and the
-//! file appears with the last.
+//! rendered, and the file appears with the last.
 
 use super::super::output::Output;
 use super::super::turntable::{Turntable, Views};
@@ -37,7 +36,7 @@ pub(super) fn rate(args: &args::Render, output: &Path) -> Result<Option<u16>, Fa
 }
 
 impl RenderSetup {
-    /// Renders views around the scene and writes them as one file, so many a second.
+    /// Renders views around the scene into one file, with the given frames per second.
     pub(super) fn shoot_animation(
         &self,
         (views, rate): (&Views, u16),
@@ -101,13 +100,12 @@ impl RenderSetup {
 }
 
 /// The picture file by whose kind each frame is made: one without opacities where a GIF, which has
-/// no
-/// shades of them, shows it.
+/// no shades of them, shows it.
 pub(super) fn still(output: &Path) -> PathBuf {
     output.with_extension(if is_gif(output) { "jpg" } else { "png" })
 }
 
-/// What is told of the colours of an output.
+/// The message about the palette of an output.
 fn remark(output: &Path) -> Option<&'static str> {
     let words = "note: a GIF holds 256 colours a picture; `-o NAME.apng` holds all of them";
     is_gif(output).then_some(words)
@@ -122,7 +120,7 @@ fn is_gif(output: &Path) -> bool {
     extension.is_some_and(|extension| extension.eq_ignore_ascii_case("gif"))
 }
 
-/// A file of frames, of which some are written.
+/// A file of frames that is partly written.
 enum FrameAnimation<'f> {
     Png(AnimatedPng<&'f mut File>),
     Gif(AnimatedGif<&'f mut File>),

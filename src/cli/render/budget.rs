@@ -6,16 +6,17 @@ use rtc_study::CoarsePicture;
 use std::cell::Cell;
 use std::time::{Duration, Instant};
 
-/// When the picture was begun: the first with the command, each other after the one before.
+/// The start of the picture: for the first one that of the command, for others the end of the one
+/// before.
 pub(super) struct PictureClock(Cell<Instant>);
 
 /// The time that a pixel takes from its samples to the file, about.
 const WRITING: Duration = Duration::from_nanos(200);
 
-/// What the end of the program takes after the picture is encoded.
+/// The time from the encoded picture to the end of the program.
 const ENDING: Duration = Duration::from_millis(10);
 
-/// The time taken for a picture may be more than its budget by so much, or by this part of it.
+/// The tolerance of the time budget, absolute, or relative to it.
 const LATE: Duration = Duration::from_millis(20);
 const LATE_PART: f64 = 0.05;
 
@@ -29,7 +30,7 @@ impl PictureClock {
         Self(Cell::new(Instant::now()))
     }
 
-    /// When the picture was begun.
+    /// The start of the picture.
     pub(super) fn begun(&self) -> Instant {
         self.0.get()
     }
@@ -40,14 +41,13 @@ impl PictureClock {
     }
 
     /// The time until samples end for the picture to be ready in a time, on a machine that is not
-    /// quite
-    /// idle.
+    /// quite idle.
     pub(super) fn sampling(time: Duration, crop: Crop) -> Duration {
         const BUSY: f64 = 0.98;
         time.saturating_sub(writing(crop)).mul_f64(BUSY)
     }
 
-    /// The picture is ready but for its file: what is to be said of its time and of what it lacks.
+    /// The picture is ready except for its file: its time, and its messages about missing samples.
     pub(super) fn stop(
         &self,
         time: Option<Duration>,

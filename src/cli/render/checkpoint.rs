@@ -1,6 +1,5 @@
-//! A render that is saved on its way: what is done of it lies in a part (`.rtp`), and the same
-//! command
-//! goes on from there, to the same bytes.
+//! A render with checkpoints: finished parts are saved in a `.rtp` file, and the same command
+//! resumes, with the same bytes.
 
 use super::super::merge::{read_part, unfit};
 use super::super::output::Output;
@@ -28,10 +27,10 @@ pub(super) struct Checkpoint {
     restarts: bool,
 }
 
-/// What to do about a file that can't be gone on from.
+/// The hint for a checkpoint that can't be resumed.
 pub(crate) fn or_restart(failure: Failure) -> Failure {
     match failure {
-        Failure::Input(words) => Failure::Input(format!("{words}; `--restart` begins anew")),
+        Failure::Input(words) => Failure::Input(format!("{words}; `--restart` starts over")),
         other @ (Failure::Findings
         | Failure::Unreadable
         | Failure::Trouble(_)
@@ -43,11 +42,11 @@ pub(crate) fn or_restart(failure: Failure) -> Failure {
 /// A picture that is saved on its way.
 pub(super) struct Saving<'c> {
     checkpoint: &'c Checkpoint,
-    /// Where the picture goes.
+    /// The destination of the picture.
     pub(super) output: PathBuf,
     /// The hashes of the pictures that were finished before it.
     pub(super) finished: Vec<String>,
-    /// What was saved, until it is gone on from.
+    /// The saved state, until it is resumed.
     pub(super) saved: Option<RenderShard>,
 }
 
@@ -55,7 +54,7 @@ pub(super) struct Saving<'c> {
 pub(super) type RunContext<'d> = (&'d mut Input, &'d mut Reporter, &'d Interrupt);
 
 impl<'c> Saving<'c> {
-    /// Reads what was saved, and looks whether the file can be written, before the work is done.
+    /// Reads the checkpoint, and checks that the file can be written, before the render.
     pub(super) fn begin(
         checkpoint: &'c Checkpoint,
         output: &Path,
@@ -73,14 +72,14 @@ impl<'c> Saving<'c> {
         })
     }
 
-    /// What to say of what was saved if it can't be gone on from.
+    /// The message for a checkpoint that can't be resumed.
     pub(super) fn refused(&self, error: &dyn fmt::Display) -> Failure {
         or_restart(unfit(&self.checkpoint.file, error))
     }
 }
 
 impl Checkpoint {
-    /// The checkpoint asked for, if any.
+    /// The requested checkpoint, if any.
     pub(super) fn new(args: &args::Render) -> Option<Self> {
         Some(Self {
             file: args.checkpoint.clone()?,
@@ -89,7 +88,7 @@ impl Checkpoint {
         })
     }
 
-    /// What was saved, if anything is to be gone on from.
+    /// The saved state, if the render resumes.
     fn read(&self, input: &Input) -> Result<Option<RenderShard>, Failure> {
         if self.restarts || !self.file.exists() {
             return Ok(None);
@@ -100,7 +99,7 @@ impl Checkpoint {
         saved.map(Some).map_err(or_restart)
     }
 
-    /// Saves what is done, whole or not at all, and says so if that fails: the render goes on.
+    /// Saves the state atomically, with a warning if that fails: the render continues.
     fn try_save(&self, part: &RenderShard) -> bool {
         try_save(&self.file, &part.save())
     }
@@ -137,7 +136,7 @@ impl RenderSetup {
         Ok(())
     }
 
-    /// What was saved of the picture; none of its shares if nothing was.
+    /// The saved state of the picture; without finished shares if nothing was saved.
     pub(super) fn begun(
         &self,
         saving: &mut Saving<'_>,
@@ -157,7 +156,7 @@ impl RenderSetup {
         Ok(done)
     }
 
-    /// The picture by its shares, and what is told of it.
+    /// The picture by shares, with its messages.
     fn share_by_share(
         &self,
         saving: &Saving<'_>,
@@ -187,7 +186,7 @@ impl RenderSetup {
         Ok((picture, made))
     }
 
-    /// The picture that grows towards its goal, and what is told of it.
+    /// The picture rendered to its target, with its messages.
     fn round_by_round(
         &self,
         saving: &Saving<'_>,
@@ -230,7 +229,7 @@ impl RenderSetup {
         Ok((picture, made))
     }
 
-    /// Renders the shares of the picture that are missing, and saves on the way.
+    /// Renders the missing shares of the picture, with checkpoints.
     fn trace_saving(
         &self,
         checkpoint: &Checkpoint,
@@ -273,7 +272,7 @@ pub(crate) fn ended(error: RenderError, input: &mut Input, reporter: &mut Report
         .unwrap_or(Failure::Findings)
 }
 
-/// Whether a picture is asked for that is done when it is good enough.
+/// Whether the picture has a target instead of a number of samples.
 fn has_goal(goal: Goal) -> bool {
     goal != Goal::default()
 }
@@ -290,7 +289,7 @@ fn shares(window: Crop, [first, last]: [u32; 2]) -> ShardPlan {
 }
 
 impl Checkpoint {
-    /// Saves before the end, and says how to go on.
+    /// Saves before the end, and prints how to resume.
     fn end(&self, part: &RenderShard) {
         let (shares, count) = part.shares();
         let (shares, finished) = (shares.len(), part.finished().len());
@@ -303,35 +302,34 @@ impl Checkpoint {
         }
     }
 
-    /// Says how to go on.
+    /// Prints how to resume.
     fn tell(&self, what: &str) {
         say_saved(&self.file, what);
     }
 }
 
-/// Says what was saved, and how to go on.
+/// Prints the saved progress, and how to resume.
 pub(crate) fn say_saved(file: &Path, what: &str) {
     let file = file.display();
     reporter::say(&format!(
-        "saved {what} in `{file}`; the same command goes on from there"
+        "saved {what} in `{file}`; the same command resumes"
     ));
 }
 
-/// Saves what is done, whole or not at all, and says so if that fails: the work goes on.
+/// Saves the state atomically, with a warning if that fails: the work continues.
 pub(crate) fn try_save(file: &Path, bytes: &[u8]) -> bool {
     let saved = NewFile::save(file, bytes);
     if let Err(error) = &saved {
         let file = file.display();
         reporter::say(&format!(
-            "warning: `{file}` can't be written: {error}; the render goes on, what was saved \
-            before stays"
+            "warning: `{file}` can't be written: {error}; the render continues, and the last \
+            checkpoint stays"
         ));
     }
     saved.is_ok()
 }
 
-/// The first shares that are missing, side by side, at most so many: the first and the last of
-/// them.
+/// The first range of missing shares, at most of the given length.
 fn next(done: &RenderShard, most: u32) -> Option<[u32; 2]> {
     let mut missing = done.missing();
     let first = missing.next()?;

@@ -8,7 +8,7 @@ use rtc_pipeline::{Input, OutputTransform, PictureSetup, RenderSubject};
 use rtc_render::Aov;
 use std::path::Path;
 
-/// Where the layers of a picture go; nowhere, if its own file holds them.
+/// The destination of the layers of a picture; none if its own file holds them.
 pub(super) struct LayerFiles(Vec<(Aov, Output)>);
 
 /// The same with their bytes.

@@ -1,4 +1,4 @@
-//! The look that is asked for, and the kind of pixel file that a name stands for.
+//! The requested output transform, and the file format of a name.
 
 use super::super::Failure;
 use super::super::args::{BitDepth, OutputTransformArgs};
@@ -9,7 +9,7 @@ use rtc_pipeline::{OutputTransform, PictureSetup};
 use rtc_render::Aov;
 use std::path::Path;
 
-/// The look that is asked for.
+/// The requested output transform.
 pub(super) fn look(args: &OutputTransformArgs, output: &Path) -> Result<OutputTransform, Failure> {
     let refused = |words: &str| Failure::Trouble(words.to_owned());
     let kind = kind(output, args.bits)?;
@@ -18,7 +18,9 @@ pub(super) fn look(args: &OutputTransformArgs, output: &Path) -> Result<OutputTr
     let look = OutputTransform::new(kind, tone, args.exposure, args.background.fill(kind), &aovs);
     let mut look = look.map_err(refused)?;
     if matches!(kind, FileFormat::Jpeg | FileFormat::Webp) && !aovs.is_empty() {
-        return Err(refused("layers are PNGs beside a PNG, or within an EXR"));
+        return Err(refused(
+            "layers need a PNG, with files beside it, or an EXR",
+        ));
     }
     look.has_metadata = !args.no_metadata;
     Ok(look)
@@ -36,7 +38,7 @@ pub(crate) fn refuse_layers(setup: &PictureSetup) -> Result<(), Failure> {
     ))
 }
 
-/// The kind of pixel file that a name stands for.
+/// The pixel file format of a name.
 pub(crate) fn kind(output: &Path, bits: Option<BitDepth>) -> Result<FileFormat, Failure> {
     let extension = output
         .extension()
@@ -61,7 +63,7 @@ pub(crate) fn kind(output: &Path, bits: Option<BitDepth>) -> Result<FileFormat, 
         (None, Some(BitDepth::Sixteen)) if is_stdout => Ok(FileFormat::Png16),
         (None, Some(BitDepth::Eight) | None) if is_stdout => Ok(FileFormat::Png8),
         _ => Err(Failure::Trouble(format!(
-            "can't tell what `{}` is to be; name it .png, .jpg, .webp or .exr",
+            "unknown picture format `{}`; use .png, .jpg, .webp or .exr",
             output.display()
         ))),
     }

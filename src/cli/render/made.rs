@@ -1,4 +1,4 @@
-//! A picture that was made: what is told of it, in words for people and as an object for programs.
+//! A finished picture: its messages, as text and as a JSON object.
 
 use super::super::{progress, system};
 use indicatif::{HumanBytes, HumanCount};
@@ -16,7 +16,7 @@ pub(crate) struct MadePicture {
     size: [u32; 2],
     /// The stops by which it was exposed, if they were found.
     exposure: Option<f64>,
-    /// What is said of its light.
+    /// The message about its light.
     light: String,
     counts: Counts,
     elapsed: Duration,
@@ -31,7 +31,7 @@ pub(crate) struct MadePicture {
 pub(super) struct Quality {
     /// The bound on its error in grey levels.
     pub(super) error: f64,
-    /// How bright light may be that no sample met, if there is no bound.
+    /// The largest radiance that no sample may have hit, if there is no bound.
     pub(super) undersampled: Option<f64>,
     pub(super) known: KnownBy,
 }
@@ -48,7 +48,7 @@ pub(super) enum KnownBy {
         /// The target in grey levels, if the picture ended with a larger bound.
         ends_above: Option<f64>,
     },
-    /// Some pixels of a denoised picture were sampled anew.
+    /// Some pixels of a denoised picture were sampled again.
     Probing {
         /// The likely error, in grey levels.
         estimate: f64,
@@ -60,7 +60,7 @@ pub(super) enum KnownBy {
 }
 
 impl MadePicture {
-    /// A picture as set up, of so many pixels, rays and seconds.
+    /// A picture with its setup, pixels, rays and seconds.
     pub(super) fn new(
         output: &Path,
         setup: &PictureSetup,
@@ -85,9 +85,8 @@ impl MadePicture {
         Self { quality, ..self }
     }
 
-    /// In words: its size, its light, its rays and how long they took; if `verbose`, how often each
-    /// effect
-    /// was simulated and what is on huge pages; how good it is.
+    /// The text: size, light, rays and time; if `verbose`, how often each effect was simulated and
+    /// the bytes on huge pages; the quality.
     pub(crate) fn words(&self, verbose: bool) -> String {
         let ([width, height], light) = (self.size, &self.light);
         let work = progress::summary(self.counts.rays(), self.elapsed);
@@ -128,7 +127,7 @@ pub(crate) fn effects(counts: &Counts) -> impl Iterator<Item = (&'static str, u6
     counted.filter(|(_, count)| *count > 0)
 }
 
-/// What a clamp took, in words.
+/// The energy lost by clamping, as text.
 fn clamped(light: &ClampedLight) -> String {
     let (share, paths) = (100.0 * light.share(), HumanCount(light.paths));
     format!("clamped: {paths} paths, which takes {share:.3} % of the light")
@@ -202,7 +201,7 @@ impl Quality {
         }
     }
 
-    /// Without a bound there is none in the object, but the error of what samples met.
+    /// Without a bound the object has only the error of the samples.
     fn object(&self) -> Value {
         let coarse = self.coarse();
         let has_bound = self.undersampled.is_none() && coarse.is_none();
@@ -237,36 +236,35 @@ impl Quality {
     }
 }
 
-/// A bound on the error in grey levels, in words; or how bright light may be, in multiples of
-/// white, that
-/// leaves none.
+/// A bound on the error in grey levels, as text; or the radiance, in multiples of white, that
+/// prevents a bound.
 fn bound(levels: f64, undersampled: Option<f64>) -> String {
     match undersampled {
         None => format!("{} (90 %)", error(levels)),
         Some(white) if white <= 1.0 => format!(
-            "no bound: what few samples show may be unmet; {} (90 %) of what was met",
+            "no bound: rare features may be missing; {} (90 %) for the sampled part",
             error(levels)
         ),
         Some(white) if white.is_infinite() => format!(
-            "no bound: paths find the light of lamps by way of smooth metal or glass by chance; \
-            {} (90 %) of what was met",
+            "no bound: paths hit lights via smooth metal or glass by chance; {} (90 %) for the \
+            sampled part",
             error(levels)
         ),
         Some(white) => format!(
-            "no bound: light {white:.0} times as bright as white may be unmet; {} (90 %) of what \
-            was met",
+            "no bound: light {white:.0} times as bright as white may be missing; {} (90 %) for the \
+            sampled part",
             error(levels)
         ),
     }
 }
 
-/// An error in grey levels, in words.
+/// An error in grey levels, as text.
 pub(super) fn error(levels: f64) -> String {
-    // Rounded up, so that the words promise no more than was measured.
+    // Rounded up, so that the text promises no more than the measurement.
     format!("error ≤ {:.2} grey levels", (levels * 100.0).ceil() / 100.0)
 }
 
-/// What is on huge pages, in words.
+/// The bytes on huge pages, as text.
 fn huge_pages() -> Option<String> {
     let bytes = system::huge_pages().filter(|bytes| *bytes > 0)?;
     Some(format!("huge pages: {}", HumanBytes(bytes)))

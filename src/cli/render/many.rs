@@ -1,4 +1,4 @@
-//! Pictures of many scenes, one after the other: what fails is told, and the rest goes on.
+//! Pictures of many scenes in sequence: failures are reported, the others continue.
 
 use super::super::reporter::{self, Reporter};
 use super::super::{Failure, args, files, interrupt};
@@ -12,7 +12,7 @@ use std::{fs, io};
 /// Stands for the name of a scene without its extension.
 const STEM: &str = "{stem}";
 
-/// A scene, and where its picture goes.
+/// A scene, and the destination of its picture.
 pub(super) struct RenderJob {
     scene: PathBuf,
     output: PathBuf,
@@ -76,9 +76,9 @@ enum Destination<'a> {
     Here,
     /// Into this folder, by the names of their scenes.
     Folder(&'a Path),
-    /// By this name, which holds [`STEM`].
+    /// A name that contains [`STEM`].
     Pattern(&'a str),
-    /// One picture goes there.
+    /// A destination for one picture.
     One(&'a Path),
 }
 
@@ -97,7 +97,7 @@ impl<'a> Destination<'a> {
         }
     }
 
-    /// Whether it is a place even for more than one picture by the words of whoever typed it.
+    /// Whether the argument is a destination for several pictures.
     fn is_for_many(&self) -> bool {
         matches!(self, Self::Folder(_) | Self::Pattern(_))
     }
@@ -131,7 +131,7 @@ pub(super) fn run(
 ) -> Result<(), Failure> {
     let mut plans = Vec::new();
     for RenderJob { scene, output } in jobs {
-        // What is wrong in the command is told once, before anything is read.
+        // Errors of the command are reported once, before any file is read.
         args.files = vec![scene.clone()];
         args.output = Some(output);
         plans.push((scene, RenderSetup::new(&args, typed)?));

@@ -1,5 +1,11 @@
-//! `rtc render`: a scene to a picture. What was typed becomes a [`RenderSetup`] before anything is
-//! read.
+//! `rtc render`: renders scenes to pictures.
+//!
+//! The arguments become a [`RenderSetup`] before any file is read. `rendering` renders one picture
+//! with the requested samples, target or time budget (`budget`). Variants: `checkpoint` saves
+//! progress, `part` renders a part, `strips` writes rows as they are finished, `turning` and
+//! `animation` render turntables, `many` renders several scenes, with a contact sheet (`sheet`).
+//! `look` resolves the output transform, `layers` writes AOVs, `made` reports the finished picture,
+//! `show` prints it in the terminal.
 
 mod animation;
 mod budget;
@@ -45,7 +51,7 @@ use std::path::{Path, PathBuf};
 struct RenderSetup {
     output: PathBuf,
     picture: PictureSetup,
-    /// What the command line asks for.
+    /// The requests of the command line.
     asked: Overrides,
     /// Views around the scene, if more than its own.
     turntable: Option<Views>,
@@ -239,7 +245,7 @@ impl RenderSetup {
         Ok(())
     }
 
-    /// The part of the picture that is rendered, for which there is memory, and where it goes.
+    /// The region of the picture, with its memory charged, and its destination.
     fn ready(
         &self,
         subject: &mut RenderSubject,
@@ -275,7 +281,7 @@ impl RenderSetup {
         Ok(())
     }
 
-    /// Renders one picture; it, and what is told of it.
+    /// Renders one picture; returns it with its messages.
     fn take(
         &self,
         subject: &mut RenderSubject,
@@ -313,7 +319,7 @@ impl RenderSetup {
     }
 }
 
-/// Ends a command whose render came to no end: where rays ran out is a finding about the scene.
+/// Ends a command with an unfinished render: exceeding the ray limit is a diagnostic of the scene.
 fn halted(error: RenderError, input: &mut Input, reporter: &mut Reporter) -> Result<(), Failure> {
     match error {
         RenderError::RanOut(diagnostic) => {
@@ -354,7 +360,7 @@ fn rules(args: &args::Pruning, goal: Goal) -> Rules {
     }
 }
 
-/// The picture that is asked for, of a kind that its name says.
+/// The requested picture, in the format of its name.
 pub(super) fn wanted(
     wanted: &args::WantedArgs,
     look: &args::OutputTransformArgs,

@@ -12,12 +12,12 @@ pub(super) struct PartSetup {
     shares: ShardPlan,
     /// The picture that it is of.
     picture: PathBuf,
-    /// The words of the command but for the share and the output.
+    /// The arguments of the command without the share and the output.
     command: Vec<String>,
 }
 
 impl PartSetup {
-    /// The share asked for, if any.
+    /// The requested share, if any.
     pub(super) fn new(args: &args::Render, typed: &[OsString]) -> Result<Option<Self>, Failure> {
         let Some([index, count]) = args.part else {
             return Ok(None);
@@ -25,8 +25,8 @@ impl PartSetup {
         let trouble = |words: &str| Err(Failure::Trouble(words.to_owned()));
         if has_goal(args) {
             return trouble(
-                "a part can't know when the whole picture is good enough; \
-                 give its samples, by `--spp` or `--supersampling`, in place of a goal",
+                "a part can't estimate the error of the whole picture; set its samples with \
+                `--spp` or `--supersampling` instead of a target",
             );
         }
         let is_one = args.frames.is_some_and(|[first, last]| first == last);
@@ -64,7 +64,7 @@ impl PartSetup {
     }
 }
 
-/// Whether a picture is asked for that is done when it is good enough.
+/// Whether the picture has a target instead of a number of samples.
 fn has_goal(args: &args::Render) -> bool {
     args.target_error.is_some() || args.time_budget.is_some()
 }

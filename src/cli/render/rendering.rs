@@ -15,7 +15,7 @@ use rtc_study::{
 };
 use std::time::Duration;
 
-/// What was rendered, and what is said of it.
+/// A render, and its messages.
 pub(super) struct Rendered {
     pub(super) image: Image,
     pub(super) coverage: Vec<f32>,
@@ -23,7 +23,7 @@ pub(super) struct Rendered {
     pub(super) pixels: Vec<PixelQuality>,
     pub(super) counts: Counts,
     pub(super) elapsed: Duration,
-    /// How good it is, if that was asked.
+    /// Its quality, if requested.
     pub(super) quality: Option<Quality>,
 }
 
@@ -70,9 +70,9 @@ impl Rendered {
     }
 }
 
-/// What was kept of a picture that grows, and who keeps it on its way.
+/// The saved state of a picture with a target, and its checkpointer.
 pub(super) struct KeptGrowth<'a> {
-    /// None, if nothing was.
+    /// `None` if there is none.
     pub(super) begun: &'a [u8],
     pub(super) every: Duration,
     pub(super) save: &'a (dyn Fn(Vec<u8>) + Sync),
@@ -87,7 +87,7 @@ impl<'a> KeptGrowth<'a> {
     ) -> Result<CheckpointSink<'a>, RenderError> {
         let begun = (!self.begun.is_empty()).then(|| ProgressiveRender::load(self.begun, order));
         let begun = begun.transpose().map_err(|error| {
-            RenderError::Refused(format!("what was saved can't be used: {error}"))
+            RenderError::Refused(format!("the checkpoint can't be used: {error}"))
         })?;
         Ok(CheckpointSink {
             resumed_from: begun,
@@ -108,8 +108,7 @@ pub(super) fn workers(threads: usize) -> usize {
 }
 
 impl RenderSetup {
-    /// The picture in the setting of the scene, or where its rays ran out, of which there may be so
-    /// many.
+    /// The picture in the setting of the scene, or the failure when it exceeds the ray limit.
     pub(super) fn trace(
         &self,
         subject: &mut RenderSubject,
@@ -140,9 +139,8 @@ impl RenderSetup {
         })
     }
 
-    /// The picture with the samples that its goal takes, or where its rays ran out; kept on its way
-    /// where
-    /// that is asked for.
+    /// The picture with the samples of its target, or the failure when it exceeds the ray limit;
+    /// with checkpoints if requested.
     pub(super) fn approach(
         &self,
         subject: &mut RenderSubject,

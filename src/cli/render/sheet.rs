@@ -57,7 +57,7 @@ impl Sheet {
                 .unwrap_or_default()
                 .to_string_lossy()
                 .into_owned();
-            // What is there of a scene that failed is from before.
+            // An existing picture of a failed scene is an old one.
             let path = made.get(path);
             let bytes =
                 path.and_then(|path| Loader.bytes(path, MAX_BYTES, &SourceMap::default()).ok());

@@ -27,16 +27,15 @@ pub(super) fn show(path: &Path) -> Result<(), Failure> {
     output::to_stdout(half_blocks(&shrunk(picture.image(), [width, width])).as_bytes())
 }
 
-/// The picture in lines of upper halves of blocks: their colour is that of the upper pixel, what is
-/// behind
-/// them that of the lower.
+/// The picture as lines of upper half blocks: the foreground is the upper pixel, the background the
+/// lower one.
 fn half_blocks(image: &Image) -> String {
     let mut text = String::new();
     let rows: Vec<_> = image.pixels.chunks(image.width.max(1) as usize).collect();
     for pair in rows.chunks(2) {
         for (x, upper) in pair[0].iter().enumerate() {
             let _ = write!(text, "\u{1b}[38;2;{}m", code(upper));
-            // Below the last row is nothing.
+            // Below the last row is the background.
             if let Some(lower) = pair.get(1).map(|row| &row[x]) {
                 let _ = write!(text, "\u{1b}[48;2;{}m", code(lower));
             }
@@ -47,7 +46,7 @@ fn half_blocks(image: &Image) -> String {
     text
 }
 
-/// A colour as terminals are told.
+/// A colour as a terminal escape.
 fn code(color: &[f64; 3]) -> String {
     color
         .map(|value| rtc_color::quantize8(value).to_string())

@@ -9,7 +9,7 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 impl RenderSetup {
-    /// Renders one picture in strips of about so many rows, and writes it.
+    /// Renders one picture in strips of the given rows, and writes it.
     pub(super) fn shoot_strips(
         &self,
         rows: Option<u32>,

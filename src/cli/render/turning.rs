@@ -1,4 +1,4 @@
-//! A turntable that is saved on its way: finished frames are kept, and the frame begun.
+//! A turntable with checkpoints: finished frames and the state of the current frame are saved.
 
 use super::super::Failure;
 use super::super::output::Output;
@@ -11,7 +11,7 @@ use rtc_source::{Loader, SourceMap};
 use std::ops::Range;
 use std::path::Path;
 
-/// The largest picture that is looked at again, in bytes.
+/// The largest picture file whose hash is checked, in bytes.
 const MAX_BYTES: u64 = 1 << 36;
 
 impl RenderSetup {
@@ -41,7 +41,7 @@ impl RenderSetup {
             return Err(saving.refused(&format!("it is of more than {count} frames")));
         }
         if saving.saved.is_some() {
-            // What was saved is of this scene, before a frame is done.
+            // The checkpoint is checked against the scene before any frame is rendered.
             turn(subject, begun)?;
             let window = self.picture.window(&subject.validated.lowered.scene)?;
             saving.saved = Some(self.begun(&mut saving, subject, window)?);

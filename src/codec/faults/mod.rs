@@ -28,9 +28,9 @@ const MAX_RUNS: usize = 64;
 pub(super) struct TextFault {
     /// The wrong bytes.
     pub(super) span: Span,
-    /// Their JSON pointer; `None` for what `serde_json` reports as a syntax error.
+    /// Their JSON pointer; `None` for syntax errors, which `serde_json` reports.
     pub(super) pointer: Option<String>,
-    /// What is wrong.
+    /// The message.
     pub(super) what: String,
 }
 

@@ -1,4 +1,4 @@
-//! `EX`: what is written for other renderers.
+//! `EX`: exports to other renderers.
 
 super::codes! { EX:
     NO_TWIN = "EX001", Warning, "a part of the scene has no exact equivalent in the other renderer";

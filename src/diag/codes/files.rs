@@ -7,5 +7,5 @@ super::codes! { IO:
     SETTINGS_WRONG = "IO004", Error, "an `rtc.toml` has a mistake";
     SETTINGS_UNKNOWN = "IO005", Warning, "an `rtc.toml` has an unknown key";
     SETTINGS_READ = "IO006", Note, "settings come from an `rtc.toml`";
-    SETTINGS_UNTRUSTED = "IO007", Warning, "an untrusted `rtc.toml` asks for more than it may";
+    SETTINGS_UNTRUSTED = "IO007", Warning, "an untrusted `rtc.toml` has a setting that needs trust";
 }

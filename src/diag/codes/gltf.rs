@@ -1,4 +1,4 @@
-//! `GL`: glTF assets, from the container to what is in the accessors.
+//! `GL`: glTF assets, from the container to the contents of accessors.
 
 super::codes! { GL:
     GLB_HEADER = "GL001", Error, "the header of a .glb file is wrong",
@@ -53,11 +53,11 @@ super::codes! { GL:
         ["INVALID_EXTENSION_NAME_FORMAT", "UNRESERVED_EXTENSION_PREFIX", "MULTIPLE_EXTENSIONS"];
     GLTF_URI = "GL021", Error, "a URI of a glTF asset is not valid",
         ["INVALID_URI", "BUFFER_DATA_URI_MIME_TYPE_INVALID"];
-    GLTF_OUTSIDE = "GL022", Error, "a URI of a glTF asset leads out of its folder",
+    GLTF_OUTSIDE = "GL022", Error, "a URI of a glTF asset leaves its folder",
         ["IO_ERROR", "NON_RELATIVE_URI"];
     GLTF_NO_FILE = "GL023", Error, "a file of a glTF asset cannot be read",
         ["IO_ERROR"];
-    GLTF_BUFFER = "GL024", Error, "a buffer of a glTF asset is shorter than it says",
+    GLTF_BUFFER = "GL024", Error, "a buffer of a glTF asset is shorter than its `byteLength`",
         ["BUFFER_BYTE_LENGTH_MISMATCH", "BUFFER_MISSING_GLB_DATA"];
     GLTF_VIEW = "GL025", Error, "a buffer view of a glTF asset is wrong",
         ["BUFFER_VIEW_TOO_LONG", "BUFFER_VIEW_TOO_BIG_BYTE_STRIDE",

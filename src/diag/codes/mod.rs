@@ -5,8 +5,8 @@
 //! Mitsuba, `PB` pbrt, `IR` the intermediate representation, `RD` rendering, `EX` export to other
 //! renderers.
 //!
-//! The page of a code, `pages/<CODE>.md`, says what it finds and why that matters, with an example
-//! that raises it and the fixed example; `tests/pages.rs` runs both.
+//! The page of a code, `pages/<CODE>.md`, states what it finds and why that matters, with an
+//! example that raises it and the fixed example; `tests/pages.rs` runs both.
 
 use std::fmt;
 
@@ -64,7 +64,7 @@ pub struct Code {
     pub id: &'static str,
     /// The severity unless an option changes it.
     pub severity: Severity,
-    /// One line: what is wrong.
+    /// One line: the error.
     pub summary: &'static str,
     /// The page of `rtc explain`, in Markdown: what the code finds, why it matters, an example that
     /// raises it and the same example without the mistake.

@@ -1,4 +1,4 @@
-//! `RD`: what a render found out about the scene.
+//! `RD`: diagnostics of rendering.
 
 super::codes! { RD:
     NOTHING_IN_VIEW = "RD001", Warning, "no camera ray hits anything";
@@ -8,7 +8,7 @@ super::codes! { RD:
     UNNUMBERED = "RD005", Warning, "pixels of the picture are not a number";
     RAYS_RAN_OUT = "RD006", Error, "the picture takes more rays than its limit";
     EXPOSED = "RD007", Note, "the exposure of the picture is automatic";
-    NEVER_SEEN = "RD008", Warning, "no ray of any pixel meets an object";
+    NEVER_SEEN = "RD008", Warning, "no ray of any pixel hits an object";
     FILLED = "RD009", Note, "the studio adds fill light to the light of the asset";
     FITTED = "RD010", Note, "the picture shows more than the camera of the asset";
     TOO_SHORT = "RD011", Warning, "the time budget is too short";

@@ -1,8 +1,8 @@
-//! `RE`: files that a scene names, and what is in them.
+//! `RE`: files that a scene names, and their contents.
 
 super::codes! { RE:
     FILE_NOT_FOUND = "RE001", Error, "a file of the scene does not exist";
-    FILE_OUTSIDE = "RE002", Error, "a file of the scene is in a place that scenes may not read";
+    FILE_OUTSIDE = "RE002", Error, "a file of the scene is in a folder that scenes may not read";
     FILE_ELSEWHERE = "RE003", Note, "a file is found under another name";
     BAD_PICTURE = "RE004", Error, "a texture is not a readable picture";
     HUGE_PICTURE = "RE005", Error, "a texture has too many pixels";

@@ -1,4 +1,4 @@
-//! `SC`: the shape of the document: keys, types, and what is missing.
+//! `SC`: the structure of the document: keys, types, and missing parts.
 
 super::codes! { SC:
     UNKNOWN_KEY = "SC001", Warning, "a key is unknown";

@@ -1,6 +1,6 @@
-//! `VA`: values that mean nothing, or surely not what was meant.
+//! `VA`: values that are invalid, or probably unintended.
 //!
-//! Numbers below 100 are those the proof finds, on any scene; from 100 on they are found in texts.
+//! Numbers below 100 are raised by validation, for any scene; from 100 on by the readers of texts.
 
 super::codes! { VA:
     NOT_FINITE = "VA001", Error, "a number is not finite or too large to compute with";

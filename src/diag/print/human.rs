@@ -41,7 +41,7 @@ pub(super) fn summary(name: &str, found: &[&Diagnostic], hidden: usize) -> Strin
     };
     let worst = found.iter().min_by_key(|diagnostic| diagnostic.severity);
     let explain = worst
-        .map(|worst| format!("; `rtc explain {}` tells more", worst.code))
+        .map(|worst| format!("; see `rtc explain {}`", worst.code))
         .unwrap_or_default();
     format!("{more}{}: {}{explain}\n", clean(name), counts(found))
 }

@@ -18,7 +18,7 @@ struct JsonDiagnostic<'a> {
     /// `error`, `warning` or `note`.
     #[schemars(extend("enum" = ["error", "warning", "note"]))]
     severity: &'a str,
-    /// What is wrong.
+    /// The message.
     message: &'a str,
     /// The file that was checked.
     file: &'a str,
@@ -26,7 +26,7 @@ struct JsonDiagnostic<'a> {
     primary: Option<Marked<'a>>,
     /// Other spans that matter.
     labels: Vec<Marked<'a>>,
-    /// What to do.
+    /// The hint.
     hints: Vec<Advice<'a>>,
     /// A JSON pointer to the value, or null.
     pointer: Option<&'a str>,
@@ -47,7 +47,7 @@ struct Marked<'a> {
 /// Advice.
 #[derive(Serialize, JsonSchema)]
 struct Advice<'a> {
-    /// What to do.
+    /// The hint.
     text: &'a str,
     /// As a change of the source, or null.
     replacement: Option<JsonChange<'a>>,
@@ -58,7 +58,7 @@ struct Advice<'a> {
 struct JsonChange<'a> {
     #[serde(flatten)]
     mark: Marked<'a>,
-    /// Whether it is a guess at what the author meant.
+    /// Whether it is a guess.
     guess: bool,
 }
 
@@ -85,7 +85,7 @@ pub(super) fn schema(settings: SchemaSettings) -> Schema {
         .into_root_schema_for::<JsonLine<'_>>()
 }
 
-/// One finding of the file `name`.
+/// One diagnostic of the file `name`.
 pub(super) fn diagnostic(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> String {
     let Diagnostic {
         code,

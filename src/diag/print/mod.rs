@@ -1,7 +1,10 @@
-//! Printers: diagnostics as text for people, editors, programs, code scanning and GitHub.
+//! Printers: diagnostics as text, in the formats of `--message-format`.
 //!
-//! The diagnostics of a file are sorted by span, equal ones are folded, and their number is capped.
-//! Control characters of the input are escaped. A printer returns text and writes nothing.
+//! A [`Printer`] takes the diagnostics of one file at a time. They are sorted by span, equal ones
+//! are folded (`fold`), and their number is capped. `human` shows the source with labels (`window`
+//! selects the lines), `short` prints one line each, `json` one object per line; `sarif` and
+//! `github` follow their specifications. Control characters of the input are escaped (`text`), so
+//! that no input can send a command to a terminal. A printer returns text and writes nothing.
 
 mod fold;
 mod github;
@@ -106,8 +109,7 @@ impl Printer {
     }
 
     /// The note about settings of a project file is printed once even without `-v`: the command
-    /// line
-    /// does not show them.
+    /// line does not show them.
     fn shows_settings(&self, diagnostic: &Diagnostic) -> bool {
         diagnostic.code.id == codes::SETTINGS_READ.id
             && self.options.least != Severity::Error

@@ -6,7 +6,7 @@ use crate::{Diagnostic, Label, Severity, codes};
 use rtc_source::{SourceMap, Span, uri_path};
 use serde_json::{Value, json};
 
-/// The whole log, of the results given; `omitted` findings were left out.
+/// The whole log of the given results; `omitted` diagnostics were left out.
 pub(super) fn log(results: &[Value], omitted: usize) -> String {
     let log = json!({
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",

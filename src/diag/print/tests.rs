@@ -1,5 +1,5 @@
-//! The printers on made-up findings, as whole texts; and that no bytes make them fail or let a
-//! command through.
+//! The printers on made-up diagnostics, as whole texts; no bytes make them fail, or send a command
+//! to the terminal.
 
 use super::*;
 use crate::codes;
@@ -276,7 +276,7 @@ fn errors_come_before_warnings_when_not_all_fit() {
     assert!(print(Format::Json, options, b"0123456789", flood).ends_with("\n{\"omitted\":4}\n"));
 }
 
-/// Nine lines, one finding in each: all equal but that of the second line.
+/// Nine lines, one diagnostic in each: all equal except that of the second line.
 #[test]
 fn equal_findings_are_folded_for_people_alone() {
     let lines = "a\n".repeat(9);
@@ -307,7 +307,7 @@ fn equal_findings_are_folded_for_people_alone() {
     );
     let short = print(Format::Short, PLAIN, lines.as_bytes(), flood);
     assert_eq!(short.lines().count(), 9);
-    // Three are few enough to be read.
+    // Three diagnostics are not folded.
     let few = |at: Span| flood(at).into_iter().take(4).collect();
     let text = print(Format::Human, PLAIN, lines.as_bytes(), few);
     assert_eq!(text.matches("the same word").count(), 3);

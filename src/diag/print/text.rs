@@ -32,7 +32,7 @@ pub(super) fn clean_except<'a>(text: &'a str, kept: &[char]) -> Cow<'a, str> {
     Cow::Owned(cleaned)
 }
 
-/// A visible character in place of `c`, of the same width, so that columns stay; tabs stay tabs.
+/// A visible character of the same width instead of `c`, so that columns stay; tabs stay tabs.
 pub(super) fn picture(c: char) -> char {
     match c {
         '\t' => '\t',

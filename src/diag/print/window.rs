@@ -1,6 +1,5 @@
 //! The lines of a file around some spans, safe to print: control characters are replaced, long
-//! lines
-//! are cut, and spans are mapped to the new text.
+//! lines are cut, and spans are mapped to the new text.
 //!
 //! The size of the result depends on the spans, and not on the size of the file or of its lines.
 //! Columns stay the same.

@@ -1,4 +1,4 @@
-//! Writes solids made of solids, as objects within objects.
+//! Writes CSG solids, as objects within objects.
 
 use super::{MaterialNames, SceneWriter};
 use crate::export::part_of;
@@ -35,7 +35,7 @@ impl Node {
     }
 }
 
-/// What the operands of a solid are written by.
+/// The inputs for writing operands.
 struct OperandLooks<'a, 's> {
     csg: &'s Csg,
     parts: &'s [Surface],
@@ -44,7 +44,7 @@ struct OperandLooks<'a, 's> {
 }
 
 impl<'s> SceneWriter<'s> {
-    /// Writes a solid made of solids, of which some surfaces are the parts.
+    /// Writes a CSG solid whose surfaces are parts of its boundary.
     pub(super) fn csg(
         &mut self,
         csg: &'s Csg,
@@ -99,7 +99,7 @@ impl<'s> SceneWriter<'s> {
         let solid = operands.csg.operands.get(index);
         let part = part_of(operands.parts, index);
         let (Some(solid), Some(part)) = (solid, part) else {
-            return Err("an operand of a solid made of solids has no surface".to_owned());
+            return Err("an operand of a CSG solid has no surface".to_owned());
         };
         self.shape(&solid.shape(), operands.scene)?;
         self.surface_look(part, operands.scene, operands.materials)?;

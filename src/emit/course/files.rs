@@ -122,7 +122,7 @@ impl<'s> FileNames<'s> {
             return original_file;
         }
         let Some(folder) = &self.folder else {
-            let message = "its meshes and images are to be files beside the text: give `-o FILE`";
+            let message = "its meshes and images are files beside the text: give `-o FILE`";
             return Err(message.to_owned());
         };
         let (fallback, extension, hash) = match content {

@@ -176,7 +176,7 @@ impl WriteShape for Ellipsoid {
 
 impl WriteShape for Csg {
     fn emit<'s>(&self, _: &mut SceneWriter<'s>, _: &'s Scene) -> Result<(), String> {
-        Err("a part of a solid made of solids is written with all its parts".to_owned())
+        Err("a CSG solid can only be written with all parts of its boundary".to_owned())
     }
 }
 
@@ -203,8 +203,8 @@ fn axis_angle_of(rows: [[f64; 3]; 3]) -> Option<([f64; 3], f64)> {
 }
 
 /// Candidates around a number with increasing step sizes: first `fraction` of the number, then 16
-/// times as much, and so on. The distance depends on what was rounded, so one step size would not
-/// do.
+/// times as much, and so on. The right step size depends on the rounding of the input, so one would
+/// not suffice.
 fn around(middle: f64, fraction: f64) -> impl Iterator<Item = f64> {
     const SCALES: u32 = 6;
     const STEPS: i32 = 1 << 15;

@@ -1,4 +1,4 @@
-//! Writes lights: `KHR_lights_punctual`, and in `extras.rtc` what it can't express.
+//! Writes lights: `KHR_lights_punctual`, and other values in `extras.rtc`.
 
 use super::document::{self, Index, Spot};
 use super::material::strength;

@@ -280,7 +280,7 @@ impl GltfWriter<'_> {
         let message = "Phong's model becomes the metallic-roughness material that comes nearest";
         self.reporter.report(&codes::GLTF_NEARLY, message, path);
         self.reporter
-            .in_extras("what Phong's model says of a material", path);
+            .in_extras("the Phong parameters of a material", path);
         let mut rtc_extras = json!({
             "color": color,
             "ka": ka,

@@ -6,8 +6,8 @@
 //!    settings to the [`document`].
 //! 3. `finish` adds the buffer and makes a [`GltfAsset`], which can be written.
 //!
-//! The Phong model is approximated by the metallic-roughness model. What glTF can't express goes to
-//! `extras.rtc`, which only rtc reads; each such value is reported.
+//! The Phong model is approximated by the metallic-roughness model. Values that glTF can't express
+//! go to `extras.rtc`, which only rtc reads; each such value is reported.
 
 mod camera;
 mod document;

@@ -44,7 +44,7 @@ impl GltfWriter<'_> {
         let extensions = map.map(|map| {
             self.root.extensions_used.insert("KHR_texture_transform");
             let transform = transform(map).unwrap_or_else(|| {
-                let message = "a texture is sheared, for which glTF has no words";
+                let message = "a texture is sheared, which glTF can't express";
                 self.reporter.report(&codes::GLTF_UNSAID, message, path);
                 json!({})
             });

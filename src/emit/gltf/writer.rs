@@ -26,7 +26,7 @@ pub(super) struct GltfWriter<'w> {
     /// The folder of sidecar files and their contents; `None` if there is one file only.
     pub(super) folder: Option<&'w str>,
     pub(super) files: BTreeMap<String, Vec<u8>>,
-    /// The objects written so far, by what they were written for.
+    /// The objects written so far, by their source.
     pub(super) images: BTreeMap<u32, Index<Image>>,
     pub(super) textures: BTreeMap<u32, Index<Texture>>,
     pub(super) samplers: BTreeMap<[u32; 3], Index<Sampler>>,
@@ -227,7 +227,7 @@ fn extent<const N: usize>(vectors: &[[f32; N]]) -> [Vec<f64>; 2] {
 impl ExportReporter<'_> {
     /// Reports that `what` is written to `extras.rtc`.
     pub(super) fn in_extras(&mut self, what: &str, path: ValuePath) {
-        let message = format!("{what} stands in `extras.rtc`, where only rtc reads it");
+        let message = format!("{what} is written to `extras.rtc`, which only rtc reads");
         self.report(&codes::GLTF_OWN_WORDS, &message, path);
     }
 }

@@ -42,12 +42,12 @@ impl MitsubaWriter<'_> {
                 self.line(1, "</emitter>");
             }
             Emitter::Spot { .. } => {
-                let message = "a spot is left out: Mitsuba's fades in another way at its rim";
+                let message = "a spot is left out: Mitsuba's has another falloff at its edge";
                 self.reporter.unsupported(message, path);
             }
             Emitter::Photometric { .. } => {
                 self.reporter
-                    .unsupported("a measured lamp is left out: Mitsuba has none", path);
+                    .unsupported("an IES light is left out: Mitsuba has none", path);
             }
         }
     }

@@ -104,7 +104,7 @@ impl Plugin {
         if is_glass(material) {
             let message = match rough > 0.0 && material.thickness == 0.0 {
                 true => "a thin rough pane is written as the border of a solid",
-                false => "Fresnel's formula stands for Schlick's on what light goes through",
+                false => "Mitsuba uses Fresnel's formula, not Schlick's, for transmissive surfaces",
             };
             let plugin = match (rough > 0.0, material.thickness > 0.0) {
                 (false, false) => "thindielectric",
@@ -118,7 +118,7 @@ impl Plugin {
             let message = "a coloured mirror is written without Schlick's rise towards white";
             (Self::Mirror, (!is_white).then_some(message))
         } else {
-            let message = "`principled` stands for the metallic-roughness material";
+            let message = "`principled` approximates the metallic-roughness material";
             (Self::Layered, Some(message))
         }
     }
@@ -168,7 +168,7 @@ fn missing_features(material: &Standard) -> Vec<&'static str> {
         ),
         (
             material.transmission > 0.0 && !is_glass(material),
-            "the light that goes through",
+            "the transmitted light",
         ),
         (
             has_layers(material, &base),

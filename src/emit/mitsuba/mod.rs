@@ -104,8 +104,8 @@ impl MitsubaWriter<'_> {
                 multiple_scattering: _,
             }) => *samples,
             Mode::Phong | Mode::Depth | Mode::Normal | Mode::Gooch(_) => {
-                let message = "Mitsuba traces paths, and this scene is shown in another way: \
-                               `--integrator path` shows what is written";
+                let message = "Mitsuba traces paths, and this scene uses another integrator: \
+                `--integrator path` renders the exported scene";
                 let path = ValuePath::new(EntityKind::Settings, 0, Field::Mode);
                 self.reporter.unsupported(message, path);
                 settings.supersampling.saturating_pow(2)

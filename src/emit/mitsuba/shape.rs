@@ -17,7 +17,7 @@ use xxhash_rust::xxh3::xxh3_64;
 const HEAD: u64 = 512;
 const TRIANGLE: u64 = 13;
 
-/// Whether a shape is written as it is, or as Mitsuba's nearest; a mesh stands for others.
+/// Whether a shape is written exactly, or as Mitsuba's closest; other shapes are tessellated.
 pub(super) fn is_written(shape: &Shape) -> bool {
     match shape {
         Shape::Quad(quad) => is_flat(quad.vertices.map(Vec3::from_array)),
@@ -90,7 +90,7 @@ impl MitsubaWriter<'_> {
             Shape::Disc(disc) => self.disc(disc, material),
             Shape::Plane(plane) => {
                 let width = shortest(2.0 * side(around));
-                let message = format!("Mitsuba has no plane: a square {width} wide stands for it");
+                let message = format!("Mitsuba has no plane: a square {width} wide replaces it");
                 self.reporter.unsupported(&message, path);
                 self.corners(&square(plane, around), &[[0, 1, 2], [0, 2, 3]], material);
             }
@@ -107,11 +107,11 @@ impl MitsubaWriter<'_> {
                 let finite = finite(cylinder, around);
                 let height = shortest(finite.height);
                 let message =
-                    format!("Mitsuba has no infinite cylinder: one {height} long stands for it");
+                    format!("Mitsuba has no infinite cylinder: one {height} long replaces it");
                 self.reporter.unsupported(&message, path);
                 self.cylinder_side(&finite, material);
             }
-            // Meshes stand for these.
+            // These are tessellated.
             Shape::Quad(_)
             | Shape::Cone(_)
             | Shape::Paraboloid(_)

@@ -64,7 +64,7 @@ fn matt(standard: &Standard) -> Phong {
 /// The features of a material that are not written.
 fn missing_features(phong: &Phong) -> Vec<&'static str> {
     let parts = [
-        (phong.kt > 0.0, "the light that goes through"),
+        (phong.kt > 0.0, "the transmitted light"),
         (phong.glossy_samples > 1, "the spread of its mirror image"),
         (phong.color_map.is_some(), "its texture"),
         (phong.specular_map.is_some(), "its specular map"),

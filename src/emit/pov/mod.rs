@@ -124,7 +124,7 @@ impl PovWriter<'_> {
             Projection::Orthographic => "orthographic",
         };
         if lens.radius > 0.0 {
-            let message = "the lens is left out: POV-Ray blurs by another pattern";
+            let message = "the lens is left out: POV-Ray samples it by another pattern";
             let path = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
             self.reporter.unsupported(message, path);
         }

@@ -61,10 +61,10 @@ impl PovWriter<'_> {
         ));
     }
 
-    /// Writes a solid made of solids, by the surfaces that are its parts.
+    /// Writes a CSG solid, by the surfaces that are its parts.
     fn csg(&mut self, csg: &Csg, parts: &[Surface], path: ValuePath) {
         let Some(text) = self.csg_text(csg, parts) else {
-            let message = "POV-Ray has no paraboloid: what is made of one is left out";
+            let message = "POV-Ray has no paraboloid: solids with one are left out";
             self.reporter.unsupported(message, path);
             return;
         };

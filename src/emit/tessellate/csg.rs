@@ -1,9 +1,9 @@
-//! Tessellates solids made of solids: the meshes of the operands, cut where the operations say so.
+//! Tessellates CSG solids: the meshes of the operands, clipped by the operations.
 //!
-//! A triangle of an operand belongs to the boundary of the whole if crossing it changes whether one
-//! is inside. Triangles of which only a part does are halved along their longest edge until they
-//! are small; of what is left, the middle decides. So faces lie on those of the operands, and the
-//! edges between them are frayed by the size of the smallest triangles.
+//! A triangle of an operand is on the boundary of the solid if crossing it goes from inside to
+//! outside. A triangle that is partly on the boundary is halved along its longest edge until it is
+//! small; then its centroid decides. So faces lie on those of the operands, and edges between them
+//! are jagged by the size of the smallest triangles.
 
 use super::{ShapeMesh, Tessellator};
 use crate::reporter::ExportReporter;
@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 const COARSEST: f64 = 1.0 / 16.0;
 /// The longest edge of a triangle at an edge of the solid.
 pub(super) const FINEST: f64 = 1.0 / 256.0;
-/// The distance between the two points that tell whether a triangle is on the boundary, in
+/// The distance between the two points that decide whether a triangle is on the boundary, in
 /// diagonals of the solid.
 const APART: f64 = 1e-6;
 /// How far the mesh of an operand may be from it, in diagonals of the solid.
@@ -35,7 +35,7 @@ struct ClipVertex {
 
 type ClipTriangle = [ClipVertex; 3];
 
-/// On which side of a face the solid lies.
+/// The side of a face that is inside the solid.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum SolidSide {
     Behind,
@@ -45,7 +45,7 @@ enum SolidSide {
 }
 
 impl Tessellator<'_> {
-    /// The mesh of the part of the boundary that lies on the faces.
+    /// The mesh of the part of the boundary on the faces.
     pub(super) fn csg(
         &self,
         csg: &Csg,
@@ -111,7 +111,7 @@ impl Tessellator<'_> {
     }
 }
 
-/// Clips triangles, and collects what is on the boundary.
+/// Clips triangles, and collects those on the boundary.
 struct Clipper<'c> {
     csg: &'c Csg,
     bounds: Bounds,
@@ -133,7 +133,7 @@ impl<'c> Clipper<'c> {
             let Solid::Plane(plane) = operand else {
                 return whole;
             };
-            // The square of a plane is a face of what is behind it.
+            // The square of a plane bounds the half space behind it.
             let back = Vec3::from_array(plane.normal) * (whole.max - whole.min).length();
             let corners = whole.corners();
             Bounds::of(
@@ -185,8 +185,8 @@ impl<'c> Clipper<'c> {
         None
     }
 
-    /// On which side of a face of an operand the solid lies at a point. Of faces that coincide, the
-    /// first operand's counts.
+    /// The side of an operand's face that is inside the solid at a point. Of coincident faces, the
+    /// first operand's wins.
     fn side(&self, operand: usize, point: Vec3, normal: Vec3) -> SolidSide {
         let bit = 1 << operand;
         let point = self.on_operand(operand, point, normal);
@@ -296,8 +296,7 @@ mod tests {
         })
     }
 
-    /// Six times the signed volume of what the triangles of a mesh enclose (the divergence
-    /// theorem).
+    /// Six times the signed volume enclosed by the triangles of a mesh (the divergence theorem).
     fn six_volumes(mesh: &Mesh) -> f64 {
         let points: Vec<_> = mesh.positions.iter().map(Vec3::from_array).collect();
         let volume = |triangle: &[u32; 3]| {

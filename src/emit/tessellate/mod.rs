@@ -5,7 +5,7 @@
 //!
 //! - [`Tessellator`] converts shape by shape and charges vertices to the budget.
 //! - [`Tessellation`] computes the numbers of steps from the tolerance.
-//! - `csg` cuts the meshes of the operands of a solid made of solids.
+//! - `csg` clips the meshes of the operands of a CSG solid.
 //! - [`UnitShape`] is a round shape of radius 1; `round` and `flat` build the meshes with
 //!   `MeshBuilder`.
 
@@ -42,16 +42,16 @@ enum ShapeMesh {
     World(Box<Mesh>),
 }
 
-/// The format that meshes are for: what its diagnostics say.
+/// The target format, for diagnostics.
 pub(super) struct TargetFormat {
     pub(super) name: &'static str,
-    /// The code of shapes that a mesh stands for.
+    /// The code for tessellated shapes.
     pub(super) approximated: &'static Code,
     /// Whether it has a shape, which stays as it is.
     pub(super) has: fn(&Shape) -> bool,
 }
 
-/// The scene with meshes in place of all shapes that the format lacks; `None` if they exceed the
+/// The scene with meshes instead of all shapes that the format lacks; `None` if they exceed the
 /// budget, which is reported.
 pub(super) fn with_meshes(
     scene: &Scene,
@@ -132,7 +132,7 @@ impl Tessellator<'_> {
         })
     }
 
-    /// The mesh of a shape that is no instance and not made of others.
+    /// The mesh of a shape that is neither an instance nor a CSG solid.
     fn simple(
         &self,
         shape: &Shape,
@@ -214,18 +214,18 @@ impl Tessellator<'_> {
         let message = match shape.kind() {
             ShapeKind::Triangle | ShapeKind::Instance => return,
             ShapeKind::Csg => format!(
-                "{format} has no union, intersection or difference: what is written is a mesh \
-                 whose edges lie within {} of its size",
+                "{format} has no union, intersection or difference: a mesh with edges \
+                 within {} of its size replaces it",
                 shortest(csg::FINEST)
             ),
             ShapeKind::Plane => {
                 format!(
-                    "{format} has no plane: what is written is a square {} wide",
+                    "{format} has no plane: a square {} wide replaces it",
                     side()
                 )
             }
             ShapeKind::InfiniteCylinder => format!(
-                "{format} has no infinite cylinder: what is written is one {} long",
+                "{format} has no infinite cylinder: one {} long replaces it",
                 side()
             ),
             ShapeKind::Sphere
@@ -236,7 +236,7 @@ impl Tessellator<'_> {
             | ShapeKind::Cone
             | ShapeKind::Paraboloid
             | ShapeKind::Torus => format!(
-                "{format} has no {}: what is written is a mesh {}",
+                "{format} has no {}: a mesh {} replaces it",
                 shape_name(shape),
                 self.tessellation.describe()
             ),

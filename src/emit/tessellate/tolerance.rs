@@ -9,7 +9,7 @@ const DEFAULT_TOLERANCE: f64 = 1e-3;
 /// The minimum number of steps around a circle.
 const MIN_STEPS: u32 = 12;
 
-/// The maximum distance between a mesh and its shape, apart from rounding to f32.
+/// The maximum distance between a mesh and its shape, before rounding to f32.
 pub(super) struct Tessellation(Option<f64>);
 
 impl Tessellation {
@@ -52,9 +52,8 @@ impl Tessellation {
         steps((height / (4.0 * fraction)).sqrt(), 2)
     }
 
-    /// Steps along each side of a bilinear patch with twist
-    /// a − b + c − d
-    /// , in units of its size: the diagonal of a cell of side s deviates by twist·s²/4.
+    /// Steps along each side of a bilinear patch with twist a − b + c − d , in units of its size:
+    /// the diagonal of a cell of side s deviates by twist·s²/4.
     pub(super) fn along_patch(twist: f64, fraction: f64) -> u32 {
         steps((twist / (4.0 * fraction)).sqrt(), 1)
     }

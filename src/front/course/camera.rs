@@ -209,7 +209,7 @@ fn image_plane(camera: &Camera) -> (Spanned<Point>, Spanned<Vector>) {
 fn report_pixel_size_without_effect(camera: &Camera, context: &mut Context<'_>) {
     let span = camera.pixel_size.read().and_then(|size| size.span);
     if let (Some(span), false) = (span, camera.uses_up_length()) {
-        let message = || "`pixelSize` has no effect beside `fov` or `right`".to_owned();
+        let message = || "`pixelSize` has no effect with `fov` or `right`".to_owned();
         context.report(&codes::NO_EFFECT, span, message, |d| {
             d.at(span, "ignored").severity(Severity::Warning)
         });
@@ -237,7 +237,7 @@ fn fov(camera: &Camera, up: &Spanned<Vector>, context: &mut Context<'_>) -> Opti
     }
     let length = length(Vec3::from_array(up.value.0));
     if let (Some(up_span), true) = (up.span, (length - 1.0).abs() > 1e-6) {
-        let message = || "the length of `up` has no effect beside `fov`".to_owned();
+        let message = || "the length of `up` has no effect with `fov`".to_owned();
         context.report(&codes::NO_EFFECT, up_span, message, |d| {
             d.at(up_span, "only the direction is used")
                 .also(span, "gives the size of a pixel")

@@ -1,5 +1,5 @@
 //! The basis of decoding: the trait [`Decode`], values with spans, and the context that collects
-//! all findings.
+//! all diagnostics.
 
 use super::schema::Definitions;
 use super::spelling::same_letters;
@@ -170,10 +170,10 @@ pub(super) struct MapEntry<'a> {
     pub(super) claimed: bool,
 }
 
-/// The number of findings that are remembered to prevent duplicates.
+/// The number of diagnostics that are remembered to prevent duplicates.
 const MAX_REMEMBERED: usize = 10_000;
 
-/// The state of decoding one tree, with its findings.
+/// The state of decoding one tree, with its diagnostics.
 pub(super) struct Context<'a> {
     pub(super) tree: &'a Tree<'a>,
     pub(super) options: &'a FrontOptions,
@@ -225,7 +225,8 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Reports a finding at `span`, unless the same code was reported there. `make` completes it.
+    /// Reports a diagnostic at `span`, unless the same code was reported there. `make` completes
+    /// it.
     pub(super) fn report(
         &mut self,
         code: &'static Code,
@@ -244,7 +245,7 @@ impl<'a> Context<'a> {
             .push(make(Diagnostic::new(code, message()).at(span, "")));
     }
 
-    /// The number of different findings so far.
+    /// The number of different diagnostics so far.
     pub(super) fn diagnostics(&self) -> usize {
         self.reported.len()
     }
@@ -328,7 +329,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// A short span that stands for a node: the first entry of a map, else the node.
+    /// A short span to represent a node: the first entry of a map, else the node.
     pub(super) fn head(&self, node: NodeId) -> Span {
         match self.tree.pairs(node).next() {
             Some((key, value)) if self.tree.is_map(node) => match self.tree.shape(value) {

@@ -21,7 +21,7 @@ record! {
         file: Spanned<FileName>, optional, keys!["file"];
         /// The rotation of the environment by angles in radians: first about x, then y, then z.
         rotation: Spanned<Vector>, optional, keys!["rotation"];
-        /// The rotation as nine numbers, in place of `rotation`: the rows of the matrix from
+        /// The rotation as nine numbers, instead of `rotation`: the rows of the matrix from
         /// directions of the world to those of the image.
         matrix: Spanned<RotationRows>, optional, keys!["matrix"];
     }
@@ -71,7 +71,7 @@ impl Lowering {
 /// Reports a `rotation` beside a `matrix`, which takes precedence.
 fn report_two_rotations(rotation: Option<Span>, context: &mut Context<'_>) {
     let Some(span) = rotation else { return };
-    let message = || "`rotation` has no effect beside `matrix`".to_owned();
+    let message = || "`rotation` has no effect with `matrix`".to_owned();
     context.report(&codes::NO_EFFECT, span, message, |d| {
         d.at(span, "no effect").severity(Severity::Warning)
     });

@@ -1,4 +1,4 @@
-//! Evaluates an arithmetic expression that a file has in place of a number, as `1/3`, `2*0.6` or
+//! Evaluates an arithmetic expression that a file has instead of a number, as `1/3`, `2*0.6` or
 //! `-pi/4`, so that a hint can propose its value.
 
 use std::f64::consts::PI;

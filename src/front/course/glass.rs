@@ -70,7 +70,7 @@ fn remove_own_color(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>
 
 /// Reports that glass transmits no light, because `MaxRecursionDepth` is 0.
 fn report_opaque_glass(span: Span, context: &mut Context<'_>) {
-    let message = || "without a `MaxRecursionDepth` nothing is seen through glass".to_owned();
+    let message = || "without a `MaxRecursionDepth` glass is opaque".to_owned();
     context.report(&codes::NO_EFFECT, span, message, |d| {
         d.at(span, "shows only its own colour")
             .severity(Severity::Warning)
@@ -97,7 +97,7 @@ pub(super) fn report_index_without_weight(material: &PhongMaterial, context: &mu
     let PhongMaterial { kt, eta, .. } = material;
     let refracts = eta.value.0 > 0.0 && (eta.value.0 - 1.0).abs() > 1e-9;
     if let (true, None, Some(span)) = (refracts, kt.span, eta.span) {
-        let message = || "an index of refraction alone refracts nothing".to_owned();
+        let message = || "an index of refraction alone has no effect".to_owned();
         context.report(&codes::NO_EFFECT, span, message, |d| {
             d.at(span, "without a weight")
                 .severity(Severity::Warning)

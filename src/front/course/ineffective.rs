@@ -1,6 +1,6 @@
 //! Reports keys that have no effect because another setting is missing.
 //!
-//! Each finding is reported once per scene, and only if the key has no effect anywhere in it.
+//! Each diagnostic is reported once per scene, and only if the key has no effect anywhere in it.
 
 use super::decode::{Context, Spanned};
 use super::lower::Lowering;
@@ -135,7 +135,7 @@ fn report_lens(scene: &Scene, context: &mut Context<'_>) {
     }
     if radius.value.0 > 0.0 && samples.value.0 == 1 {
         let message = "`apertureRadius` has no effect with one sample of the lens";
-        let hint = "`apertureSamples: 16` blurs what is out of focus";
+        let hint = "`apertureSamples: 16` blurs objects out of focus";
         report(radius.span, message, hint, Severity::Warning, context);
     }
 }

@@ -53,8 +53,8 @@ record! {
         /// The index of refraction, for instance 1.5 for glass; 0 is opaque.
         eta: Spanned<NonNegative>, default(NonNegative(1.0)),
             keys!["eta" "index" "nt" "ior" "refractiveIndex" "refractionIndex"], json "nt";
-        /// Whether `kt` is divided by the angle, as glass does: a part of it mirrors, and only the
-        /// rest goes through (Schlick's approximation of Fresnel's equations).
+        /// Whether `kt` is divided by Fresnel's equations, as in glass: a fraction is reflected,
+        /// the rest transmitted (Schlick's approximation).
         fresnel: Spanned<bool>, default(false), keys!["fresnel"];
         /// In some files the kind of material: `refraction` is glass, a `kt` of 1 without `ka` and
         /// `kd`; `reflection` and `default` have a mirror reflection of weight `ks`, though in
@@ -258,7 +258,7 @@ impl Lowering {
             context.report(&codes::TWO_READINGS, span, message, |d| {
                 d.at(span, "no mirror in some programs")
                     .also(ks.span, "the weight of the mirror image")
-                    .hint("a `ks` of 0 mirrors nothing, and has no highlight")
+                    .hint("a `ks` of 0 has no reflection and no highlight")
             });
         }
     }

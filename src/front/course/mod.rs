@@ -6,7 +6,7 @@
 //! ```
 //!
 //! 1. The parser of `rtc_source::tree::yaml` makes a tree in which every node has a span. `syntax`
-//!    turns its errors into findings.
+//!   turns its errors into diagnostics.
 //! 2. Maps are decoded to *records*. The macro `record!` (in `record`) declares a record once, in
 //!    the file that is named after it: `camera`, `light`, `material`, `object::sphere` and so on.
 //!    The declaration is the Rust type, its decoder and its schema. A field may have several
@@ -24,8 +24,8 @@
 //!
 //! What callers may rely on:
 //!
-//! * All mistakes are reported in one run. None stops it, except a text without a tree. `None`
-//!   always means that a finding was reported.
+//! * All errors are reported in one run. None stops it, except a text without a tree. `None` always
+//!   means that a diagnostic was reported.
 //! * An invalid object, light or material is omitted and an invalid camera is replaced, so that
 //!   the validator can check the rest.
 //! * Ranges are checked by the validator and not here, unless the IR cannot represent the value.

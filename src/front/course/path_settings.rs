@@ -21,8 +21,8 @@ record! {
 }
 
 impl Lowering {
-    /// Selects path tracing if the file asks for it, or if the scene has anything that only path
-    /// tracing renders. Call it after the lights and the objects.
+    /// Selects path tracing if the file requests it, or if the scene needs a feature of path
+    /// tracing. Call it after the lights and the objects.
     pub(super) fn resolve_mode(&mut self, scene: &Scene) {
         let Scene {
             mode,

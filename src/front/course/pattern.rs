@@ -1,4 +1,4 @@
-//! Procedural textures: patterns in closed form, in place of an image file.
+//! Procedural textures: patterns in closed form, instead of an image file.
 
 use super::decode::{Context, Decode, Spanned};
 use super::keyword::{Keyword, keyword_schema};
@@ -18,7 +18,7 @@ const SEED: Seed = Seed(0);
 const OCTAVES: Octaves = Octaves(4);
 
 record! {
-    /// A pattern as a texture. Its word alone is a texture too, with the defaults.
+    /// A pattern as a texture. Its keyword alone is a texture with the defaults.
     struct PatternMap, "pattern" {
         /// `checker`: cubes of the two colours in turn; `stripes`: slabs across the first axis;
         /// `noise`: gradient noise between the colours; `worley`: the distance to the nearest of
@@ -100,7 +100,7 @@ impl Decode for ColorPair {
 }
 
 impl PatternMap {
-    /// A pattern with the defaults, for its word.
+    /// A pattern with the defaults, for its keyword.
     fn of(pattern: PatternKind) -> Self {
         Self {
             pattern: Spanned::without_span(pattern),
@@ -153,7 +153,7 @@ impl Decode for FileOrPattern {
 }
 
 impl FileOrPattern {
-    /// The schemas of a file, of the word of a pattern, and of its map.
+    /// The schemas of a file, of the keyword of a pattern, and of its map.
     pub(super) fn variants(definitions: &mut Definitions) -> [Json; 3] {
         let word = keyword_schema(PatternKind::KEYWORDS);
         [
@@ -164,7 +164,7 @@ impl FileOrPattern {
     }
 }
 
-/// The pattern that a plain word names.
+/// The pattern that a keyword names.
 pub(super) fn pattern_word(node: NodeId, context: &Context<'_>) -> Option<PatternMap> {
     let NodeContent::Word(word) = context.tree.shape(node) else {
         return None;

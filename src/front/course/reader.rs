@@ -12,7 +12,7 @@ use rtc_source::Span;
 use rtc_source::tree::NodeId;
 use std::collections::BTreeSet;
 
-/// The number of findings after which no more suggestions are computed.
+/// The number of diagnostics after which no more suggestions are computed.
 const MAX_SUGGESTIONS: usize = 100;
 
 /// The largest number of keys in one spelling of a field.
@@ -31,7 +31,7 @@ pub(super) struct MapReader {
     rows: Vec<Option<&'static [&'static str]>>,
     /// The index of the map's first entry in the entries of the context.
     first_entry: usize,
-    /// The span that stands for the map in findings.
+    /// The span of the map for diagnostics.
     head: Span,
 }
 
@@ -234,7 +234,7 @@ impl MapReader {
         } = self.record;
         let span = context.tree.span(entry.key_node);
         // A suggestion costs a comparison with every key, so it is made only for the first
-        // findings.
+        // diagnostics.
         let advise = context.diagnostics() < MAX_SUGGESTIONS;
         let fields = fields.iter().enumerate();
         let unused = fields.filter(|(at, _)| advise && self.rows[*at].is_none());
@@ -303,7 +303,7 @@ impl MapReader {
 }
 
 /// The keys of a field that a suggestion may name. Other spellings of one or two letters are
-/// omitted, since they resemble too many words.
+/// omitted, since they resemble too many keys.
 fn suggestible_keys(field: &FieldDeclaration) -> impl Iterator<Item = &'static str> {
     let rows = field.spellings.iter().enumerate();
     rows.flat_map(|(at, spelling)| {
@@ -332,8 +332,8 @@ pub(super) fn missing_keys(
     });
 }
 
-/// Adds the suggested key to a finding. If it has the same letters and digits as the written key,
-/// the fix is certain.
+/// Adds the suggested key to a diagnostic. If it has the same letters and digits as the written
+/// key, the fix is certain.
 fn with_suggestion(
     d: Diagnostic,
     key: &str,

@@ -7,10 +7,11 @@ use rtc_diag::nearest;
 /// The schema that an editor is pointed to, at the end of its address.
 const SCHEMA: &str = "scene.schema.json";
 
-/// Shorter keys have to be spelt exactly: they are near too many words.
+/// Shorter keys must be spelt exactly: they resemble too many others.
 const SHORTEST_MISSPELT: usize = 5;
 
-/// So many keys may be misspelt: comparing words takes long, and scenes have few top-level keys.
+/// The maximum number of keys to compare with misspellings: comparisons are slow, and scenes have
+/// few top-level keys.
 const MOST_MISSPELT: usize = 256;
 
 /// Whether a text looks like a scene of the course: a top-level key is one of the format, or one of
@@ -44,7 +45,7 @@ fn is_nearly_scene_key(key: &str) -> bool {
     is_long(&key) && nearest(key, scene_keys().filter(is_long)).is_some()
 }
 
-/// The top-level keys of a text in block or flow style. The text begins with what is no blank.
+/// The top-level keys of a text in block or flow style. The text begins with a non-blank character.
 fn top_level_keys(text: &str) -> Vec<&str> {
     let content = text.lines().find(|line| {
         let line = line.trim_start();
@@ -64,7 +65,7 @@ fn block_key(line: &str) -> Option<&str> {
     (is_key && ends).then(|| key.trim_end().trim_matches(['"', '\'']))
 }
 
-/// The keys in the outermost brackets: the words before a colon.
+/// The keys in the outermost brackets: the tokens before a colon.
 fn flow_keys(text: &str) -> Vec<&str> {
     let (mut keys, mut depth, mut word) = (Vec::new(), 0_usize, None);
     let mut rest = text.char_indices().peekable();
@@ -77,7 +78,7 @@ fn flow_keys(text: &str) -> Vec<&str> {
                 let mut end = start;
                 while let Some((at, next)) = rest.next_if(|(_, next)| *next != letter) {
                     end = at + next.len_utf8();
-                    // What is escaped does not end the string.
+                    // An escaped quote does not end the string.
                     if next == '\\' && letter == '"' {
                         rest.next();
                     }

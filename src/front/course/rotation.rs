@@ -147,7 +147,7 @@ impl RotationKeys<'_> {
                 let other = rotation.read().and_then(|rotation| rotation.span);
                 report_no_rotation(
                     other,
-                    "`rotation` has no effect beside `axis` and `angle`",
+                    "`rotation` has no effect with `axis` and `angle`",
                     context,
                 );
                 Some(rotation_about(axis.value.0, angle.value.0))

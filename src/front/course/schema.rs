@@ -90,7 +90,7 @@ pub(super) fn object(definitions: &mut Definitions) -> Json {
     })
 }
 
-/// Whether this is the material that an object must have, or the object around it.
+/// Whether this is the required material of an object, or the object itself.
 fn is_own_material(field: &FieldDeclaration) -> bool {
     field.name == MATERIAL && matches!(field.requirement, Requirement::Required)
 }

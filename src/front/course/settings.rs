@@ -335,7 +335,7 @@ fn report_unused(scene: &Scene, context: &mut Context<'_>) {
         context.report(&codes::TWO_READINGS, span, message, |d| {
             d.at(span, "in some programs a shadow removes the highlight")
                 .also(mode.span, "the mode")
-                .hint("`RenderMode: phong` has shadows; `Shadows: false` says that none are meant")
+                .hint("`RenderMode: phong` has shadows; `Shadows: false` turns them off")
         });
     }
     // The other settings.

@@ -196,12 +196,12 @@ const FOREIGN_KEYS: &[ForeignKeys] = &[
     ForeignKeys {
         record: "camera",
         keys: &["aspect", "aspectRatio", "ratio"],
-        advice: "pixels are square, and `viewSize` says how many there are across and down",
+        advice: "pixels are square, and `viewSize` is their number across and down",
     },
     ForeignKeys {
         record: "camera",
         keys: &["focus", "focusDistance", "focalPlane", "focalPoint"],
-        advice: "what lies in the plane through `center` is in focus",
+        advice: "the plane through `center` is in focus",
     },
     ForeignKeys {
         record: "scene",

@@ -1,10 +1,10 @@
-//! Turns the syntax errors of the YAML parser into findings.
+//! Turns the syntax errors of the YAML parser into diagnostics.
 
 use rtc_diag::{Code, Diagnostic, Severity, clip, codes};
 use rtc_source::Span;
 use rtc_source::tree::yaml::{MAX_DEPTH, Mistake, Separator};
 
-/// The finding for a syntax error.
+/// The diagnostic for a syntax error.
 pub(super) fn diagnostic(mistake: Mistake<'_>) -> Diagnostic {
     match mistake {
         Mistake::Utf16 { span } => utf16(span),
@@ -86,7 +86,7 @@ fn control(character: u32, span: Span) -> Diagnostic {
     .replace("remove it", span, "")
 }
 
-/// The finding for an empty file.
+/// The diagnostic for an empty file.
 fn empty(span: Span) -> Diagnostic {
     let message = "the file contains no scene";
     at_span(&codes::EMPTY_FILE, message, span, "the end of the file")
@@ -117,7 +117,7 @@ fn not_utf8(byte: u8, span: Span) -> Diagnostic {
     at_span(&codes::NOT_UTF8, message, span, "not UTF-8").hint(hint)
 }
 
-/// The finding for a key that repeats because the separator between two list items is missing.
+/// The diagnostic for a key that repeats because the separator between two list items is missing.
 fn new_item(key: &str, first: Span, second: Span, separator: Separator) -> Diagnostic {
     let what = match separator {
         Separator::Dash(_) => "a dash",

@@ -11,7 +11,7 @@ use rtc_ir::{
 use rtc_source::Span;
 use std::collections::BTreeMap;
 
-/// The keyword for the texture coordinates of the surface, in place of a file.
+/// The keyword for the texture coordinates of the surface, instead of a file.
 const UV: &str = "UV";
 
 /// One white pixel.

@@ -189,7 +189,7 @@ const NUMBERED: &[(u8, &str, bool)] = &[(0, "false", false), (1, "true", true)];
 
 impl Decode for bool {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        // A number in place of a boolean.
+        // A number instead of a boolean.
         let value = plain_number(node, context);
         if let Some((_, scalar, boolean)) = NUMBERED
             .iter()
@@ -318,7 +318,7 @@ impl Decode for DisplayName {
     }
 }
 
-/// The name of a file, or a keyword in its place.
+/// The name of a file, or a keyword instead.
 #[derive(Clone, Debug)]
 pub(super) struct FileName(pub(super) String);
 

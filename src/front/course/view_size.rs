@@ -148,9 +148,9 @@ impl Lowering {
             let message =
                 || format!("the picture has {width} × {height} pixels, all of them square");
             context.report(&codes::NO_EFFECT, *span, message, |d| {
-                d.at(*span, "no effect").severity(severity(is_same)).hint(
-                    "`viewSize` of the `Camera`, or `ImageSize`, says how wide and high it is",
-                )
+                d.at(*span, "no effect")
+                    .severity(severity(is_same))
+                    .hint("`viewSize` of the `Camera`, or `ImageSize`, is its width and height")
             });
         }
     }

@@ -3,8 +3,8 @@
 use rtc_ir::{Map, Procedural, Scene, Texture, TextureId};
 use rtc_math::{TextureMapping, TexturePattern, to_u32};
 
-/// Adds a checkerboard, and returns its map: `rows` lead from the texture coordinates of a surface
-/// to squares of side 1, of which that at the origin has the first colour.
+/// Adds a checkerboard, and returns its map: `rows` map the texture coordinates of a surface to
+/// squares of side 1; the square at the origin has the first colour.
 pub(crate) fn checkerboard(
     [first, second]: [[f64; 3]; 2],
     rows: [[f64; 3]; 2],

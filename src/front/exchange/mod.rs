@@ -1,5 +1,5 @@
-//! What the readers of other renderers' scenes share: affine maps, colours and spectra,
-//! checkerboards, materials, and the meshes that stand for shapes which the IR does not have.
+//! Modules shared by the readers of other renderers' scenes: affine maps, colours and spectra,
+//! checkerboards, materials, and tessellations of shapes that the IR lacks.
 
 pub(crate) mod checkerboard;
 pub(crate) mod color;

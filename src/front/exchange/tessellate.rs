@@ -1,4 +1,4 @@
-//! The meshes that stand for the shapes of other renderers, in their own coordinates.
+//! Tessellations of shapes of other renderers, in their own coordinates.
 
 use super::transform::Transform;
 use rtc_ir::{Column, Mesh};

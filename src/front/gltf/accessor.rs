@@ -8,10 +8,10 @@ use super::report::AssetReport;
 use rtc_diag::codes;
 use rtc_source::tree::{NodeId, NodeKind};
 
-/// The most bytes of all accessors together that have no data of their own and stand for zeros.
+/// The maximum total size of accessors without data, which are zeros.
 const MAX_ZEROS: u64 = 1 << 24;
 
-/// What is done with elements that lie at odd addresses.
+/// The repair of misaligned elements.
 pub(super) const UNALIGNED: &str = "they are read from where they lie";
 
 /// Elements.
@@ -170,7 +170,7 @@ fn depends(accessor: &Accessor, report: &mut AssetReport<'_, '_>) {
     }
 }
 
-/// What can be said without looking at a view.
+/// The checks that need no buffer view.
 fn alone(accessor: &Accessor, layout: ElementLayout, report: &mut AssetReport<'_, '_>) {
     let fields = Fields::new(report.json, accessor.at);
     if layout.columns > 1 && accessor.view.is_some() && !accessor.offset.is_multiple_of(4) {
@@ -368,8 +368,7 @@ fn check_sparse(
     );
 }
 
-/// Refuses accessors that stand for more zeros than any asset needs; sparse ones are never sparser
-/// than that.
+/// Rejects accessors with more zeros than any asset needs; real sparse accessors have fewer.
 pub(super) fn check_claims(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     let mut left = MAX_ZEROS;
     for accessor in &doc.accessors {

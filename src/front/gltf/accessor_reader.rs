@@ -15,7 +15,7 @@ pub(super) struct AccessorReader<'d> {
     pub(super) count: usize,
     /// The first element and the bytes from one to the next; none for zeros.
     base: Option<(&'d [u8], usize)>,
-    /// The indices and the elements in their places.
+    /// The indices of a sparse accessor, and their elements.
     sparse: Option<(Integers<'d>, &'d [u8])>,
 }
 
@@ -107,8 +107,7 @@ impl<'d> AccessorReader<'d> {
         self.sparse.as_ref().map(|(indices, _)| *indices)
     }
 
-    /// The element at `at`, which is below the count, its components as the fractions they stand
-    /// for.
+    /// The element at `at`, which is below the count; normalised components are fractions.
     pub(super) fn at<const N: usize>(&self, at: usize) -> [f64; N] {
         let (layout, mut element) = (self.layout, Element::default());
         let replaced = self
@@ -140,8 +139,8 @@ impl<'d> AccessorReader<'d> {
             .filter(|_| self.sparse.is_none() && self.layout.columns == 1)
     }
 
-    /// Calls `see` with each element in turn. Of sparse ones that don't rise, only those that do
-    /// are put in place.
+    /// Calls `see` with each element in turn. Sparse elements whose indices do not increase are
+    /// skipped.
     pub(super) fn each(&self, mut see: impl FnMut(usize, &[f64])) {
         let ElementLayout {
             component, rows, ..
@@ -151,7 +150,8 @@ impl<'d> AccessorReader<'d> {
             |bytes| f64::from(u16::from_le_bytes(bytes)),
             |bytes| f64::from(u32::from_le_bytes(bytes)),
         );
-        // What large meshes are made of is read without asking each time of what type it is.
+        // Common component types are specialised, so that large meshes are read without a branch
+        // per element.
         match (component, rows, self.plain()) {
             (Component::F32, 2, Some(all)) => {
                 records::<2, _, _>(all, float, |at, element| see(at, element))
@@ -197,8 +197,7 @@ impl<'d> AccessorReader<'d> {
         }
     }
 
-    /// All elements, of `N` components; integers as the fractions they stand for, if they are
-    /// normalised.
+    /// All elements, of `N` components; normalised integers are fractions.
     pub(super) fn vectors<const N: usize>(&self) -> Vec<[f64; N]> {
         let mut vectors = Vec::with_capacity(self.count);
         self.each(|_, element| {
@@ -212,8 +211,7 @@ impl<'d> AccessorReader<'d> {
         vectors
     }
 
-    /// The same as a column of 32-bit floats, which hold what floats and short integers say
-    /// exactly.
+    /// The same as a column of 32-bit floats, which represent floats and short integers exactly.
     pub(super) fn column<const N: usize>(&self) -> Column<N> {
         let mut vectors = Vec::with_capacity(self.count);
         let ElementLayout {
@@ -250,7 +248,7 @@ impl<'d> AccessorReader<'d> {
         integers
     }
 
-    /// The same in groups of `N`; what is left over is left out.
+    /// The same in groups of `N`; an incomplete group is dropped.
     pub(super) fn groups<const N: usize>(&self) -> Vec<[u32; N]> {
         let ElementLayout {
             component, rows, ..
@@ -262,7 +260,7 @@ impl<'d> AccessorReader<'d> {
         self.integers().as_chunks().0.to_vec()
     }
 
-    /// What a component stands for (glTF 2.0, section 3.6.2.2).
+    /// The value of a component (glTF 2.0, section 3.6.2.2).
     pub(super) fn fraction(&self, number: f64) -> f64 {
         match self.layout.component.range() {
             Some([_, most]) if self.layout.normalized => (number / most).max(-1.0),
@@ -271,7 +269,7 @@ impl<'d> AccessorReader<'d> {
     }
 }
 
-/// Calls `see` with each of some records of `N` numbers, so many bytes after one another.
+/// Calls `see` with each of some records of `N` numbers at the given stride.
 #[inline(always)]
 fn records<const N: usize, const B: usize, T: Copy + Default>(
     (bytes, stride): (&[u8], usize),

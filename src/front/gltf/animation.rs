@@ -30,7 +30,7 @@ pub(super) struct Keyframes {
     pub(super) interpolation: Interpolation,
 }
 
-/// What lies between two keyframes.
+/// The interpolation between two keyframes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Interpolation {
     Linear,
@@ -64,7 +64,7 @@ impl Keyframes {
     }
 }
 
-/// What the checks of animations gather.
+/// The results of the checks of animations.
 pub(super) type AnimationLinks<'l> = (
     &'l mut Purposes,
     &'l mut Usages,

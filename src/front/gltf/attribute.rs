@@ -11,7 +11,7 @@ use rtc_diag::codes;
 use rtc_source::tree::NodeId;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What an accessor is to the vertices.
+/// The role of an accessor for the vertices.
 #[derive(Debug)]
 pub(super) struct Attribute {
     pub(super) at: NodeId,
@@ -32,7 +32,7 @@ pub(super) fn read(fields: Fields<'_, '_>) -> Vec<Attribute> {
     fields.json.pairs(fields.at).filter_map(attribute).collect()
 }
 
-/// What an attribute says of a vertex, with the number of its set.
+/// The semantic of an attribute, with the number of its set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Semantic {
     Position,
@@ -98,7 +98,7 @@ pub(super) fn check_names(primitive: &Primitive, report: &mut AssetReport<'_, '_
     let has = |semantic| semantics.contains(&semantic);
     let at = report.json.at_or(primitive.at, "attributes");
     if !primitive.attributes.is_empty() && !has(Semantic::Position) {
-        let message = "the primitive has no `POSITION`, so nothing of it shows".to_owned();
+        let message = "the primitive has no `POSITION`, so it is invisible".to_owned();
         report.add(
             &codes::GLTF_PRIMITIVE_ODD,
             "MESH_PRIMITIVE_NO_POSITION",
@@ -130,7 +130,7 @@ fn check_sets(semantics: &[Semantic], at: NodeId, report: &mut AssetReport<'_, '
     let mut counts = [0; 4];
     let present: BTreeSet<Semantic> = semantics.iter().copied().collect();
     for ((name, kind), count) in kinds.into_iter().zip(&mut counts) {
-        // A set number that no attribute has ends the sets; what lies beyond it is left over.
+        // The first missing set number ends the sets; higher ones are unused.
         *count = semantics
             .iter()
             .filter(|semantic| {
@@ -291,7 +291,7 @@ pub(super) fn check_place(
     }
 }
 
-/// What the elements of an attribute must be.
+/// The constraints on the elements of an attribute.
 pub(super) fn add_constraints(
     attribute: &Attribute,
     accessor: &Accessor,

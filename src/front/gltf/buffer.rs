@@ -15,7 +15,8 @@ pub(super) struct Buffer<'s> {
     pub(super) at: NodeId,
     /// Its `byteLength`.
     pub(super) length: Option<usize>,
-    /// The bytes, at least `length` of them; none if they could not be had, or are none of ours.
+    /// The bytes, at least `length` of them; `None` if they could not be loaded, or are an
+    /// unsupported placeholder.
     pub(super) bytes: Option<Bytes<'s>>,
     /// Its data is that of a compression extension.
     pub(super) is_fallback: bool,
@@ -24,7 +25,7 @@ pub(super) struct Buffer<'s> {
 /// Bytes that several buffers may share.
 pub(super) type Bytes<'s> = Rc<Cow<'s, [u8]>>;
 
-/// Where bytes are and how many: while the document holds them, what is equal is the same bytes.
+/// The address and length of some bytes: within a document, equal keys are the same bytes.
 pub(super) type ByteRange = (usize, usize);
 
 /// Where these bytes are.
@@ -59,11 +60,11 @@ pub(super) struct BufferView {
     pub(super) stride: Option<usize>,
     /// What its `target` says.
     target: Option<Purpose>,
-    /// What was compressed, decompressed.
+    /// Decompressed bytes.
     pub(super) decoded: Option<Bytes<'static>>,
 }
 
-/// What the bytes of a view are for.
+/// The usage of a buffer view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Purpose {
     Vertices,
@@ -107,7 +108,7 @@ impl BufferView {
 }
 
 impl BufferView {
-    /// A view of bytes that stand nowhere in the asset.
+    /// A view of bytes outside of the asset.
     pub(super) fn decoded(at: NodeId, bytes: Bytes<'static>) -> Self {
         let (buffer, offset, length, stride, target) = (None, 0, Some(bytes.len()), None, None);
         Self {
@@ -182,13 +183,13 @@ fn stride(view: &BufferView, report: &mut AssetReport<'_, '_>) {
         let message = "a view of indices has a stride";
         let (alias, repair) = (
             "BUFFER_VIEW_INVALID_BYTE_STRIDE",
-            "what uses it says what it holds",
+            "its users define its contents",
         );
         report.repair(&codes::GLTF_VIEW, alias, at, message, repair);
     }
 }
 
-/// What each view was seen to be for.
+/// The usage found for each view.
 pub(super) struct Purposes(Vec<Option<Purpose>>);
 
 impl Purposes {

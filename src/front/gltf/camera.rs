@@ -11,7 +11,7 @@ use rtc_math::shortest;
 pub(super) enum Projection {
     /// The vertical opening in radians, and width over height if the picture's own does not count.
     Perspective { yfov: f64, aspect: Option<f64> },
-    /// Half the width and half the height of what is seen.
+    /// Half the width and half the height of the view volume.
     Orthographic { xmag: f64, ymag: f64 },
 }
 

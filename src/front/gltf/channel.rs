@@ -13,7 +13,7 @@ use super::report::AssetReport;
 use rtc_diag::codes;
 use rtc_source::tree::NodeId;
 
-/// The extension whose channels name what they move by a pointer.
+/// The extension whose channels name their property by a JSON pointer.
 const POINTER: &str = "KHR_animation_pointer";
 
 /// What moves, and how.
@@ -100,7 +100,8 @@ pub(super) fn check_pointers(
         }
         let named = channel.pointer.as_deref();
         if named.is_some_and(|named| pointer::resolve(doc, report.json, named).is_none()) {
-            let message = "what the pointer names is not followed, so it does not move".to_owned();
+            let message =
+                "the property of the pointer is not supported, so it is not animated".to_owned();
             report.add(&codes::GLTF_MATERIAL_ODD, "", extension.at, message);
         }
         if target.has("node") {
@@ -160,7 +161,7 @@ pub(super) fn check(
     }
 }
 
-/// How many elements the keyframes of a channel have, for so many times.
+/// The number of elements of a channel's keyframes, for the given number of times.
 fn expected(
     doc: &Document<'_>,
     channel: &Channel,

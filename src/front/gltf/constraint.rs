@@ -7,8 +7,8 @@ use super::report::AssetReport;
 use rtc_diag::codes;
 use rtc_source::tree::NodeId;
 
-/// How far a vector of three or four components may be from length 1: what 8 bits a component
-/// allow.
+/// The tolerance of the length of a unit vector of three or four components: the quantisation of 8
+/// bits per component.
 const UNIT_3: f64 = 0.006_74;
 const UNIT_4: f64 = 0.007_69;
 
@@ -27,7 +27,7 @@ pub(super) enum AccessorConstraint {
     Rotations,
     /// Of three elements the second is a rotation of length 1.
     CubicRotations,
-    /// Indices below so many, of a primitive of this mode.
+    /// Indices below the vertex count, of a primitive of this mode.
     Below(usize, u64),
     /// Matrices whose last row is 0, 0, 0, 1.
     Affine,

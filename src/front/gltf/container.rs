@@ -8,7 +8,7 @@ use std::ops::Range;
 
 /// The first bytes of a `.glb` file.
 const MAGIC: &[u8] = b"glTF";
-/// The types of the chunks, as they stand in the file.
+/// The types of the chunks, as stored in the file.
 const JSON: &[u8] = b"JSON";
 const BIN: &[u8] = b"BIN\0";
 /// Bytes of the header of the file and of a chunk.
@@ -65,7 +65,7 @@ pub(super) fn open(file: FileId, bytes: &[u8], is_lenient: bool, sink: &mut Sink
 struct Scan<'a> {
     file: FileId,
     bytes: &'a [u8],
-    /// Chunks of odd lengths are mended.
+    /// Chunks of odd lengths are repaired.
     is_lenient: bool,
     sink: &'a mut Sink,
     json: Option<Range<usize>>,
@@ -89,13 +89,13 @@ impl Scan<'_> {
     /// Reports a chunk whose length is not a multiple of 4.
     fn unaligned(&mut self, header: Range<usize>, name: &str) {
         let message = format!("the length of the {name} chunk is not a multiple of 4");
-        let repair = "the next chunk is looked for behind it";
+        let repair = "the next chunk is searched after it";
         let diagnostic = Diagnostic::new(&codes::GLB_CHUNK, &message);
         let diagnostic = if self.is_lenient {
             Diagnostic::new(&codes::GLB_CHUNK, format!("{message}: {repair}"))
                 .severity(Severity::Warning)
         } else {
-            diagnostic.hint(format!("`--lenient` mends this: {repair}"))
+            diagnostic.hint(format!("`--lenient` repairs this: {repair}"))
         };
         let at = self.span(header);
         self.sink
@@ -123,7 +123,7 @@ impl Scan<'_> {
         usize::try_from(u32::from_le_bytes([word[0], word[1], word[2], word[3]])).ok()
     }
 
-    /// The header; `None` if what follows can't be trusted.
+    /// The header; `None` if the rest can't be trusted.
     fn header(&mut self) -> Option<()> {
         let code = &codes::GLB_HEADER;
         let size = self.bytes.len();

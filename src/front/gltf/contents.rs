@@ -10,15 +10,15 @@ use super::unused::VertexUses;
 use rtc_diag::codes;
 use rtc_math::shortest;
 
-/// Components that are looked at, for each byte of the buffers and beside that.
+/// The maximum number of components checked, per byte of the buffers and in addition.
 const LOOKS: u64 = 16;
 const FREE_LOOKS: u64 = 1 << 24;
 
-/// What is done with bounds that are not true.
+/// The repair of wrong bounds.
 const BOUNDS: &str = "the values count";
 
-/// Checks the elements of each accessor once, whatever uses it. What was compressed is no longer
-/// exact, so bounds and lengths don't count there.
+/// Checks the elements of each accessor once, for all its uses. Decompressed values are no longer
+/// exact, so bounds and lengths are not checked.
 pub(super) fn check(
     doc: &Document<'_>,
     constraints: AccessorConstraints,
@@ -126,8 +126,8 @@ fn sparse(elements: &AccessorReader<'_>, accessor: &Accessor, report: &mut Asset
     }
 }
 
-/// True if the elements begin at a multiple of the size of their components. Of others the fault is
-/// told; what is in them is looked at where it is mended.
+/// True if the elements are aligned to the size of their components. Misaligned elements are
+/// reported; their values are checked only if they are repaired.
 fn is_aligned(doc: &Document<'_>, accessor: &Accessor) -> bool {
     let view = accessor.view.and_then(|view| doc.views.get(view));
     let start = view.map_or(0, |view| match view.decoded {
@@ -138,7 +138,7 @@ fn is_aligned(doc: &Document<'_>, accessor: &Accessor) -> bool {
     accessor.view.is_none() || (start.saturating_add(accessor.offset)).is_multiple_of(size)
 }
 
-/// Reports so many elements that are not finite, of which this is the first.
+/// Reports the number of elements that are not finite, and the first of them.
 fn not_finite(
     (count, first): (usize, usize),
     is_unused: bool,
@@ -170,8 +170,7 @@ fn values(
     if !is_float && accessor.min.is_none() && accessor.max.is_none() {
         return Vec::new();
     }
-    // The first element counts whatever it is, of the others those that compare, as the validator
-    // has it.
+    // The first element is a bound even if it is NaN, as in the validator of Khronos.
     let (mut least, mut most) = ([0.0; 16], [0.0; 16]);
     let mut bad = Vec::new();
     elements.each(|at, element| {
@@ -237,7 +236,7 @@ fn count_beyond(elements: &AccessorReader<'_>, declared: &[f64], is_min: bool) -
     beyond
 }
 
-/// Compares one component of a bound with what was found; the elements beyond the bound are counted
+/// Compares one component of a bound with the actual one; the elements beyond the bound are counted
 /// when first needed.
 fn bound(
     (elements, all, beyond): (&AccessorReader<'_>, &[f64], &mut Option<[usize; 16]>),

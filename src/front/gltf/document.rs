@@ -22,7 +22,7 @@ pub(super) struct Document<'s> {
     pub(super) views: Vec<BufferView>,
     pub(super) accessors: Vec<Accessor>,
     pub(super) images: Vec<Image>,
-    /// What the images were decoded to, without names.
+    /// The decoded images, without names.
     pub(super) pictures: Vec<rtc_ir::Image>,
     pub(super) samplers: Vec<TextureSampler>,
     pub(super) textures: Vec<Texture>,

@@ -1,5 +1,5 @@
-//! Primitives compressed by Draco (`KHR_draco_mesh_compression`): decoded by `draco-core`, and put
-//! in place as views of the accessors that stand for them. The one file that names the decoder.
+//! Primitives compressed by Draco (`KHR_draco_mesh_compression`): `draco-core` decodes them into
+//! views for their accessors. This is the only file that names the decoder.
 
 use super::buffer::{BufferView, ByteRange, Bytes, byte_range};
 use super::document::Document;
@@ -18,11 +18,11 @@ use std::rc::Rc;
 const MAX_RATIO: u64 = 256;
 const FREE: u64 = 1 << 20;
 
-/// Bytes that a point and a triangle take while they are decoded, beside what becomes of them.
+/// Temporary bytes per point and per triangle while decoding.
 const POINT: u64 = 48;
 const FACE: u64 = 48;
 
-/// What a primitive says of its compressed data.
+/// The description of the compressed data of a primitive.
 struct CompressedPrimitive {
     at: NodeId,
     view: usize,
@@ -31,7 +31,7 @@ struct CompressedPrimitive {
     indices: Option<usize>,
 }
 
-/// What was decoded so far, each thing once.
+/// The decoded primitives, each once.
 #[derive(Default)]
 struct DecodedData {
     meshes: BTreeMap<(ByteRange, Size), Result<Rc<Mesh>, String>>,
@@ -140,7 +140,7 @@ fn unpack(
             packed.at,
             "the compressed primitive",
         ) {
-            return Err("it asks for too much".to_owned());
+            return Err("it exceeds a limit".to_owned());
         }
         let column = Rc::new(Cow::Owned(column(&mesh, number, layout)));
         made.columns.insert(key, Rc::clone(&column));
@@ -172,7 +172,7 @@ fn charge(
     if is_small {
         Ok(())
     } else {
-        Err("it asks for too much".to_owned())
+        Err("it exceeds a limit".to_owned())
     }
 }
 

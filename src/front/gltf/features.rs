@@ -10,7 +10,7 @@ const SRGB: [u32; 8] = [
     31_270, 32_900, 64_000, 33_000, 30_000, 60_000, 15_000, 6_000,
 ];
 
-/// What an image has that is not followed, if it has any such thing.
+/// The unsupported feature of an image, if any.
 pub(super) fn unfollowed(format: ImageCoding, bytes: &[u8]) -> Option<&'static str> {
     match format {
         ImageCoding::Png => png(bytes),
@@ -45,7 +45,7 @@ fn png(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// The type and the content of a chunk, and what comes after it.
+/// The type and the content of a chunk, and the bytes after it.
 fn chunk(bytes: &[u8]) -> Option<(&[u8], &[u8], &[u8])> {
     let (head, rest) = bytes.split_at_checked(8)?;
     let length = usize::try_from(u32::from_be_bytes([head[0], head[1], head[2], head[3]])).ok()?;

@@ -41,7 +41,7 @@ impl<'t, 's> Fields<'t, 's> {
         self.node(key).is_some()
     }
 
-    /// The object that `key` holds.
+    /// The object at `key`.
     pub(super) fn object(&self, key: &str) -> Option<Self> {
         let at = self
             .node(key)
@@ -59,7 +59,7 @@ impl<'t, 's> Fields<'t, 's> {
         self.object("extras")?.object("rtc")
     }
 
-    /// The objects of the list that `key` holds.
+    /// The objects of the list at `key`.
     pub(super) fn objects(&self, key: &str) -> impl Iterator<Item = Self> + use<'t, 's> {
         let (json, list, animated) = (self.json, self.node(key), self.animated);
         let list = list.filter(|list| json.kind(*list) == NodeKind::List);
@@ -119,7 +119,7 @@ impl<'t, 's> Fields<'t, 's> {
             .collect()
     }
 
-    /// A list of just so many finite numbers.
+    /// A list of exactly `N` finite numbers.
     pub(super) fn vector<const N: usize>(&self, key: &str) -> Option<[f64; N]> {
         self.numbers(key)?.try_into().ok()
     }
@@ -138,7 +138,7 @@ impl<'t, 's> Fields<'t, 's> {
         self.json.text(self.node(key)?).map(str::to_owned)
     }
 
-    /// True if `key` holds the text given.
+    /// True if the string at `key` is this text.
     pub(super) fn is(&self, key: &str, text: &str) -> bool {
         self.node(key).is_some_and(|node| self.json.is(node, text))
     }

@@ -65,12 +65,12 @@ const PREFIXES: &[&str] = &[
     "WEB3D",
 ];
 
-/// What to do with glTF 1.0.
+/// The hint for glTF 1.0.
 pub(super) const CONVERT: &str =
-    "convert it with `gltf-pipeline -i old.gltf -o new.glb`, or export it anew as glTF 2.0";
+    "convert it with `gltf-pipeline -i old.gltf -o new.glb`, or export it again as glTF 2.0";
 
-/// Where an asset shows that it is glTF 1.0: its version, which may be a number there, a profile,
-/// or parts that have names in place of numbers.
+/// The evidence that an asset is glTF 1.0: its version, which may be a number there, a profile, or
+/// entities with names instead of numbers.
 fn of_first_version(json: &Tree<'_>) -> Option<NodeId> {
     let root = json.root();
     let version = json.at(root, &["asset", "version"]);
@@ -139,7 +139,7 @@ pub(super) fn check_version(report: &mut AssetReport<'_, '_>) -> bool {
     };
     if least > (major, minor) {
         let message = format!(
-            "the asset needs glTF {}.{}, and says that it is {major}.{minor}",
+            "the asset needs glTF {}.{}, but its version is {major}.{minor}",
             least.0, least.1
         );
         report.add(

@@ -62,7 +62,7 @@ impl ImageCoding {
         }
     }
 
-    /// True if the bytes end before the size of the image is told.
+    /// True if the bytes end before the header with the size.
     fn ends_early(self, bytes: &[u8]) -> bool {
         match self {
             Self::Png => bytes.len() < 33,
@@ -124,7 +124,7 @@ impl Document<'_> {
     }
 }
 
-/// Checks what is written about each image.
+/// Checks the properties of each image.
 pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut AssetReport<'_, '_>) {
     for image in doc
         .images
@@ -161,11 +161,11 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut As
     }
 }
 
-/// Why an image is refused: a code, the validator's name for it, and words.
+/// The reason for rejecting an image: a code, the validator's name for it, and a message.
 type ImageFault = (&'static Code, &'static str, String);
 
-/// Looks at the bytes of each image, and decodes them on so many threads, 0 for one per core;
-/// images of the same bytes are one picture.
+/// Checks the bytes of each image, and decodes them on the given number of threads, 0 for one per
+/// core; identical bytes are decoded once.
 pub(super) fn inspect(doc: &mut Document<'_>, threads: usize, report: &mut AssetReport<'_, '_>) {
     let mut decoded = decoded(doc, threads, report.budget);
     let mut known: BTreeMap<ByteRange, Result<usize, ImageFault>> = BTreeMap::new();
@@ -207,7 +207,7 @@ pub(super) fn inspect(doc: &mut Document<'_>, threads: usize, report: &mut Asset
                     return report.exceeded(at, "the image", &fault);
                 }
                 Some(Err(Rejection::Fault(fault))) => Err(fault),
-                // One of them asks for too much, and is told.
+                // One of them exceeds the budget, which was reported.
                 None => continue,
             },
         };
@@ -221,7 +221,7 @@ pub(super) fn inspect(doc: &mut Document<'_>, threads: usize, report: &mut Asset
     }
 }
 
-/// An image is of the type that is said, and of one that the asset may have.
+/// An image must have the declared type, and one that the asset allows.
 fn check_media(
     doc: &Document<'_>,
     (format, media): (ImageCoding, Option<&str>),
@@ -230,7 +230,7 @@ fn check_media(
 ) {
     if let Some(media) = media.filter(|media| *media != format.media()) {
         let message = format!(
-            "the image is {}, not {}, as is said",
+            "the image is {}, not {} as declared",
             format.media(),
             super::report::shown(media)
         );
@@ -262,8 +262,8 @@ enum Rejection {
     Limit(Exceeded),
 }
 
-/// What becomes of the bytes of images, up to the first that asks for too much: all are charged, in
-/// their order, before any is decoded.
+/// The decoded images, up to the first that exceeds the budget: all are charged, in order, before
+/// any is decoded.
 fn decoded(
     doc: &Document<'_>,
     threads: usize,
@@ -289,7 +289,7 @@ fn decoded(
             }
         }
     }
-    // What is refused for its size is not worth decoding the rest.
+    // After an image is rejected for its size, the rest is not decoded.
     if pictures
         .values()
         .any(|range| matches!(range, Err(Rejection::Limit(_))))
@@ -310,7 +310,7 @@ fn admit<'a>(
     budget: &Budget,
 ) -> Result<ChargedFile<'a>, Rejection> {
     if format.ends_early(bytes) {
-        let message = "the image ends before it tells its size".to_owned();
+        let message = "the image ends before its size".to_owned();
         return Err(Rejection::Fault((
             &codes::GLTF_IMAGE,
             "IMAGE_UNEXPECTED_EOS",

@@ -8,7 +8,7 @@ use rtc_source::Resource;
 use rtc_source::tree::NodeId;
 use std::collections::BTreeSet;
 
-/// What is wrong with the joints of some vertex, and where it was seen first.
+/// The errors in the joints of vertices, and the first vertex of each.
 #[derive(Default)]
 struct Influences {
     out: Option<usize>,
@@ -69,7 +69,7 @@ pub(super) fn check(
 
 impl Influences {
     fn look(&mut self, at: usize, vertex: &[(f64, f64)], joints: f64) {
-        /// What each weight may add to what the sum misses.
+        /// The tolerance of the sum of weights, per weight.
         const ROUNDING: f64 = 2e-7;
         let put = |slot: &mut Option<usize>| {
             slot.get_or_insert(at);
@@ -98,7 +98,7 @@ impl Influences {
         }
     }
 
-    /// Reports what was found of the primitive at a node.
+    /// Reports the errors of the primitive at a node.
     fn report(self, at: NodeId, report: &mut AssetReport<'_, '_>) {
         let Influences {
             out,

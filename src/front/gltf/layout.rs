@@ -62,14 +62,14 @@ impl Component {
     }
 }
 
-/// How an element is laid out: columns of components, each column of a matrix starting at a
-/// multiple of four bytes.
+/// The layout of an element: columns of components, each column of a matrix starting at a multiple
+/// of four bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ElementLayout {
     pub(super) component: Component,
     pub(super) columns: usize,
     pub(super) rows: usize,
-    /// Integers stand for fractions of the greatest.
+    /// Integers are fractions of the largest value.
     pub(super) normalized: bool,
 }
 
@@ -89,12 +89,12 @@ impl ElementLayout {
         }
     }
 
-    /// Bytes from one element to the next where nothing lies between.
+    /// The stride of tightly packed elements, in bytes.
     pub(super) fn packed(self) -> usize {
         self.columns * self.column()
     }
 
-    /// Bytes of an element without what pads it.
+    /// The bytes of an element without padding.
     pub(super) fn size(self) -> usize {
         self.packed() - self.column() + self.rows * self.component.size()
     }

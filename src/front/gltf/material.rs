@@ -7,7 +7,7 @@ use rtc_diag::codes;
 use rtc_math::shortest;
 use rtc_source::tree::{NodeId, NodeKind, Tree};
 
-/// Each texture of a material with the set of texture coordinates it asks for.
+/// Each texture of a material with its set of texture coordinates.
 pub(super) fn texture_coordinates(
     doc: &Document<'_>,
     json: &Tree<'_>,
@@ -93,7 +93,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     report_occlusion(doc, report);
 }
 
-/// Says once that shade that was baked is not shown: what hides the light is in the scene.
+/// Reports once that baked occlusion is ignored: the scene's own geometry occludes the light.
 fn report_occlusion(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     let json = report.json;
     let mut baked = doc

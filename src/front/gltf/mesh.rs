@@ -43,20 +43,20 @@ impl Mesh {
             .map_or(0, |primitive| primitive.targets.len())
     }
 
-    /// True if some of its vertices follow joints; nothing is known of a mesh without primitives.
+    /// True if some of its vertices follow joints; unknown for a mesh without primitives.
     pub(super) fn is_skinned(&self) -> Option<bool> {
         (!self.primitives.is_empty()).then_some(self.is_skinned)
     }
 }
 
-/// What the checks of meshes gather.
+/// The results of the checks of meshes.
 pub(super) struct MeshLinks<'l> {
     pub(super) purposes: &'l mut Purposes,
     pub(super) usages: &'l mut Usages,
     pub(super) constraints: &'l mut AccessorConstraints,
     /// The accessor that was first seen in each view without a stride.
     pub(super) streams: &'l mut BTreeMap<usize, usize>,
-    /// The textures of each material met so far, each with its set of texture coordinates.
+    /// The textures of each material so far, each with its set of texture coordinates.
     pub(super) textures: BTreeMap<NodeId, Vec<(NodeId, u64)>>,
 }
 

@@ -8,9 +8,9 @@
 //! 2. `header` checks the version of glTF and the extensions.
 //! 3. `schema` checks each object against a table of its properties: types, ranges, required
 //!    properties, unknown properties, and references.
-//! 4. `document` builds typed objects from the tree (`accessor`, `buffer`, `mesh`, `node`,
-//!    `skin`, `material`, `texture`, `animation`, `camera`, `light`). References are
-//!    indices. Each object keeps its node, so each finding has a location.
+//! 4. `document` builds typed objects from the tree (`accessor`, `buffer`, `mesh`, `node`, `skin`,
+//!   `material`, `texture`, `animation`, `camera`, `light`). References are indices. Each object
+//!   keeps its node, so each diagnostic has a location.
 //! 5. The `check` functions of these modules test rules between objects: buffer views within their
 //!    buffer, a tree of nodes, attributes of equal length.
 //! 6. `resource` loads buffers and images: data URIs, and files in the folder of the asset.
@@ -87,17 +87,16 @@ use usage::Usages;
 pub fn extensions() -> String {
     format!(
         "# Extensions of glTF\n\n\
-         What rtc reads and draws beside glTF 2.0 itself, printed by `rtc schema extensions`: an \
-         asset may require\n\
-         each of these. One that is required and not here is an error; one that is only used is \
-         told and left out.\n\n\
+         The extensions of glTF 2.0 that rtc supports, printed by `rtc schema extensions`. An\n\
+         asset may require each of these. Requiring another one is an error; using another one is\n\
+         a warning, and it is ignored.\n\n\
          | extension | in | properties |\n| --- | --- | --- |\n{}",
         schema::extension_rows()
     )
 }
 
-/// A JSON schema of glTF 2.0 and its extensions with words for people, defaults and units
-/// (`x-unit`). What is asked of several properties at once is not in it.
+/// A JSON Schema of glTF 2.0 and its extensions with descriptions, defaults and units (`x-unit`).
+/// Constraints between several properties are not part of it.
 #[must_use]
 pub fn schema() -> serde_json::Value {
     schema::schema()
@@ -114,7 +113,7 @@ pub fn is_gltf(name: &str, bytes: &[u8]) -> bool {
     container::is_glb(name, bytes) || name.ends_with(".gltf") || (opens_object(bytes) && says_so())
 }
 
-/// Gives back the memory of an asset that was lowered, but for its text: findings point there.
+/// Frees the memory of a lowered asset, except for its text, which diagnostics point into.
 pub fn release(file: FileId, map: &mut SourceMap) {
     map.release(file, container::text_end(map.bytes(file)));
 }
@@ -136,7 +135,7 @@ fn opens_object(bytes: &[u8]) -> bool {
         .is_some_and(|key| key.starts_with(b"\""))
 }
 
-/// Checks an asset and lowers what it shows. `None` if it has errors; the sink says which.
+/// Checks an asset and lowers its scene. `None` if it has errors, which are in the sink.
 pub fn lower(
     file: FileId,
     map: &SourceMap,
@@ -227,14 +226,14 @@ fn text<'s>(
     Some((offset(BOM.len()), rest))
 }
 
-/// A finding of what importers mend: lenient a warning that says how, else an error whose hint
-/// does.
+/// A diagnostic of an error that importers repair: with `--lenient` a warning that describes the
+/// repair, else an error with it as a hint.
 fn repair(mut diagnostic: Diagnostic, is_lenient: bool, repair: &str) -> Diagnostic {
     if is_lenient {
         diagnostic.message = format!("{}: {repair}", diagnostic.message);
         diagnostic.severity(Severity::Warning)
     } else {
-        diagnostic.hint(format!("`--lenient` mends this: {repair}"))
+        diagnostic.hint(format!("`--lenient` repairs this: {repair}"))
     }
 }
 
@@ -268,8 +267,7 @@ fn check_keys(tree: &Tree<'_>, is_lenient: bool, sink: &mut Sink) {
     }
 }
 
-/// Checks the JSON of an asset for itself. Of one that is not glTF 2 nothing is known beyond its
-/// header.
+/// Checks the JSON of an asset. Of an asset that is not glTF 2 only the header is checked.
 fn shape<'s>(
     tree: &'s Tree<'s>,
     is_glb: bool,
@@ -287,7 +285,7 @@ fn shape<'s>(
     })
 }
 
-/// Brings the files of an asset, and checks how its parts fit together and what is in them.
+/// Loads the files of an asset, and checks its references and contents.
 fn fill<'s>(
     mut doc: Document<'s>,
     chunk: Option<&'s [u8]>,
@@ -307,7 +305,7 @@ fn fill<'s>(
     doc
 }
 
-/// Checks how the parts fit together; what that asks of the accessors comes back.
+/// Checks references; returns the resulting constraints on accessors.
 fn check_links(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> AccessorConstraints {
     let mut purposes = Purposes::new(doc);
     let mut usages = Usages::new(doc.accessors.len());

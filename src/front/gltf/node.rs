@@ -14,10 +14,10 @@ const IDENTITY: [f64; 16] = [
     1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0,
 ];
 
-/// The extension that names what shows the same in less detail.
+/// The extension that names coarser levels of detail.
 const LEVELS: &str = "MSFT_lod";
 
-/// What is done with a matrix that is not affine.
+/// The repair of a matrix that is not affine.
 pub(super) const LAST_ROW: &str = "its last row is taken as 0, 0, 0, 1";
 
 /// A node.
@@ -31,13 +31,13 @@ pub(super) struct Node {
     pub(super) skin: Option<usize>,
     pub(super) camera: Option<usize>,
     pub(super) light: Option<usize>,
-    /// The weights of morph targets, in place of those of the mesh.
+    /// The weights of morph targets that override those of the mesh.
     pub(super) weights: Vec<f64>,
-    /// What it shows does show.
+    /// Its contents are visible.
     pub(super) visible: bool,
     /// The nodes that show the same in less detail (`MSFT_lod`).
     pub(super) coarser: Vec<usize>,
-    /// What places many of its mesh.
+    /// The instances of its mesh.
     pub(super) instances: Option<Instancing>,
 }
 
@@ -110,7 +110,7 @@ impl Node {
     }
 }
 
-/// Who is whose parent.
+/// The parent of each node.
 pub(super) struct NodeHierarchy {
     pub(super) parents: Vec<Option<usize>>,
     /// The root above each node; none in a loop.
@@ -171,7 +171,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> Nod
     NodeHierarchy { parents, roots }
 }
 
-/// Walks up from each node until one whose root is known; a walk that meets itself is a loop.
+/// Walks up from each node to one whose root is known; a walk that meets itself is a cycle.
 fn roots(
     doc: &Document<'_>,
     parents: &[Option<usize>],
@@ -192,7 +192,7 @@ fn roots(
                 NodeState::OnWay => {
                     let first = path.iter().position(|node| *node == at).unwrap_or(0);
                     for node in &path[first..] {
-                        let message = format!("node {node} lies below itself");
+                        let message = format!("node {node} is its own ancestor");
                         report.add(
                             &codes::GLTF_NODES,
                             "NODE_LOOP",
@@ -241,7 +241,7 @@ fn check_transform(node: &Node, report: &mut AssetReport<'_, '_>) {
                 let message = "the matrix is the one that a node has anyway".to_owned();
                 report.add(&codes::GLTF_REMARK, "NODE_MATRIX_DEFAULT", at, message);
             } else if !is_invertible(&matrix) {
-                let message = "the matrix is not made of translation, rotation and scale";
+                let message = "the matrix is no product of translation, rotation and scale";
                 report.repair(
                     &codes::GLTF_MATRIX,
                     "NODE_MATRIX_NON_TRS",
@@ -290,8 +290,7 @@ fn is_invertible(matrix: &[f64; 16]) -> bool {
     last_row.iter().all(|part| *part == 0.0) && x.cross(y).dot(z) != 0.0
 }
 
-/// True if the axes are not at right angles, to within what 32-bit floats and careless exporters
-/// leave.
+/// True if the axes are not perpendicular, within the precision of 32-bit floats and of exporters.
 fn is_sheared(matrix: &[f64; 16]) -> bool {
     const RIGHT_ANGLE: f64 = 1e-3;
     let [x, y, z] = columns(matrix).map(|column| unit(column).unwrap_or_default());
@@ -356,7 +355,7 @@ fn check_empty(node: &Node, report: &mut AssetReport<'_, '_>) {
             &codes::GLTF_REMARK,
             "NODE_EMPTY",
             node.at,
-            "the node holds nothing",
+            "the node is empty",
         );
     }
 }

@@ -18,13 +18,13 @@ pub(super) struct AnimatedProperty {
     pub(super) key: &'static str,
     /// How many numbers it takes.
     pub(super) width: usize,
-    /// What each of them may be.
+    /// The range of each number.
     range: [f64; 2],
 }
 
 impl AnimatedProperty {
-    /// What the property becomes by the numbers of an animation, which a cubic may take out of its
-    /// range; none if they are not finite.
+    /// The property with the numbers of an animation, clamped to its range, since cubic splines may
+    /// leave it; `None` if they are not finite.
     pub(super) fn kept(&self, numbers: &[f64]) -> Option<Vec<f64>> {
         let [min, max] = self.range;
         let is_finite = numbers.iter().all(|number| number.is_finite());
@@ -37,7 +37,7 @@ impl AnimatedProperty {
     }
 }
 
-/// A row of the table: what the property lies in, its key, how many numbers it takes, their range.
+/// A row of the table: the object with the property, its key, its number of values, their range.
 type PointerRow = (&'static str, &'static str, usize, [f64; 2]);
 
 const FREE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
@@ -45,7 +45,7 @@ const UNIT: [f64; 2] = [0.0, 1.0];
 const FACTOR: [f64; 2] = [0.0, f64::INFINITY];
 const POSITIVE: [f64; 2] = [f64::MIN_POSITIVE, f64::INFINITY];
 
-/// The most objects in each other on the way to a property that is followed.
+/// The maximum depth of a property that is followed.
 const STEPS: usize = 6;
 
 /// The properties that are followed, beside those of the table of extensions.

@@ -22,13 +22,13 @@ pub(super) const TRIANGLES: u64 = 4;
 pub(super) struct Primitive {
     pub(super) at: NodeId,
     pub(super) attributes: Vec<Attribute>,
-    /// The places of the attributes in the order of their names.
+    /// The positions of the attributes in the order of their names.
     sorted: Vec<usize>,
     pub(super) indices: Option<usize>,
     pub(super) material: Option<usize>,
     /// 0 are points, 1 lines, 2 a loop, 3 a strip of them; 4 triangles, 5 a strip, 6 a fan.
     pub(super) mode: u64,
-    /// What each morph target moves.
+    /// The attributes that each morph target displaces.
     pub(super) targets: Vec<Vec<Attribute>>,
     /// Compressed by Draco.
     pub(super) draco: Option<NodeId>,
@@ -190,7 +190,7 @@ fn check_indices(
     }
 }
 
-/// True if so many vertices make whole points, lines or triangles.
+/// True if the number of vertices makes whole points, lines or triangles.
 fn fills(mode: u64, count: usize) -> bool {
     match mode {
         1 => count >= 2 && count.is_multiple_of(2),
@@ -274,7 +274,7 @@ fn check_material(
     }
 }
 
-/// Checks that there are tangents where the material looks at them, and none where not.
+/// Checks that tangents are present where the material uses them, and absent elsewhere.
 fn check_tangents(doc: &Document<'_>, primitive: &Primitive, report: &mut AssetReport<'_, '_>) {
     let material = primitive
         .material

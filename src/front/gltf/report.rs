@@ -6,13 +6,13 @@ use rtc_diag::{Code, Diagnostic, Severity, Sink, codes};
 use rtc_source::tree::{NodeId, NodeKind, Tree};
 use rtc_source::{Budget, Exceeded, Resource};
 
-/// Collects the findings about one asset.
+/// Collects the diagnostics of one asset.
 pub(super) struct AssetReport<'r, 's> {
     /// The text that they are about.
     pub(super) json: &'r Tree<'s>,
     sink: &'r mut Sink,
     options: &'r FrontOptions,
-    /// What the run may still take.
+    /// The remaining budget of the run.
     pub(super) budget: &'r Budget,
     /// Whether a limit was exceeded, which is reported once.
     is_over: bool,
@@ -34,7 +34,7 @@ impl<'r, 's> AssetReport<'r, 's> {
         }
     }
 
-    /// Adds a finding at a node. `alias` is the code of the validator, empty if it has none.
+    /// Adds a diagnostic at a node. `alias` is the code of the validator, empty if it has none.
     pub(super) fn add(
         &mut self,
         code: &'static Code,
@@ -45,21 +45,21 @@ impl<'r, 's> AssetReport<'r, 's> {
         self.push((code, self.severity(code)), alias, at, message.into(), None);
     }
 
-    /// Adds the finding that an object exceeds a limit. `what` names it, as `the image`.
+    /// Adds the diagnostic that an object exceeds a limit. `what` names it, as `the image`.
     pub(super) fn exceeded(&mut self, at: NodeId, what: &str, fault: &Exceeded) {
         if !std::mem::replace(&mut self.is_over, true) {
             self.add_with_hint(
                 &codes::OVER_LIMIT,
                 "",
                 at,
-                format!("{what} asks for too much: {fault}"),
+                format!("{what} exceeds a limit: {fault}"),
                 fault.hint(),
             );
         }
     }
 
     /// Charges the resource that an object takes. False if a limit is exceeded, here or before:
-    /// then the asset is rejected, and further findings are of no use.
+    /// then the asset is rejected, and further diagnostics are of no use.
     pub(super) fn charge(
         &mut self,
         resource: Resource,
@@ -76,7 +76,7 @@ impl<'r, 's> AssetReport<'r, 's> {
             .is_ok()
     }
 
-    /// Adds a finding about an error that importers repair: a warning with `--lenient`, else an
+    /// Adds a diagnostic of an error that importers repair: a warning with `--lenient`, else an
     /// error with a hint. `repair` completes the message, as `they are computed`.
     pub(super) fn repair(
         &mut self,
@@ -90,7 +90,7 @@ impl<'r, 's> AssetReport<'r, 's> {
             let push = format!("{message}: {repair}");
             return self.push((code, Severity::Warning), alias, at, push, None);
         }
-        let hint = format!("`--lenient` mends this: {repair}");
+        let hint = format!("`--lenient` repairs this: {repair}");
         self.push(
             (code, code.severity),
             alias,

@@ -23,11 +23,11 @@ pub(super) struct Resources<'m> {
     search: Search,
     map: &'m SourceMap,
     files: BTreeMap<Identity, Bytes<'static>>,
-    /// What was written in place.
+    /// Data that are embedded.
     data: BTreeSet<Bytes<'static>>,
 }
 
-/// What is behind a URI: bytes, and the media type of a data URI.
+/// The resource of a URI: bytes, and the media type of a data URI.
 type FoundResource = (Bytes<'static>, Option<String>);
 
 impl<'m> Resources<'m> {
@@ -40,7 +40,7 @@ impl<'m> Resources<'m> {
         }
     }
 
-    /// Brings the bytes of all buffers; `chunk` is what a `.glb` holds beside its text.
+    /// Loads the bytes of all buffers; `chunk` is the binary chunk of a `.glb`.
     pub(super) fn load_buffers<'s>(
         &mut self,
         doc: &mut Document<'s>,
@@ -77,7 +77,7 @@ impl<'m> Resources<'m> {
             };
             if bytes.len() < length {
                 let message = format!(
-                    "the buffer has {} bytes, and `byteLength` says {length}",
+                    "the buffer has {} bytes, but `byteLength` is {length}",
                     bytes.len()
                 );
                 report.add(
@@ -117,7 +117,7 @@ impl<'m> Resources<'m> {
                 .as_deref()
                 .is_some_and(|media| media.starts_with("image/"));
             if is_image && ImageCoding::of(&bytes).is_none() {
-                let message = "the image is not what the media type of its URI says".to_owned();
+                let message = "the image does not have the media type of its URI".to_owned();
                 report.add(&codes::GLTF_URI, "INVALID_URI", at, message);
                 continue;
             }
@@ -129,8 +129,8 @@ impl<'m> Resources<'m> {
         }
     }
 
-    /// The bytes behind the URI at a node, of a kind that the folder above may lend; why there are
-    /// none is reported.
+    /// The bytes of the URI at a node, of a kind that may be in the parent folder; failures are
+    /// reported.
     fn fetch(
         &mut self,
         (at, kind): (NodeId, Option<&FileKind>),
@@ -142,7 +142,7 @@ impl<'m> Resources<'m> {
             let (uri, message, repair) = uri::repair(text).ok_or(fault)?;
             let message = format!("`{}` {message}", shown(text));
             report.repair(&codes::GLTF_URI, "INVALID_URI", at, &message, repair);
-            // What is not mended is told, and no file is read for it.
+            // An error that is not repaired is reported, and no file is read for it.
             match report.is_lenient() {
                 true => Ok(uri),
                 false => Err(UriFault::Reported),
@@ -198,7 +198,7 @@ impl<'m> Resources<'m> {
                 let climbs = path.split('/').any(|part| part == "..");
                 let how = match climbs {
                     true => "it climbs by `..`",
-                    false => "a link leads out",
+                    false => "a link leaves it",
                 };
                 outside(path, how, at, report);
                 return None;
@@ -218,7 +218,7 @@ impl<'m> Resources<'m> {
                     .iter()
                     .map(|place| format!("`{}`", place.display()))
                     .collect();
-                let hint = format!("looked for it at {}", places.join(", "));
+                let hint = format!("searched at {}", places.join(", "));
                 report.add_with_hint(&codes::GLTF_NO_FILE, "IO_ERROR", at, message, hint);
                 return None;
             }
@@ -260,10 +260,7 @@ fn remark_uri(is_glb: bool, at: NodeId, report: &mut AssetReport<'_, '_>) {
 }
 
 fn outside(text: &str, how: &str, at: NodeId, report: &mut AssetReport<'_, '_>) {
-    let message = format!(
-        "`{}` leads out of the folder of the asset: {how}",
-        shown(text)
-    );
+    let message = format!("`{}` leaves the folder of the asset: {how}", shown(text));
     let hint =
         "put the file beside the asset and name it by a relative path, or allow its folder by \
                 `--asset-root`"
@@ -271,7 +268,7 @@ fn outside(text: &str, how: &str, at: NodeId, report: &mut AssetReport<'_, '_>) 
     report.add_with_hint(&codes::GLTF_OUTSIDE, "IO_ERROR", at, message, hint);
 }
 
-/// True if a data URI says that it holds a buffer, or is none.
+/// True if a data URI has the media type of a buffer, or if the URI is no data URI.
 fn is_buffer(media: Option<&str>, at: NodeId, report: &mut AssetReport<'_, '_>) -> bool {
     let Some(media) = media else { return true };
     let is_buffer = ["application/octet-stream", "application/gltf-buffer"].contains(&media);

@@ -62,7 +62,7 @@ pub(super) fn check(
             continue;
         };
         check_node((index, node), hierarchy, report);
-        if scene_trees.apart(hierarchy.roots[index], of) {
+        if scene_trees.differ(hierarchy.roots[index], of) {
             let message = "a scene shows the mesh and not the joints that move it".to_owned();
             report.add(&codes::GLTF_SKIN, "NODE_SKIN_NO_SCENE", node.at, message);
         }
@@ -112,25 +112,25 @@ impl SceneTrees {
         }
     }
 
-    fn apart(&mut self, root: Option<usize>, skin: usize) -> bool {
+    fn differ(&mut self, root: Option<usize>, skin: usize) -> bool {
         let Some(root) = root else { return false };
         let Self {
             scenes,
             joints,
             known,
         } = self;
-        let apart = || {
+        let differ = || {
             let Some(scenes_of_mesh) = scenes.get(&root) else {
                 return false;
             };
             let of_joints = joints[skin].and_then(|root| scenes.get(&root));
             of_joints.is_none_or(|of_joints| !scenes_of_mesh.is_subset(of_joints))
         };
-        *known.entry((root, skin)).or_insert_with(apart)
+        *known.entry((root, skin)).or_insert_with(differ)
     }
 }
 
-/// What was checked already.
+/// The skins checked so far.
 #[derive(Default)]
 struct CheckedSkins {
     /// Meshes, with a number of joints.
@@ -201,7 +201,7 @@ fn check_tree(
     let known: Vec<usize> = skin.joints.iter().copied().filter(is_node).collect();
     let root = known.first().and_then(|joint| hierarchy.roots[*joint]);
     if root.is_none() || known.iter().any(|joint| hierarchy.roots[*joint] != root) {
-        let message = "no node lies above all joints".to_owned();
+        let message = "no node is an ancestor of all joints".to_owned();
         report.add(&codes::GLTF_SKIN, "SKIN_NO_COMMON_ROOT", at, message);
     } else if let Some(skeleton) = skin.skeleton.filter(|skeleton| *skeleton < doc.nodes.len())
         && !known.iter().all(|joint| order.is_below(*joint, skeleton))

@@ -6,7 +6,7 @@ use rtc_diag::Sink;
 use rtc_source::tree::json;
 use rtc_source::{FileId, SourceMap};
 
-/// What an asset holds by its own text.
+/// The contents of an asset by its JSON.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AssetSummary {
     /// The version of glTF.
@@ -53,10 +53,10 @@ const COUNTED: [&str; 11] = [
     "buffers",
 ];
 
-/// What an asset holds; `None` if its text can't be read.
+/// The contents of an asset; `None` if its text can't be read.
 #[must_use]
 pub fn summary(file: FileId, map: &SourceMap) -> Option<AssetSummary> {
-    // What is wrong with it is told when it is lowered.
+    // Its errors are reported when it is lowered.
     let mut sink = Sink::default();
     let parts = parts(file, map, true, &mut sink)?;
     let (base, text) = text(file, map.bytes(file), &parts, true, &mut sink)?;

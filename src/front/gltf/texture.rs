@@ -7,20 +7,20 @@ use super::report::{AssetReport, shown};
 use rtc_diag::codes;
 use rtc_source::tree::NodeId;
 
-/// An image and the way it is looked up.
+/// An image and its sampler.
 #[derive(Debug)]
 pub(super) struct Texture {
     pub(super) at: NodeId,
     /// A PNG or JPEG.
     pub(super) source: Option<usize>,
-    /// A WebP, which is taken in its place.
+    /// A WebP image, which replaces it.
     pub(super) webp: Option<usize>,
-    /// A KTX2, which is taken in place of both.
+    /// A KTX2 image, which replaces both.
     pub(super) ktx2: Option<usize>,
     pub(super) sampler: Option<usize>,
 }
 
-/// How a texture goes on beyond its image, and between pixels.
+/// The wrap modes and the filter of a texture.
 #[derive(Debug)]
 pub(super) struct TextureSampler {
     pub(super) mag_filter: Option<u64>,
@@ -53,7 +53,7 @@ impl TextureSampler {
     }
 }
 
-/// Checks that the images of textures are of the formats that their places ask for.
+/// Checks that the images of textures have the required formats.
 pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     for texture in &doc.textures {
         let faulty = |report: &mut AssetReport<'_, '_>, at, found: &str, wanted: &str| {
@@ -89,7 +89,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     }
 }
 
-/// What an image says that it is, or else what its bytes say.
+/// The declared format of an image, or else that of its bytes.
 fn media<'d>(doc: &'d Document<'_>, image: Option<usize>) -> Option<&'d str> {
     let image = doc.images.get(image?)?;
     image

@@ -42,14 +42,14 @@ impl VertexUses {
         }
     }
 
-    /// How many indices `names_any` looks at.
+    /// The maximum number of indices that `names_any` checks.
     pub(super) fn cost(&self, doc: &Document<'_>, accessor: usize) -> u64 {
         let lists = self.0.get(&accessor).into_iter().flatten().flatten();
         let indices = lists.filter_map(|list| doc.accessors.get(*list)?.count);
         indices.fold(0, |sum, count| sum.saturating_add(count as u64))
     }
 
-    /// True if something takes an element for which `is_bad` holds, or takes all elements.
+    /// True if some use reads an element for which `is_bad` holds, or reads all elements.
     pub(super) fn names_any(
         &self,
         doc: &Document<'_>,

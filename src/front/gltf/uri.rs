@@ -13,14 +13,14 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
         .with_decode_allow_trailing_bits(true),
 );
 
-/// What a URI stands for.
+/// The meaning of a URI.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Uri {
     /// Bytes and their media type, which may be empty.
     Data {
         /// As `image/png`.
         media: String,
-        /// What is written.
+        /// The URI as written.
         bytes: Vec<u8>,
     },
     /// A relative path without `..`, escapes resolved.
@@ -29,14 +29,14 @@ pub(super) enum Uri {
     Above(String),
 }
 
-/// Why a URI stands for nothing.
+/// The reason why a URI is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum UriFault {
     /// It is none, for this reason.
     Malformed(&'static str),
     /// It leads out of the folder, in this way.
     Outside(&'static str),
-    /// It is one that importers mend, and was told.
+    /// It is one that importers repair, and was reported.
     Reported,
 }
 
@@ -77,8 +77,8 @@ pub(super) fn parse(uri: &str) -> Result<Uri, UriFault> {
     }
 }
 
-/// What importers make of a URI that is none: what is wrong with it, and how it is mended. A mended
-/// path leads nowhere that another may not.
+/// The repair of an invalid URI by importers: the error, and the repair. A repaired path gets no
+/// access that a valid one lacks.
 pub(super) fn repair(uri: &str) -> Option<(Uri, &'static str, &'static str)> {
     if strip_scheme(uri, "data").is_some() {
         let joined: String = uri.split_ascii_whitespace().collect();
@@ -151,7 +151,7 @@ fn unescape(text: &str) -> Result<String, UriFault> {
         .map_err(|_| UriFault::Malformed("its escapes are not UTF-8"))
 }
 
-/// Resolves `%41` and its like (RFC 3986, section 2.1); a `%` that begins none is a fault.
+/// Resolves escapes such as `%41` (RFC 3986, section 2.1); an incomplete one is an error.
 fn unescape_bytes(text: &str) -> Result<Vec<u8>, UriFault> {
     let is_escape = |after: &[u8]| {
         let digits = after.get(..2);

@@ -4,7 +4,7 @@ use super::report::AssetReport;
 use rtc_diag::codes;
 use rtc_source::tree::NodeId;
 
-/// What an accessor is for.
+/// The usage of an accessor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Usage {
     Vertices,
@@ -26,7 +26,7 @@ impl Usage {
     }
 }
 
-/// What each accessor was seen to be for.
+/// The usages found for each accessor.
 pub(super) struct Usages(Vec<Option<Usage>>);
 
 impl Usages {

@@ -1,5 +1,4 @@
-//! The materials that an OBJ asks for: the files of them (`mtllib`), and which triangles have which
-//! (`usemtl`).
+//! The materials of an OBJ: its MTL files (`mtllib`), and the material of each triangle (`usemtl`).
 
 use super::WordSpan;
 use crate::words::Word;
@@ -16,54 +15,52 @@ pub struct Named {
     pub at: WordSpan,
 }
 
-/// Which materials the faces of a file ask for.
+/// The materials of the faces of a file.
 #[derive(Debug, Default)]
 pub struct MaterialUse {
-    /// The files of materials, each once: every `mtllib` as one name, and beside it, if it has
-    /// spaces, the words of it.
+    /// The MTL files, each once: every `mtllib` as one name, and, if it has spaces, also its words.
     pub libraries: Vec<Named>,
-    /// The materials in the order in which faces first ask for them. Faces that ask for none share
-    /// one without a name.
+    /// The materials in the order of first use. Faces without a material share one without a name.
     pub materials: Vec<Named>,
     known: BTreeMap<String, u32>,
     /// From which triangle on which material counts.
     runs: Vec<(u32, u32)>,
-    /// What the next face asks for.
+    /// The material of the next face.
     current: Named,
 }
 
-/// Said most so many bytes are held for a line that asks for a material: two copies of a short name
-/// with their places, a run, and the nodes of a map.
+/// The maximum number of bytes held for a `usemtl` line: two copies of a short name with their
+/// spans, a run, and the nodes of a map.
 const LINE: usize = 192;
 
-/// Names are cut after so many bytes.
+/// The maximum length of names, in bytes.
 const LONGEST: usize = 256;
 
 /// More files of materials than this are not looked for.
 const MOST_LIBRARIES: usize = 16;
 
 impl MaterialUse {
-    /// The memory that so many lines take, names longer than theirs aside.
+    /// The memory for the given number of lines, without longer names.
     pub(super) fn at_most(lines: usize) -> u64 {
         (LINE * lines) as u64
     }
 
-    /// The faces that follow ask for another material; `rest` is what follows `usemtl`.
+    /// The following faces have another material; `rest` is the text after `usemtl`.
     pub(super) fn switch(&mut self, rest: &[Word<'_>], file: &[u8]) {
         self.current = name(rest, file).unwrap_or_default();
     }
 
-    /// What the next face asks for.
+    /// The material of the next face.
     pub(super) fn current(&self) -> &Named {
         &self.current
     }
 
-    /// The faces that follow ask for a material that was asked for before.
+    /// The following faces have a known material.
     pub(super) fn resume(&mut self, named: Named) {
         self.current = named;
     }
 
-    /// Materials are in another file; `rest` is what follows `mtllib`.
+    /// Materials are in another file; `rest` is the text after `mtllib`.
     pub(super) fn library(&mut self, rest: &[Word<'_>], file: &[u8]) {
         let whole = name(rest, file);
         let words = rest
@@ -113,14 +110,14 @@ impl MaterialUse {
         self.known.get(name).map(|at| *at as usize)
     }
 
-    /// Whether any face asks for a material by a name.
+    /// Whether any face has a material with a name.
     #[must_use]
     pub fn names_any(&self) -> bool {
         self.materials.iter().any(|named| !named.text.is_empty())
     }
 }
 
-/// The name that some words make, with the spaces between them.
+/// The name made of some words, with the spaces between them.
 pub(super) fn name(words: &[Word<'_>], file: &[u8]) -> Option<Named> {
     let whole = words.first()?.through(words.last()?, file);
     let bytes = &whole.bytes[..whole.bytes.len().min(LONGEST)];

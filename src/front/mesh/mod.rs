@@ -1,8 +1,8 @@
 //! Readers of mesh files: OBJ with MTL, OFF, STL, PLY, and XYZ point lists.
 //!
 //! The content decides the format, not the name of the file. Each reader turns bytes into a
-//! [`Parsed`]: an IR mesh, the materials that the file names, and the faults of the file. The
-//! caller (`front/course/assets`) locates the file and turns faults into findings.
+//! [`Parsed`]: an IR mesh, the materials that the file names, and the errors of the file. The
+//! caller (`front/course/assets`) locates the file and turns errors into diagnostics.
 //!
 //! - `obj` and `mtl`: Wavefront OBJ and its material libraries. `material_use` records which
 //!   triangles use which material.
@@ -38,31 +38,30 @@ use rtc_ir::Mesh;
 use rtc_source::{Budget, Exceeded, Resource};
 use stroke::{Segments, StrokeMesher, join};
 
-/// The most faults that are reported for one file.
+/// The maximum number of errors reported for one file.
 pub const MAX_FAULTS: usize = 10;
 
 /// A mesh file as read.
 #[derive(Debug, Default)]
 pub struct Parsed {
-    /// What is drawn, without a name, its numbers in the precision of the file: normals, texture
-    /// coordinates, tangents and colours only where the file has some, colours at least 0, the
-    /// corners of triangles in range.
+    /// The mesh, without a name, in the precision of the file: normals, texture coordinates,
+    /// tangents and colours only where the file has some, colours at least 0, indices in range.
     pub mesh: Mesh,
     /// Elements that don't show: the first, and how many.
     pub not_drawn: Option<(WordFault, usize)>,
-    /// Which materials it asks for.
+    /// Its materials.
     pub material_use: MaterialUse,
     /// The picture of all its faces, where it names one itself.
     pub texture: Option<Named>,
 }
 
 impl Parsed {
-    /// An element does not show; of the first one the fault is kept.
+    /// Reports an element that is not rendered; only the first error is kept.
     fn skip(&mut self, fault: impl FnOnce() -> WordFault) {
         self.not_drawn.get_or_insert_with(|| (fault(), 0)).1 += 1;
     }
 
-    /// Adds what points and lines between its vertices look like.
+    /// Adds the tessellation of points and lines between its vertices.
     ///
     /// # Errors
     /// If that would take more memory than there is.
@@ -76,7 +75,7 @@ impl Parsed {
     }
 }
 
-/// Bytes of what a mesh has for each vertex, in 64 bits.
+/// The bytes per vertex of a mesh, in 64 bits.
 fn columns(mesh: &Mesh) -> u64 {
     let column = |exists: bool, numbers: u64| if exists { 8 * numbers } else { 0 };
     column(true, 3)
@@ -87,7 +86,7 @@ fn columns(mesh: &Mesh) -> u64 {
         + column(!mesh.colors.is_empty(), 2)
 }
 
-/// Charges what a mesh holds, and frees what it has no use for.
+/// Charges a mesh, and frees its spare capacity.
 fn charge(mesh: &mut Mesh, budget: &Budget) -> Result<(), Exceeded> {
     let Mesh {
         name: _,
@@ -112,7 +111,7 @@ fn charge(mesh: &mut Mesh, budget: &Budget) -> Result<(), Exceeded> {
     budget.charge(Resource::Memory, bytes as u64)
 }
 
-/// What the names of such files end in, in lower case.
+/// The extensions of mesh files, in lower case.
 pub const EXTENSIONS: &[&str] = &["obj", "off", "stl", "ply", "xyz"];
 
 /// Whether a file of this name and these bytes is a mesh.
@@ -122,11 +121,11 @@ pub fn is_mesh_file(name: &str, bytes: &[u8]) -> bool {
     extension.is_some_and(|extension| EXTENSIONS.contains(&&*extension)) || is_mesh(bytes)
 }
 
-/// So much of a file is looked at, at most, to tell what it is: a line takes some twenty times its
+/// The maximum number of bytes inspected to detect the format: a line takes some twenty times its
 /// length.
 const LOOKED_AT: usize = 1 << 18;
 
-/// The lines of a file that tell what it is.
+/// The lines of a file for detecting its format.
 fn first_lines(bytes: &[u8]) -> Lines<'_> {
     Lines::new(&bytes[..bytes.len().min(LOOKED_AT)])
 }
@@ -158,7 +157,7 @@ pub fn is_mesh(head: &[u8]) -> bool {
 /// Reads a mesh file of any format.
 ///
 /// # Errors
-/// If it has faults, or would take more than the budget has.
+/// If it has errors, or exceeds the budget.
 pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
     let mut words = Vec::new();
     first_lines(bytes).next(&mut words);

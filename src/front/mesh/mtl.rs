@@ -1,7 +1,7 @@
 //! MTL, the materials of an OBJ (Wavefront, "Advanced Visualizer", appendix B1): a `newmtl`, and
 //! after it one statement a line.
 //!
-//! No fault makes a file worthless: what is not understood is left out, and told with its place.
+//! No error makes a file useless: unknown statements are skipped, and reported with their spans.
 
 mod map;
 
@@ -13,14 +13,14 @@ use crate::words::{Lines, Word, WordFault};
 use rtc_source::{Budget, Resource};
 use std::collections::BTreeMap;
 
-/// The materials of a file, and what is wrong with it.
+/// The materials of a file, and its errors.
 #[derive(Debug, Default)]
 pub struct Library {
     /// The materials by name; of two of one name the later.
     pub materials: BTreeMap<String, MtlMaterial>,
     /// Statements that can't be read, the first ones.
     pub faults: Vec<WordFault>,
-    /// Statements that ask for what is not shown: the first, and how many.
+    /// Statements for unsupported features: the first, and how many.
     pub not_shown: Option<(WordFault, usize)>,
 }
 
@@ -33,7 +33,7 @@ pub struct MtlValue<T> {
     pub at: WordSpan,
 }
 
-/// A material as its file says it; what is not said is `None`.
+/// A material as in its file; missing values are `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MtlMaterial {
     /// Its name in the file.
@@ -46,7 +46,7 @@ pub struct MtlMaterial {
     pub specular: Option<MtlValue<[f64; 3]>>,
     /// `Ns`, the exponent of the highlight, in 0..=1e6.
     pub exponent: Option<MtlValue<f64>>,
-    /// `d`, or 1 − `Tr`: how much it hides what is behind it, in 0..=1.
+    /// `d`, or 1 − `Tr`: the opacity, in 0..=1.
     pub opacity: Option<MtlValue<f64>>,
     /// `Ni`, the index of refraction, in 0..=1e6.
     pub index: Option<MtlValue<f64>>,
@@ -86,7 +86,8 @@ pub struct MtlMaterial {
     pub roughness_map: Option<MtlValue<MtlMap>>,
     /// `map_Pm`.
     pub metallic_map: Option<MtlValue<MtlMap>>,
-    /// Whether `Tr` alone said the opacity, 1 of it: some programs write so what hides all.
+    /// Whether the opacity is given by `Tr 1` alone, which some programs write for opaque
+    /// materials.
     pub is_transparency_1: bool,
 }
 
@@ -134,7 +135,7 @@ struct MtlReader<'a> {
     current: Option<(String, MtlMaterial)>,
 }
 
-/// What a statement does.
+/// The effect of a statement.
 #[derive(Clone, Copy)]
 enum Statement {
     Color(fn(&mut MtlMaterial) -> &mut Option<MtlValue<[f64; 3]>>),
@@ -145,7 +146,7 @@ enum Statement {
     Opacity,
     Transparency,
     Model,
-    /// It repeats the map of the diffuse colour, or says what is not shown.
+    /// It repeats the map of the diffuse colour, or has an unsupported effect.
     AmbientMap,
     /// It changes no picture.
     Silent,
@@ -264,7 +265,7 @@ impl MtlReader<'_> {
             }
             Statement::Transparency => {
                 let value = 1.0 - number(&head, rest.first(), 1.0)?;
-                // Where both are said, the opacity counts.
+                // If both are given, the opacity wins.
                 if material.opacity.is_none() {
                     material.opacity = Some(MtlValue { value, at });
                     material.is_transparency_1 = value == 0.0;
@@ -312,14 +313,14 @@ impl MtlReader<'_> {
     }
 }
 
-/// What the statement of this head does.
+/// The effect of a statement with this keyword.
 fn known(head: &Word<'_>) -> Option<Statement> {
     let is_meant =
         |(word, _): &&(&str, Statement)| head.bytes.eq_ignore_ascii_case(word.as_bytes());
     Some(STATEMENTS.iter().find(is_meant)?.1)
 }
 
-/// Three numbers, or one that stands for all.
+/// Three numbers, or one for all three.
 fn color(head: &Word<'_>, rest: &[Word<'_>]) -> Result<[f64; 3], WordFault> {
     let first = rest.first();
     if let Some(kind) = first.filter(|word| matches!(word.bytes, b"spectral" | b"xyz")) {
@@ -360,7 +361,7 @@ fn model(head: &Word<'_>, word: Option<&Word<'_>>) -> Result<u8, WordFault> {
     model.ok_or_else(|| head.fault("`illum` is a whole number from 0 to 10", "left out"))
 }
 
-/// What follows `-halo`, an opacity at the rims that is read as one everywhere.
+/// The text after `-halo`: an opacity at grazing angles, which is read as a constant one.
 fn after_halo<'w, 'a>(rest: &'w [Word<'a>]) -> &'w [Word<'a>] {
     match rest {
         [

@@ -1,9 +1,8 @@
-//! Wavefront OBJ: the lines are read three times, for the vertices, for the faults of the faces,
-//! and for the faces; so little is held beside what becomes the mesh, and what that takes is known
-//! before.
+//! Wavefront OBJ. The lines are read three times: for the vertices, for the errors of the faces,
+//! and for the faces. So little memory is held besides the mesh, whose size is known in advance.
 //!
-//! Groups make no difference, but for those of smoothing; which material each face asks for is kept
-//! beside the mesh. Corners without a normal, where others have one, are shaded flat.
+//! Groups are ignored, except smoothing groups; the material of each face is kept beside the mesh.
+//! Corners without a normal, in a file with normals, are shaded flat.
 
 mod build;
 mod corner;
@@ -16,7 +15,7 @@ use crate::words::{Lines, Word, WordFault, numbers};
 use corner::{CornerCounts, indices};
 use rtc_source::{Budget, Resource};
 
-/// True if the word opens a statement that OBJ files begin with.
+/// True if the word is a statement that OBJ files begin with.
 pub(super) fn is_keyword(word: &Word<'_>) -> bool {
     const KEYWORDS: [&[u8]; 16] = [
         b"v", b"vt", b"vn", b"vp", b"f", b"fo", b"l", b"p", b"g", b"o", b"s", b"mg", b"mtllib",
@@ -50,7 +49,7 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault>
 /// The memory that an end of a line takes, in lists that grow by doubling.
 const STROKE: u64 = 32;
 
-/// What was checked, and what was found.
+/// The results of the check.
 #[derive(Default)]
 struct Check {
     vertices: Vertices,
@@ -64,9 +63,9 @@ struct Check {
     smooth_corners: usize,
     /// How many ends lines and points have.
     ends: usize,
-    /// Lines and points, each with the material that they ask for.
+    /// Lines and points, each with its material.
     strokes: Vec<(Named, Segments)>,
-    /// How many lines ask for another material.
+    /// The number of `usemtl` lines.
     switches: usize,
     material_use: MaterialUse,
     faults: Vec<WordFault>,
@@ -138,7 +137,7 @@ impl Check {
         }
     }
 
-    /// Checks the faces; what they refer to may follow them.
+    /// Checks the faces; they may refer to later vertices.
     fn faces(&mut self, bytes: &[u8]) {
         let (mut lines, mut words, mut so_far) =
             (Lines::new(bytes), Vec::new(), CornerCounts::default());
@@ -200,7 +199,7 @@ impl Check {
         Ok(())
     }
 
-    /// The positions that the words of a line or of points are.
+    /// The positions of the words of a line or point statement.
     fn ends(&self, words: &[Word<'_>], so_far: CornerCounts) -> Result<Vec<u32>, WordFault> {
         let corners = words.iter();
         let corners = corners.map(|corner| indices(corner, so_far, self.vertices.counts()));
@@ -209,7 +208,7 @@ impl Check {
             .collect()
     }
 
-    /// Those of the material that lines ask for now.
+    /// The strokes of the current material.
     fn strokes(&mut self) -> &mut Segments {
         let material = self.material_use.current();
         if self
@@ -242,7 +241,7 @@ fn is_face(head: &Word<'_>) -> bool {
     matches!(head.bytes, b"f" | b"fo")
 }
 
-/// What a line declares: an index into the parts of a corner.
+/// The counter that a line increments: an index into the parts of a corner.
 fn part_of(head: &Word<'_>) -> Option<usize> {
     match head.bytes {
         b"v" => Some(0),

@@ -9,7 +9,7 @@ use super::{MAX_FAULTS, ParseFault, Parsed};
 use crate::words::{Lines, Word, WordFault, numbers};
 use rtc_source::{Budget, Exceeded, Resource};
 
-/// True if the word opens an OFF file of any kind.
+/// True if the word begins an OFF file of any variant.
 pub(super) fn is_head(word: &Word<'_>) -> bool {
     word.bytes.ends_with(b"OFF") && word.bytes.len() <= 6
 }
@@ -39,7 +39,7 @@ struct OffReader<'a> {
 }
 
 impl<'a> OffReader<'a> {
-    /// The words of the next line; `count` says who promised one.
+    /// The words of the next line; `count` names the count that announced it.
     fn line(&mut self, count: &Count<'a>) -> Result<&[Word<'a>], WordFault> {
         if self.lines.next(&mut self.words) {
             return Ok(&self.words);
@@ -83,7 +83,7 @@ fn head<'a>(reader: &mut OffReader<'a>) -> Result<Head<'a>, WordFault> {
     if let Some(binary) = reader.words.get(1).filter(|word| word.bytes == b"BINARY") {
         return Err(binary.fault("binary OFF is not supported", "only the text form is read"));
     }
-    // The counts stand on the line of the head or on the next.
+    // The counts are on the header line or on the next.
     let mut counts = reader.words[1..].to_vec();
     if counts.is_empty() {
         reader.lines.next(&mut counts);
@@ -112,7 +112,7 @@ fn head<'a>(reader: &mut OffReader<'a>) -> Result<Head<'a>, WordFault> {
     })
 }
 
-/// What an OFF holds.
+/// The contents of an OFF file.
 #[derive(Default)]
 struct Content {
     parsed: Parsed,
@@ -176,7 +176,7 @@ fn body<'a>(
     }
 }
 
-/// Adds the colour that some words are, if they are one.
+/// Adds the colour of some words, if they are one.
 fn tint(words: &[Word<'_>], tints: &mut Tints) {
     let channels: Vec<f64> = words
         .iter()
@@ -199,7 +199,8 @@ fn vertex(
     Ok((position, has_normals.then(normal).transpose()?))
 }
 
-/// A polygon; what follows its corners is its colour. Of two corners it is a line, of one a point.
+/// A polygon; after its corners follows its colour. With two corners it is a line, with one a
+/// point.
 fn face(words: &[Word<'_>], vertices: &Count<'_>, content: &mut Content) -> Result<(), WordFault> {
     let (head, rest) = (&words[0], &words[1..]);
     let arity = head.integer()?;
@@ -230,7 +231,7 @@ fn face(words: &[Word<'_>], vertices: &Count<'_>, content: &mut Content) -> Resu
     Ok(())
 }
 
-/// The vertex that a corner is; a fault within if there is none.
+/// The vertex of a corner; an error inside if there is none.
 fn index(corner: &Word<'_>, vertices: &Count<'_>) -> Result<Result<u32, WordFault>, WordFault> {
     let number = corner.integer()?;
     let index = u32::try_from(number)

@@ -47,7 +47,7 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault>
     Ok(parsed)
 }
 
-/// What was read so far.
+/// The state so far.
 struct PlyReader<'a> {
     body: PlyBody<'a>,
     /// How many vertices there are to be.
@@ -69,7 +69,7 @@ impl<'a> PlyReader<'a> {
             b"vertex" => {
                 vertex::read(element, &mut self.body, &mut self.parsed.mesh, budget)?;
             }
-            // Any number of nothing.
+            // A list of empty elements.
             _ if element.properties.is_empty() => {}
             b"face" | b"tristrips" | b"edge" => {
                 let corner = element
@@ -116,7 +116,7 @@ impl<'a> PlyReader<'a> {
         Ok(parsed)
     }
 
-    /// The vertex that the next number is; none, and told, if there is no such.
+    /// The vertex that the next number refers to; `None`, with an error, if there is none.
     fn vertex(
         &mut self,
         property: &PlyProperty<'_>,
@@ -236,7 +236,7 @@ impl<'a> PlyReader<'a> {
                         continue;
                     };
                     if let [a, b] = *strip {
-                        // A corner twice turns the strip, and shows nothing.
+                        // A repeated corner turns the strip, and adds no triangle.
                         if a != b && b != corner && corner != a {
                             let three = if is_odd {
                                 [b, a, corner]

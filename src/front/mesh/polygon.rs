@@ -1,16 +1,16 @@
 //! Polygons cut into triangles: as the fan of the first corner where that covers them, else ear by
 //! ear (Meisters, "Polygons have ears", American Mathematical Monthly 82, 1975).
 //!
-//! The corners are looked at along the axis nearest to the normal, and on which side of an edge one
-//! lies is decided exactly, so no notch is closed by rounding.
+//! Corners are projected along the axis nearest to the normal. The side of an edge is decided
+//! exactly, so rounding closes no notch.
 
 use rtc_math::{two_difference, two_product, two_sum};
 
 /// A point as seen along an axis.
 type Point2 = [f64; 2];
 
-/// So many corners of ears are compared for a file without being long, and for each of its corners:
-/// what is left of a polygon after that becomes a fan.
+/// The maximum number of comparisons for ears, per file and per corner; the rest of the polygon
+/// becomes a fan.
 const COMPARED: usize = 1 << 23;
 const COMPARED_PER_CORNER: usize = 32;
 
@@ -96,7 +96,7 @@ impl EarClipper {
         }));
     }
 
-    /// Whether no triangle of the fan of the first corner lies on its back.
+    /// Whether all triangles of the fan of the first corner have the same orientation.
     fn is_fan(&self) -> bool {
         let [first, rest @ ..] = &*self.flat else {
             return true;
@@ -105,14 +105,13 @@ impl EarClipper {
             .all(|pair| turn(*first, pair[0], pair[1]) >= 0.0)
     }
 
-    /// A place of the ring and its neighbours.
+    /// A corner of the ring and its neighbours.
     fn around(&self, at: usize) -> [usize; 3] {
         let count = self.ring.len();
         [(at + count - 1) % count, at, (at + 1) % count].map(|place| self.ring[place])
     }
 
-    /// A place of the ring that can be cut off; of those that have no area one if there is no
-    /// other.
+    /// A corner of the ring that can be cut off; a degenerate one only if there is no other.
     fn ear(&mut self) -> Option<usize> {
         let mut flat = None;
         for at in 0..self.ring.len() {
@@ -125,7 +124,7 @@ impl EarClipper {
                 continue;
             }
             self.left = self.left.saturating_sub(self.ring.len());
-            // A corner in the place of one of the three is where a seam leads to a hole.
+            // Coincident corners occur where a seam leads to a hole.
             let is_in = |p: Point2| {
                 ![a, b, c].contains(&p)
                     && self::turn(a, b, p) >= 0.0
@@ -140,8 +139,8 @@ impl EarClipper {
     }
 }
 
-/// Above 0 if the way from `a` over `b` to `c` turns left, below if right, 0 if not at all: the
-/// sign is exact (Shewchuk, "Adaptive precision floating-point arithmetic", 1997).
+/// Above 0 if the path from `a` over `b` to `c` turns left, below if right, 0 if straight: the sign
+/// is exact (Shewchuk, "Adaptive precision floating-point arithmetic", 1997).
 fn turn([ax, ay]: Point2, [bx, by]: Point2, [cx, cy]: Point2) -> f64 {
     /// (3 + 16 u)·u, for the rounding of two differences, a product and a difference.
     const ROUNDING: f64 = 3.330_669_073_875_471_6e-16;
@@ -216,7 +215,7 @@ mod tests {
 
     #[test]
     fn a_seam_leads_to_a_hole() {
-        // A square of 4 × 4, by a seam to a square hole of 2 × 2 that goes round the other way.
+        // A square of 4 × 4, with a seam to a square hole of 2 × 2 of opposite orientation.
         let corners = [
             [0.0, 0.0],
             [4.0, 0.0],

@@ -56,8 +56,8 @@ impl Polygons {
         self.ends.last().map_or(0, |end| *end as usize)
     }
 
-    /// Puts the triangles into the mesh, which has all its vertices. `missing` makes the fault of a
-    /// polygon with a corner that is not there.
+    /// Adds the triangles to the mesh, which has all its vertices. `missing` makes the error for an
+    /// invalid corner.
     ///
     /// # Errors
     /// If it would take more memory than there is.
@@ -73,7 +73,7 @@ impl Polygons {
             colors,
             uvs,
         } = self;
-        let are_apart = !colors.is_empty() || !uvs.is_empty();
+        let is_split = !colors.is_empty() || !uvs.is_empty();
         let count = parsed.mesh.positions.len();
         let mut clipper = EarClipper::new(corners.len());
         let (mut triangles, mut first) = (Vec::new(), 0);
@@ -84,7 +84,7 @@ impl Polygons {
             } else {
                 let position = |at: usize| parsed.mesh.positions.at(polygon[at] as usize);
                 clipper.cut(polygon.len(), position, |three| {
-                    triangles.push(three.map(|at| match are_apart {
+                    triangles.push(three.map(|at| match is_split {
                         true => to_u32(first + at),
                         false => polygon[at],
                     }));
@@ -93,7 +93,7 @@ impl Polygons {
             first = *end as usize;
         }
         parsed.mesh.triangles = triangles.into();
-        if are_apart {
+        if is_split {
             // All columns in 64 bits, at most.
             budget.has(Resource::Memory, 160 * corners.len() as u64)?;
             unshare_vertices(&mut parsed.mesh, corners, count);

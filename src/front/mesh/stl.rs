@@ -10,7 +10,7 @@ use rtc_ir::Mesh;
 use rtc_math::to_u32;
 use rtc_source::{Budget, Resource};
 
-/// What stands before the triangles of a binary file: 80 bytes of any kind, and their count.
+/// The bytes before the triangles of a binary file: a header of 80 bytes, and their count.
 const HEAD: usize = 84;
 
 /// A binary triangle: its normal, its corners, and two bytes of any kind.
@@ -38,8 +38,8 @@ fn is_text(head: &[u8]) -> bool {
     true
 }
 
-/// Whether it is as long as its count says, or longer and begins with triangles; of a file of which
-/// more is there, whether it may be.
+/// Whether it has the length of its count, or is longer and begins with valid triangles; for a
+/// truncated prefix, whether it may.
 fn is_binary(head: &[u8]) -> bool {
     let Some(count) = count(head) else {
         return false;
@@ -58,7 +58,7 @@ fn count(head: &[u8]) -> Option<u32> {
     Some(u32::from_le_bytes(count))
 }
 
-/// The triangles of a binary file, of those that it says it has; what follows them is not read.
+/// The triangles of a binary file, up to its count; the bytes after them are ignored.
 fn triangles(bytes: &[u8], count: u32) -> &[[u8; TRIANGLE]] {
     let there = bytes[HEAD..].as_chunks::<TRIANGLE>().0;
     &there[..there.len().min(count as usize)]
@@ -117,7 +117,7 @@ fn colors(bytes: &[u8], triangles: &[[u8; TRIANGLE]]) -> Vec<[f32; 4]> {
     }
 }
 
-/// What has no colour among triangles that have, linear.
+/// The default colour of triangles without one, linear.
 const GREY: [f32; 3] = [0.7; 3];
 
 fn opaque([r, g, b]: [f32; 3]) -> [f32; 4] {

@@ -7,8 +7,8 @@ use rtc_ir::{BoundingSphere, Column, Mesh};
 use rtc_math::{Vec3, to_u32};
 use rtc_source::{Budget, Exceeded, Resource};
 
-/// Bytes of the offset of a corner and its place, beside its columns, and of a triangle until it is
-/// rendered.
+/// The bytes of the offset of a corner and its position, beside its columns, and of a triangle
+/// until it is rendered.
 const OFFSET: u64 = 48;
 const TRIANGLE: u64 = 108;
 
@@ -55,7 +55,7 @@ impl<'run> StrokeMesher<'run> {
         }
     }
 
-    /// The meshes about points and lines, none where there is nothing.
+    /// The meshes of points and lines; empty if there are none.
     ///
     /// # Errors
     /// If they would take more memory than there is.

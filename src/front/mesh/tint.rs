@@ -11,11 +11,11 @@ pub(super) struct Tints {
     most: f32,
 }
 
-/// What has no colour among others that have.
+/// The default colour of elements without one.
 pub(super) const WHITE: [f32; 4] = [1.0; 4];
 
 impl Tints {
-    /// Adds the colour of what comes next, three or four channels.
+    /// Adds the colour of the next element, three or four channels.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "rounded to what the IR stores"
@@ -28,7 +28,7 @@ impl Tints {
         self.colors.push([r, g, b, alpha]);
     }
 
-    /// What comes next has no colour.
+    /// The next element has no colour.
     pub(super) fn skip(&mut self) {
         self.colors.push([f32::INFINITY; 4]);
     }

@@ -1,12 +1,12 @@
-//! XYZ: a point a line, its place, and then its colour or its normal or both, as programs that scan
-//! and measure write them.
+//! XYZ: one point per line, its position, then its colour, its normal or both, as scanners write
+//! them.
 
 use super::tint::Tints;
 use super::{MAX_FAULTS, ParseFault, Parsed, first_lines};
 use crate::words::{Lines, Word, WordFault, numbers};
 use rtc_source::{Budget, Resource};
 
-/// So many lines are looked at to tell what a file is, and what its numbers are.
+/// The maximum number of lines inspected to detect the format and the meaning of its numbers.
 const LOOKED_AT: usize = 64;
 
 /// The fewest and the most numbers of a line.
@@ -31,14 +31,14 @@ pub(super) fn is_head(head: &[u8]) -> bool {
     count.is_some()
 }
 
-/// What the numbers after the place of a point are.
+/// The meaning of the numbers after the position of a point.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Meaning {
     Color,
     Normal,
 }
 
-/// What the numbers of a line are from which place on.
+/// The meaning of the numbers of a line, with their first index.
 fn columns(bytes: &[u8]) -> Vec<(usize, Meaning)> {
     let (mut lines, mut words) = (first_lines(bytes), Vec::new());
     let mut rows: Vec<Vec<f64>> = Vec::new();
@@ -49,7 +49,7 @@ fn columns(bytes: &[u8]) -> Vec<(usize, Meaning)> {
     let count = rows.first().map_or(0, Vec::len);
     let triples: &[usize] = match count {
         6 => &[3],
-        // The strength of the echo stands before the colour.
+        // The intensity precedes the colour.
         7 | 10 => &[4, 7],
         9 => &[3, 6],
         _ => &[],
@@ -72,7 +72,8 @@ fn columns(bytes: &[u8]) -> Vec<(usize, Meaning)> {
 
 /// Reads an XYZ.
 pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
-    // A line of six bytes becomes a place, a normal and a colour, in lists that grow by doubling.
+    // A line of six bytes becomes a position, a normal and a colour, in lists that grow by
+    // doubling.
     budget.has(Resource::Memory, 24 * bytes.len() as u64)?;
     let columns = columns(bytes);
     let (mut lines, mut words) = (Lines::new(bytes), Vec::new());
@@ -95,7 +96,7 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault>
     Ok(parsed)
 }
 
-/// The place of a point; its colour and its normal are added.
+/// The position of a point; its colour and its normal are added.
 fn point(
     words: &[Word<'_>],
     columns: &[(usize, Meaning)],

@@ -1,8 +1,8 @@
 //! BSDFs and textures as the standard material.
 //!
-//! `diffuse`, `dielectric` and `mask` are exact, up to the quantization of pictures. For the others
-//! the closest standard material is used, with a warning that says how it differs: Schlick's
-//! approximation takes the place of the Fresnel equations of metals, and GGX that of Beckmann.
+//! `diffuse`, `dielectric` and `mask` are exact, up to the quantization of images. For the others
+//! the closest standard material is used, with a warning that describes the difference: Schlick's
+//! approximation replaces the Fresnel equations of metals, and GGX replaces Beckmann.
 
 use super::xml::{Node, Value};
 use super::{AssetTarget, Lowering};
@@ -70,7 +70,7 @@ impl<'run> Lowering<'run> {
     /// A BSDF as a standard material; `None` for `null`.
     fn standard(&mut self, node: &'run Node, flip: bool, depth: usize) -> Option<Standard> {
         if depth >= MAX_DEPTH {
-            self.unsupported(node, "it is nested too deep, and grey takes its place");
+            self.unsupported(node, "it is nested too deep, and grey replaces it");
             return Some(matte([0.5; 3]));
         }
         Some(match node.plugin.text.as_str() {
@@ -108,7 +108,7 @@ impl<'run> Lowering<'run> {
             }
             "principled" => self.principled(node, flip),
             "phong" | "ward" => {
-                self.unsupported(node, "its diffuse part takes its place");
+                self.unsupported(node, "its diffuse part replaces it");
                 let channel = self.channel(node, "diffuse_reflectance", [0.5; 3], flip);
                 Standard {
                     base_color_map: channel.map,
@@ -134,14 +134,14 @@ impl<'run> Lowering<'run> {
             }
             "blendbsdf" => {
                 let weight = node.number("weight").unwrap_or(0.5);
-                self.unsupported(node, "the BSDF of the larger weight takes its place");
+                self.unsupported(node, "the BSDF of the larger weight replaces it");
                 let parts: Vec<_> = self.bsdf_children(node);
                 let part = parts.get(usize::from(weight > 0.5)).or(parts.first())?;
                 return self.standard(part, flip, depth + 1);
             }
             "null" => return None,
             _ => {
-                self.unsupported(node, "diffuse grey takes its place");
+                self.unsupported(node, "diffuse grey replaces it");
                 matte([0.5; 3])
             }
         })
@@ -198,16 +198,14 @@ impl<'run> Lowering<'run> {
             (None, name) => match metal(name) {
                 Some(complex) => normal_reflectance(complex),
                 None => {
-                    let message =
-                        format!("the metal `{name}` is not known: copper takes its place");
+                    let message = format!("the metal `{name}` is unknown: copper replaces it");
                     self.approximate(node.plugin.span, message);
                     metal("Cu").map_or([1.0; 3], normal_reflectance)
                 }
             },
         };
         if reflectance != [1.0; 3] {
-            let message =
-                "Schlick's approximation takes the place of the Fresnel equations of metals";
+            let message = "Schlick's approximation replaces the Fresnel equations of metals";
             self.approximate(node.plugin.span, message);
         }
         let tint = self.channel(node, "specular_reflectance", [1.0; 3], flip);
@@ -241,7 +239,7 @@ impl<'run> Lowering<'run> {
         let ratio = inside / outside;
         if ratio < 1.0 {
             let message = "an index of refraction below that of the outside is not supported: its \
-                           inverse takes its place";
+                           inverse replaces it";
             self.approximate(node.plugin.span, message);
             return 1.0 / ratio;
         }
@@ -277,7 +275,7 @@ impl<'run> Lowering<'run> {
     }
 
     fn plastic(&mut self, node: &'run Node, roughness: f64, flip: bool) -> Standard {
-        let message = "the standard material takes the place of the layered plastic";
+        let message = "the standard material replaces the layered plastic";
         self.approximate(node.plugin.span, message);
         let diffuse = self.channel(node, "diffuse_reflectance", [0.5; 3], flip);
         Standard {
@@ -290,13 +288,12 @@ impl<'run> Lowering<'run> {
     }
 
     fn principled(&mut self, node: &'run Node, flip: bool) -> Standard {
-        let message = "the standard material takes the place of the principled BSDF";
+        let message = "the standard material replaces the principled BSDF";
         self.approximate(node.plugin.span, message);
         let base = self.channel(node, "base_color", [0.5; 3], flip);
         let fraction =
             |name: &str, default: f64| node.number(name).unwrap_or(default).clamp(0.0, 1.0);
-        // `specular` s stands for a reflectance of 0.08·s along the normal (Burley 2012, section
-        // 5.2).
+        // `specular` s is a reflectance of 0.08·s along the normal (Burley 2012, section 5.2).
         let ior = match (node.number("eta"), node.number("specular")) {
             (Some(eta), _) => eta.max(1.0),
             (None, specular) => {
@@ -401,7 +398,7 @@ impl<'run> Lowering<'run> {
             }
             "checkerboard" => return Some(self.checkerboard(node, flip)),
             _ => {
-                self.unsupported(node, "white takes its place");
+                self.unsupported(node, "white replaces it");
                 return None;
             }
         };

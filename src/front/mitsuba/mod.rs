@@ -15,8 +15,7 @@
 //!   within the limits and search paths of all scenes.
 //!
 //! Every Mitsuba scene is path-traced. Colours are linear Rec. 709; spectra are converted to it
-//! when
-//! they are read.
+//! when they are read.
 
 #![expect(
     clippy::wildcard_enum_match_arm,
@@ -93,7 +92,7 @@ struct Lowering<'run> {
     search: Search,
     map: &'run mut SourceMap,
     sink: &'run mut Sink,
-    /// The shared elements: `<bsdf id="…">` and the like, by id.
+    /// The shared elements, such as `<bsdf id="…">`, by id.
     shared: BTreeMap<&'run str, &'run Node>,
     /// Materials that were lowered, by the span of their element and what else distinguishes them.
     materials: BTreeMap<bsdf::MaterialKey, Option<MaterialId>>,
@@ -219,7 +218,7 @@ impl<'run> Lowering<'run> {
         self.sink.push(diagnostic.at(node.span, ""));
     }
 
-    /// Warns of the properties that a plugin has beside those that were used.
+    /// Warns of properties of a plugin that were not read.
     fn ignored(&mut self, node: &Node, used: &[&str]) {
         for property in &node.properties {
             if !used.contains(&property.name.text.as_str()) {

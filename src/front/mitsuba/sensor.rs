@@ -112,7 +112,7 @@ impl<'run> Lowering<'run> {
                 self.perspective(node, &to_world, size)
             }
             _ => {
-                self.unsupported(node, "a perspective camera takes its place");
+                self.unsupported(node, "a perspective camera replaces it");
                 self.perspective(node, &to_world, size)
             }
         };

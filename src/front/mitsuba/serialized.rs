@@ -1,6 +1,5 @@
 //! Mitsuba's binary mesh files (`.serialized`, versions 3 and 4): several meshes, each compressed
-//! by
-//! zlib (RFC 1950), and a table of their offsets at the end.
+//! by zlib (RFC 1950), and a table of their offsets at the end.
 
 use flate2::read::ZlibDecoder;
 use rtc_ir::{Column, Mesh};

@@ -92,7 +92,7 @@ impl<'run> Lowering<'run> {
         });
     }
 
-    /// `face_normals` and `flip_normals` change nothing of what has two sides.
+    /// `face_normals` and `flip_normals` do not change two-sided surfaces.
     fn face_forward(&mut self, node: &Node, material: MaterialId) -> MaterialId {
         let is_flipped = node.flag("flip_normals") == Some(true);
         let transmits = match self.scene.materials.get(material.0 as usize) {

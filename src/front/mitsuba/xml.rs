@@ -34,7 +34,7 @@ pub(super) struct Node {
     pub(super) plugin: Text,
     /// The `id`.
     pub(super) id: Option<Text>,
-    /// The `name`, which says what a parent uses it for.
+    /// The `name`, which is the role of the element in its parent.
     pub(super) name: Option<String>,
     pub(super) properties: Vec<Property>,
     pub(super) children: Vec<Node>,
@@ -444,7 +444,7 @@ impl XmlReader<'_> {
         }
     }
 
-    /// A property: `<float name="…" value="…"/>` and the like.
+    /// A property such as `<float name="…" value="…"/>`.
     fn property(&mut self, file: FileId, element: Element<'_, '_>) -> Option<Property> {
         let kind = element.tag_name().name();
         let Some(name) = self.attribute(file, element, "name") else {

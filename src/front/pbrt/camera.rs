@@ -22,9 +22,9 @@ const FIELD_OF_VIEW: f64 = 90.0;
 const FOCAL_DISTANCE: f64 = 1e6;
 /// The points of a lens that a sample takes: one, as paths are many.
 const LENS_SAMPLES: u32 = 2;
-/// By so much of their lengths the axes of a camera may be turned without a warning.
+/// The tolerance of the rotation of a camera's axes, relative to their lengths.
 const SEEN_SKEW: f64 = 1e-3;
-/// By so much they are perpendicular, up to the rounding of products.
+/// The tolerance of their perpendicularity: the rounding of products.
 const ROUNDING: f64 = 1e-12;
 
 const CAMERAS: [&str; 2] = ["perspective", "orthographic"];
@@ -109,9 +109,9 @@ impl Lowering<'_> {
         let side = |name, default| parameters.count(name).unwrap_or(default).max(1);
         let size = [side("xresolution", SIZE[0]), side("yresolution", SIZE[1])];
         if !["image", "rgb", "gbuffer", "spectral"].contains(&plugin.text.as_str()) {
-            self.unsupported("film", plugin, &["rgb", "image"], "`rgb` takes its place");
+            self.unsupported("film", plugin, &["rgb", "image"], "`rgb` replaces it");
         }
-        // What lies outside of colours and size does not change the picture.
+        // Parameters other than colours and size do not change the picture.
         parameters.skip(&["filename", "diagonal", "savefp16", "maxsampleluminance"]);
         parameters.skip(&["maxcomponentvalue"]);
         let scale = parameters.number("scale").unwrap_or(1.0);
@@ -197,8 +197,8 @@ impl Lowering<'_> {
             | "irradiancecache" => {
                 let name = clip(&plugin.text);
                 let message = format!(
-                    "`{name}` is not supported: paths from the camera take \
-                     its place, which find the same light"
+                    "`{name}` is not supported: path tracing replaces it, which converges to the \
+                    same picture"
                 );
                 self.report(&codes::PBRT_PLUGIN, plugin.span, message);
             }
@@ -256,7 +256,7 @@ impl Lowering<'_> {
     ) {
         let from_camera = self.squared(plugin, from_camera);
         if !CAMERAS.contains(&plugin.text.as_str()) {
-            let instead = "a perspective camera takes its place";
+            let instead = "a perspective camera replaces it";
             self.unsupported("camera", plugin, &CAMERAS, instead);
         }
         // In version 4 the time for which the shutter is open is the exposure.
@@ -290,7 +290,7 @@ fn screen(parameters: &Parameters, film: &CroppedFilm) -> [f64; 4] {
     }
 }
 
-/// A camera whose screen, times `scale`, stands at the distance `depth`.
+/// A camera with its screen, times `scale`, at the distance `depth`.
 fn camera(
     from_camera: &Transform,
     film: &CroppedFilm,

@@ -59,7 +59,7 @@ const DIRECTIVES: [&str; 44] = [
     "Renderer",
 ];
 
-/// The directives without an argument, and what their first line cannot be in another format.
+/// The directives without an argument, and first lines that only pbrt files have.
 const BARE: [&[u8]; 4] = [
     b"WorldBegin",
     b"AttributeBegin",
@@ -67,7 +67,7 @@ const BARE: [&[u8]; 4] = [
     b"TransformBegin",
 ];
 
-/// After so many tokens the budget is charged.
+/// The number of tokens between charges to the budget.
 const CHARGED_TOKENS: u64 = 1 << 12;
 
 /// Whether the first line that is no comment is a directive of pbrt with an argument.
@@ -81,8 +81,8 @@ pub(crate) fn begins_scene(bytes: &[u8]) -> bool {
     let is_directive = |word: &&str| {
         let rest = first.strip_prefix(word.as_bytes()).unwrap_or_default();
         let starts = rest.trim_ascii_start().first();
-        let is_apart = rest.first().is_some_and(u8::is_ascii_whitespace);
-        is_apart && starts.is_some_and(|byte| byte.is_ascii_digit() || b"\"-[.".contains(byte))
+        let has_space = rest.first().is_some_and(u8::is_ascii_whitespace);
+        has_space && starts.is_some_and(|byte| byte.is_ascii_digit() || b"\"-[.".contains(byte))
     };
     let has_colon = first.contains(&b':') && !first.contains(&b'"');
     BARE.contains(&first) || (!has_colon && DIRECTIVES.iter().any(is_directive))
@@ -118,7 +118,7 @@ impl Lowering<'_> {
             let span = open.reader.span(token);
             self.files.push(open);
             self.directive(token);
-            // Charge what was read, and stop when there is no more.
+            // Charge the tokens read, and stop at the end.
             if let Some(open) = self.files.last_mut() {
                 charged += std::mem::take(&mut open.reader.count);
             }
@@ -144,7 +144,7 @@ impl Lowering<'_> {
         let Text { text: name, span } = self.reader().text(token);
         if token.kind != PbrtTokenKind::Word {
             let message = match token.kind {
-                PbrtTokenKind::Unterminated => "nothing ends this string on its line".to_owned(),
+                PbrtTokenKind::Unterminated => "this string is not closed on its line".to_owned(),
                 _ => format!("`{}` stands where a directive is expected", clip(&name)),
             };
             self.report(&codes::PBRT_SYNTAX, span, message);
@@ -349,7 +349,7 @@ impl Lowering<'_> {
             match token.and_then(|token| reader.number(token)) {
                 Some(known) => *number = known,
                 None => {
-                    // The next directive is not what is wrong.
+                    // The next directive is not the error.
                     let is_word = |token: &PbrtToken| {
                         !reader
                             .bytes(*token)

@@ -5,7 +5,7 @@ use rtc_ir::Image;
 use rtc_math::{Vec3, atan2, sin_cos};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// The point of the unit square that stands for a direction.
+/// The point of the unit square that represents a direction.
 fn square(direction: Vec3) -> [f64; 2] {
     let Vec3 { x, y, z } = direction;
     let [ax, ay, az] = [x.abs(), y.abs(), z.abs()];

@@ -14,7 +14,7 @@ const MAX_DEPTH: usize = 32;
 const MAX_FILES: usize = 1 << 14;
 /// The largest file that is read, in bytes.
 const MAX_BYTES: u64 = 1 << 30;
-/// What a compressed file may become: so many bytes, and more for each of its own.
+/// The maximum size of a decompressed file: a constant, plus a factor times its size.
 const UNPACKED: (u64, u64) = (16 << 20, 8);
 /// The step in which unpacked bytes are charged.
 const STEP: usize = 1 << 16;
@@ -30,7 +30,7 @@ const SCENES: FileKind = FileKind {
 /// A file that is being read.
 pub(super) struct OpenFile {
     pub(super) reader: TokenReader,
-    /// Whether the state before it holds after it.
+    /// Whether it keeps the graphics state before it.
     pub(super) is_import: bool,
 }
 
@@ -39,10 +39,10 @@ pub(super) fn is_gzip(bytes: &[u8]) -> bool {
     bytes.starts_with(b"\x1f\x8b")
 }
 
-/// The first bytes of what a compressed file becomes.
+/// The first bytes of a decompressed file.
 pub(super) fn inflated_head(bytes: &[u8]) -> Vec<u8> {
     let mut head = Vec::new();
-    // What comes before damage is looked at.
+    // The bytes before the damage are inspected.
     let _ = MultiGzDecoder::new(bytes).take(HEAD).read_to_end(&mut head);
     head
 }
@@ -129,7 +129,7 @@ impl Lowering<'_> {
 
     /// The text of a file from its start; one file is read once, whatever its names are.
     fn find_included(&mut self, path: &Text) -> Option<TokenReader> {
-        const INSTEAD: &str = "what it holds is left out";
+        const INSTEAD: &str = "its contents are left out";
         let found = self.find(path, &SCENES, INSTEAD)?;
         if let Some(known) = self.texts.get(&found.path) {
             return Some(known.clone());
@@ -141,7 +141,7 @@ impl Lowering<'_> {
         Some(reader)
     }
 
-    /// Finds a file of a kind; without it a warning says what is used `instead`.
+    /// Finds a file of a format; if it is missing, a warning names the replacement `instead`.
     fn find(&mut self, path: &Text, kind: &FileKind, instead: &str) -> Option<rtc_source::Found> {
         self.lookups += 1;
         if self.lookups > MAX_FILES {
@@ -159,7 +159,8 @@ impl Lowering<'_> {
         found.ok()
     }
 
-    /// The bytes of a file of a kind, unpacked; without it a warning says what is used `instead`.
+    /// The bytes of a file of a format, decompressed; if it is missing, a warning names the
+    /// replacement `instead`.
     pub(super) fn file(&mut self, path: &Text, kind: &FileKind, instead: &str) -> Option<Vec<u8>> {
         let found = self.find(path, kind, instead)?;
         let bytes = self.bytes_of(path, instead, &found)?;
@@ -207,7 +208,7 @@ impl Lowering<'_> {
         self.sink.push(diagnostic.at(span, "named here"));
     }
 
-    /// Reports a file that is not what it should be; the picture is made without it.
+    /// Reports an invalid file; the picture is rendered without it.
     pub(super) fn damaged(&mut self, code: &'static Code, path: &Text, why: &str, instead: &str) {
         let message = format!("`{}` cannot be read: {why}", clip_path(&path.text));
         self.without(Diagnostic::new(code, message), path.span, instead);

@@ -8,8 +8,8 @@ use rtc_image::{Opacity, is_radiance};
 use rtc_ir::{EntityKind, Filter, Image, ImageId, Pixels, Sampled, Texture, TextureId, Wrap};
 use rtc_source::{FileKind, Span};
 
-/// What takes the place of an image.
-const INSTEAD: &str = "grey takes the place of the texture";
+/// The replacement of an image.
+const INSTEAD: &str = "grey replaces the texture";
 
 /// The formats of textures.
 const TEXTURES: FileKind = FileKind {
@@ -22,7 +22,7 @@ const TEXTURES: FileKind = FileKind {
 /// What distinguishes images: the path, whether it is linear, and whether it is inverted.
 pub(super) type ImageKey = (String, bool, bool);
 
-/// A file with the way in which its texels are looked up.
+/// A file with its sampler.
 #[derive(Clone, Debug)]
 pub(super) struct ImageMap {
     pub(super) path: Text,

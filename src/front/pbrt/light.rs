@@ -63,7 +63,7 @@ impl Lowering<'_> {
             "distant" => self.distant(plugin, parameters),
             "infinite" | "exinfinite" => self.infinite(plugin, parameters),
             "goniometric" | "projection" => {
-                let instead = "a point without its picture takes its place";
+                let instead = "a point light without its image replaces it";
                 self.unsupported("light", plugin, &LIGHTS, instead);
                 parameters.skip(&["mapname", "filename", "fov"]);
                 self.point(plugin, parameters);
@@ -216,7 +216,7 @@ impl Lowering<'_> {
 
     /// Adds the picture of the environment; without it the environment is constant.
     fn environment_map(&mut self, path: &Text, is_equal_area: bool) {
-        const INSTEAD: &str = "light of one colour takes its place";
+        const INSTEAD: &str = "light of one colour replaces it";
         let Some(bytes) = self.file(path, &MAPS, INSTEAD) else {
             return;
         };
@@ -252,8 +252,8 @@ impl Lowering<'_> {
             }
             false => {
                 if is_equal_area {
-                    let message = "the picture is no square, so it is taken for one of longitude \
-                                   and latitude";
+                    let message = "the picture is no square, so it is read as an equirectangular \
+                    one";
                     self.approximate(path.span, message);
                 }
                 // pbrt's longitude runs against that of the IR.
@@ -277,7 +277,7 @@ impl Lowering<'_> {
 
     pub(super) fn area_light_source(&mut self, plugin: &Text, parameters: &Parameters) {
         if !["diffuse", "area"].contains(&plugin.text.as_str()) {
-            let instead = "a diffuse light takes its place";
+            let instead = "a diffuse light replaces it";
             self.unsupported("area light", plugin, &["diffuse"], instead);
         }
         if parameters.get("filename").is_some() {
@@ -298,7 +298,7 @@ impl Lowering<'_> {
     }
 }
 
-/// A picture with its columns in the other order, if asked for.
+/// An image with its columns reversed, if requested.
 fn mirrored(mut image: Image, is_asked: bool) -> Image {
     if is_asked {
         let bytes = image.kind.bytes();

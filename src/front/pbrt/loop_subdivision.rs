@@ -20,8 +20,8 @@ struct Edges {
     of_sides: Vec<u32>,
 }
 
-/// Subdivides a mesh so many times, moves its vertices to the limit surface, and gives them
-/// normals. The corners of triangles are in range.
+/// Subdivides a mesh the given number of times, moves its vertices to the limit surface, and
+/// computes normals. Indices are in range.
 pub(super) fn subdivide(
     mut positions: Vec<Vec3>,
     mut triangles: Vec<[u32; 3]>,
@@ -71,7 +71,7 @@ impl Edges {
         };
         for (ends, across, side) in sides {
             match edges.list.last_mut() {
-                // A third triangle at an edge has no place in the rules.
+                // The rules do not define a third triangle at an edge.
                 Some(edge) if edge.ends == ends => edge.across[1] = Some(across),
                 _ => edges.list.push(Edge {
                     ends,
@@ -198,8 +198,8 @@ mod tests {
         let (positions, triangles) = octahedron();
         let mesh = subdivide(positions, triangles, 3);
         assert_eq!((mesh.triangles.len(), mesh.positions.len()), (8 << 6, 258));
-        // The limit of a vertex of valence 4: β = 3/32, so it stays with 1 − 4/(4 + 4) = 1/2 of the
-        // way from the mean of its ring, which is the centre.
+        // The limit of a vertex of valence 4: β = 3/32, so it keeps 1 − 4/(4 + 4) = 1/2 of the
+        // distance from the mean of its ring, which is the centre.
         let [x, y, z] = mesh.positions.at(0);
         assert!(
             (x - 0.5).abs() < 1e-6 && y.abs() < 1e-6 && z.abs() < 1e-6,

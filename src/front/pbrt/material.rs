@@ -136,17 +136,17 @@ impl Lowering<'_> {
                 self.of_unknown_scattering(plugin, parameters)
             }
             _ => {
-                let instead = "diffuse grey takes its place";
+                let instead = "diffuse grey replaces it";
                 self.unsupported("material", plugin, &MATERIALS, instead);
                 matte([0.5; 3])
             }
         })
     }
 
-    /// Reports that the standard material stands for a material, or for a part of it.
+    /// Reports that the standard material approximates a material, or a part of it.
     fn nearest(&mut self, plugin: &Text, part: &str) {
         let name = &plugin.text;
-        let message = format!("the standard material takes the place of {part}`{name}`");
+        let message = format!("the standard material replaces {part}`{name}`");
         self.approximate(plugin.span, message);
     }
 
@@ -192,7 +192,7 @@ impl Lowering<'_> {
         if parameters.get("reflectance").is_some() {
             return self.channel(parameters, "reflectance", [1.0; 3]);
         }
-        let message = "Schlick's approximation takes the place of the Fresnel equations of metals";
+        let message = "Schlick's approximation replaces the Fresnel equations of metals";
         self.approximate(plugin.span, message);
         Channel {
             color: self.conductor(parameters, names),
@@ -321,8 +321,8 @@ impl Lowering<'_> {
         let (ior, dispersion) = self.refraction(parameters, ["eta", "index"]);
         let ior = match ior < 1.0 {
             true => {
-                let message = "an index of refraction below 1 is not supported: its inverse takes \
-                               its place";
+                let message = "an index of refraction below 1 is not supported: its inverse \
+                replaces it";
                 self.approximate(plugin.span, message);
                 1.0 / ior.max(0.01)
             }
@@ -376,7 +376,7 @@ impl Lowering<'_> {
             };
             (part("reflectance"), part("transmittance"))
         };
-        // Of light, the share `through` goes through, and the rest is reflected.
+        // The fraction `through` of the light is transmitted, the rest reflected.
         let most = |channel: &Channel| greatest(channel.color);
         let (back, through) = (most(&reflected), most(&transmitted));
         let share = if through > 0.0 {
@@ -433,7 +433,7 @@ impl Lowering<'_> {
         };
         let base = self.channel(parameters, name, [0.5; 3]);
         let message = format!(
-            "the material `{}` is not supported: a diffuse surface takes its place",
+            "the material `{}` is not supported: a diffuse surface replaces it",
             plugin.text
         );
         self.report(&codes::PBRT_PLUGIN, plugin.span, message);
@@ -623,7 +623,7 @@ fn rough(standard: Standard, [u, v]: [f64; 2]) -> Standard {
     }
 }
 
-/// A surface that mirrors `color` along its normal and `most` at grazing angles, and nothing else.
+/// A surface that reflects `color` along its normal and `most` at grazing angles, and nothing else.
 fn reflector(color: [f64; 3], most: f64, map: Option<Map>) -> Standard {
     Standard {
         roughness: 0.0,
@@ -648,7 +648,7 @@ fn relative(color: [f64; 3], most: f64) -> [f64; 3] {
     }
 }
 
-/// A material that covers only a share of what is behind it.
+/// A material with partial coverage.
 fn covering(standard: Standard, share: f64) -> Standard {
     let [r, g, b, alpha] = standard.base_color;
     Standard {

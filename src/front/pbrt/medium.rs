@@ -8,7 +8,7 @@ impl Lowering<'_> {
     /// Warns of a medium that shapes, lights or the camera are in.
     pub(super) fn medium_interface(&mut self, media: &[Text]) {
         if let Some(medium) = media.iter().find(|medium| !medium.text.is_empty()) {
-            let message = "participating media are not supported: what is in them is shown clear";
+            let message = "participating media are not supported: they are rendered clear";
             self.report(&codes::PBRT_PLUGIN, medium.span, message);
         }
     }

@@ -5,14 +5,14 @@
 //! ```
 //!
 //! - [`token`] splits the text into words with their spans, [`parameter`] reads typed parameters.
-//! - [`directive`] reads a file and those that it includes, one directive after the other, and
-//!   keeps the graphics state of [`state`]: transform, material, area light, attributes.
+//! - [`directive`] reads a file and its included files, one directive after the other, and keeps
+//!   the graphics state of [`state`]: transform, material, area light, attributes.
 //! - [`camera`], [`material`], [`texture`], [`light`] and [`shape`] lower one kind of plugin each.
 //!   Names of version 3 (`matte`, `Kd`, `mapname`) have the meaning that they had there. A plugin
 //!   that is not supported is replaced by the closest one, and a parameter without effect is
 //!   ignored, both with a warning: the picture is made all the same.
-//! - [`file`](mod@file) finds and reads the files that a scene names. Without one the picture is
-//!   made, too, and a warning says what it lacks.
+//! - [`file`](mod@file) finds and reads the files that a scene names. If one is missing, a warning
+//!   names the replacement, and the scene is still rendered.
 //!
 //! Every scene is path-traced. Colours are linear Rec. 709; spectra are converted to it when they
 //! are read. pbrt's camera is left-handed: the picture shows +x of the camera on its right.
@@ -71,8 +71,8 @@ pub(crate) fn is_pbrt_gzip(name: &str, bytes: &[u8]) -> bool {
             || directive::begins_scene(&file::inflated_head(bytes)))
 }
 
-/// Whether such a file is a scene by itself, not a part that another file includes: it has a
-/// camera or a world.
+/// Whether such a file is a scene by itself, not a file that another one includes: it has a camera
+/// or a world.
 #[must_use]
 pub fn is_whole(bytes: &[u8]) -> bool {
     if file::is_gzip(bytes) {
@@ -201,7 +201,7 @@ impl<'run> Lowering<'run> {
         self.report(&codes::PBRT_VALUE, span, message);
     }
 
-    /// Warns of what is shown approximately.
+    /// Warns of an approximation.
     fn approximate(&mut self, span: Span, message: impl Into<String>) {
         self.report(&codes::PBRT_APPROXIMATE, span, message);
     }
@@ -217,17 +217,17 @@ impl<'run> Lowering<'run> {
         self.sink.push(diagnostic);
     }
 
-    /// Warns of the parameters that nobody asked for.
+    /// Warns of the parameters that were not read.
     fn ignored(&mut self, kind: &str, plugin: &str, parameters: &Parameters) {
-        /// To so many names near ones are looked for.
+        /// The maximum number of names that are searched for similar spellings.
         const COMPARED: usize = 32;
-        let (unused, asked) = parameters.unused();
+        let (unused, looked_up) = parameters.unused();
         for (count, name) in unused.into_iter().enumerate() {
             let plugin = clip(plugin);
             let own = clip(&name.text);
             let message = format!("`{own}` of the {kind} `{plugin}` has no effect");
             let mut diagnostic = Diagnostic::new(&codes::PBRT_IGNORED, message).at(name.span, "");
-            let known = asked.iter().copied().filter(|_| count < COMPARED);
+            let known = looked_up.iter().copied().filter(|_| count < COMPARED);
             if let Some(near) = nearest(&name.text, known) {
                 diagnostic = diagnostic.hint(format!("did you mean `{near}`?"));
             }
@@ -235,7 +235,7 @@ impl<'run> Lowering<'run> {
         }
     }
 
-    /// Charges the budget. If it is used up, that is reported and nothing more is read.
+    /// Charges the budget. If it is exceeded, that is reported and reading ends.
     fn charge(&mut self, resource: Resource, amount: u64, span: Span) -> Option<()> {
         let charged = self.map.budget().charge(resource, amount);
         charged.map_err(|fault| self.exhaust(&fault, span)).ok()

@@ -42,7 +42,7 @@ impl ParameterType {
         })
     }
 
-    /// Whether so many numbers are a value of the type.
+    /// Whether this many numbers are a value of the type.
     fn fits(self, count: usize) -> bool {
         match self {
             Self::Rgb | Self::Xyz => count > 0 && count.is_multiple_of(3),
@@ -70,15 +70,15 @@ pub(super) struct PluginParameter {
     pub(super) values: ParameterValues,
 }
 
-/// The parameters of a directive. They record which ones were asked for.
+/// The parameters of a directive. They record which ones were read.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Parameters {
     pub(super) list: Vec<Rc<PluginParameter>>,
-    asked: RefCell<Vec<&'static str>>,
+    looked_up: RefCell<Vec<&'static str>>,
 }
 
 impl Parameters {
-    /// Those of a directive with others for what it does not say.
+    /// The parameters of a directive, with defaults from others.
     pub(super) fn with_defaults(mut self, defaults: &[Rc<PluginParameter>]) -> Self {
         for default in defaults {
             let is_own = |own: &Rc<PluginParameter>| own.name.text == default.name.text;
@@ -90,29 +90,29 @@ impl Parameters {
     }
 
     pub(super) fn get(&self, name: &'static str) -> Option<&PluginParameter> {
-        let mut asked = self.asked.borrow_mut();
-        if !asked.contains(&name) {
-            asked.push(name);
+        let mut looked_up = self.looked_up.borrow_mut();
+        if !looked_up.contains(&name) {
+            looked_up.push(name);
         }
         let mut list = self.list.iter();
         let found = list.find(|parameter| parameter.name.text == name);
         found.map(Rc::as_ref)
     }
 
-    /// Asks for parameters whose values change nothing here.
+    /// Marks parameters as read whose values have no effect here.
     pub(super) fn skip(&self, names: &[&'static str]) {
         for name in names {
             self.get(name);
         }
     }
 
-    /// The parameters that nobody asked for, and the names that were asked for.
+    /// The parameters that were not read, and the names that were looked up.
     pub(super) fn unused(&self) -> (Vec<&Text>, Vec<&'static str>) {
-        let asked = self.asked.borrow().clone();
+        let looked_up = self.looked_up.borrow().clone();
         let is_unused =
-            |parameter: &&Rc<PluginParameter>| !asked.contains(&parameter.name.text.as_str());
+            |parameter: &&Rc<PluginParameter>| !looked_up.contains(&parameter.name.text.as_str());
         let unused = self.list.iter().filter(is_unused);
-        (unused.map(|parameter| &parameter.name).collect(), asked)
+        (unused.map(|parameter| &parameter.name).collect(), looked_up)
     }
 
     pub(super) fn numbers(&self, name: &'static str) -> Option<&[f64]> {
@@ -185,9 +185,9 @@ pub(super) fn read(reader: &mut TokenReader, report: &mut dyn FnMut(Diagnostic))
     parameters
 }
 
-/// Hands the tokens of a value to `take`: one, or those between brackets. Returns their number, and
-/// the first that is refused, or that stands where the closing bracket is expected. A directive
-/// ends the value.
+/// Passes the tokens of a value to `take`: one, or those between brackets. Returns their number,
+/// and the first one that is rejected or stands instead of the closing bracket. A directive ends
+/// the value.
 fn each_value(
     reader: &mut TokenReader,
     mut take: impl FnMut(&TokenReader, PbrtToken) -> bool,
@@ -220,7 +220,7 @@ fn each_value(
             }
             PbrtTokenKind::Open | PbrtTokenKind::Close | PbrtTokenKind::Unterminated => {}
         }
-        // The value is missing, or nothing closes its list.
+        // The value is missing, or its list is not closed.
         return (count, refused.or(open.and(Some(token))));
     }
     (count, refused.or(open))

@@ -60,7 +60,7 @@ enum Geometry {
     Patch([[f64; 3]; 4]),
 }
 
-/// A shape with its place.
+/// A shape with its transform.
 #[derive(Clone, Debug)]
 pub(super) struct PlacedShape {
     geometry: Geometry,
@@ -128,8 +128,8 @@ impl Lowering<'_> {
         parameters.number("alpha").unwrap_or(1.0).clamp(0.0, 1.0)
     }
 
-    /// The radiance that a shape emits by the current area light, and the place of a second shape
-    /// that hides its back, if it has one.
+    /// The radiance of a shape by the current area light, and the transform of a second shape that
+    /// covers its back, if any.
     fn emitted(
         &mut self,
         geometry: &Geometry,
@@ -150,7 +150,7 @@ impl Lowering<'_> {
             self.report(&codes::PBRT_PLUGIN, span, message);
             return DARK;
         };
-        // Nothing looks at a sphere from within.
+        // No camera is inside a sphere.
         if light.is_two_sided() || matches!(geometry, Geometry::Sphere(_)) {
             return (radiance, None);
         }
@@ -161,7 +161,7 @@ impl Lowering<'_> {
         (radiance, back)
     }
 
-    /// A place just behind a flat shape, seen from where its normal points; `None` if it is bent.
+    /// A transform just behind a flat shape, relative to its normal; `None` if it is curved.
     fn behind(&self, geometry: &Geometry, to_world: &Transform) -> Option<Transform> {
         /// The distance, over the extent of the shape.
         const DISTANCE: f64 = 1e-5;

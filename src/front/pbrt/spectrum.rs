@@ -20,7 +20,7 @@ const SPECTRA: FileKind = FileKind {
 /// The largest spectrum, in bytes.
 const MAX_SPECTRUM: usize = 1 << 20;
 
-/// The metal that stands for one without a spectrum.
+/// The default metal for one without a spectrum.
 const DEFAULT_METAL: &str = "Cu";
 
 /// The glasses of version 4 by name: the index of refraction at 589 nm and the Abbe number, from
@@ -92,7 +92,7 @@ impl Lowering<'_> {
         let numbers = match &parameter.values {
             ParameterValues::Numbers(numbers) => numbers.as_slice(),
             ParameterValues::Strings(strings) if parameter.kind == ParameterType::Spectrum => {
-                let pairs = self.spectrum_file(strings.first()?, "white takes its place");
+                let pairs = self.spectrum_file(strings.first()?, "white replaces it");
                 let color = pairs.and_then(|pairs| convert(&pairs));
                 return Some(color.unwrap_or([1.0; 3]));
             }
@@ -160,8 +160,8 @@ impl Lowering<'_> {
             return Some(IndexSpectrum::Metal(known));
         }
         let instead = match known {
-            Some(_) => "the usual index of the metal takes its place",
-            None => "that of copper takes its place",
+            Some(_) => "the usual index of the metal replaces it",
+            None => "that of copper replaces it",
         };
         match self.spectrum_file(&text, instead) {
             Some(pairs) => Some(IndexSpectrum::Pairs(pairs)),

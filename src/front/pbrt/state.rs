@@ -1,4 +1,4 @@
-//! The graphics state: what directives set for the shapes and lights that follow them.
+//! The graphics state, which applies to the following shapes and lights.
 
 use super::Lowering;
 use super::light::AreaLight;
@@ -22,7 +22,7 @@ pub(super) enum ActiveTransform {
     End,
 }
 
-/// What holds for the shapes and lights that follow.
+/// The attributes of the following shapes and lights.
 #[derive(Clone, Default)]
 pub(super) struct GraphicsState {
     /// The current transformation matrix: before the world from the world to the camera, in it from
@@ -128,13 +128,13 @@ impl Lowering<'_> {
         }
     }
 
-    /// Reports the states that nothing ended.
+    /// Reports states that were not closed.
     pub(super) fn close_all(&mut self) {
         if self.is_exhausted {
             return;
         }
         for (opener, _, span) in std::mem::take(&mut self.stack.saved) {
-            self.mistake(span, format!("nothing ends this `{}`", opener.name()));
+            self.mistake(span, format!("this `{}` is not closed", opener.name()));
         }
     }
 }

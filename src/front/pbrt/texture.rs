@@ -1,5 +1,5 @@
-//! Textures: what the IR can say of them is an image or a checkerboard of the texture coordinates,
-//! times a colour.
+//! Textures: the IR can represent an image or a checkerboard of the texture coordinates, times a
+//! colour.
 
 use super::Lowering;
 use super::image::ImageMap;
@@ -78,7 +78,7 @@ impl Lowering<'_> {
         parameters: &Parameters,
     ) {
         let texture = self.texture_of(plugin, parameters);
-        // The parameters of what is not supported go with it.
+        // The parameters of an unsupported texture are marked as read.
         if TEXTURES.contains(&plugin.text.as_str()) {
             self.ignored("texture", &plugin.text, parameters);
         }
@@ -100,7 +100,7 @@ impl Lowering<'_> {
             "imagemap" => self.image_texture(plugin, parameters),
             "checkerboard" => self.checkerboard(plugin, parameters),
             _ => {
-                self.unsupported("texture", plugin, &TEXTURES, "grey takes its place");
+                self.unsupported("texture", plugin, &TEXTURES, "grey replaces it");
                 ScaledTexture::constant([0.5; 3])
             }
         }
@@ -235,8 +235,7 @@ impl Lowering<'_> {
         }
         parameters.skip(&["v1", "v2"]);
         let message = format!(
-            "the mapping `{}` is not supported: the mean of the texture takes \
-             its place",
+            "the mapping `{}` is not supported: the mean of the texture replaces it",
             clip(&kind)
         );
         self.report(&codes::PBRT_PLUGIN, plugin.span, message);

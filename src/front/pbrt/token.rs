@@ -1,4 +1,4 @@
-//! The words of a pbrt text with their places.
+//! The tokens of a pbrt text with their spans.
 
 use crate::exchange::Text;
 use rtc_source::{FileId, Span};

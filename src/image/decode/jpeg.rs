@@ -14,7 +14,7 @@ pub(super) struct Jpeg<'a> {
     is_whole: bool,
 }
 
-/// Reads all that stands before the pixels.
+/// Reads the markers before the pixels.
 pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(ImageSize, Jpeg<'_>), DecodeError> {
     let options = DecoderOptions::default()
         .set_strict_mode(false)
@@ -63,7 +63,7 @@ impl Jpeg<'_> {
     }
 }
 
-/// What the markers of a file say.
+/// The contents of a file's markers.
 #[derive(Default)]
 struct Frame {
     components: u64,
@@ -107,7 +107,8 @@ impl Frame {
         frame
     }
 
-    /// What the decoder takes: some rows of blocks, and two bytes a coefficient where all are kept.
+    /// The memory of the decoder: some rows of blocks, and two bytes per coefficient where all are
+    /// kept.
     fn scratch(&self, size: ImageSize) -> u64 {
         let rows = u64::from(size.width) * 256 * self.components.max(1);
         let blocks = |side: u32| u64::from(side.div_ceil(32)) * 32;
@@ -118,8 +119,8 @@ impl Frame {
     }
 }
 
-/// The next marker, and behind it `at`; what stands before it, as the coded pixels do, is passed
-/// over.
+/// The next marker, and the position `at` after it; the bytes before it, such as coded pixels, are
+/// skipped.
 fn next_marker(bytes: &[u8], at: &mut usize) -> Option<u8> {
     loop {
         let rest = bytes.get(*at..)?;

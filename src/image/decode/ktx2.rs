@@ -1,5 +1,5 @@
-//! KTX2 textures of Basis Universal: ETC1S, and UASTC with or without Zstandard. Level 0 of a plain
-//! 2D texture is decoded.
+//! KTX2 textures of Basis Universal: ETC1S, and UASTC with or without Zstandard. Level 0 of a 2D
+//! texture is decoded.
 //!
 //! The container is read here, so each offset and length of the file is checked before the crate
 //! `basisu` decodes blocks.
@@ -311,10 +311,10 @@ impl Ktx2<'_> {
     }
 }
 
-/// Reads exactly so many bytes of a Zstandard frame.
+/// Reads exactly this many bytes of a Zstandard frame.
 fn inflate(frame: &[u8], length: u64, into: &mut Vec<u8>) -> Result<(), DecodeError> {
     let mut decoder = StreamingDecoder::new(frame).map_err(DecodeError::damaged)?;
-    // The decoder gathers what a read asks for, so reads are short.
+    // The decoder buffers a whole read, so reads are short.
     into.try_reserve_exact(usize::try_from(length).unwrap_or(usize::MAX))
         .map_err(DecodeError::damaged)?;
     let mut part = vec![0; 1 << 16];

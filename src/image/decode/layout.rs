@@ -1,5 +1,5 @@
-//! The channels that a decoder writes, and their conversion to bytes of red, green, blue and
-//! opacity, in place.
+//! The channels of a decoder, and their conversion to bytes of red, green, blue and opacity, in
+//! place.
 
 /// A pixel as a decoder writes it: grey, or red, green and blue, with opacity or without.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,7 +28,7 @@ impl PixelLayout {
         &mut buffer[start..]
     }
 
-    /// Makes pixels of `channels` bytes, 3 or 4, of those that the decoder wrote.
+    /// Converts pixels of the decoder to `channels` bytes, 3 or 4.
     pub(super) fn convert(self, buffer: &mut Vec<u8>, channels: usize) {
         let size = self.bytes();
         if size == channels && !self.is_wide {

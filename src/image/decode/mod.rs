@@ -8,8 +8,8 @@
 //! and [`ktx2`]. `layout` describes the channels that a decoder writes, and converts them to bytes
 //! of red, green, blue and opacity in the same buffer, so pixels are not copied.
 //!
-//! The modules check what the decoder crates do not: memory that a forged header would make them
-//! allocate, and data that would make them panic.
+//! The modules check what the decoder crates do not check: memory that a forged header would make
+//! them allocate, and data that would make them panic.
 
 mod jpeg;
 pub(super) mod ktx2;
@@ -83,7 +83,7 @@ pub enum DecodeError {
     },
     /// It is of a kind that is not read, with its noun.
     Unsupported(&'static str),
-    /// It is damaged; in the decoder's words.
+    /// It is damaged; with the message of the decoder.
     Damaged(String),
 }
 
@@ -105,7 +105,7 @@ impl DecodeError {
     }
 }
 
-/// A pixel file of which the header was read.
+/// A pixel file whose header was read.
 pub struct PixelFile<'a> {
     size: ImageSize,
     opacity: Opacity,
@@ -127,7 +127,7 @@ pub(super) struct ImageSize {
 }
 
 impl ImageSize {
-    /// A size, if it is of at most so many pixels.
+    /// A size, if it has at most this many pixels.
     pub(super) fn within(most_pixels: u64, width: u32, height: u32) -> Result<Self, DecodeError> {
         if width == 0 || height == 0 {
             return Err(DecodeError::Damaged("it has no pixels".to_owned()));
@@ -151,7 +151,7 @@ impl ImageSize {
         }
     }
 
-    /// A buffer of so many bytes for each pixel, if there is memory for it.
+    /// A buffer with this many bytes per pixel, if there is memory for it.
     pub(super) fn buffer(self, pixel: usize) -> Result<Vec<u8>, DecodeError> {
         let bytes = usize::try_from(self.pixels())
             .ok()
@@ -270,7 +270,7 @@ impl<'a> PixelFile<'a> {
         [self.size.width, self.size.height]
     }
 
-    /// How the decoder lays out pixels.
+    /// The pixel layout of the decoder.
     fn layout(&self) -> PixelLayout {
         match &self.decoder {
             Decoder::Png(png) => png.layout,

@@ -1,5 +1,5 @@
-//! PNG. What a file holds beside its pixels is passed over: profiles and texts are compressed, and
-//! may be bombs.
+//! PNG. Other contents than pixels are skipped: profiles and texts are compressed, and may be
+//! decompression bombs.
 
 use super::layout::PixelLayout;
 use super::{DecodeError, ImageSize};
@@ -11,7 +11,7 @@ pub(super) struct Png<'a> {
     pub(super) layout: PixelLayout,
 }
 
-/// Reads all that stands before the pixels.
+/// Reads the chunks before the pixels.
 pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(ImageSize, Png<'_>), DecodeError> {
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: usize::MAX });
     decoder.set_ignore_iccp_chunk(true);
@@ -50,7 +50,7 @@ fn fault(error: &DecodingError, size: ImageSize) -> DecodeError {
 }
 
 impl Png<'_> {
-    /// Some rows, and what was unpacked and not yet filtered.
+    /// Some rows, and the inflated bytes that are not yet filtered.
     pub(super) fn scratch(&self) -> u64 {
         let row = u64::from(self.reader.info().width) * self.layout.bytes() as u64;
         (1 << 18) + 3 * row

@@ -36,9 +36,9 @@ const LEAST_WEIGHT: f64 = 1e-3;
 /// The ridge on the slopes of a model.
 const RIDGE: f64 = 1e-2;
 
-/// The denoised picture of two halves of as many samples. `exact` has guides of more rays than
-/// either half: models are read off there, which also takes off noise of edges that the guides
-/// know. All have the same pixels.
+/// The denoised picture of two halves with equal samples. `exact` has guides of more rays than
+/// either half: models are evaluated there, which also smooths edges that the guides have. All have
+/// the same pixels.
 #[must_use]
 pub fn denoise(halves: [NoisyHalf<'_>; 2], exact: &[Guide]) -> Image {
     let variance = variances(halves);
@@ -93,7 +93,7 @@ pub fn around(
     rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
 }
 
-/// What the models of one half are fitted to.
+/// The data that the models of one half are fitted to.
 struct LocalModel<'a> {
     fitted: NoisyHalf<'a>,
     weighing: &'a Image,
@@ -132,8 +132,8 @@ impl LocalModel<'_> {
         exp(-guide - self.distance(index, near, size).max(0.0))
     }
 
-    /// The distance of the colours around two pixels, beyond what their noise explains (Rousselle
-    /// et al., "Adaptive rendering with non-local means filtering", 2012, equation 4).
+    /// The distance of the colours around two pixels, beyond their noise (Rousselle et al.,
+    /// "Adaptive rendering with non-local means filtering", 2012, equation 4).
     fn distance(&self, index: usize, near: usize, [width, height]: [usize; 2]) -> f64 {
         let (mut sum, mut count) = (0.0, 0.0);
         let places = [index, near].map(|at| [at % width, at / width]);
@@ -148,9 +148,10 @@ impl LocalModel<'_> {
             }
             let [p, q] = moved.map(|[x, y]| (y - PATCH) * width + x - PATCH);
             for c in 0..3 {
-                let apart = self.weighing.pixels[p][c] - self.weighing.pixels[q][c];
+                let difference = self.weighing.pixels[p][c] - self.weighing.pixels[q][c];
                 let [value, other] = [p, q].map(|at| self.variance[at][c]);
-                sum += (apart * apart - value - value.min(other)) / (1e-8 + value + other);
+                sum +=
+                    (difference * difference - value - value.min(other)) / (1e-8 + value + other);
                 count += 1.0;
             }
         }

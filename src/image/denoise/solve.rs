@@ -1,4 +1,4 @@
-//! Weighted least squares of three channels over a few terms, by Cholesky's decomposition.
+//! Weighted least squares of three channels with a few terms, by Cholesky decomposition.
 
 /// The constant term and the slopes.
 pub(super) const TERMS: usize = 9;
@@ -12,7 +12,7 @@ pub(super) struct Terms {
 }
 
 impl Terms {
-    /// Adds a value with a weight at a place.
+    /// Adds a value with a weight at a position.
     pub(super) fn add(&mut self, weight: f64, place: &[f64; TERMS - 1], value: [f64; 3]) {
         let mut terms = [1.0; TERMS];
         terms[1..].copy_from_slice(place);

@@ -121,7 +121,7 @@ fn what_is_wrong_is_said() {
         (file(rgbe, [1, 1], b"000"), "it ends before its last pixel"),
         (
             file(rgbe, [9, 1], &[1, 1, 1, 9]),
-            "a row begins with a run of nothing",
+            "a row begins with a run of length zero",
         ),
         (
             file(rgbe, [9, 1], &[5, 5, 5, 5, 1, 1, 1, 9]),

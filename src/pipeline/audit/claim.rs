@@ -1,4 +1,4 @@
-//! What a picture says of how it was made, as the setup that makes it anew.
+//! The metadata of a picture, as the setup that renders it again.
 
 use super::super::{Exposure, OutputTransform, PictureSetup, RenderError};
 use rtc_color::Tone;
@@ -50,7 +50,7 @@ enum ClaimedBackground {
 }
 
 impl Claim {
-    /// Why such a picture can't be made anew in parts, if it can't.
+    /// The reason why such a picture can't be rendered again in parts, if any.
     fn obstacle(&self) -> Option<&'static str> {
         let obstacles = [
             (

@@ -1,9 +1,9 @@
-//! Whether a picture is what it says: some of its tiles, drawn at random, are made anew and
-//! compared bit by bit, and all that it says of itself is checked.
+//! Audits of pictures: random tiles are rendered again and compared bit by bit, and all metadata
+//! are checked.
 //!
 //! A picture keeps a Merkle tree over the tiles of its film ([`MerkleTree`]), whose root covers its
-//! metadata, too. What is drawn are the nodes that the file keeps, each of which stands for one
-//! tile or for a few in a row.
+//! metadata, too. An audit chooses among the nodes that the file keeps, each of which covers one
+//! tile or several adjacent ones.
 
 mod claim;
 mod part;
@@ -22,8 +22,8 @@ use std::ops::Range;
 
 const _: () = assert!(TILE == Tiles::SIDE, "a tile of a file is one of a film");
 
-/// If no tile differs, the bound on those that do is wrong for at most one seed in so many: it
-/// holds with 98 %.
+/// If no tile differs, the bound on differing tiles is wrong for at most one seed in this many: a
+/// confidence of 98 %.
 pub const ODDS: u64 = 50;
 
 /// How many tiles are drawn, and by which seed.
@@ -35,7 +35,7 @@ pub struct AuditDraw {
     pub seed: u64,
 }
 
-/// Of what a picture says something else than is so.
+/// A difference between a picture's metadata and the facts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AuditSubject {
     /// Its root, which is not that of its hashes and its metadata.
@@ -48,7 +48,7 @@ pub enum AuditSubject {
     View,
     /// How large it is.
     Size,
-    /// The values of which a tile was made, by their hash.
+    /// The film values of a tile, by their hash.
     Values,
     /// The samples of a tile, by their hash.
     Samples,
@@ -57,7 +57,7 @@ pub enum AuditSubject {
 /// Something that a picture says and that is not so.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AuditFinding {
-    /// What it is about.
+    /// The subject.
     pub subject: AuditSubject,
     /// The number of the drawn tile, row by row from 0.
     pub tile: Option<u64>,
@@ -65,24 +65,24 @@ pub struct AuditFinding {
     pub area: Option<Crop>,
     /// The first pixel that differs, where that is known.
     pub pixel: Option<[u32; 2]>,
-    /// What the picture says or is.
+    /// The value in the picture or its metadata.
     pub stated: String,
-    /// What is so.
+    /// The actual value.
     pub anew: String,
 }
 
-/// What an audit found.
+/// The result of an audit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AuditResult {
     /// How many tiles there are to draw.
     pub all: u64,
-    /// How many tiles of a film each of them stands for.
+    /// The number of tiles of a film that each node covers.
     pub film_tiles: u64,
-    /// The numbers of those that were drawn and made anew, ascending.
+    /// The indices of the chosen tiles, ascending.
     pub drawn: Vec<u64>,
     /// What differs.
     pub findings: Vec<AuditFinding>,
-    /// If nothing differs, fewer tiles than this do, with a confidence of 1 − 1/[`ODDS`].
+    /// If none differs, fewer tiles than this differ, with a confidence of 1 − 1/[`ODDS`].
     pub fewer_than: Option<u64>,
     /// The settings of the picture that its scene has otherwise: name, value of the picture, value
     /// of the scene.
@@ -90,7 +90,7 @@ pub struct AuditResult {
 }
 
 impl AuditResult {
-    /// Of a picture of which the metadata contradict themselves or the scene.
+    /// The report on a picture whose metadata contradict themselves or the scene.
     fn refuted(findings: Vec<AuditFinding>) -> Self {
         Self {
             all: 0,
@@ -113,7 +113,7 @@ fn drawn(all: usize, draw: AuditDraw) -> Vec<usize> {
     order
 }
 
-/// What is wrong with the metadata of a picture by themselves.
+/// The errors in the metadata of a picture by themselves.
 fn contradiction(tree: &MerkleTree, origin: &Origin) -> Option<AuditFinding> {
     let anew = tree.root_of(origin);
     (anew != tree.root()).then(|| finding(AuditSubject::Root, tree.root(), anew))
@@ -130,7 +130,7 @@ fn finding(subject: AuditSubject, stated: impl ToString, anew: impl ToString) ->
     }
 }
 
-/// Refuses what another version made.
+/// Rejects pictures of another version.
 fn check_software(origin: &Origin) -> Result<(), RenderError> {
     let own = super::setup::SOFTWARE;
     let words = || format!("it is by `{}`, and this is `{own}`", origin.software);
@@ -140,7 +140,7 @@ fn check_software(origin: &Origin) -> Result<(), RenderError> {
     }
 }
 
-/// What the metadata say of scene, settings and view that is not so.
+/// The differences of the metadata from scene, settings and view.
 fn differing(stated: &Origin, anew: &Origin, has_view: bool) -> Vec<AuditFinding> {
     let texts = [
         (AuditSubject::Scene, &stated.scene, &anew.scene),
@@ -178,7 +178,7 @@ pub struct PictureAudit<'p> {
 }
 
 impl<'p> PictureAudit<'p> {
-    /// Checks what a picture says of itself, without its scene; and the setup that makes it anew.
+    /// Checks the metadata of a picture without its scene; returns the setup that renders it again.
     ///
     /// # Errors
     /// If it can't be audited; the inner error if it contradicts itself.
@@ -193,7 +193,7 @@ impl<'p> PictureAudit<'p> {
             )
         })?;
         if !picture.origin.layer.is_empty() {
-            return Err(refused("it shows a layer; audit the picture beside it"));
+            return Err(refused("it is a layer; audit the picture beside it"));
         }
         if let Some(finding) = contradiction(tree, &picture.origin) {
             return Ok(Err(AuditResult::refuted(vec![finding])));
@@ -208,7 +208,7 @@ impl<'p> PictureAudit<'p> {
     /// `rays` rays.
     ///
     /// # Errors
-    /// If the picture can't be made anew.
+    /// If the picture can't be rendered again.
     pub fn run(
         &self,
         setup: &PictureSetup,
@@ -217,7 +217,7 @@ impl<'p> PictureAudit<'p> {
         observer: &Observer<'_>,
     ) -> Result<AuditResult, RenderError> {
         let Self { picture, tree } = self;
-        // What it says of scene, settings and size.
+        // The metadata of scene, settings and size.
         let scene = &subject.validated.lowered.scene;
         let origin = setup.origin(scene);
         let mut findings = differing(&picture.origin, &origin, picture.form.is_linear());
@@ -258,7 +258,7 @@ impl<'p> PictureAudit<'p> {
         })
     }
 
-    /// Makes the tiles of a node anew and compares values and samples.
+    /// Renders the tiles of a node again and compares values and samples.
     fn compare(
         &self,
         node: usize,
@@ -338,10 +338,10 @@ fn stretches([width, height]: [u32; 2], tiles: Range<usize>) -> Vec<Crop> {
     found
 }
 
-/// Makes parts of a picture anew.
+/// Renders parts of a picture again.
 struct TileMaker<'s> {
     renderer: &'s Renderer,
-    /// The world that layers are made of, if it is another.
+    /// The world for the layers, if it is a different one.
     unpruned: Option<AnyWorld>,
     look: ResolvedOutputTransform,
     aovs: Vec<Aov>,
@@ -390,7 +390,7 @@ impl<'s> TileMaker<'s> {
         threads.install(|| items.par_iter().map(work).collect())
     }
 
-    /// The picture of a part of the window, by its place in it.
+    /// The picture of a part of the crop, by its position in it.
     fn picture(&self, area: Crop, observer: &Observer<'_>) -> Result<Picture, RenderError> {
         let area = Crop {
             x: self.window.x + area.x,

@@ -1,5 +1,4 @@
-//! Audits a part of a picture: the sums of its samples are compared before anything is made of
-//! them.
+//! Audits a part of a picture: the sums of its samples are compared.
 
 use super::super::{Observer, PictureSetup, RenderError, RenderShard, RenderSubject};
 use super::{
@@ -11,7 +10,7 @@ use rtc_render::{Crop, Job, PartialFilm};
 use rtc_study::least_faults;
 
 impl RenderShard {
-    /// The setup that makes the part anew.
+    /// The setup that renders the part again.
     ///
     /// # Errors
     /// If it can't be audited.
@@ -32,7 +31,7 @@ impl RenderShard {
     /// `rays` rays.
     ///
     /// # Errors
-    /// If the part can't be made anew.
+    /// If the part can't be rendered again.
     pub fn audit(
         &self,
         setup: &PictureSetup,
@@ -40,7 +39,7 @@ impl RenderShard {
         (draw, rays): (AuditDraw, u64),
         observer: &Observer<'_>,
     ) -> Result<AuditResult, RenderError> {
-        // What it says of scene, settings, look and window.
+        // The metadata of scene, settings, output transform and crop.
         let scene = &subject.validated.lowered.scene;
         let window = setup.window(scene)?;
         let mut findings = differing(&self.origin(), &setup.origin(scene), true);
@@ -84,7 +83,7 @@ impl RenderShard {
         })
     }
 
-    /// Makes a tile anew and compares its sums and layers.
+    /// Renders a tile again and compares its sums and layers.
     fn compare(
         &self,
         (index, tile): (usize, usize),

@@ -296,8 +296,8 @@ impl PlanBuilder<'_> {
     }
 }
 
-/// Whether light sampling finds an emissive shape: it is bounded, no curved patch, and no solid
-/// made of solids.
+/// Whether light sampling supports an emissive shape: it is bounded, no curved patch, and no CSG
+/// solid.
 fn is_sampled(shape: &Shape) -> bool {
     match shape {
         Shape::Plane(_) | Shape::InfiniteCylinder(_) | Shape::Csg(_) => false,

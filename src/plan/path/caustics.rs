@@ -10,7 +10,7 @@ use rtc_valid::Standard;
 pub enum Caustics {
     /// A scattered path hits a light after a smooth surface. This is rare, so caustics are noisy.
     ByChance,
-    /// Some caustics are missing: no path hits a punctual light by way of a perfect mirror or lens.
+    /// Some caustics are missing: no path hits a punctual light via a perfect mirror or lens.
     LeftOut,
 }
 
@@ -32,7 +32,7 @@ impl PathPlan {
         })
     }
 
-    /// Whether a path may sample a punctual light by way of metal or glass that is smooth, but not
+    /// Whether a path may sample a punctual light via metal or glass that is smooth, but not
     /// perfectly smooth. The radiance of such a path grows as the lobe narrows and has no useful
     /// bound.
     #[must_use]

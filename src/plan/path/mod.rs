@@ -128,7 +128,7 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Plan
     let mut reduced = requested.clone();
     let applied = apply(&mut reduced, rules);
     let statuses = status::statuses(&requested, &reduced, &applied);
-    // Take the plan from what remains.
+    // Take the plan from the remaining parts.
     let folded = |(index, material): (usize, &Standard)| {
         let maps = material.maps().filter(|map| reduced.is_folded(index, map));
         maps.map(|map| (map.texture, map.set)).collect()

@@ -241,8 +241,8 @@ impl Rule {
             ),
             Self::PixelFlat => (
                 "E-SS-FLAT",
-                "If all rays of a pixel hit one flat surface of one value, one ray is traced and \
-                 stands for all.",
+                "If all rays of a pixel hit one flat surface of one value, one ray is traced for \
+                all.",
             ),
             Self::Cull => (
                 "E-CULL",

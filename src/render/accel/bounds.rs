@@ -13,7 +13,7 @@ pub struct BoundingSphere {
     pub radius: f64,
 }
 
-/// What of a ray the slab test needs.
+/// The data of a ray that the slab test needs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slabs {
     origin: Vec3,
@@ -36,7 +36,7 @@ impl Slabs {
         self.inverse[axis] < 0.0
     }
 
-    /// Whether the ray may meet the box before `t_max`, a root that may itself be rounded.
+    /// Whether the ray may hit the box before `t_max`, a root that may itself be rounded.
     ///
     /// Conservative as in Ize, "Robust BVH ray traversal" (JCGT 2, 2013), but the far end grows by
     /// 2γ₄, as its growing is rounded too: `docs/proofs/slabs.g`. Comparisons are written so that
@@ -118,7 +118,7 @@ mod tests {
         )
     }
 
-    /// A box is met wherever its triangle is hit, even if nothing beyond that hit counts any more.
+    /// A box is hit wherever its triangle is hit, even with that hit as the end of the ray.
     #[test]
     fn no_box_is_missed_where_its_triangle_is_hit() {
         let rays = std::env::var("RTC_RAYS")

@@ -10,7 +10,7 @@ use rtc_math::{Bounds, to_u32};
 /// Boxes in one leaf at most, where splitting helps.
 const LEAF: usize = 4;
 
-/// So few boxes are tested faster one by one.
+/// For so few boxes a linear loop is faster.
 const LOOP: usize = 8;
 
 const BINS: usize = 16;
@@ -62,8 +62,8 @@ impl Bvh {
         }
     }
 
-    /// Calls `visit` with the items whose boxes the ray may meet before `t_max`, nearer boxes
-    /// roughly first; `visit` returns the new `t_max`, which ends the walk when it falls below
+    /// Calls `visit` with the items whose boxes the ray may hit before `t_max`, nearer boxes
+    /// roughly first; `visit` returns the new `t_max`, which ends the traversal when it falls below
     /// 0.
     #[inline]
     pub(crate) fn traverse(
@@ -109,7 +109,7 @@ impl Bvh {
     }
 }
 
-/// What a BVH is built of.
+/// The input of a BVH build.
 #[derive(Clone, Copy)]
 pub(crate) struct Item {
     pub(crate) index: u32,
@@ -122,7 +122,7 @@ struct BvhBuilder {
 }
 
 impl BvhBuilder {
-    /// Builds the node over `items[start..end]` and what is below it.
+    /// Builds the node over `items[start..end]` and its descendants.
     fn node(&mut self, start: usize, end: usize, depth: usize) {
         let items = &mut self.items[start..end];
         let bounds = items
@@ -136,8 +136,8 @@ impl BvhBuilder {
             axis: 0,
         };
         self.nodes.push(leaf);
-        let few = if depth == 0 { LOOP } else { LEAF };
-        if items.len() <= few {
+        let leaf_size = if depth == 0 { LOOP } else { LEAF };
+        if items.len() <= leaf_size {
             return;
         }
         let (axis, middle) = split(items, 1, depth < HEURISTIC_DEPTH);
@@ -149,9 +149,9 @@ impl BvhBuilder {
     }
 }
 
-/// Orders the items, at least two, into two groups and returns the axis and the size of the first,
-/// neither group empty: by the heuristic where it is asked for and finds a border, else in the
-/// middle. So many items are tested `at_once`.
+/// Partitions the items, at least two, into two non-empty groups and returns the axis and the size
+/// of the first: by the heuristic where it is requested and finds a split, else at the median.
+/// Leaves test `at_once` items together.
 pub(crate) fn split(items: &mut [Item], at_once: u32, by_heuristic: bool) -> (usize, usize) {
     let center = |bounds: Bounds, item: &Item| {
         let center = item.bounds.center();

@@ -25,7 +25,7 @@ const T_SLACK: f64 = 1.0 / 1_048_576.0;
 /// geometry.
 const OFF_CENTER: f64 = 16.0;
 
-/// Where the cube [−1, 1]³ lies in space.
+/// The position and scale of the cube [−1, 1]³ in space.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct QuantizationFrame {
     center: Vec3,
@@ -36,12 +36,12 @@ pub(crate) struct QuantizationFrame {
 }
 
 impl QuantizationFrame {
-    /// The cube around some boxes, not far larger than needed; `error_bound` bounds the error of
-    /// the corners of what is in them.
+    /// The cube around some boxes, not much larger than needed; `error_bound` bounds the error of
+    /// the coordinates in them.
     ///
-    /// Where that costs few bits the cube lies about the origin: then corners of 32 bits stay as
-    /// they are but for a power of two. Else it is finest where most of the boxes are, about the
-    /// mean of their centres.
+    /// Where that costs few bits the cube is centred at the origin: then 32-bit corners stay exact
+    /// up to a power of two. Otherwise it is finest where most of the boxes are, around the mean of
+    /// their centres.
     pub(crate) fn around(whole: Bounds, mean: impl FnOnce() -> Vec3, error_bound: f64) -> Self {
         let extent_about = |center: Vec3| {
             let far = (whole.min - center).abs().max((whole.max - center).abs());
@@ -68,7 +68,7 @@ impl QuantizationFrame {
         (point - self.center) * self.scale
     }
 
-    /// What a number of a cube about the origin was before, exactly; `None` for other cubes.
+    /// The exact original of a coordinate in a cube centred at the origin; `None` for other cubes.
     pub(in crate::accel) fn unit(&self) -> Option<f64> {
         (self.center == Vec3::ZERO).then(|| self.scale.recip())
     }
@@ -160,7 +160,7 @@ impl ConservativeRay {
             .abs()
             .max(Vec3::splat(MIN_SLOPE))
             .copysign(direction);
-        // Twice what rounding to f32 moves the origin by, once more for the sum.
+        // Twice the rounding of the origin to f32, and once more for the sum.
         let shift = (origin.abs() * (4.0 * ROUND) + 2.0 * base).copysign(direction);
         let axes = [(main + 1) % 3, (main + 2) % 3, main];
         let down = direction.is_negative_bitmask();

@@ -22,8 +22,8 @@ pub(in crate::accel) type WideNode = [f32; 64];
 /// Where the links of a node are.
 pub(in crate::accel) const LINKS: usize = 6 * WIDTH;
 
-/// What a BVH keeps of a triangle: the nine coordinates of its corners, and its item as the bits of
-/// a number. The triangles of a leaf share their rows.
+/// A triangle in a BVH: the nine coordinates of its corners, and its item as the bits of a number.
+/// The triangles of a leaf share their rows.
 pub(in crate::accel) type TriangleRow = [f32; ITEM + 1];
 
 /// So many rows at least follow the first row of each leaf.
@@ -36,8 +36,8 @@ const SEEN: usize = 64;
 /// their items.
 #[derive(Clone, Copy)]
 pub(in crate::accel) struct WideLeaf<'rows> {
-    /// Its numbers, and some of the leaves after it: so four can be read wherever one may be, and
-    /// no place needs to be checked.
+    /// Its numbers, and some of the following leaves: so four can be read at any position without a
+    /// bounds check.
     numbers: &'rows [f32],
     count: usize,
 }
@@ -68,7 +68,7 @@ impl<'rows> WideLeaf<'rows> {
         self.number(ITEM, lane).to_bits()
     }
 
-    /// A number of all its triangles; what is in lanes beyond them means nothing.
+    /// One number of all its triangles; lanes beyond them are unspecified.
     #[inline(always)]
     fn numbers<S: Simd>(&self, simd: S, place: usize) -> f32x4<S> {
         let at = (place * self.count) & (SEEN - 1);
@@ -119,7 +119,7 @@ pub(in crate::accel) fn nearer_ends([x, y, z]: [bool; 3]) -> [usize; 3] {
     [nearer(x), nearer(y), nearer(z)]
 }
 
-/// What of a conservative ray boxes are met by.
+/// The data of a conservative ray for tests of boxes.
 #[derive(Clone, Copy)]
 pub(in crate::accel) struct BoxLanes<S: Simd> {
     near_origin: [f32x8<S>; 3],
@@ -156,7 +156,8 @@ impl<S: Simd> BoxLanes<S> {
         (ends - self.far_origin[AXIS]) * self.inverse[AXIS]
     }
 
-    /// Which boxes of a node the conservative ray may meet before `t_far`, as bits, and where.
+    /// The boxes of a node that the conservative ray may hit before `t_far`, as bits, and their
+    /// entry points.
     ///
     /// As in Ize, "Robust BVH ray traversal" (JCGT 2, 2013): the far end is [`FAR_SCALE`].
     #[inline(always)]
@@ -175,8 +176,8 @@ impl<S: Simd> BoxLanes<S> {
             .min(self.leave::<1>(simd, node))
             .min(self.leave::<2>(simd, node))
             * f32x8::splat(simd, FAR_SCALE);
-        let met = enter.simd_le(leave.min(f32x8::splat(simd, t_far)));
-        (bits(met.to_bitmask()), enter.into())
+        let hits = enter.simd_le(leave.min(f32x8::splat(simd, t_far)));
+        (bits(hits.to_bitmask()), enter.into())
     }
 }
 
@@ -191,8 +192,8 @@ pub(in crate::accel) fn bits(mask: u64) -> u32 {
 /// axis.
 type Sheared<V> = [V; 3];
 
-/// What of conservative rays triangles are hit by: one conservative ray in all lanes, or one in
-/// each. All have the same main axis.
+/// The data of conservative rays for tests of triangles: one conservative ray in all lanes, or one
+/// in each. All have the same main axis.
 #[derive(Clone, Copy)]
 pub(in crate::accel) struct TriangleLanes<V> {
     pub(in crate::accel) axes: [usize; 3],
@@ -263,8 +264,8 @@ impl<V> TriangleLanes<V> {
         ]
     }
 
-    /// Which lanes may be hits before their `t_far`; if `CERTAIN`, also which certainly are before their
-    /// `t_certain`. `coordinate` gives those of the triangles at a place.
+    /// The lanes that may be hits before their `t_far`; if `CERTAIN`, also those that certainly are
+    /// before their `t_certain`. `coordinate` gives the coordinates of the triangles at an index.
     ///
     /// The signs of the edge functions are those of exact arithmetic where they exceed a bound on
     /// their error: a triangle with two sure signs that differ is missed, one with three that agree

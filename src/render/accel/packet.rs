@@ -136,7 +136,7 @@ impl<S: Simd> Packet<S> {
         2 * WIDTH * axis + (near & WIDTH)
     }
 
-    /// The two products of which one bounds those of all rays with the ends of boxes.
+    /// The two products, one of which bounds those of all rays with the ends of boxes.
     #[inline(always)]
     fn products(&self, simd: S, node: &WideNode, axis: usize, is_far: bool) -> [f32x8<S>; 2] {
         let at = self.ends(axis, is_far);
@@ -158,8 +158,8 @@ impl<S: Simd> Packet<S> {
         a.max(b)
     }
 
-    /// Which boxes of a node any of the conservative rays may meet before `t_far`, as bits, and
-    /// where at the earliest.
+    /// The boxes of a node that any of the conservative rays may hit before `t_far`, as bits, and
+    /// the earliest entry points.
     #[inline(always)]
     pub(in crate::accel) fn meet(
         &self,
@@ -176,13 +176,13 @@ impl<S: Simd> Packet<S> {
             .min(self.leave(simd, node, 1))
             .min(self.leave(simd, node, 2))
             * FAR_SCALE;
-        let met = enter.simd_le(leave.min(t_far));
-        (bits(met.to_bitmask()), enter.into())
+        let hits = enter.simd_le(leave.min(t_far));
+        (bits(hits.to_bitmask()), enter.into())
     }
 
-    /// Whether any conservative ray meets the box of a child before its own `t_far`.
+    /// Whether any conservative ray hits the box of a child before its own `t_far`.
     #[inline(always)]
-    pub(in crate::accel) fn is_met(
+    pub(in crate::accel) fn is_hit(
         &self,
         simd: S,
         node: &WideNode,
@@ -199,8 +199,8 @@ impl<S: Simd> Packet<S> {
         };
         let first = enter(0).max(enter(1)).max(enter(2).max(0.0));
         let last = leave(0).min(leave(1)).min(leave(2)) * FAR_SCALE;
-        let met = first.simd_le(last.min(f32x8::load_array(simd, *limits)));
-        bits(met.to_bitmask()) != 0
+        let hits = first.simd_le(last.min(f32x8::load_array(simd, *limits)));
+        bits(hits.to_bitmask()) != 0
     }
 
     /// Which conservative rays may hit a triangle of a leaf before their limits; if `CERTAIN`, also

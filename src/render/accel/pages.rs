@@ -5,10 +5,10 @@ use bytemuck::Pod;
 use memmap2::{MmapMut, MmapOptions};
 use std::marker::PhantomData;
 
-/// Lists of so many bytes are worth pages of their own: twice the size of a huge page.
+/// Lists of this many bytes get their own pages: twice the size of a huge page.
 const WORTH: usize = 1 << 22;
 
-/// Lists of so many bytes are worth giving back at once: the allocator would keep them.
+/// Lists of this many bytes are returned to the system at once: the allocator would keep them.
 const RETURNED: usize = 1 << 18;
 
 /// A list of rows of numbers.
@@ -16,7 +16,7 @@ const RETURNED: usize = 1 << 18;
 pub(in crate::accel) enum Pages<T> {
     /// A list as any other.
     List(Vec<T>),
-    /// In memory asked of the system, where huge pages are wanted.
+    /// In memory mapped by the system, with huge pages requested.
     Mapped(MmapMut, PhantomData<T>),
 }
 
@@ -32,7 +32,7 @@ impl<T: Pod> Pages<T> {
         pages
     }
 
-    /// `count` rows of zeros, in memory asked of the system if there are so many bytes.
+    /// `count` rows of zeros, in mapped memory if they are large.
     fn mapped_from(bytes: usize, count: usize) -> Self {
         let length = count * size_of::<T>();
         let map = (length >= bytes).then(|| MmapOptions::new().len(length).map_anon());

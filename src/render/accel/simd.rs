@@ -83,7 +83,7 @@ impl SimdLevel {
         }
     }
 
-    /// The proof that the machine has it.
+    /// The token that the machine has it.
     #[inline]
     pub(crate) fn tokens(self) -> Tokens {
         self.0

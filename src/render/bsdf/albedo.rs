@@ -71,7 +71,7 @@ impl Tables {
         let specular = specular.as_chunks().0.to_vec();
         let sheen = sheen.iter().map(|albedo| [*albedo, 0.0]).collect();
         let mean = |row: &[[f64; 2]]| {
-            // ∫ 2μ·E(μ) dμ with μ = x², by the midpoint rule over what look-ups will give.
+            // ∫ 2μ·E(μ) dμ with μ = x², by the midpoint rule over interpolated entries.
             const STEPS: u32 = 512;
             let mut sum = [0.0; 2];
             for k in 0..STEPS {
@@ -134,12 +134,12 @@ fn half_way_of(entry: usize) -> [f64; 2] {
     [sum / f64::from(STEPS * STEPS), 0.0]
 }
 
-/// Where an entry lies on its axis, from 0 to 1.
+/// The position of an entry on its axis, from 0 to 1.
 fn fraction(entry: usize, count: usize) -> f64 {
     entry as f64 / (count - 1) as f64
 }
 
-/// Its square: where it lies on an axis that is denser towards 0.
+/// Its square: the position on an axis that is denser towards 0.
 fn squared_fraction(entry: usize, count: usize) -> f64 {
     fraction(entry, count) * fraction(entry, count)
 }
@@ -169,8 +169,8 @@ fn place(fraction: f64, count: usize) -> (usize, f64) {
     (entry, scaled - entry as f64)
 }
 
-/// Interpolates linearly along each of `D` axes of a table: the place on each, from 0 to 1, and how
-/// many entries it has.
+/// Interpolates linearly along each of `D` axes of a table: the position on each, from 0 to 1, and
+/// its number of entries.
 fn interpolate<const D: usize, const N: usize>(
     table: &[[f32; N]],
     axes: [(f64, usize); D],

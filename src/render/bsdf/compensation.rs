@@ -74,7 +74,7 @@ fn mean_albedo(surface: Ggx) -> Split {
 }
 
 impl Compensation {
-    /// For a surface of which `metallic` is metal.
+    /// For a surface with this `metallic` fraction.
     #[must_use]
     pub(super) fn new(
         surface: Ggx,
@@ -148,9 +148,9 @@ impl Compensation {
     }
 }
 
-/// The factor of the diffuse base where further bounces are left out: appendix B of glTF lets the
-/// base scatter 1 − F of the half-way vector, and seen at grazing angles a surface would send out
-/// up to 1.7 times what it gets. It is 1 where the surface sends out no more than that.
+/// The factor of the diffuse base without further bounces: appendix B of glTF lets the base scatter
+/// 1 − F of the half-way vector, and at grazing angles a surface would emit up to 1.7 times the
+/// light it receives. It is 1 where the surface emits no more than that.
 #[must_use]
 pub(super) fn grazing_share(surface: Ggx, dielectric: &Fresnel, wo: Vec3) -> f64 {
     let f0 = dielectric.at(1.0).max_element();

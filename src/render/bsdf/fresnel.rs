@@ -6,7 +6,7 @@ use rtc_math::Vec3;
 
 /// The reflectance at normal incidence of a boundary between air and a medium with the index given.
 ///
-/// 0 stands for an infinite index, as KHR_materials_ior says.
+/// 0 means an infinite index (KHR_materials_ior).
 #[must_use]
 pub(crate) fn normal_reflectance(ior: f64) -> f64 {
     let root = (ior - 1.0) / (ior + 1.0);

@@ -5,7 +5,7 @@ use super::microfacet::LobeWeights;
 use super::sheen::Fibres;
 use rtc_math::Vec3;
 
-/// The mean of the channels: what a lobe is worth, as far as its probability goes.
+/// The mean of the channels: the weight of a lobe for its probability.
 fn mean(color: Vec3) -> f64 {
     color.element_sum() / 3.0
 }

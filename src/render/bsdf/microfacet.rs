@@ -188,7 +188,7 @@ impl<const F: u32> Microfacet<F> {
         self.smooth
     }
 
-    /// Whether it reflects nothing.
+    /// Whether it reflects no light.
     pub(super) fn is_dark(&self) -> bool {
         !can::<F>(MICROFACETS) || self.dark
     }
@@ -215,10 +215,10 @@ impl<const F: u32> Microfacet<F> {
         }
     }
 
-    /// Makes up for the light that a rough dielectric sends out after further bounces, seen at a
-    /// cosine: from outside in what is transmitted, which is all that single and further
-    /// (`bounces`) reflections leave; from inside in both. After Turquin, "Practical multiple
-    /// scattering compensation for microfacet models" (2019).
+    /// Compensates for the multiply scattered light of a rough dielectric at a cosine: from outside
+    /// in the transmission, which is the rest after single and further (`bounces`) reflections;
+    /// from inside in both. After Turquin, "Practical multiple scattering compensation for
+    /// microfacet models" (2019).
     pub(super) fn compensate(&mut self, standard: &StandardParameters, cosine: f64, bounces: f64) {
         let Some(ior) = self.ior.filter(|_| can::<F>(TRANSMISSION) && !self.smooth) else {
             return;
@@ -315,8 +315,8 @@ impl<const F: u32> Microfacet<F> {
         }
     }
 
-    /// Samples a direction by a visible normal; `None` if the direction is on the wrong side. The
-    /// number of `u_lobe` is asked for where light both reflects and goes through.
+    /// Samples a direction by a visible normal; `None` if the direction is on the wrong side.
+    /// `u_lobe` is evaluated where light is both reflected and transmitted.
     pub(super) fn sample(
         &self,
         wo: Vec3,

@@ -1,8 +1,23 @@
-//! The BSDF of the glTF material, in a frame whose z is the shading normal, for one direction `wo`
-//! to the viewer.
+//! The BSDF of the glTF material, evaluated and sampled in a local frame.
 //!
-//! `f` excludes the cosine. Directions are unit vectors that point away from the surface; z < 0 is
-//! inside a body or behind a thin wall. Paths carry basic radiance L/n², so `f` has no factor n².
+//! The frame has the shading normal as z. Directions are unit vectors that point away from the
+//! surface; z < 0 is inside a body or behind a thin wall. `f` excludes the cosine. Paths carry
+//! basic radiance L/n², so `f` has no factor n².
+//!
+//! - [`Lobes`] holds the lobes of a surface point for one direction `wo` to the viewer, with the
+//!   features
+//!   `F` compiled in. It evaluates ([`Evaluation`]) and samples ([`BsdfSample`]) the BSDF.
+//! - `standard` builds the lobes from the parameters of the material; `coat`, `sheen`, `thin_film`
+//!   add
+//!   its layers.
+//! - `microfacet`, `ggx`, `fresnel` are the specular lobes; `compensation` with the tables of
+//!   `albedo`
+//!   restores the energy of multiple scattering.
+//! - `lobe_pdf` chooses a lobe, `warp` maps the unit square to directions, `optics` reflects and
+//!   refracts.
+//!
+//! A BSDF reflects no more light than it receives, and `f` is reciprocal except for transmission;
+//! `tests/bsdf` checks both, and the densities by χ² tests.
 
 mod albedo;
 mod coat;
@@ -228,7 +243,7 @@ impl<const F: u32> Lobes<F> {
         self.evaluate_entered(self.side.enter(wi)).f
     }
 
-    /// Inlined, so that a density that nobody asks for is not computed.
+    /// Inlined, so that an unused density is not computed.
     #[inline(always)]
     fn evaluate_entered(&self, wi: Vec3) -> Evaluation {
         let above = wi.z > 0.0;
@@ -302,7 +317,7 @@ impl<const F: u32> Lobes<F> {
     /// Samples a direction with two numbers in [0, 1); `None` if the direction is invalid.
     ///
     /// The first one chooses the lobe, too, so that the points of each lobe stay stratified. A
-    /// third one, also in [0, 1), is asked for where microfacets both reflect and transmit.
+    /// third one, also in [0, 1), is drawn where microfacets both reflect and transmit.
     #[must_use]
     #[inline(always)]
     pub fn sample(&self, u: [f64; 2], third: impl FnOnce() -> f64) -> Option<BsdfSample> {

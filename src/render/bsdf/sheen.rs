@@ -1,7 +1,7 @@
 //! The sheen of cloth: KHR_materials_sheen.
 //!
-//! After Estevez, Kulla, "Production friendly microfacet sheen BRDF" (2017): fibres that stand up,
-//! with a fitted shadowing term.
+//! After Estevez, Kulla, "Production friendly microfacet sheen BRDF" (2017): upright fibres with a
+//! fitted shadowing term.
 
 use super::albedo::tables;
 use super::standard::Sheen;
@@ -37,8 +37,8 @@ impl Fibres {
     }
 
     /// Adds the sheen to the BSDF of the layers below, which is scaled by the smaller of the
-    /// fractions that pass on the way in and out. The formula sends out more than it gets at some
-    /// angles, so it is divided there by its albedo, the larger one of both directions.
+    /// fractions that pass on the way in and out. The formula gains energy at some angles, so it is
+    /// divided there by its albedo, the larger one of both directions.
     pub(super) fn over(&self, below: Vec3, wo: Vec3, wi: Vec3) -> Vec3 {
         let towards_light = self.charlie.albedo(wi.z.abs());
         let own = if wi.z > 0.0 {

@@ -69,8 +69,8 @@ fn index_of(f0: f64) -> f64 {
 /// The Fourier transform of the eye's sensitivities at an optical path difference in nanometres, in
 /// linear Rec. 709.
 fn sensitivity(difference: f64, shift: Vec3) -> Vec3 {
-    /// Height, place and variance of the Gaussians fitted to x̄, ȳ and z̄, and of the second one of
-    /// x̄.
+    /// Amplitude, mean and variance of the Gaussians fitted to x̄, ȳ and z̄, and of the second one
+    /// of x̄.
     const LOBES: [(f64, f64, f64); 4] = [
         (5.4856e-13, 1.6810e6, 4.3278e9),
         (4.4201e-13, 1.7953e6, 9.3046e9),
@@ -108,7 +108,7 @@ mod tests {
         }
         .reflectance(f0, 1.0)
             - f0;
-        // The fitted sensitivities make white to a few per cent.
+        // The fitted sensitivities integrate to white within a few per cent.
         assert!(difference.abs().max_element() < 0.04, "{difference}");
     }
 

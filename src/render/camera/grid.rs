@@ -7,7 +7,7 @@ use crate::ray::Ray;
 use crate::sampler::Key;
 use rtc_math::Vec3;
 
-/// Where in its cell of the pixel each sub-sample lies.
+/// The position of each sub-sample in its cell of the pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Pattern {
     /// In the middle.
@@ -18,7 +18,7 @@ pub(crate) enum Pattern {
     Random,
 }
 
-/// How the samples of a pixel are laid out.
+/// The arrangement of the samples of a pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grid {
     /// Cells along each side of a pixel.
@@ -43,7 +43,7 @@ impl Grid {
         pattern: Pattern::Grid,
     };
 
-    /// `factor × factor` cells, each with so many points of the lens.
+    /// `factor × factor` cells, each with a number of lens points.
     pub(crate) fn new(factor: u32, points: u32, pattern: Pattern) -> Self {
         Self {
             factor,

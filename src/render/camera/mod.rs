@@ -1,4 +1,9 @@
-//! Camera rays: from points on the lens through points on the image plane.
+//! Cameras: a sample of a pixel to a ray.
+//!
+//! [`image_point`] maps a position in the picture to the plane of focus, [`camera_ray`] makes the
+//! ray through it, from a point of the lens ([`vogel`] distributes these) or, for an orthographic
+//! [`Projection`], parallel to the axis. `grid` arranges the sub-samples of a pixel and the lens
+//! samples of each, for the integrators other than path tracing.
 
 pub(crate) mod grid;
 
@@ -148,7 +153,7 @@ impl CranleyPatterson {
 /// Makes the random numbers of the lens independent of those of sub-samples and paths.
 const LENS: u64 = u64::MAX - 1;
 
-/// Maps a point of the unit square uniformly to the lens; a pinhole does not ask for it.
+/// Maps a point of the unit square uniformly to the lens; a pinhole ignores it.
 #[must_use]
 #[inline]
 pub(crate) fn lens_at(camera: &Camera, point: impl FnOnce() -> [f64; 2]) -> Vec3 {

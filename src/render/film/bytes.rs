@@ -14,10 +14,10 @@ use super::tiled::tiles_of;
 use super::{Counts, Crop, Values};
 use rtc_math::{Vec3, to_u32};
 
-/// What the bytes of a film begin with.
+/// The magic number of the bytes of a film.
 const MAGIC: [u8; 8] = *b"rtc film";
 
-/// The version of the format, and of the way in which samples are summed.
+/// The version of the format, and of the summation order.
 const VERSION: u32 = 1;
 
 /// Sums of red, green and blue.
@@ -55,7 +55,7 @@ impl PartialFilm {
         bytes
     }
 
-    /// What it has of a tile, as bytes: which kind of sums, and those of each node.
+    /// The bytes of a tile: the kind of its sums, and those of each node.
     ///
     /// # Panics
     /// If there is no such tile.
@@ -142,7 +142,7 @@ fn length(count: usize) -> [u8; 4] {
 pub(super) struct FilmBytes<'a>(pub(super) &'a [u8]);
 
 impl<'bytes> FilmBytes<'bytes> {
-    /// What follows the magic and the version.
+    /// The bytes after the magic number and the version.
     pub(super) fn of(bytes: &'bytes [u8], magic: [u8; 8], version: u32) -> Result<Self, FilmError> {
         let mut bytes = Self(bytes);
         if bytes.array().ok() != Some(magic) {
@@ -265,7 +265,7 @@ impl<'bytes> FilmBytes<'bytes> {
         sums.map(|sums| SumNode { blocks, sums })
     }
 
-    /// The sum of a pixel, of at most so many samples.
+    /// The sum of a pixel, of at most this many samples.
     fn sum(&mut self, most: u32) -> Result<PixelSum, FilmError> {
         let mut radiance = [0.0; 3];
         for channel in &mut radiance {

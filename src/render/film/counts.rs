@@ -41,7 +41,7 @@ impl ClampedLight {
         self.taken as f64 / self.all.max(1) as f64
     }
 
-    /// Counts a path, whose radiance in all channels was so much, by what is taken of it.
+    /// Counts a path with the sum of its channels' radiance, and the amount clamped.
     pub(crate) fn add(&mut self, radiance: f64, taken: f64) {
         const UNITS: f64 = 1_099_511_627_776.0;
         /// So much for a path that the sum of 2³² of them is a number.
@@ -114,7 +114,7 @@ impl Counts {
         self.evaluations[effect.index()] += 1;
     }
 
-    /// Counts so many evaluations of an effect.
+    /// Counts evaluations of an effect.
     #[inline]
     pub(crate) fn add_several(&mut self, effect: Effect, count: u32) {
         self.evaluations[effect.index()] += u64::from(count);
@@ -182,7 +182,7 @@ impl Counts {
         })
     }
 
-    /// All counts but what a clamp took, rays by kind before evaluations.
+    /// All counts except the clamped radiance, rays by kind before evaluations.
     pub(super) fn to_array(self) -> [u64; Self::LENGTH] {
         let rays = [
             self.camera,

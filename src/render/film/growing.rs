@@ -9,10 +9,10 @@ use super::bytes::FilmBytes;
 use super::partial::FilmError;
 use super::progressive::{NUMBERS, ProgressiveFilm, Replicates, SHOWN};
 
-/// What the bytes begin with.
+/// The magic number of the bytes.
 const MAGIC: [u8; 8] = *b"rtc grow";
 
-/// The version of the format, and of what is known of a pixel.
+/// The version of the format, and of the state of a pixel.
 const VERSION: u32 = 2;
 
 /// The most samples of a replicate.

@@ -1,5 +1,4 @@
-//! The film: what a render is asked to compute ([`Job`]), and the pixels and counts it returns
-//! ([`Film`]).
+//! The film: the request of a render ([`Job`]), and the pixels and counts it returns ([`Film`]).
 //!
 //! - `pixel`: the accumulators, with a fixed order of summation.
 //! - `tile`, `tiled`: the tile a thread works on, and the storage of all tiles.
@@ -24,10 +23,10 @@ use rtc_image::Image;
 use rtc_math::mix;
 use std::num::NonZeroU32;
 
-/// What to render of a world.
+/// The pixels and samples to render.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Job {
-    /// The part of the picture wanted, or all of it. Parts outside the picture are cut off.
+    /// The requested crop, or the whole picture, clipped to the picture.
     pub crop: Option<Crop>,
     /// The kind of values in the film.
     pub values: Values,
@@ -46,7 +45,7 @@ pub struct Job {
     pub clamp: Option<f64>,
 }
 
-/// The value of a camera ray that meets no surface. The light on surfaces does not change.
+/// The value of a camera ray that hits no surface. The light on surfaces does not change.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Background {
     /// The environment of the scene; black if it has none.
@@ -98,8 +97,8 @@ impl Tiles {
         mix(mix(seed) ^ (u64::from(tile[0]) << 32 | u64::from(tile[1])))
     }
 
-    /// The tiles of the shares `first` to `last`, counted from 1, of `count`: those whose rank lies
-    /// in these of `count` equal stretches. None if the last is below the first.
+    /// The tiles of the shares `first` to `last`, counted from 1, of `count`: those whose rank is
+    /// in these of `count` equal intervals. Empty if the last is below the first.
     #[must_use]
     pub fn shares([first, last]: [u32; 2], count: u32) -> Self {
         if last < first {
@@ -111,7 +110,7 @@ impl Tiles {
             };
         }
         let count = u128::from(count.max(1));
-        // The border after so many shares, of 2⁶⁴.
+        // The end of the first shares, of 2⁶⁴.
         let split_plane = |shares: u32| (u128::from(shares) << 64) / count;
         let rank = |split_plane: u128| u64::try_from(split_plane).unwrap_or(u64::MAX);
         Self {
@@ -126,7 +125,7 @@ impl Tiles {
         tiled::tiles_of(crop)
     }
 
-    /// Whether a pixel lies in one of the tiles.
+    /// Whether a pixel is in one of the tiles.
     #[must_use]
     pub fn contain(&self, pixel: [u32; 2]) -> bool {
         let rank = Self::rank(self.seed, pixel.map(|at| at / Self::SIDE));
@@ -200,14 +199,14 @@ impl Crop {
     }
 }
 
-/// Which values a film holds.
+/// The kind of values in a film.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Values {
     /// Display values: each sub-sample is clamped to [0, 1] before the mean. For traced paths, the
     /// mean coded by sRGB.
     #[default]
     Display,
-    /// The plain mean of the sub-samples.
+    /// The unweighted mean of the sub-samples.
     Linear,
 }
 
@@ -226,7 +225,7 @@ pub(crate) fn coverage(hits: u64, rays: u64) -> f32 {
 pub struct Film {
     /// The picture, of the size of the crop.
     pub image: Image,
-    /// Of each pixel the fraction of the camera rays that met a surface, in [0, 1].
+    /// For each pixel the fraction of the camera rays that hit a surface, in [0, 1].
     pub coverage: Vec<f32>,
     /// The rays it took.
     pub counts: Counts,

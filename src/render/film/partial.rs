@@ -21,12 +21,12 @@ pub(crate) enum Summation {
     Distance,
 }
 
-/// What the films of one picture have in common.
+/// The properties that the films of one picture share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct FilmLayout {
     /// The rectangle of pixels.
     pub(crate) crop: Crop,
-    /// What the pixels show in the end.
+    /// The conversion of sums to pixels.
     pub(crate) values: Values,
     /// How their samples are summed.
     pub(crate) summation: Summation,
@@ -70,7 +70,7 @@ pub enum FilmError {
     NotAFilm,
     /// Bytes of another version of the format.
     Version(u32),
-    /// Bytes that are damaged, and what is wrong with them.
+    /// Damaged bytes, with the error.
     Corrupt(&'static str),
 }
 
@@ -201,8 +201,7 @@ impl FilmLayout {
     }
 }
 
-/// The pixels row by row as `show` has them, and what of each is covered, in one walk over the
-/// film.
+/// The pixels row by row as `show` converts them, and their coverage, in one pass over the film.
 fn shown(
     film: &Tiled<PixelSum>,
     show: impl Fn(&PixelSum) -> [f64; 3],
@@ -237,13 +236,13 @@ impl PartialFilm {
         self.counts
     }
 
-    /// The pixels that it develops to: of distances all of the picture, else those wanted.
+    /// The pixels that it develops to: the whole picture for distances, else the requested ones.
     #[must_use]
     pub fn crop(&self) -> Crop {
         self.layout.crop
     }
 
-    /// The tiles of which it has samples: their numbers and rectangles.
+    /// The tiles with samples: their numbers and rectangles.
     pub fn held_tiles(&self) -> impl Iterator<Item = (usize, Crop)> {
         let tiles = tiles_of(self.layout.crop).enumerate();
         tiles.filter(|(tile, _)| !self.tiles[*tile].is_empty())
@@ -268,7 +267,7 @@ impl PartialFilm {
         }
     }
 
-    /// A node of the tiles that a film holds, as rendered.
+    /// A node of a film's tiles, as rendered.
     pub(crate) fn of(
         layout: FilmLayout,
         blocks: &Range<u32>,
@@ -289,8 +288,8 @@ impl PartialFilm {
     /// Adds the samples and the rays of another part.
     ///
     /// # Errors
-    /// If it is of another picture, or has samples that are here already; this part is then as
-    /// before.
+    /// If it belongs to another picture, or has samples that are already present; this part is then
+    /// unchanged.
     pub fn add(&mut self, other: Self) -> Result<(), FilmError> {
         if self.layout != other.layout {
             return Err(FilmError::OtherPicture);
@@ -316,7 +315,7 @@ impl PartialFilm {
     /// If samples are missing.
     pub fn develop(&self) -> Result<Film, FilmError> {
         let all = 0..self.layout.blocks();
-        // What is missing is known before memory is taken for the picture.
+        // Missing tiles are detected before memory is taken for the picture.
         let is_whole = |nodes: &[SumNode]| matches!(nodes, [node] if node.blocks == all);
         let missing = self.tiles.iter().position(|nodes| !is_whole(nodes));
         if let Some(area) = missing.and_then(|tile| tiles_of(self.layout.crop).nth(tile)) {
@@ -361,7 +360,7 @@ pub(super) fn insert(layout: &FilmLayout, nodes: &mut Vec<SumNode>, node: SumNod
 }
 
 impl SumNode {
-    /// Adds the sibling to the right: each sum is left plus right, whichever came first.
+    /// Adds the sibling to the right: each sum is left plus right, in any order of arrival.
     fn join(&mut self, right: Self) {
         self.blocks.end = right.blocks.end;
         for (left, right) in self.sums.iter_mut().zip(right.sums) {

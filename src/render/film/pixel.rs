@@ -14,7 +14,7 @@ pub(crate) struct SampleId {
     pub(crate) pixel: [u32; 2],
     /// To which sequence it belongs.
     pub(crate) stream: Stream,
-    /// Its place in that sequence.
+    /// Its index in that sequence.
     pub(crate) index: u32,
 }
 
@@ -47,27 +47,27 @@ impl Stream {
     }
 }
 
-/// What one sample of a pixel shows.
+/// The value of one sample of a pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sample {
     /// The radiance, finite where paths are traced.
     pub(crate) radiance: Vec3,
-    /// Whether the camera ray met a surface.
+    /// Whether the camera ray hit a surface.
     pub(crate) hit: bool,
 }
 
 /// Adds up the samples of one pixel.
 pub(crate) trait Accumulator {
-    /// What a sample is.
+    /// The kind of a sample.
     type Sample: Copy;
 
-    /// What the film keeps of a pixel.
+    /// The state of a pixel in the film.
     type PixelState: Send;
 
     /// Adds the next sample of a stream.
     fn add(&mut self, id: &SampleId, sample: Self::Sample);
 
-    /// What is kept when all samples asked for are in.
+    /// The state after all requested samples.
     fn close(self) -> Self::PixelState;
 }
 
@@ -101,13 +101,13 @@ impl SampleRanges {
     }
 }
 
-/// The sum of samples of a pixel: what a film keeps of it.
+/// The sum of samples of a pixel, as a film stores it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct PixelSum {
     /// The sum of the radiance, clamped sample by sample where a display shows it so; of a depth
     /// buffer the distance, in each channel.
     pub(crate) radiance: Vec3,
-    /// How many samples met a surface.
+    /// The number of samples that hit a surface.
     pub(crate) hits: u32,
     /// How many samples there are.
     pub(crate) samples: u32,
@@ -119,7 +119,7 @@ impl PixelSum {
         (self.radiance / f64::from(self.samples.max(1))).to_array()
     }
 
-    /// The fraction of the camera rays that met a surface.
+    /// The fraction of the camera rays that hit a surface.
     pub(crate) fn coverage(&self) -> f32 {
         coverage(self.hits.into(), self.samples.into())
     }
@@ -172,8 +172,9 @@ impl Accumulator for InOrder {
 /// Samples of a block, which are added one after the other.
 pub const BLOCK: u32 = 16;
 
-/// The samples, added in aligned blocks of [`BLOCK`] along a binary tree over the blocks: pictures
-/// of traced paths. The sum of any 2^k aligned blocks is one node of the tree, whoever adds it.
+/// The samples, added in aligned blocks of [`BLOCK`] along a binary tree over the blocks:
+/// path-traced pictures. The sum of any 2^k aligned blocks is one node of the tree, whichever
+/// process adds it.
 #[derive(Default)]
 pub(crate) struct InBlocks {
     block: Vec3,

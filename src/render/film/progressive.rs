@@ -17,8 +17,8 @@ use rtc_math::Vec3;
 /// The samples of a pixel so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Replicates {
-    /// The tone map of the mean, and what the mean is multiplied by before; `None` where each
-    /// sample is clamped to [0, 1].
+    /// The tone map of the mean, and the factor before it; `None` where each sample is clamped to
+    /// [0, 1].
     tone: Option<(Tone, f64)>,
     /// Of each replicate and of the pilot, the sum of its samples, clamped if `tone` is `None`.
     sums: [Vec3; 3],
@@ -28,14 +28,14 @@ pub struct Replicates {
     linear: Vec3,
     /// The number of samples of each replicate, and of the pilot.
     counts: [u32; 2],
-    /// The number of samples of the replicates that met a surface.
+    /// The number of samples of the replicates that hit a surface.
     hits: u64,
 }
 
 /// The index of the replicates among counts.
 pub(super) const SHOWN: usize = 0;
 
-/// The index of the pilot among counts, and its place among the sequences.
+/// The index of the pilot among counts, and among the sequences.
 const PILOT: (usize, usize) = (1, 2);
 
 /// A part of a progressive picture, with 136 bytes per pixel.
@@ -44,7 +44,7 @@ pub struct ProgressiveFilm {
     seed: u64,
     /// The background, where paths are traced.
     pub background: Background,
-    /// How values are shown, and what they are multiplied by before, where paths are traced.
+    /// The tone map and the factor before it, for path tracing.
     pub display: (Tone, f64),
     /// The tiles that grow; all without.
     pub tiles: Option<Tiles>,
@@ -68,7 +68,7 @@ impl ProgressiveFilm {
         }
     }
 
-    /// The part of the picture that it holds.
+    /// Its part of the picture.
     #[must_use]
     pub fn crop(&self) -> Crop {
         self.pixels.crop()
@@ -92,7 +92,7 @@ impl ProgressiveFilm {
         self.pixels.at(index)
     }
 
-    /// The missing samples of a pixel. `wanted` is the least number of samples of each replicate,
+    /// The missing samples of a pixel. `wanted` is the minimum number of samples of each replicate,
     /// and of the pilot.
     pub(crate) fn lacking(seed: u64, pixel: &Replicates, wanted: [u32; 2]) -> SampleRanges {
         let samples = |part: usize| pixel.counts[part]..wanted[part];
@@ -110,7 +110,7 @@ impl ProgressiveFilm {
         self.pixels().map(Replicates::samples).sum()
     }
 
-    /// The picture so far; black where nothing was sampled.
+    /// The picture so far; black without samples.
     #[must_use]
     pub fn image(&self, values: Values) -> Image {
         Image {
@@ -123,7 +123,7 @@ impl ProgressiveFilm {
         }
     }
 
-    /// Of each pixel the fraction of the samples that met a surface.
+    /// For each pixel the fraction of the samples that hit a surface.
     #[must_use]
     pub fn coverage(&self) -> Vec<f32> {
         self.pixels().map(Replicates::coverage).collect()
@@ -197,7 +197,7 @@ impl Replicates {
         }
     }
 
-    /// The fraction of the samples of the replicates that met a surface.
+    /// The fraction of the samples of the replicates that hit a surface.
     fn coverage(&self) -> f32 {
         coverage(self.hits, 2 * u64::from(self.counts[SHOWN]))
     }

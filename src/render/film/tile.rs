@@ -3,8 +3,8 @@
 use super::pixel::{Accumulator, SampleId, SampleRanges};
 use super::{Crop, Stride};
 
-/// Begins a pixel: given its place, its number in the film, row by row, and what the film keeps of
-/// it so far, says what adds up its samples and which it is to take.
+/// Begins a pixel: given its position, its row-major index in the film, and its state in the film
+/// so far, returns its accumulator and the samples to take.
 pub(crate) type Open<'run, A> =
     dyn Fn([u32; 2], usize, &<A as Accumulator>::PixelState) -> (A, SampleRanges) + Sync + 'run;
 
@@ -14,14 +14,14 @@ pub(crate) trait FilmTile<Sample> {
     /// after the last.
     fn next(&mut self) -> Option<([u32; 2], SampleRanges)>;
 
-    /// Adds the next sample of a stream to the pixel begun.
+    /// Adds the next sample of a stream to the current pixel.
     fn add(&mut self, id: &SampleId, sample: Sample);
 
-    /// Keeps what the samples of the pixel begun add up to.
+    /// Stores the sum of the current pixel.
     fn close(&mut self);
 }
 
-/// A tile of a film that keeps what an accumulator makes of the samples.
+/// A tile of a film that stores the results of an accumulator.
 pub(crate) struct Tile<'film, A: Accumulator> {
     /// The rectangle of the picture.
     area: Crop,
@@ -34,13 +34,13 @@ pub(crate) struct Tile<'film, A: Accumulator> {
     next: [u32; 2],
     /// Its number in the tile.
     index: usize,
-    /// What adds up the samples of the pixel begun, and its number in the tile.
+    /// The accumulator of the current pixel, and its index in the tile.
     begun: Option<(A, usize)>,
 }
 
 impl<'film, A: Accumulator> Tile<'film, A> {
-    /// The pixels in `area` of a film, of which it keeps `kept`; only those that `stride` meets
-    /// from the film's corner on.
+    /// The pixels in `area` of a film with the state `kept`; only every `stride`-th from the film's
+    /// corner.
     pub(crate) fn new(
         [area, film]: [Crop; 2],
         stride: Stride,
@@ -74,13 +74,13 @@ impl<A: Accumulator> FilmTile<A::Sample> for Tile<'_, A> {
         while self.index < self.kept.len() {
             let ([column, row], index) = (self.next, self.index);
             self.advance();
-            let is_met = |at: u32| at.is_multiple_of(self.stride.get());
-            if is_met(column) && is_met(row) {
+            let is_selected = |at: u32| at.is_multiple_of(self.stride.get());
+            if is_selected(column) && is_selected(row) {
                 let at = [self.film.x + column, self.film.y + row];
                 let number = row as usize * self.film.width as usize + column as usize;
-                let (sums, asked) = (self.open)(at, number, &self.kept[index]);
+                let (sums, ranges) = (self.open)(at, number, &self.kept[index]);
                 self.begun = Some((sums, index));
-                return Some((at, asked));
+                return Some((at, ranges));
             }
         }
         None

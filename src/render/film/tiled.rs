@@ -111,7 +111,7 @@ pub(crate) fn tiles_of(crop: Crop) -> impl Iterator<Item = Crop> {
     cuts(crop.y, crop.height).flat_map(row)
 }
 
-/// The number of the tile around a place, its start and its length, all counted from `first`.
+/// The number of the tile around a position, its start and its length, all counted from `first`.
 fn tile_around(first: u32, at: usize, count: usize) -> (usize, usize, usize) {
     let (first, side) = (first as usize, Tiles::SIDE as usize);
     let tile = (first + at) / side;
@@ -120,7 +120,7 @@ fn tile_around(first: u32, at: usize, count: usize) -> (usize, usize, usize) {
     (tile - first / side, start, end - start)
 }
 
-/// How many tiles stand side by side.
+/// The number of tiles per row.
 fn tiles_across(first: u32, count: u32) -> usize {
     (first.saturating_add(count).div_ceil(Tiles::SIDE) - first / Tiles::SIDE) as usize
 }

@@ -5,7 +5,7 @@ use super::{Selection, run};
 use crate::film::heartbeat::OnPixel;
 use crate::film::tiled::Tiled;
 use crate::film::{Counts, Film, Job};
-use crate::frame::picture::asked;
+use crate::frame::picture::sample_ranges;
 use crate::integrator::guide::GuideSums;
 use crate::integrator::path::{FirstHitsOfPaths, Strategy};
 use crate::light::Lights;
@@ -23,7 +23,7 @@ const GUIDE_RAYS: (u32, u32) = (4, 256);
 pub struct DenoisedFilm {
     /// The picture, and all rays, those of guides included.
     pub film: Film,
-    /// The plain picture of the same samples.
+    /// The noisy picture of the same samples.
     pub plain: Image,
 }
 
@@ -38,7 +38,10 @@ impl<S: Intersect> World<S> {
         let lights = Lights::new(self, Strategy::Mis);
         let make_integrator = || Box::new(FirstHitsOfPaths::new(self, &lights, on_pixel)) as _;
         let open = |_: [u32; 2], _: usize, _: &Guide| {
-            (GuideSums::new(&self.camera), asked(job, samples.clone()))
+            (
+                GuideSums::new(&self.camera),
+                sample_ranges(job, samples.clone()),
+            )
         };
         let mut film = Tiled::new(self.crop(job), job.tiles, Guide::default());
         let counts = run(&mut film, Selection::of(job), &make_integrator, &open)?;
@@ -47,7 +50,7 @@ impl<S: Intersect> World<S> {
 }
 
 impl AnyWorld {
-    /// A denoised picture of traced paths, of so many samples a pixel, at least 2; `None` if
+    /// A denoised path-traced picture with the given samples per pixel, at least 2; `None` if
     /// `on_pixel` said stop. `between` is called between two passes over all pixels.
     #[must_use]
     pub fn denoised(
@@ -92,11 +95,11 @@ impl AnyWorld {
     }
 }
 
-/// Scales the distances of guides to [0, 1], by those that the last meet.
+/// Scales the distances of guides to [0, 1], by those of the last guides.
 fn scale_distances(guides: &mut [Vec<Guide>; 3]) {
     const LAST: usize = rtc_image::GUIDES - 1;
-    let met = guides[2].iter().filter(|guide| guide[0] > 0.0);
-    let distances = met.map(|guide| guide[LAST] / guide[0]);
+    let with_hit = guides[2].iter().filter(|guide| guide[0] > 0.0);
+    let distances = with_hit.map(|guide| guide[LAST] / guide[0]);
     let (near, far) = distances.fold((f64::INFINITY, f64::NEG_INFINITY), |(near, far), d| {
         (near.min(d), far.max(d))
     });

@@ -5,7 +5,7 @@ use crate::film::Job;
 use crate::film::heartbeat::OnPixel;
 use crate::film::pixel::Accumulator;
 use crate::film::tiled::Tiled;
-use crate::frame::picture::asked;
+use crate::frame::picture::sample_ranges;
 use crate::integrator::aov::{Aov, CameraHit, FirstHits, LayerSums};
 use crate::integrator::path::{FirstHitsOfPaths, Strategy};
 use crate::integrator::whitted::Tracer;
@@ -18,7 +18,7 @@ use rtc_plan::Features;
 use std::iter::repeat_n;
 
 impl<S: Intersect> World<S> {
-    /// As [`crate::AnyWorld::layers`], of what this world holds.
+    /// As [`crate::AnyWorld::layers`], for this world.
     pub(crate) fn layers(
         &self,
         wanted: &[Aov],
@@ -47,13 +47,16 @@ impl<S: Intersect> World<S> {
     ) -> Option<Layers> {
         let camera = &self.camera;
         let open = |_: [u32; 2], _: usize, _: &<LayerSums<'_> as Accumulator>::PixelState| {
-            (LayerSums::new(wanted, camera), asked(job, 0..samples))
+            (
+                LayerSums::new(wanted, camera),
+                sample_ranges(job, 0..samples),
+            )
         };
         let blank = <LayerSums<'_> as Accumulator>::PixelState::new();
         let mut film = Tiled::new(self.crop(job), job.tiles, blank);
         run(&mut film, Selection::of(job), make_integrator, &open)?;
         let names: Vec<_> = wanted.iter().flat_map(|aov| aov.channels()).collect();
-        // A pixel that nobody asked for has no numbers.
+        // A pixel outside of the job has no values.
         let mut values = Vec::with_capacity(film.len() * names.len());
         for kept in film.iter() {
             values.extend_from_slice(kept);

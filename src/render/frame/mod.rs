@@ -1,5 +1,17 @@
-//! The loop over tiles, on all threads of the pool. It renders complete, partial and progressive
-//! pictures, and AOVs.
+//! The loop over tiles, on all threads of the pool.
+//!
+//! - `picture` renders complete and partial pictures, `progressive` refines one in rounds, `halves`
+//!   renders the two halves for the denoiser, `layers` renders AOVs, and `verify` compares a plan
+//!   with the
+//!   unpruned picture.
+//! - Each of them passes a [`Selection`] of pixels, an accumulator and a maker of integrators to
+//!   [`run`] or
+//!   [`run_tiles`]. These distribute the tiles over the threads; each thread has an integrator of
+//!   its
+//!   own.
+//!
+//! A pixel's value does not depend on the thread or on the order of tiles. An observer is called
+//! after each pixel and may stop the loop; then unfinished tiles are unchanged.
 
 pub(crate) mod halves;
 pub(crate) mod layers;
@@ -17,17 +29,17 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// Which pixels of a film are rendered.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Selection {
-    /// The tiles wanted; `None` for all.
+    /// The requested tiles; `None` for all.
     pub(crate) tiles: Option<Tiles>,
-    /// The pixels wanted of them.
+    /// The requested pixels of them.
     pub(crate) stride: Stride,
 }
 
-/// A tile's place in the picture, and what is kept of its pixels.
+/// A tile's position in the picture, and the state of its pixels.
 type KeptTile<'film, K> = (Crop, &'film mut [K]);
 
 impl Selection {
-    /// The tiles wanted of a film.
+    /// The requested tiles of a film.
     fn tiles_of<K>(self, film: &mut Tiled<K>) -> Vec<KeptTile<'_, K>> {
         let is_wanted = |area: &Crop| self.tiles.is_none_or(|own| own.contain([area.x, area.y]));
         film.tiles_mut()
@@ -40,8 +52,8 @@ impl Selection {
 pub(crate) type MakeIntegrator<'work, 'run, Sample> =
     dyn Fn() -> Box<dyn Integrator<'run, Sample = Sample> + 'work> + Sync + 'work;
 
-/// Renders the pixels selected, as `open` begins each of them, by integrators that
-/// `make_integrator` makes; the rays traced, or `None` if the observer said stop.
+/// Renders the selected pixels, as `open` begins each of them, by integrators that
+/// `make_integrator` makes; returns the number of rays, or `None` if the observer said stop.
 pub(crate) fn run<A: Accumulator>(
     film: &mut Tiled<A::PixelState>,
     selection: Selection,
@@ -56,8 +68,8 @@ pub(crate) fn run<A: Accumulator>(
     is_done.then_some(counts)
 }
 
-/// As [`run`], in tiles all over the picture; if the observer said stop, tiles that are not done
-/// are as before. The rays traced, and whether all are done.
+/// As [`run`], in tiles distributed over the picture; if the observer said stop, unfinished tiles
+/// are unchanged. Returns the number of rays, and whether all are done.
 pub(crate) fn run_tiles<A: Accumulator<PixelState: Copy>>(
     film: &mut Tiled<A::PixelState>,
     selection: Selection,
@@ -83,8 +95,9 @@ pub(crate) fn run_tiles<A: Accumulator<PixelState: Copy>>(
 type RenderTile<'work, 'run, Sample, T> =
     dyn Fn(&mut (dyn Integrator<'run, Sample = Sample> + '_), T) -> bool + Sync + 'work;
 
-/// Shares tiles among the integrators of all threads: each renders the next that is left, until
-/// none is or the observer said stop. The rays of the tiles that are done, and whether all are.
+/// Distributes tiles over the integrators of all threads: each renders the next remaining one,
+/// until none is left or the observer said stop. Returns the rays of the finished tiles, and
+/// whether all are finished.
 fn share<'run, Sample: Copy, T: Send>(
     tiles: Vec<T>,
     make_integrator: &MakeIntegrator<'_, 'run, Sample>,
@@ -122,7 +135,7 @@ fn on_all_threads(work: &(dyn Fn() + Sync)) {
     });
 }
 
-/// A thread that panicked leaves nothing half done here.
+/// A thread that panicked leaves no inconsistent state here.
 fn locked<T>(own: &Mutex<T>) -> MutexGuard<'_, T> {
     own.lock().unwrap_or_else(PoisonError::into_inner)
 }

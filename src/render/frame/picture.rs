@@ -35,7 +35,7 @@ impl<S: Intersect> World<S> {
             let samples = if is_blank { 0 } else { samples };
             (
                 InOrder::new(job.values),
-                asked(job, 0..limited(job, samples)),
+                sample_ranges(job, 0..limited(job, samples)),
             )
         };
         let make_integrator = || Box::new(Tracer::<S, F>::new(self, on_pixel)) as _;
@@ -55,7 +55,7 @@ impl<S: Intersect> World<S> {
     ) -> Option<Sums> {
         let lights = Lights::new(self, strategy);
         let open = |_: [u32; 2], _: usize, _: &PixelSum| {
-            (InBlocks::default(), asked(job, samples.clone()))
+            (InBlocks::default(), sample_ranges(job, samples.clone()))
         };
         let make_integrator = || {
             let tracer = PathTracer::<S, F>::new(self, &lights, strategy, on_pixel);
@@ -70,7 +70,10 @@ impl<S: Intersect> World<S> {
     fn sum_distances(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Sums> {
         let open = |pixel: [u32; 2], _: usize, _: &PixelSum| {
             let is_blank = self.plan.pixel_classes.class_of(pixel) == PixelClass::Nothing;
-            (Distance::default(), asked(job, 0..u32::from(!is_blank)))
+            (
+                Distance::default(),
+                sample_ranges(job, 0..u32::from(!is_blank)),
+            )
         };
         let mut film = self.film(job);
         let counts = run(
@@ -82,7 +85,7 @@ impl<S: Intersect> World<S> {
         Some((film, counts))
     }
 
-    /// Renders a complete picture from the sums that `sum` makes of all samples.
+    /// Renders a complete picture from the sums of all samples that `sum` computes.
     pub(crate) fn whole(
         &self,
         job: &Job,
@@ -98,8 +101,8 @@ impl<S: Intersect> World<S> {
         Some(layout.develop(&film, counts).cut(self.crop(job)))
     }
 
-    /// Renders some samples of a picture, or all, from the sums that `sum` makes of a range of
-    /// them.
+    /// Renders some samples of a picture, or all, from the sums of a range of samples that `sum`
+    /// computes.
     pub(crate) fn part(
         &self,
         job: &Job,
@@ -117,12 +120,12 @@ impl<S: Intersect> World<S> {
         Ok(Some(part))
     }
 
-    /// A film of the tiles that a job asks for, without samples.
+    /// A film of the tiles of a job, without samples.
     fn film(&self, job: &Job) -> Tiled<PixelSum> {
         Tiled::new(self.layout(job).crop, job.tiles, PixelSum::default())
     }
 
-    /// Which pixels a job asks for, and how their samples are summed.
+    /// The pixels of a job, and the summation of their samples.
     fn layout(&self, job: &Job) -> FilmLayout {
         let (crop, summation) = match self.settings.mode {
             Mode::Path(samples) => {
@@ -140,7 +143,7 @@ impl<S: Intersect> World<S> {
         }
     }
 
-    /// The part of the picture that a job asks for.
+    /// The crop of a job.
     pub(crate) fn crop(&self, job: &Job) -> Crop {
         let [width, height] = self.camera.size;
         let whole = Crop {
@@ -154,7 +157,7 @@ impl<S: Intersect> World<S> {
 }
 
 impl Selection {
-    /// What a job asks for.
+    /// The request of a job.
     pub(crate) fn of(job: &Job) -> Self {
         Self {
             tiles: job.tiles,
@@ -168,7 +171,7 @@ fn limited(job: &Job, samples: u32) -> u32 {
     job.samples.map_or(samples, |most| samples.min(most.get()))
 }
 
-/// The samples of a pixel that a job asks for.
-pub(crate) fn asked(job: &Job, samples: Range<u32>) -> SampleRanges {
+/// The samples of a pixel in a job.
+pub(crate) fn sample_ranges(job: &Job, samples: Range<u32>) -> SampleRanges {
     SampleRanges::Picture(job.seeds, samples)
 }

@@ -13,7 +13,7 @@ use crate::world::World;
 use crate::world::settings::Mode;
 use rtc_color::Tone;
 
-/// For each pixel, counted row by row, the samples wanted of each replicate, and of the pilot.
+/// For each pixel, row by row, the requested samples of each replicate, and of the pilot.
 type SampleRange<'run> = dyn Fn(usize) -> [u32; 2] + Sync + 'run;
 
 impl<S: Intersect> World<S> {
@@ -58,8 +58,8 @@ impl<S: Intersect> World<S> {
     }
 }
 
-/// Takes the samples wanted by integrators that `make_integrator` makes, shown by `tone`; false if
-/// the observer said stop.
+/// Takes the requested samples by integrators that `make_integrator` makes, displayed by `tone`;
+/// false if the observer said stop.
 fn add_samples(
     film: &mut ProgressiveFilm,
     wanted: &SampleRange<'_>,

@@ -19,27 +19,27 @@ pub struct Mismatch {
     pub what: &'static str,
 }
 
-/// A plan under validation, and the first fault in the order of pixels.
+/// A plan under verification, and the first difference in the order of pixels.
 pub(crate) struct Verify {
     pub(crate) plan: Plan,
     first: Mutex<Option<Mismatch>>,
 }
 
 impl Verify {
-    /// A plan without faults so far.
+    /// A plan without differences so far.
     pub(crate) fn new(plan: Plan) -> Self {
         let first = Mutex::new(None);
         Self { plan, first }
     }
 
-    /// The first fault.
+    /// The first difference.
     pub(crate) fn into_first(self) -> Option<Mismatch> {
         let first = self.first.into_inner();
         first.unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Reports a fault. The first fault in the order of pixels is kept, and of one pixel the first
-    /// reported.
+    /// Reports a difference. The first one in the order of pixels is kept, and in one pixel the
+    /// first reported.
     pub(crate) fn report(&self, pixel: [u32; 2], effect: Effect, what: &'static str) {
         let rule = self.plan.rule_of(effect);
         self.keep(Mismatch {
@@ -50,7 +50,7 @@ impl Verify {
         });
     }
 
-    /// Keeps a fault, if it is the first in the order of pixels.
+    /// Keeps a difference, if it is the first in the order of pixels.
     pub(crate) fn keep(&self, mismatch: Mismatch) {
         let mut first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
         let order = |mismatch: &Mismatch| (mismatch.pixel[1], mismatch.pixel[0]);

@@ -23,7 +23,7 @@ pub enum Aov {
     Depth,
     /// The first texture coordinates, if there are any.
     Uv,
-    /// The number of the surface in the scene, from 1, that the first ray meets: whole, and exact
+    /// The number of the surface in the scene, from 1, that the first ray hits: an integer, exact
     /// below 2²⁴.
     Instance,
     /// The position in the world.
@@ -33,8 +33,8 @@ pub enum Aov {
     Error,
     /// The number of samples, those of the pilot included; of the same pictures.
     Samples,
-    /// The largest change of the pixel, in multiples of white, by light that no sample may have
-    /// met (95 %): 1 where there is no bound; of the same pictures.
+    /// A bound, in multiples of white, on the change of the pixel by light that no sample may have
+    /// hit (95 %): 1 where there is no bound; of the same pictures.
     #[serde(rename = "unmet")]
     Undersampled,
 }
@@ -88,7 +88,7 @@ impl Aov {
         }
     }
 
-    /// Whether it tells of the samples of a pixel that grows towards a goal, not of first hits.
+    /// Whether it is a statistic of the samples of a progressive pixel, not of first hits.
     #[must_use]
     pub fn is_of_samples(self) -> bool {
         matches!(self, Self::Error | Self::Samples | Self::Undersampled)
@@ -173,7 +173,7 @@ impl Accumulator for LayerSums<'_> {
         self.sums.add(direction, first);
     }
 
-    /// The values of all channels wanted, one after the other.
+    /// The values of all requested channels in sequence.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "rounds to the nearest float, or to infinity"
@@ -201,7 +201,7 @@ pub(crate) struct FirstHitSums {
     point: Vec3,
     uv: Vec3,
     hits_with_uv: u32,
-    /// The number of the surface that the first ray met.
+    /// The number of the surface that the first ray hit.
     instance: usize,
 }
 

@@ -1,8 +1,15 @@
-//! The integrators. Each estimates the value of one sample of a pixel.
+//! The integrators. Each computes the samples of pixels.
 //!
 //! - [`whitted`]: the integrator of course scenes, local shading plus specular rays.
 //! - [`path`]: the path tracer.
 //! - [`first_hit`]: depth buffers. [`aov`], [`guide`]: AOVs and denoiser guides.
+//!
+//! The trait [`Integrator`] is the interface to `frame`: the loop begins a pixel and a stream of
+//! samples, and requests its samples in order. An integrator holds a reference to the world, the
+//! counts of its rays, and memory that it reuses from pixel to pixel. Each is generic over the
+//! shapes of the world, and over a set of features `F` that `kernel` selects.
+//!
+//! A sample depends on the world and its [`SampleId`] only.
 
 pub(crate) mod aov;
 pub(crate) mod first_hit;
@@ -16,25 +23,25 @@ use super::film::pixel::SampleId;
 use super::film::tile::FilmTile;
 use super::lanes::LANES;
 
-/// A way to find what samples of pixels show. Each thread has its own, which keeps its memory from
-/// pixel to pixel; what it finds depends on the world and the [`SampleId`] alone.
+/// A method that computes samples of pixels. Each thread has its own, which reuses its memory from
+/// pixel to pixel; the results depend on the world and the [`SampleId`] only.
 pub(crate) trait Integrator<'run> {
-    /// What a sample is.
+    /// The kind of a sample.
     type Sample: Copy;
 
     /// Begins samples of a pixel: those of one stream, in order from `first` on.
     fn begin(&mut self, _first: &SampleId) {}
 
-    /// What one sample shows.
+    /// The value of one sample.
     fn sample(&mut self, id: &SampleId) -> Self::Sample;
 
-    /// What the sample and those after it show, if they can be had together: of a stream begun at
-    /// which so many are left.
+    /// The values of the sample and the following ones, if they can be computed together: of the
+    /// current stream with this many remaining.
     fn samples(&mut self, _first: &SampleId) -> Option<[Self::Sample; LANES]> {
         None
     }
 
-    /// Whether all samples of the pixel and the stream begun are validated to be equal.
+    /// Whether all samples of the current pixel and stream are proven to be equal.
     fn is_uniform(&self) -> bool {
         false
     }
@@ -45,15 +52,15 @@ pub(crate) trait Integrator<'run> {
     /// Tells the observer how far the work is, and whether to continue.
     fn heartbeat(&mut self) -> &mut Heartbeat<'run>;
 
-    /// Whether to continue: to be asked before each sample.
+    /// Whether to continue: call it before each sample.
     fn should_continue(&mut self) -> bool;
 
-    /// Takes the samples that a tile is to have; false if the observer said stop. In which order
-    /// rays are traced is the integrator's own affair: a pixel gets its samples in theirs.
+    /// Takes the samples of a tile; false if the observer said stop. Rays may be traced in any
+    /// order, but a pixel receives its samples in sequence.
     fn render(&mut self, tile: &mut dyn FilmTile<Self::Sample>) -> bool {
-        while let Some((pixel, asked)) = tile.next() {
+        while let Some((pixel, ranges)) = tile.next() {
             self.heartbeat().begin(pixel);
-            for (stream, samples) in (0..).map_while(|k| asked.stream(k)) {
+            for (stream, samples) in (0..).map_while(|k| ranges.stream(k)) {
                 let mut id = SampleId {
                     pixel,
                     stream,

@@ -13,7 +13,7 @@ const HIGH: u64 = 0xffff_ffff_0000_0000;
 const TWO_52_BITS: u64 = 0x4330_0000_0000_0000;
 const TWO_52: f64 = 4_503_599_627_370_496.0;
 
-/// What the exponent of a number is stored with.
+/// The bias of the exponent of a number.
 const BIAS: f64 = 1023.0;
 
 /// √(3/2) and √3, cut after half of the bits: mantissas from the one to the other are seen from
@@ -119,7 +119,7 @@ fn log2<S: Simd>(simd: S, x: f64x4<S>) -> [f64x4<S>; 2] {
     let (u, v) = (a - b, one / (a + b));
     let s = u * v;
     let s_high = high(simd, s);
-    // The sum a + b to half of the bits, made of the bits of a.
+    // The sum a + b with half of the bits, from the bits of a.
     let half = (a.to_bits() >> 1) & bits(HIGH) | bits(0x2000_0000_0000_0000);
     let half = f64x4::from_bits(half + bits(0x0008_0000_0000_0000));
     let half_1_5 = f64x4::from_bits(half.to_bits() + bits(0x0004_0000_0000_0000));

@@ -19,7 +19,7 @@ struct EnvironmentMap {
     image: Arc<Image>,
     /// The value of all pixels, where they are validated to be equal.
     constant: Option<Vec3>,
-    /// The distribution that places are sampled from.
+    /// The distribution of sampled positions.
     table: BilinearDistribution,
     /// The mean of the strongest channel over all directions.
     mean: f64,
@@ -123,9 +123,9 @@ impl Environment {
 }
 
 impl EnvironmentMap {
-    /// Directions are sampled by the strongest channel, less its mean: BSDF sampling finds what is
-    /// as bright everywhere (Karlík, Šik, Vévoda, Skřivan, Křivánek, "MIS compensation", 2019,
-    /// §4.1). A share is kept, so that no direction with light has a density of 0.
+    /// Directions are sampled by the strongest channel, less its mean: BSDF sampling finds uniform
+    /// light (Karlík, Šik, Vévoda, Skřivan, Křivánek, "MIS compensation", 2019, §4.1). A fraction
+    /// of the mean is kept, so that no direction with light has a density of 0.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "a density may be less precise than what it samples"

@@ -1,5 +1,13 @@
-//! The lights for next-event estimation: punctual lights, emissive surfaces and the environment. A
-//! light is sampled in proportion to its power, or by a light tree if there are many local lights.
+//! Next-event estimation: the lights of a scene, and how a point samples them.
+//!
+//! - [`Lights`] lists punctual lights (`punctual`), emissive triangles and shapes (`triangle`,
+//!   `shape`), and
+//!   the environment (`environment`). `course` has the lights of the Whitted integrator.
+//! - [`Lights`] chooses a light in proportion to its power, or by a light tree (`tree`) if there
+//!   are
+//!   many local lights, then a point or a direction on it: an [`Incident`].
+//! - It also returns the density with which it would sample a direction, for multiple importance
+//!   sampling with the BSDF.
 //!
 //! A light of zero weight is never sampled; only BSDF sampling finds it.
 
@@ -28,11 +36,11 @@ use rtc_math::{Bounds, Vec3, to_u32};
 use rtc_plan::LightUse;
 use std::f64::consts::PI;
 
-/// Fewer lights with a place are chosen by power alone: among 8 a tree loses (benches/sampling.md).
+/// Fewer local lights are chosen by power alone: with 8 a tree is slower (benches/sampling.md).
 const LEAST_FOR_TREE: usize = 16;
 
-/// At most so many lights are listed, of some 300 bytes each: instances may show the triangles of a
-/// mesh more often than there is memory for.
+/// The maximum number of listed lights, of some 300 bytes each: instances may repeat the triangles
+/// of a mesh more often than memory allows.
 const MOST_LISTED: usize = 1 << 21;
 
 /// All lights of a world.
@@ -69,7 +77,7 @@ pub(crate) struct Incident {
     pub(crate) place: Option<Vec3>,
 }
 
-/// Whether so many triangles of a surface are listed after so many lights. If not, only BSDF
+/// Whether this many triangles of a surface are listed after this many lights. If not, only BSDF
 /// sampling finds them.
 fn is_room_for(triangles: usize, listed: usize) -> bool {
     listed.saturating_add(triangles) <= MOST_LISTED
@@ -136,7 +144,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
         all
     }
 
-    /// Finds the probabilities of lights, and makes a tree over those that have a place if they are
+    /// Computes the probabilities of lights, and builds a tree over the local lights if they are
     /// many.
     fn build_distribution(&mut self, strategy: Strategy) {
         let disc = PI * self.radius_squared();
@@ -159,7 +167,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
         self.probabilities = (0..weights.len()).map(probability).collect();
     }
 
-    /// A light as a tree holds it; `None` for one without a place or power.
+    /// A light as a tree stores it; `None` for one without a position or power.
     fn emitter(&self, light: usize, power: f64) -> Option<TreeLight> {
         let (bounds, normal) = match &self.lights[light] {
             Light::Punctual(light, _) => (Bounds::around(light.place_of_falloff()?, 0.0), None),
@@ -175,7 +183,8 @@ impl<'world, S: Intersect> Lights<'world, S> {
         })
     }
 
-    /// Chooses a light for a point: its index, its probability, and the numbers for a place on it.
+    /// Chooses a light for a point: its index, its probability, and the sample values for a point
+    /// on it.
     fn choose(&self, from: Vec3, u: impl FnOnce() -> [f64; 2]) -> Option<(usize, f64, [f64; 2])> {
         if let Some(only) = self.only {
             // A light without size needs no numbers, if it is the only one.
@@ -260,7 +269,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
 
     /// The mean radiance of a shape, estimated at 16 points.
     fn mean_emission_of_shape(&self, light: &ShapeLight) -> Vec3 {
-        /// The points are the middles of so many cells, squared.
+        /// The points are the centres of this many cells, squared.
         const CELLS: u32 = 4;
         let emission = &self.material(light.surface).emission;
         if emission.map.is_none() {
@@ -287,12 +296,12 @@ impl<'world, S: Intersect> Lights<'world, S> {
             offset: 0.0,
             back: -at.normal,
         };
-        let asked = AttributeRequest {
+        let request = AttributeRequest {
             uv: true,
             tangent: false,
         };
         let shape = &self.world.surfaces[surface].shape;
-        let attributes = shape.shading_attributes(&ray, &interaction, at.prim_id, asked);
+        let attributes = shape.shading_attributes(&ray, &interaction, at.prim_id, request);
         MaterialPoint::new(self.material(surface), &attributes, at.point)
     }
 
@@ -310,8 +319,8 @@ impl<'world, S: Intersect> Lights<'world, S> {
         &self.world.standards[self.world.surfaces[surface].material]
     }
 
-    /// Samples the light that reaches a point: two numbers in [0, 1), asked for where they are
-    /// needed, choose a point on it or a direction to it; the first one chooses the light, too.
+    /// Samples the light that reaches a point: two values in [0, 1), drawn where they are needed,
+    /// choose a point on it or a direction to it; the first one chooses the light, too.
     pub(crate) fn sample(&self, from: Vec3, u: impl FnOnce() -> [f64; 2]) -> Option<Incident> {
         let (index, probability, u) = self.choose(from, u)?;
         match &self.lights[index] {
@@ -394,7 +403,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
         }
     }
 
-    /// The radiance of the environment in a direction, and, for who asks, the density with which
+    /// The radiance of the environment in a direction, and, if requested, the density with which
     /// [`Lights::sample`] samples it.
     pub(crate) fn environment(&self, wi: Vec3) -> (Vec3, impl FnOnce() -> f64) {
         let environment = &self.world.lights.environment;

@@ -25,7 +25,7 @@ pub(crate) struct DirectionalLight {
 /// A point light.
 #[derive(Clone, Debug)]
 pub(crate) struct PointLight {
-    /// Where it stands.
+    /// Its position.
     pub(crate) position: Vec3,
     /// The radiant intensity, by the factors of the profile.
     pub(crate) intensity: Vec3,
@@ -53,7 +53,7 @@ impl Punctual {
         }
     }
 
-    /// Where the light stands, if its strength falls with the square of the distance.
+    /// The position of the light, if its strength falls with the square of the distance.
     pub(super) fn place_of_falloff(&self) -> Option<Vec3> {
         match self {
             Self::Point(point) if !matches!(point.falloff, Falloff::None) => Some(point.position),

@@ -67,8 +67,8 @@ impl LightTree {
         tree
     }
 
-    /// Adds the tree over lights, whose root the way leads to. Halves have equally many lights,
-    /// so no way is longer than 64.
+    /// Adds the tree over lights, with `path` to its root. Halves have equally many lights, so no
+    /// path is longer than 64.
     fn add(&mut self, emitters: &mut [TreeLight], direction: u64, depth: u32) {
         let index = self.nodes.len();
         let mut node = LightNode::around(emitters);
@@ -136,7 +136,7 @@ impl LightTree {
 }
 
 impl LightNode {
-    /// The node of lights, without what is below.
+    /// The node of lights, without its descendants.
     fn around(emitters: &[TreeLight]) -> Self {
         let boxes = emitters.iter().map(|emitter| emitter.bounds);
         let bounds = boxes.fold(Bounds::EMPTY, Bounds::union);

@@ -1,4 +1,4 @@
-//! The prepared Phong material: each map holds its image.
+//! The prepared Phong material: each map contains its image.
 
 use crate::texture::Texture;
 use crate::texture::bilinear::Bump;

@@ -1,4 +1,4 @@
-//! The prepared glTF material: defaults are resolved, and each map holds its image.
+//! The prepared glTF material: defaults are resolved, and each map contains its image.
 
 use crate::bsdf::standard::*;
 use crate::shape::geometry::AttributeRequest;
@@ -9,7 +9,7 @@ use rtc_math::{Vec3, Weight};
 #[derive(Clone, Debug)]
 pub(crate) struct StandardMaterial {
     /// The surface details that it needs.
-    pub(crate) asked: AttributeRequest,
+    pub(crate) request: AttributeRequest,
     /// Whether a map other than a normal map changes the BSDF.
     pub(crate) has_shading_map: bool,
     pub(crate) alpha: Alpha,
@@ -125,7 +125,7 @@ macro_rules! prepared {
     };
 }
 
-/// The layers of the table that are made of numbers and colours alone.
+/// The layers of the table that consist of numbers and colours only.
 macro_rules! plain_layers {
     ($($layer:ident: $prepared:ident => $parameters:ident {
         $weight:ident: $weight_kind:ident($($of_weight:tt)*);

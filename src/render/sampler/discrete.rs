@@ -62,7 +62,7 @@ impl DiscreteDistribution {
     /// next decision; `None` if all weights are 0.
     pub(crate) fn choose(&self, u: f64) -> Option<(usize, f64)> {
         let place = u * self.total();
-        // Rounding keeps order: a greater number has no lesser place.
+        // Rounding is monotonic: a greater number has no lesser index.
         let mut index = self.guide[(u * self.guide.len() as f64) as usize] as usize;
         while self.sums.get(index).is_some_and(|sum| *sum <= place) {
             index += 1;
@@ -89,7 +89,7 @@ pub(crate) struct BilinearDistribution {
 }
 
 impl BilinearDistribution {
-    /// The distribution over an image of so many texels across, by its weights row by row; both
+    /// The distribution over an image of `width` texels across, by its weights row by row; both
     /// sides are at least 1.
     pub(crate) fn new(width: usize, weights: Vec<f32>) -> Self {
         let mut table = Self {
@@ -133,7 +133,7 @@ impl BilinearDistribution {
         self.bands.total() / (self.width * self.height) as f64
     }
 
-    /// The density at a place.
+    /// The density at a position.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -170,8 +170,8 @@ impl BilinearDistribution {
     }
 }
 
-/// Samples a number in [0, 1] with a density that goes linearly from a to b (Pharr, Jakob,
-/// Humphreys, "Physically Based Rendering", 4th ed., §2.3.2).
+/// Samples a number in [0, 1] with a density that is linear from a to b (Pharr, Jakob, Humphreys,
+/// "Physically Based Rendering", 4th ed., §2.3.2).
 fn linear([a, b]: [f64; 2], u: f64) -> f64 {
     let root = (a * a + (b * b - a * a) * u).max(0.0).sqrt();
     if u > 0.0 {

@@ -1,5 +1,12 @@
-//! Random numbers keyed by pixel, sample and path vertex. They depend neither on time nor on the
-//! order of calls.
+//! Sample values keyed by pixel, sample and path vertex.
+//!
+//! - [`Key`] is the seed of a pixel, a vertex or a dimension; hashes derive one from another.
+//! - `sobol` and `owen` are the sequence of path tracing: scrambled groups of four dimensions, with
+//!   neighbouring pixels on one sequence.
+//! - `sequence` are the samples of the Whitted integrator in the pixel and on the lens.
+//! - `discrete` samples tabulated distributions, such as environment maps.
+//!
+//! A value depends neither on time nor on the order of calls.
 
 pub(crate) mod discrete;
 mod owen;
@@ -15,7 +22,7 @@ use rtc_math::{
 pub(crate) struct Key(u64);
 
 impl Key {
-    /// The key where nothing is random.
+    /// The key without randomness.
     pub(crate) const UNUSED: Self = Self(0);
 
     /// The key of a camera ray.
@@ -150,7 +157,7 @@ impl PhongLobeSampler {
     }
 }
 
-/// Whether a direction lies on the side of both normals.
+/// Whether a direction is on the side of both normals.
 pub(crate) fn is_above(direction: Vec3, normals: [Vec3; 2]) -> bool {
     normals
         .into_iter()

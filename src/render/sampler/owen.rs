@@ -21,7 +21,7 @@ pub(crate) fn first_two(index: u32) -> [u32; 2] {
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "the halves are meant")]
 pub(crate) fn last_two(index: u32) -> [u32; 2] {
-    // The lower half holds the third coordinate, the upper half the fourth.
+    // The lower half is the third coordinate, the upper half the fourth.
     let both = u64::from(index) << 32 | u64::from(index);
     let both = times(both, UP, DOWN);
     let both = times(pascal(both), DOWN, UP);
@@ -38,7 +38,7 @@ fn within_digits(x: u32) -> u32 {
 /// Every second bit, from the lowest on.
 const EVEN: u64 = 0x5555_5555_5555_5555;
 
-/// The digits at the places 1, 4, 7 … of a half, and those at 2, 5, 8 ….
+/// The digits at the positions 1, 4, 7 … of a half, and those at 2, 5, 8 ….
 const PLACES: [u64; 2] = [0x0C30_C30C, 0x30C3_0C30];
 
 /// The digits that D multiplies by ω in the lower half, and D² in the upper one.
@@ -56,7 +56,7 @@ fn times(x: u64, omega: u64, omega_squared: u64) -> u64 {
 }
 
 /// Pascal's matrix modulo 2 over digits of two bits, in both halves: digit i is the sum of the
-/// digits j whose places have all bits of i.
+/// digits j whose positions have all bits of i.
 #[inline]
 fn pascal(mut x: u64) -> u64 {
     for (step, mask) in [
@@ -92,8 +92,8 @@ mod tests {
         [a, b, c, d].map(u32::reverse_bits)
     }
 
-    /// How many boxes have a point of the first `count`, where a dimension is cut into so many
-    /// halves.
+    /// The number of boxes with a point of the first `count`, where each dimension is halved this
+    /// many times.
     fn filled(count: u32, cuts: [u32; 4]) -> usize {
         let place = |x: u32, cut: u32| u64::from(x) >> (32 - cut);
         let cell = |index: u32| {

@@ -45,7 +45,7 @@ impl Sequence {
         Self(key)
     }
 
-    /// The place in the pixel of point `index`, each coordinate in (0, 1).
+    /// The position in the pixel of point `index`, each coordinate in (0, 1).
     #[must_use]
     #[inline]
     pub(crate) fn film(&self, index: u32) -> [f64; 2] {
@@ -53,7 +53,7 @@ impl Sequence {
         [self.number(0, x), self.number(1, y)]
     }
 
-    /// The place on the lens, in the same way.
+    /// The position on the lens, in the same way.
     #[must_use]
     pub(crate) fn lens(&self, index: u32) -> [f64; 2] {
         let [x, y] = [0, 1].map(|which| sobol(&LENS[which], index).reverse_bits());

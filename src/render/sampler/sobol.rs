@@ -14,13 +14,13 @@ use rtc_math::mix;
 pub(crate) struct Pair(u32);
 
 impl Pair {
-    /// The place in the pixel.
+    /// The position in the pixel.
     pub(crate) const FILM: Self = Self(0);
-    /// The place on the lens.
+    /// The position on the lens.
     pub(crate) const LENS: Self = Self(2);
 
-    /// The light of vertex `bounces`: grouped with what leads there, the place in the pixel or the
-    /// direction from the vertex before.
+    /// The light of vertex `bounces`: grouped with the dimensions before it, the position in the
+    /// pixel or the direction from the vertex before.
     pub(crate) fn light(bounces: u32) -> Self {
         Self(4 * bounces + 1)
     }
@@ -48,7 +48,7 @@ const UNIT: f64 = 1.0 / 4_294_967_296.0;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sobol {
     pixel: Key,
-    /// The key of all but the place in the pixel and on the lens.
+    /// The key of all dimensions except the positions in the pixel and on the lens.
     path: Key,
     seeds: Seeds,
     index: u32,
@@ -69,7 +69,8 @@ impl Sobol {
         }
     }
 
-    /// The numbers of path `index` of a pixel in a picture of so many paths a pixel, at least 1.
+    /// The sample values of path `index` of a pixel in a picture of this many paths per pixel, at
+    /// least 1.
     ///
     /// Its pixels share a sequence along a curve that fills squares one after another, so that the
     /// errors of neighbours cancel: that of a pixel is as large as by [`Self::new`], that of a
@@ -77,7 +78,7 @@ impl Sobol {
     /// sampling error via hierarchical ordering of pixels", SIGGRAPH Asia 2020).
     pub(crate) fn in_picture(pixel: [u32; 2], index: u32, seeds: Seeds, samples: u32) -> Self {
         // Of the bits of an index the lowest count samples; as many of the others as fit are a
-        // place on the curve.
+        // position on the curve.
         let low = u32::BITS - (samples - 1).leading_zeros();
         let side = (u32::BITS - low) / 2;
         let [tile, place] = [pixel.map(|x| x >> side), pixel.map(|x| x & !(!0 << side))];
@@ -110,7 +111,7 @@ impl Sobol {
             scrambled(x, (seeds >> 32) as u32),
             scrambled(y, seeds as u32),
         );
-        // Reversed together, they change places.
+        // Reversed together, they swap positions.
         let both = (u64::from(x) << 32 | u64::from(y)).reverse_bits();
         [both as u32, (both >> 32) as u32].map(|bits| f64::from(bits) * UNIT)
     }
@@ -144,7 +145,7 @@ mod tests {
 
     const PAIRS: [Pair; 4] = [Pair::FILM, Pair::LENS, Pair(5), Pair(12)];
 
-    /// Demands that points, of which there is a power of two, are in [0, 1) and fill all elementary
+    /// Asserts that points, a power of two of them, are in [0, 1) and fill all elementary
     /// intervals.
     fn assert_filled(points: &[[f64; 2]], of: &str) {
         let numbers = points.iter().flatten();
@@ -198,7 +199,7 @@ mod tests {
 
     #[test]
     fn a_picture_has_room_for_all_its_pixels_and_samples() {
-        // Pixels far apart, and pixels of very many samples, have numbers of their own.
+        // Distant pixels, and pixels with very many samples, have independent values.
         for samples in [1, 3, 1 << 20, u32::MAX] {
             let pixels = [
                 [0, 0],

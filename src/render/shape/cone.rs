@@ -1,11 +1,11 @@
 //! The capped cone: the stretch inside one nappe and the stretch between base and apex,
 //! intersected.
 //!
-//! The ray is first moved to the point nearest to the cone's middle, so that the terms of the
+//! The ray is first moved to the point nearest to the cone's centre, so that the terms of the
 //! quadratic have the size of the cone; each root is then refined by one Newton step on the
 //! distance ρ − g from the side. A flat cone turns an error in the height of a point into one
-//! radius/height times as large in g, so its heights are counted along the ray from where that
-//! meets the base: then g is right to within rounding, however flat it is.
+//! radius/height times as large in g, so its heights are measured along the ray from its
+//! intersection with the base: then g is accurate to rounding for any cone.
 
 use crate::ray::{Interaction, Ray};
 use crate::shape::baseline::ray::BaselineRay;
@@ -177,8 +177,8 @@ impl Cone {
         }
     }
 
-    /// As [`Self::stretch`] for a cone far wider than high, and a ray that meets the plane of
-    /// its base.
+    /// As [`Self::stretch`] for a cone far wider than high, and a ray that hits the plane of its
+    /// base.
     fn crossing_flat(
         &self,
         start: Vec3,
@@ -291,10 +291,10 @@ impl HasBaseline for Cone {
     }
 }
 
-/// The parts of the twin: side and base.
+/// The parts of the baseline: side and base.
 const PLAIN_PARTS: [u32; 2] = [0, 1];
 
-/// Its twin: the quadratic of ρ² = (k·m)², with m the height left to the apex, and a disc.
+/// The baseline: the quadratic of ρ² = (k·m)², with m the height left to the apex, and a disc.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BaselineCone<R> {
     base: Vector<R>,
@@ -367,7 +367,7 @@ mod tests {
     use super::*;
     use crate::reflect;
 
-    /// 200 times as long as wide, seen from afar: reflected rays do not meet the side that they
+    /// 200 times as long as wide, seen from afar: reflected rays do not hit the side that they
     /// leave.
     #[test]
     fn a_needle_does_not_mirror_itself() {

@@ -2,13 +2,13 @@
 
 use rtc_math::Column;
 
-/// The side on which the second axis of a normal map lies: against v, which glTF counts downwards.
+/// The side of the second axis of a normal map: against v, which glTF counts downwards.
 pub(in crate::shape) fn handedness([a, b, c]: [[f64; 2]; 3]) -> f64 {
     let area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
     -1.0_f64.copysign(area)
 }
 
-/// What a column, which may be empty, says of three corners.
+/// The values of a column, which may be empty, at three corners.
 #[inline]
 pub(in crate::shape) fn corner_values<const N: usize>(
     column: &Column<N>,

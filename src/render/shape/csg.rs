@@ -1,10 +1,9 @@
-//! Solids made of solids: union, intersection and difference (Roth 1982, "Ray casting for modeling
-//! solids").
+//! CSG solids: union, intersection and difference (Roth 1982, "Ray casting for modeling solids").
 //!
-//! Each operand says where the ray enters and leaves it, over the whole line. The crossings are
-//! walked in the order of t, with a bit per operand for being inside, and the boundary is where the
-//! operations over these bits change their result. Crossings that rounding cannot tell apart are
-//! taken in one step, so that faces which coincide leave no film; of these the first operand rules.
+//! Each operand reports where the ray enters and leaves it, over the whole line. The crossings are
+//! traversed in the order of t, with a bit per operand for being inside, and the boundary is where
+//! the operations over these bits change their result. Crossings that rounding cannot distinguish
+//! are taken in one step, so that coincident faces leave no film; the first operand wins.
 
 use super::Shape;
 use crate::ray::{Interaction, Ray};
@@ -23,11 +22,11 @@ use std::sync::Arc;
 /// Offsets of new rays in units of that of the operand: faces of others may coincide with it.
 const APART: f64 = 4.0;
 
-/// A part of the boundary of a solid made of solids: that which lies on some of the operands.
+/// A part of the boundary of a CSG solid: the part that lies on some of the operands.
 #[derive(Clone, Debug)]
 pub struct Csg {
     expression: Arc<SetExpression>,
-    /// A bit for each operand whose part of the boundary this is.
+    /// A bit for each operand whose surface contains this part.
     faces: u64,
     bounds: Option<Bounds>,
 }
@@ -48,8 +47,8 @@ struct OperandCrossing {
     part: u32,
 }
 
-/// What a primitive id holds: the part of an operand, the operand, and whether its normal leads
-/// into the solid.
+/// The contents of a primitive id: the part of an operand, the operand, and whether its normal
+/// points into the solid.
 #[derive(Clone, Copy)]
 struct OperandFace {
     part: u32,
@@ -117,7 +116,7 @@ impl Csg {
         (crossings, inside)
     }
 
-    /// How many crossings from the first on rounding cannot tell apart.
+    /// The number of crossings from the first on that rounding cannot distinguish.
     fn coincident(&self, ray: &Ray, crossings: &[OperandCrossing]) -> usize {
         let error = |crossing: &OperandCrossing| {
             let shape = &self.expression.operands[crossing.operand];
@@ -127,8 +126,8 @@ impl Csg {
         let mut count = 1;
         while let Some(next) = crossings.get(count) {
             let last = &crossings[count - 1];
-            let is_apart = next.operand == last.operand || next.t > last.t * tie::CLOSE;
-            if is_apart || next.t - error(next) > last.t + error(last) {
+            let is_distinct = next.operand == last.operand || next.t > last.t * tie::CLOSE;
+            if is_distinct || next.t - error(next) > last.t + error(last) {
                 break;
             }
             count += 1;
@@ -223,7 +222,7 @@ impl Intersect for Csg {
         ray: &Ray,
         at: &Interaction,
         prim_id: u32,
-        asked: AttributeRequest,
+        request: AttributeRequest,
     ) -> ShadingAttributes {
         let face = OperandFace::of(prim_id);
         let own = Interaction {
@@ -231,7 +230,7 @@ impl Intersect for Csg {
             ..*at
         };
         let shape = &self.expression.operands[face.operand];
-        let attributes = shape.shading_attributes(ray, &own, face.part, asked);
+        let attributes = shape.shading_attributes(ray, &own, face.part, request);
         ShadingAttributes {
             normal: None,
             ..attributes
@@ -255,7 +254,7 @@ impl HasBaseline for Csg {
     }
 }
 
-/// Its twin is the robust one: there is no textbook formula to compare it with.
+/// The baseline is the robust solid: there is no textbook formula to compare it with.
 #[derive(Clone, Debug)]
 pub(crate) struct BaselineCsg(Csg);
 

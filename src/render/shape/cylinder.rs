@@ -239,11 +239,10 @@ impl HasBaseline for Cylinder {
     }
 }
 
-/// The parts of the twin: side, base and top.
+/// The parts of the baseline: side, base and top.
 const PLAIN_PARTS: [u32; 3] = [0, 1, 2];
 
-/// Its twin: the quadratic of what is left of ray and point across the axis, and two
-/// discs.
+/// The baseline: the quadratic of ray and point projected across the axis, and two discs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BaselineCylinder<R> {
     base: Vector<R>,
@@ -310,7 +309,7 @@ impl<R: Real> Baseline<R> for BaselineCylinder<R> {
     }
 }
 
-/// The twin of the cylinder without ends.
+/// The baseline of the infinite cylinder.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BaselineInfiniteCylinder<R>(BaselineCylinder<R>);
 

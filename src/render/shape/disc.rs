@@ -89,7 +89,7 @@ impl HasBaseline for Disc {
     }
 }
 
-/// Its twin: the plane, and the distance from the centre.
+/// The baseline: the plane, and the distance from the centre.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BaselineDisc<R> {
     plane: BaselinePlane<R>,
@@ -106,7 +106,7 @@ impl<R: Real> BaselineDisc<R> {
         }
     }
 
-    /// Where the line meets the disc, wherever that is along it; not a number beside the disc.
+    /// The intersection of the line with the disc, at any t; NaN for a miss.
     #[inline]
     pub(in crate::shape) fn parameter(&self, ray: &BaselineRay<R>) -> R {
         let t = self.plane.parameter(ray);

@@ -1,7 +1,7 @@
-//! The ellipsoid: the unit sphere, met in the coordinates in which the ellipsoid is one.
+//! The ellipsoid: the unit sphere in the coordinates where the ellipsoid is one.
 //!
-//! The ray is mapped to these coordinates, and there the test of the sphere decides. The map rounds
-//! by a few u of the ray's origin, seen from the centre: the offset of new rays covers that.
+//! The ray is mapped to these coordinates, where the sphere test decides. The map rounds by a few u
+//! of the ray's origin, relative to the centre: the offset of new rays covers that.
 
 use crate::ray::{Interaction, Ray};
 use crate::shape::baseline::ray::BaselineRay;
@@ -105,7 +105,7 @@ impl Intersect for Ellipsoid {
         ray: &Ray,
         at: &Interaction,
         prim_id: u32,
-        asked: AttributeRequest,
+        request: AttributeRequest,
     ) -> ShadingAttributes {
         let [x, y, z] = self.axes;
         // The map of normals is inverted by the transposed map of points.
@@ -114,7 +114,7 @@ impl Intersect for Ellipsoid {
             normal: normal.normalize_or(at.normal),
             ..*at
         };
-        let attributes = UNIT_SPHERE.shading_attributes(ray, &at, prim_id, asked);
+        let attributes = UNIT_SPHERE.shading_attributes(ray, &at, prim_id, request);
         let to_world = |tangent| self.to_world(tangent).try_normalize();
         ShadingAttributes {
             tangent: attributes.tangent.and_then(to_world),
@@ -146,7 +146,7 @@ impl HasBaseline for Ellipsoid {
     }
 }
 
-/// Its twin, by b² − 4ac.
+/// The baseline, by b² − 4ac.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BaselineEllipsoid<R> {
     center: Vector<R>,

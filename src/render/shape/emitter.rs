@@ -1,10 +1,10 @@
-//! How next-event estimation samples the surface of each shape that is not made of triangles, and
-//! the density of each sample.
+//! Next-event estimation on the surface of each shape that does not consist of triangles, and the
+//! density of each sample.
 //!
 //! A shape declares its [`Emitter`] in [`Intersect::emitter`](super::geometry::Intersect::emitter),
-//! which has no default. From outside, a sphere is sampled by the cone of directions to it; all
-//! else is sampled by area. The density is a function of the point that a ray hits, so that BSDF
-//! sampling can ask for it.
+//! which has no default. From outside, a sphere is sampled by the cone of directions to it; others
+//! are sampled by area. The density is a function of the point that a ray hits, so that BSDF
+//! sampling can evaluate it.
 
 use crate::bsdf::warp::direction_at_angle;
 use crate::ray::OFFSET;
@@ -277,8 +277,8 @@ fn cone_width(to: Vec3, radius: f64) -> Option<f64> {
     (sine_squared * OUTSIDE < 1.0).then(|| sine_squared / (1.0 + (1.0 - sine_squared).sqrt()))
 }
 
-/// Samples a normal of a sphere: where a direction of the cone from outside meets it first (pbrt,
-/// 4th ed., §6.2.4), or uniformly from inside.
+/// Samples a normal of a sphere: the first hit of a direction in the cone from outside (pbrt, 4th
+/// ed., §6.2.4), or uniformly from inside.
 fn sphere_normal(to: Vec3, radius: f64, [u, v]: [f64; 2]) -> Vec3 {
     let Some(width) = cone_width(to, radius) else {
         return direction_at_angle(1.0 - 2.0 * u, v);

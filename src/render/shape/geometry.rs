@@ -7,15 +7,15 @@ use crate::shape::four::Shape4;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, Vec3};
 
-/// A kind of prepared shape: which shapes there are, and by which arithmetic rays meet them.
+/// A kind of prepared shape: the list of shapes, and the arithmetic of their intersections.
 pub trait Intersect: Sized + Send + Sync {
-    /// Whether triangles of instances can stand in the world one by one.
+    /// Whether mesh instances may be flattened into world-space triangles.
     const FLATTENS: bool = true;
 
-    /// Whether integrators are compiled for what a plan needs, or once with everything.
+    /// Whether integrators are compiled for the features of a plan, or once with all features.
     const HAS_KERNELS: bool = true;
 
-    /// Whether four rays at once meet them by the same operations as one.
+    /// Whether four rays are intersected at once by the same operations as one.
     const HAS_SHAPE4: bool = false;
 
     /// The smallest root above 0 and its primitive; `watertight` is that of the ray. Roots beyond
@@ -23,7 +23,7 @@ pub trait Intersect: Sized + Send + Sync {
     #[must_use]
     fn intersect(&self, ray: &Ray, watertight: &WatertightRay, t_max: f64) -> Option<(f64, u32)>;
 
-    /// Whether [`Intersect::intersect`] looks at the shear.
+    /// Whether [`Intersect::intersect`] uses the watertight ray.
     #[must_use]
     fn uses_watertight_ray(&self) -> bool {
         false
@@ -57,8 +57,8 @@ pub trait Intersect: Sized + Send + Sync {
         0.0
     }
 
-    /// Visits where the ray enters and leaves a solid, over the whole line; nothing for a shape
-    /// that has no inside. On a surface that the ray starts off, no crossing is ahead.
+    /// Visits the points where the ray enters and leaves a solid, over the whole line; none for a
+    /// shape without an inside. For the surface that the ray starts on, no crossing is ahead.
     fn visit_crossings(&self, _ray: &Ray, _visit: &mut dyn FnMut(SolidCrossing)) {}
 
     /// As [`Intersect::interaction`], of a crossing of a part.
@@ -67,7 +67,7 @@ pub trait Intersect: Sized + Send + Sync {
         self.interaction(ray, t, part)
     }
 
-    /// What is known of the point at `t`, a root on `prim_id` of this shape.
+    /// The attributes of the point at `t`, a root on `prim_id` of this shape.
     #[must_use]
     fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction;
 
@@ -83,7 +83,7 @@ pub trait Intersect: Sized + Send + Sync {
         false
     }
 
-    /// The details of the point that are asked for: normal, coordinates, colour.
+    /// The requested attributes of the point: normal, coordinates, colour.
     #[must_use]
     fn shading_attributes(
         &self,
@@ -150,7 +150,7 @@ pub trait Intersect: Sized + Send + Sync {
     #[must_use]
     fn bounds(&self) -> Option<Bounds>;
 
-    /// Itself, if rays meet it four at a time.
+    /// Itself, if it intersects four rays at a time.
     #[must_use]
     fn shape4(&self) -> Option<Shape4<'_>> {
         None
@@ -170,7 +170,7 @@ pub trait Intersect: Sized + Send + Sync {
 /// Where a ray enters or leaves a solid.
 #[derive(Clone, Copy, Debug)]
 pub struct SolidCrossing {
-    /// Its place on the ray, of either sign; −∞ where the ray has been inside for ever.
+    /// Its t on the ray, of either sign; −∞ if the ray has always been inside.
     pub t: f64,
     /// Whether the ray enters there.
     pub enters: bool,

@@ -231,7 +231,7 @@ impl Intersect for Instance {
         _: &Ray,
         at: &Interaction,
         prim_id: u32,
-        asked: AttributeRequest,
+        request: AttributeRequest,
     ) -> ShadingAttributes {
         let triangle = self.mesh.triangle(prim_id);
         let mesh = &self.mesh.attributes;
@@ -241,7 +241,7 @@ impl Intersect for Instance {
         let has_no_coordinates =
             mesh.uvs.is_empty() && mesh.second_uvs.is_empty() && mesh.tangents.is_empty();
         let is_plain =
-            mesh.colors.is_empty() && (asked == AttributeRequest::NONE || has_no_coordinates);
+            mesh.colors.is_empty() && (request == AttributeRequest::NONE || has_no_coordinates);
         let weights = match is_even && is_plain {
             true => [1.0, 0.0, 0.0],
             false => triangle.weights(
@@ -258,17 +258,17 @@ impl Intersect for Instance {
             let mean = || even * weights[0] + unit(b) * weights[1] + unit(c) * weights[2];
             self.normal_to_world(if is_even { even } else { mean() })
         });
-        let uvs = if asked == AttributeRequest::NONE {
+        let uvs = if request == AttributeRequest::NONE {
             None
         } else {
             corner_values(&mesh.uvs, corners)
         };
-        let (tangent, side) = if asked.tangent {
+        let (tangent, side) = if request.tangent {
             self.tangent(&triangle, corners, uvs, weights)
         } else {
             (None, 1.0)
         };
-        let second_uvs = if asked.uv {
+        let second_uvs = if request.uv {
             corner_values(&mesh.second_uvs, corners)
         } else {
             None
@@ -306,7 +306,8 @@ impl Intersect for Instance {
         self.mesh.root(local, prim_id)
     }
 
-    /// A shadow ray often ends on a triangle that is a light: its root is soon told to be no less.
+    /// A shadow ray often ends on a triangle that is a light: a cheap test shows that its root is
+    /// not below t_max.
     #[inline(always)]
     fn intersect_prim_before(&self, local: &LocalRay, prim_id: u32, t_max: f64) -> Option<f64> {
         if t_max < f64::INFINITY && self.mesh.is_beyond(local, prim_id, t_max) {
@@ -340,7 +341,7 @@ impl HasBaseline for Instance {
     }
 }
 
-/// Its triangles in plain arithmetic, in the BVH of the robust ones.
+/// Its triangles in baseline arithmetic, in the BVH of the robust ones.
 #[derive(Clone, Debug)]
 pub(crate) struct BaselineInstance<R> {
     mesh: Arc<BaselineMesh<R>>,

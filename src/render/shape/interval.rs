@@ -35,9 +35,9 @@ impl<Part: Copy> Interval<Part> {
         }
     }
 
-    /// The same of a convex region, inside of which a convex function is below 0, by its value and
-    /// its derivative at t = 0: where rounding moved a root of 0 to the other side they decide, so
-    /// an origin on the surface does not see what it stands on.
+    /// The same for a convex region where a convex function is below 0, by its value and its
+    /// derivative at t = 0: where rounding moved a root of 0 to the other side they decide, so an
+    /// origin on the surface does not hit its own surface.
     pub(crate) fn seen_from(mut self, value: f64, slope: f64) -> Self {
         if value <= 0.0 {
             self.enter.0 = self.enter.0.min(0.0);

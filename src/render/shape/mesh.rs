@@ -10,8 +10,8 @@ use rayon::prelude::*;
 use rtc_math::{Column, Shared, Vec3};
 use std::sync::{Arc, OnceLock};
 
-/// What a mesh says of its corners but for their places; an empty column says nothing. All is
-/// shared with the scene.
+/// The attributes of a mesh's corners except their positions; an empty column has no values. All
+/// are shared with the scene.
 #[derive(Clone, Debug, Default)]
 pub struct Attributes {
     /// The shading normals, of any length, or zero where there is none.
@@ -26,29 +26,29 @@ pub struct Attributes {
     pub colors: Column<4>,
 }
 
-/// So few triangles are kept prepared, as they stay in the caches; more are prepared when they are
-/// asked for, as rays wait for memory.
-pub(crate) const FEW: usize = 1 << 14;
+/// Up to this many triangles are prepared in advance, since they stay in the caches; more are
+/// prepared on demand, since rays wait for memory.
+pub(crate) const MAX_PREPARED: usize = 1 << 14;
 
 /// A mesh ready to be hit.
 #[derive(Debug)]
 pub struct PreparedMesh {
-    /// What is known of the corners.
+    /// The attributes of the corners.
     pub(crate) attributes: Attributes,
-    /// The places of the corners, shared with the scene.
+    /// The positions of the corners, shared with the scene.
     positions: Column<3>,
     /// The corners of each triangle that has an area, by their numbers in the mesh.
     corners: Shared<[u32; 3]>,
-    /// The triangles, if they are few.
-    few: Vec<Triangle>,
+    /// The prepared triangles, if they are few.
+    prepared_triangles: Vec<Triangle>,
     /// What its BVH is searched with.
     simd: SimdLevel,
-    /// Built when a ray first asks for it: most meshes stand once, in the BVH of their world.
+    /// Built when a ray first needs it: the triangles of most meshes are in the BVH of their world.
     hierarchy: OnceLock<Option<Wide>>,
 }
 
 impl PreparedMesh {
-    /// Prepares a mesh of these triangles between corners at these places.
+    /// Prepares a mesh of these triangles with corners at these positions.
     #[must_use]
     pub fn new(
         positions: &Column<3>,
@@ -62,7 +62,7 @@ impl PreparedMesh {
         } else {
             triangles.iter().copied().filter(has_area).collect()
         };
-        let few = if corners.len() <= FEW {
+        let prepared_triangles = if corners.len() <= MAX_PREPARED {
             let prepared = |corners: &[u32; 3]| Triangle::new(places(positions, *corners));
             corners.iter().filter_map(prepared).collect()
         } else {
@@ -72,7 +72,7 @@ impl PreparedMesh {
             attributes,
             positions: positions.clone(),
             corners,
-            few,
+            prepared_triangles,
             simd,
             hierarchy: OnceLock::new(),
         }
@@ -102,9 +102,9 @@ impl PreparedMesh {
         corners.map(|corners| places(&self.positions, *corners))
     }
 
-    /// Visits the places of all vertices that they use, each at least once.
+    /// Visits the positions of all used vertices, each at least once.
     pub(crate) fn visit_places(&self, mut visit: impl FnMut(Vec3)) {
-        // The list of vertices may be longer than what this mesh uses of it.
+        // The list of vertices may be longer than the part that this mesh uses.
         if self.positions.len() > 3 * self.count() {
             self.all_vertices().flatten().for_each(visit);
             return;
@@ -121,7 +121,7 @@ impl PreparedMesh {
     /// One of them.
     #[inline]
     pub(crate) fn triangle(&self, triangle: u32) -> Triangle {
-        match self.few.get(triangle as usize) {
+        match self.prepared_triangles.get(triangle as usize) {
             Some(triangle) => *triangle,
             None => Triangle::with_area(self.vertices(triangle)),
         }
@@ -130,16 +130,16 @@ impl PreparedMesh {
     /// The root above 0 of one of them, of a ray in its coordinates.
     #[inline(always)]
     pub(crate) fn root(&self, ray: &LocalRay, triangle: u32) -> Option<f64> {
-        match self.few.get(triangle as usize) {
+        match self.prepared_triangles.get(triangle as usize) {
             Some(triangle) => triangle.intersect(&ray.ray, &ray.watertight),
             None => triangle::root(&self.vertices(triangle), &ray.ray, &ray.watertight),
         }
     }
 
-    /// Whether it is soon told that [`Self::root`] finds none below `t_max`.
+    /// Whether a cheap test shows that [`Self::root`] finds none below `t_max`.
     #[inline(always)]
     pub(crate) fn is_beyond(&self, ray: &LocalRay, triangle: u32, t_max: f64) -> bool {
-        let triangle = self.few.get(triangle as usize);
+        let triangle = self.prepared_triangles.get(triangle as usize);
         triangle.is_some_and(|triangle| triangle.is_beyond(&ray.ray, t_max))
     }
 
@@ -148,7 +148,7 @@ impl PreparedMesh {
         let vertices = |item: u32| self.vertices(item);
         let build = || {
             let mut hierarchy = Wide::build(Builders::One, self.simd, self.count(), 0.0, vertices)?;
-            if !self.few.is_empty() {
+            if !self.prepared_triangles.is_empty() {
                 hierarchy.forget_corners();
             }
             Some(hierarchy)
@@ -157,8 +157,8 @@ impl PreparedMesh {
     }
 }
 
-/// Whether three corners are not in line, as [`Normal::of`] tells; by plain arithmetic where that
-/// is sure.
+/// Whether three corners are not collinear, as [`Normal::of`] decides; by uncompensated arithmetic
+/// where that is certain.
 fn has_area([a, b, c]: [Vec3; 3]) -> bool {
     /// A sine this large is not an error of rounding.
     const SURE: f64 = 1e-6;
@@ -181,7 +181,7 @@ fn places(positions: &Column<3>, [a, b, c]: [u32; 3]) -> [Vec3; 3] {
 /// A mesh ready to be hit by baseline formulas, in object coordinates.
 #[derive(Debug)]
 pub struct BaselineMesh<R> {
-    /// The robust mesh: the same triangles in the same order, their BVH, and what is known of them.
+    /// The robust mesh: the same triangles in the same order, their BVH, and their attributes.
     pub(crate) robust: Arc<PreparedMesh>,
     pub(in crate::shape) triangles: Vec<BaselineTriangle<R>>,
 }

@@ -1,4 +1,4 @@
-//! The shapes. Each file holds the robust intersection of one shape and its textbook baseline.
+//! The shapes. Each file has the robust intersection of one shape and its textbook baseline.
 //!
 //! - [`geometry`]: the trait [`geometry::Intersect`] that every shape implements.
 //! - [`tie`]: the choice between hits that coincide within their rounding errors.
@@ -8,7 +8,7 @@
 //! A robust intersection bounds its rounding error. If the error leaves a decision in doubt, it
 //! repeats the computation in double-double arithmetic.
 
-/// Makes an enum of shapes answer as the shape it holds.
+/// Forwards the methods of an enum of shapes to its shape.
 macro_rules! dispatch {
     ($Enum:ident { $($Name:ident)* }) => {
         impl Intersect for $Enum {
@@ -100,10 +100,10 @@ macro_rules! dispatch {
                 ray: &Ray,
                 at: &Interaction,
                 prim_id: u32,
-                asked: AttributeRequest,
+                request: AttributeRequest,
             ) -> ShadingAttributes {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Intersect>::shading_attributes(shape, ray, at, prim_id, asked),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::shading_attributes(shape, ray, at, prim_id, request),)*
                 }
             }
 
@@ -213,7 +213,7 @@ pub(crate) mod tie;
 pub(crate) mod torus;
 pub(crate) mod triangle;
 
-/// What stands for each row of the table of shapes, by the name in its row.
+/// The type for each row of the table of shapes, by the name in its row.
 pub(crate) mod kinds {
     pub(crate) use super::cone::Cone;
     pub(crate) use super::csg::Csg;
@@ -238,7 +238,7 @@ use crate::shape::triangle::WatertightRay;
 use kinds::*;
 use rtc_math::{Bounds, Vec3};
 
-/// What an enum holds of a shape that is small.
+/// The payload of an enum for a small shape.
 type Inline<T> = T;
 
 /// Declares the shapes.

@@ -2,11 +2,11 @@
 //! and vertex, intersected. After Pharr, Jakob, Humphreys, "Physically Based Rendering" (3rd ed.),
 //! §3.5.
 //!
-//! With m the depth of a point below the vertex and k = radius²/height, it is inside where
-//! F = ρ² − k·m ≤ 0. The ray is first moved to the point nearest to the axis, so that the terms of
-//! the quadratic have the size of the paraboloid. Where a first-order bound on the error of the
+//! With m the depth of a point below the vertex and k = radius²/height, it is inside where F = ρ² −
+//! k·m ≤ 0. The ray is first moved to the point nearest to the axis, so that the terms of the
+//! quadratic have the size of the paraboloid. Where a first-order bound on the error of the
 //! discriminant leaves its sign in doubt, or its root with few digits, all is computed again in
-//! double-double, from the numbers as given.
+//! double-double, from the given numbers.
 
 use crate::ray::{Interaction, Ray};
 use crate::shape::baseline::ray::BaselineRay;
@@ -58,8 +58,8 @@ impl ParaboloidFace {
     const ALL: [Self; 2] = [Self::Side, Self::Base];
 }
 
-/// F along a ray, `a·t² − 2·b·t + c`, and what it is made of: the cross products of its start and
-/// its direction with the axis.
+/// F along a ray, `a·t² − 2·b·t + c`, and its inputs: the cross products of its start and its
+/// direction with the axis.
 #[derive(Clone, Copy)]
 struct Coefficients {
     w: Vec3,
@@ -152,7 +152,7 @@ impl Paraboloid {
     fn error_bound(&self, coefficients: &Coefficients, d: Vec3, size: f64, nearest: f64) -> f64 {
         let Coefficients { w, x, a, b, c } = *coefficients;
         let k = self.latus_rectum;
-        // Bound the error of each coefficient by the sizes of what it is made of, then that of the
+        // Bound the error of each coefficient by the sizes of its terms, then that of the
         // discriminant.
         let pace = d.abs().element_sum();
         let size = size + pace * nearest.abs();
@@ -164,7 +164,7 @@ impl Paraboloid {
         U * (error + U * b_error * b_error)
     }
 
-    /// As [`Self::inside`] in double-double. With u the way to the vertex as given, and p that of a
+    /// As [`Self::inside`] in double-double. With u the given vector to the vertex, and p that of a
     /// point from the base, F·u² = |p × u|² − radius²·(u² − p·u): no square root, no rounded axis.
     #[cold]
     #[inline(never)]
@@ -344,10 +344,10 @@ impl HasBaseline for Paraboloid {
     }
 }
 
-/// The parts of the twin: side and base.
+/// The parts of the baseline: side and base.
 const PLAIN_PARTS: [u32; 2] = [0, 1];
 
-/// Its twin: the quadratic of ρ² = k·m, with m the height left to the vertex, and a disc.
+/// The baseline: the quadratic of ρ² = k·m, with m the height left to the vertex, and a disc.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BaselineParaboloid<R> {
     base: Vector<R>,

@@ -13,7 +13,7 @@ use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, U, Vec3, cross, dot, two_difference, unit_scale};
 use std::sync::Arc;
 
-/// How a plane stands.
+/// The orientation of a plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Normal {
     /// The normal as given, times a power of two.
@@ -23,8 +23,8 @@ pub(crate) struct Normal {
     unit: Vec3,
 }
 
-/// An axis that a normal lies along, and its sign there: products with such a normal are exact, and
-/// so are their sums.
+/// An axis parallel to a normal, and its sign: products with such a normal are exact, and so are
+/// their sums.
 #[derive(Clone, Copy, Debug)]
 pub struct Axis {
     pub(super) index: usize,
@@ -99,7 +99,7 @@ impl Normal {
         Some(self.distance(axis, anchor, ray.origin) / slope)
     }
 
-    /// The axis along which the normal lies, if it lies along one.
+    /// The axis parallel to the normal, if any.
     #[inline(always)]
     fn axis(&self) -> Option<Axis> {
         if self.square != 1.0 {
@@ -138,7 +138,8 @@ impl Normal {
         self.parameter(anchor, ray).filter(|t| *t > 0.0)
     }
 
-    /// Whether plain arithmetic can tell that [`Self::intersect`] finds a root of at least `t_max`.
+    /// Whether uncompensated arithmetic can prove that [`Self::intersect`] finds a root of at least
+    /// `t_max`.
     #[must_use]
     #[inline]
     pub(crate) fn is_beyond(&self, anchor: Vec3, ray: &Ray, t_max: f64) -> bool {
@@ -225,7 +226,7 @@ impl Intersect for Plane {
         let (enter, leave) = match self.intersect(ray) {
             Some(t) if rise < 0.0 => (t, f64::INFINITY),
             Some(t) => (f64::NEG_INFINITY, t),
-            // The crossing lies behind the origin, or at it.
+            // The crossing is behind the origin, or at it.
             None if rise < 0.0 || (rise == 0.0 && is_behind) => (f64::NEG_INFINITY, f64::INFINITY),
             None => return,
         };
@@ -259,7 +260,7 @@ impl HasBaseline for Plane {
     }
 }
 
-/// Its twin: N·p = N·c.
+/// The baseline: N·p = N·c.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BaselinePlane<R> {
     normal: Vector<R>,
@@ -282,7 +283,7 @@ impl<R: Real> BaselinePlane<R> {
         self.normal
     }
 
-    /// Where the line meets the plane.
+    /// The intersection of the line with the plane.
     #[inline]
     pub(in crate::shape) fn parameter(&self, ray: &BaselineRay<R>) -> R {
         (self.level - self.normal.dot(ray.origin)) / self.normal.dot(ray.direction)
@@ -307,7 +308,8 @@ mod tests {
     use super::*;
     use crate::sampler::Key;
 
-    /// Limits within 64 u of the root: plain arithmetic is often right about them, and often wrong.
+    /// Limits within 64 u of the root: uncompensated arithmetic is often right about them, and
+    /// often wrong.
     #[test]
     fn a_plane_said_to_lie_beyond_has_no_root_before() {
         let mut reported = 0;

@@ -1,7 +1,7 @@
 //! The quadrilateral: two triangles if it is flat, else the bilinear patch between its corners.
 //!
 //! The patch is that of Reshetov, "Cool patches: a geometric approach to ray/bilinear patch
-//! intersections" (Ray Tracing Gems, 2019, ch. 8): the ray meets a line of constant u where a
+//! intersections" (Ray Tracing Gems, 2019, ch. 8): the ray hits a line of constant u where a
 //! quadratic in u vanishes.
 
 use crate::ray::{Interaction, Ray};
@@ -132,7 +132,7 @@ impl Quad {
     }
 }
 
-/// The derivative along u of what lies between the corners, at this v.
+/// The derivative along u of the interpolated corners, at this v.
 fn across([q00, q10, q11, q01]: [Vec3; 4], v: f64) -> Vec3 {
     (q10 - q00).lerp(q11 - q01, v)
 }
@@ -287,7 +287,7 @@ impl HasBaseline for Quad {
     }
 }
 
-/// Its twin: two triangles in plain arithmetic, or the same patch.
+/// The baseline: two triangles in uncompensated arithmetic, or the same patch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum BaselineQuad<R> {
     Flat([Option<BaselineTriangle<R>>; 2]),
@@ -334,7 +334,7 @@ fn plain_crossing<R: Real>(vertices: [Vector<R>; 4], ray: &BaselineRay<R>) -> Op
     let d = ray.direction;
     let (left, right) = (q01 - q00, q11 - q10);
     let unit = |x: R| x >= R::of(0.0) && x <= R::of(1.0);
-    // Solve a + b·u + c·u² = 0 for the lines of constant u that the ray meets.
+    // Solve a + b·u + c·u² = 0 for the lines of constant u that the ray hits.
     let a = q00.cross(d).dot(left);
     let c = (q10 - q00).cross(q01 - q11).dot(d);
     let b = q10.cross(d).dot(right) - a - c;

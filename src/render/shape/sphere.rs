@@ -37,8 +37,8 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// The smallest root above 0, right to within 64 u for all rays that were tried (`docs/proofs`
-    /// has what is validated of it); a tangent ray hits.
+    /// The smallest root above 0, accurate to 64 u for all tested rays (`docs/proofs` states the
+    /// proven part); a tangent ray hits.
     #[must_use]
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<f64> {
@@ -151,8 +151,8 @@ impl Sphere {
         (t > 0.0).then_some(t)
     }
 
-    /// The stretch of the ray inside, over the whole line. What is ahead is as
-    /// [`Self::intersect`] has it; the other end lies as far from the foot of the perpendicular.
+    /// The interval of the ray inside, over the whole line. The end ahead is that of
+    /// [`Self::intersect`]; the other end is as far from the foot of the perpendicular.
     #[must_use]
     pub(super) fn stretch(&self, ray: &Ray) -> Option<[f64; 2]> {
         let t = self.intersect(ray)?;
@@ -167,8 +167,8 @@ impl Sphere {
         })
     }
 
-    /// The point at `t`: along the ray or moved onto the sphere in its own frame, whichever rounds
-    /// less.
+    /// The point at `t`: along the ray or projected onto the sphere in its own frame, whichever
+    /// rounds less.
     #[inline(always)]
     #[must_use]
     pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
@@ -275,7 +275,7 @@ impl HasBaseline for TexturedSphere {
     }
 }
 
-/// Its twin, by b² − 4ac.
+/// The baseline, by b² − 4ac.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BaselineSphere<R> {
     center: Vector<R>,

@@ -16,9 +16,8 @@ const WIDEST: f64 = 1.0 / 8_388_608.0;
 /// beyond that.
 pub(crate) const CLOSE: f64 = 1.0 + 2.5 * WIDEST;
 
-/// How far rounding may have moved a root, to either side: as much as it may move the root of a
-/// plane, and by what it moves the surface along its normal, which is half of what rays keep off
-/// it.
+/// The bound on the rounding of a root, to either side: that of the root of a plane, plus the
+/// displacement of the surface along its normal, which is half of the offset of new rays.
 pub(crate) fn error(ray: &Ray, t: f64, at: &Interaction) -> f64 {
     const ROOT: f64 = 10.0 * U;
     let slope = ray.direction.dot(at.normal).abs();
@@ -126,7 +125,7 @@ mod tests {
 
     #[test]
     fn the_first_of_those_that_meet_the_surely_nearest_wins_in_any_order() {
-        // The first meets the second, and the second the third, which is certainly the nearest.
+        // The first overlaps the second, and the second the third, which is certainly the nearest.
         let hits = [(5.0, 1.0, 0), (4.0, 0.5, 1), (3.3, 0.3, 2), (4.2, 0.1, 3)];
         for order in orders(&hits) {
             let mut tie = Tie::new();

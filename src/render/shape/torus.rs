@@ -31,11 +31,11 @@ pub(super) const ROUNDING: f64 = 0.5 * f64::EPSILON;
 /// Where a ray starts so near the surface, in units of the torus, it starts on it.
 pub(super) const ON_SURFACE: f64 = 16.0 * ROUNDING;
 
-/// The margin of what touches the torus, in its units, where lengths are of about 1: far above
+/// The margin of planes that touch the torus, in its units, where lengths are about 1: far above
 /// rounding.
 pub(super) const TOUCH: f64 = 1.0 / 1_048_576.0;
 
-/// A square so much larger is larger by more than rounding.
+/// A square larger by this factor is larger by more than rounding.
 pub(super) const NEARLY_ONE: f64 = 1.0 + 1e-12;
 
 /// A prepared torus.
@@ -66,12 +66,12 @@ struct TorusRay {
     minor: f64,
 }
 
-/// What of a ray may meet the torus.
+/// The interval of a ray that may hit the torus.
 struct TorusStretch {
     line: TorusRay,
     low: f64,
     high: f64,
-    /// The t of the point nearest to the centre, and what a step adds to it.
+    /// The t of the point nearest to the centre, and its change per step.
     nearest: f64,
     pace: f64,
 }
@@ -93,8 +93,8 @@ impl TorusRay {
         square / ((off * off + z * z).sqrt() + self.minor)
     }
 
-    /// As [`Self::distance`] of the start of the ray; on the surface 1 or −1, by the side that the
-    /// ray leads to: it does not meet what it starts on.
+    /// As [`Self::distance`] at the start of the ray; on the surface 1 or −1, by the side that the
+    /// ray points to: it does not hit its own surface.
     fn start_distance(&self, s: f64) -> f64 {
         let distance = self.distance(s);
         if distance.abs() > ON_SURFACE {
@@ -107,9 +107,9 @@ impl TorusRay {
         if outwards + rise < 0.0 { -1.0 } else { 1.0 }
     }
 
-    /// Whether the ray certainly misses the torus from `low` to `high`: it is nowhere there between
-    /// the two planes that touch the torus, or all the way between them in the hole. All of it with
-    /// a margin far above rounding; the distance from the axis is largest at an end of that way.
+    /// Whether the ray certainly misses the torus from `low` to `high`: it stays outside of the two
+    /// planes that touch the torus, or in the hole. All with a margin far above rounding; the
+    /// distance from the axis is largest at an end of the interval.
     fn passes(&self, low: f64, high: f64) -> bool {
         let above = self.minor + TOUCH;
         let ends = [-above, above].map(|height| (height - self.height) / self.rise);
@@ -125,7 +125,7 @@ impl TorusRay {
     }
 
     /// The coefficients of the quartic's derivative over 4, `s³ + linear·s + constant`: there is no
-    /// square term, as a step has length 1 and is at a right angle to the way from the centre.
+    /// square term, as a step has length 1 and is perpendicular to the vector from the centre.
     fn derivative(&self) -> (f64, f64) {
         // (|p|² + R² − r²)² − 4R²ρ², with |p|² = f² + s² and ρ² = |w + x·s|².
         let (w, x) = (self.off, self.turn);
@@ -152,12 +152,11 @@ impl TorusRay {
         })
     }
 
-    /// The root between two points given with their distances, which have opposite signs: steps of
-    /// inverse quadratic interpolation where the last three points let it, else bisection.
-    /// Chandrupatla, "A new hybrid quadratic/bisection algorithm for finding the zero of a
-    /// nonlinear function without using derivatives" (Advances in Engineering Software
-    /// 28, 1997). It ends where the distance is no more than its rounding error, or the bracket has
-    /// no middle.
+    /// The root between two points with distances of opposite signs: steps of inverse quadratic
+    /// interpolation where the last three points allow it, else bisection. Chandrupatla, "A new
+    /// hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function without
+    /// using derivatives" (Advances in Engineering Software 28, 1997). It ends where the distance
+    /// is below its rounding error, or the bracket has no midpoint.
     fn root(&self, mut last: (f64, f64), mut other: (f64, f64)) -> f64 {
         let mut before;
         let mut fraction = 0.5;
@@ -185,9 +184,8 @@ impl TorusRay {
     }
 }
 
-/// Where to look next between two points of opposite signs, as the fraction of the way from the
-/// last to the other: where the parabola through both and the point before has its root, if it is
-/// safe to ask, else in the middle.
+/// The next point between two points of opposite signs, as a fraction from the last to the other:
+/// the root of the parabola through both and the point before, if that is safe, else the midpoint.
 fn fraction_of(last: (f64, f64), other: (f64, f64), before: (f64, f64)) -> f64 {
     let along = (last.0 - other.0) / (before.0 - other.0);
     let up = (last.1 - other.1) / (before.1 - other.1);
@@ -202,8 +200,7 @@ fn fraction_of(last: (f64, f64), other: (f64, f64), before: (f64, f64)) -> f64 {
     linear + latus_rectum
 }
 
-/// The real roots of `s³ + linear·s + constant` in `[low, high]`, in order, each found when it is
-/// asked for.
+/// The real roots of `s³ + linear·s + constant` in `[low, high]`, in order, computed lazily.
 fn cubic_roots(linear: f64, constant: f64, low: f64, high: f64) -> impl Iterator<Item = f64> {
     // Bracket the roots by the extrema of the cubic.
     let spread = (-linear / 3.0).max(0.0).sqrt();
@@ -269,7 +266,7 @@ impl Torus {
         (t > 0.0).then_some(t)
     }
 
-    /// The way of a ray near the torus; `None` if it passes.
+    /// The interval of a ray near the torus; `None` for a miss.
     #[inline]
     fn stretch(&self, ray: &Ray) -> Option<TorusStretch> {
         let f = ray.origin - self.center;
@@ -398,7 +395,7 @@ impl HasBaseline for Torus {
     }
 }
 
-/// Its twin: the quartic in t, solved in closed form where the ray starts.
+/// The baseline: the quartic in t, solved in closed form from the start of the ray.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BaselineTorus<R> {
     center: Vector<R>,

@@ -68,7 +68,7 @@ fn axes_before(v: Vec3) -> [usize; 3] {
     }
 }
 
-/// Whether `p₀·q₁ − p₁·q₀` is above 0 rather than below, where plain arithmetic can tell.
+/// Whether `p₀·q₁ − p₁·q₀` is above 0 rather than below, where uncompensated arithmetic can decide.
 #[inline]
 fn sure_sign(p: (f64, f64), q: (f64, f64)) -> Option<bool> {
     let (first, second) = (p.0 * q.1, p.1 * q.0);
@@ -78,7 +78,7 @@ fn sure_sign(p: (f64, f64), q: (f64, f64)) -> Option<bool> {
     (difference.abs() > error).then_some(difference > 0.0)
 }
 
-/// Whether a ray along the z axis meets a triangle; edges and corners belong to it.
+/// Whether a ray along the z axis hits a triangle; edges and corners belong to it.
 #[cold]
 fn meets(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> bool {
     let u = difference_of_products(c.0, b.1, c.1, b.0);
@@ -88,9 +88,9 @@ fn meets(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> bool {
     !outside && u + v + w != 0.0
 }
 
-/// Whether a ray's line meets a triangle; edges and corners belong to it.
+/// Whether a ray's line hits a triangle; edges and corners belong to it.
 #[inline(always)]
-fn is_met([a, b, c]: &[Vec3; 3], ray: &Ray, watertight: &WatertightRay) -> bool {
+fn is_hit([a, b, c]: &[Vec3; 3], ray: &Ray, watertight: &WatertightRay) -> bool {
     // Shear the vertices into the ray's frame.
     let (a, b, c) = (
         watertight.apply(*a - ray.origin),
@@ -108,7 +108,7 @@ fn is_met([a, b, c]: &[Vec3; 3], ray: &Ray, watertight: &WatertightRay) -> bool 
 /// The root above 0 of the triangle of three corners, as [`Triangle::intersect`] has it.
 #[inline(always)]
 pub(crate) fn root(vertices: &[Vec3; 3], ray: &Ray, watertight: &WatertightRay) -> Option<f64> {
-    if !is_met(vertices, ray, watertight) {
+    if !is_hit(vertices, ray, watertight) {
         return None;
     }
     Normal::of(*vertices)?.intersect(vertices[0], ray)
@@ -152,14 +152,15 @@ impl Triangle {
     #[must_use]
     #[inline]
     pub fn intersect(&self, ray: &Ray, watertight: &WatertightRay) -> Option<f64> {
-        if is_met(&self.vertices, ray, watertight) {
+        if is_hit(&self.vertices, ray, watertight) {
             self.normal.intersect(self.vertices[0], ray)
         } else {
             None
         }
     }
 
-    /// Whether plain arithmetic can tell that [`Self::intersect`] finds no root below `t_max`.
+    /// Whether uncompensated arithmetic can prove that [`Self::intersect`] finds no root below
+    /// `t_max`.
     #[must_use]
     #[inline]
     pub(crate) fn is_beyond(&self, ray: &Ray, t_max: f64) -> bool {
@@ -270,7 +271,7 @@ impl HasBaseline for TexturedTriangle {
     }
 }
 
-/// Its twin: Möller, Trumbore, "Fast, minimum storage ray/triangle intersection" (JGT 2, 1997).
+/// The baseline: Möller, Trumbore, "Fast, minimum storage ray/triangle intersection" (JGT 2, 1997).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BaselineTriangle<R> {
     corner: Vector<R>,

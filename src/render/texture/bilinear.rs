@@ -136,7 +136,7 @@ impl TextureFrame {
         })
     }
 
-    /// The normal that a colour of a normal map stands for.
+    /// The normal that a colour of a normal map encodes.
     pub(crate) fn mapped(&self, color: Vec3) -> Vec3 {
         let local = color * 2.0 - 1.0;
         (self.along_u * local.x + self.along_v * local.y + self.normal * local.z)

@@ -51,7 +51,7 @@ impl Footprint {
 }
 
 /// The texels on both sides of a coordinate along an axis of `size` texels, and the interpolation
-/// weight of the second; without interpolation, the first is the one that holds the coordinate.
+/// weight of the second; without interpolation, the first is the one that contains the coordinate.
 #[inline]
 fn neighbors(coordinate: f64, size: u32, wrap: Wrap, is_linear: bool) -> ([usize; 2], f32) {
     let place = within(coordinate, wrap) * f64::from(size);

@@ -1,4 +1,10 @@
-//! Textures: lookup at texture coordinates, by the rules of the course and of glTF.
+//! Textures: lookup at texture coordinates.
+//!
+//! [`Texture`] has a variant for each kind of the IR: `bilinear` by the rules of the course,
+//! `sampled` by those of glTF (wrap modes and filters), patterns, and the coordinates as a colour.
+//! A [`TexturePlace`] is the point of a lookup: texture coordinates and world coordinates. An
+//! [`Image`] decodes its texels on lookup and is shared by its textures. `footprint` selects the
+//! texels of a bilinear lookup.
 
 pub(crate) mod bilinear;
 mod footprint;
@@ -8,7 +14,7 @@ use rtc_image::{Texel, Texels};
 use rtc_math::{SolidTexture, Vec3};
 use std::sync::Arc;
 
-/// A texture that holds its image.
+/// A texture with its image.
 #[derive(Clone, Debug)]
 pub(crate) enum Texture {
     /// The colour (u, 0, v).

@@ -151,7 +151,7 @@ fn mean(footprint: &Footprint, image: &Image, color_space: ColorSpace) -> [f64; 
         let [r, g, b] = [r, g, b].map(|byte| color[usize::from(byte)]);
         Lanes::new(r, g, b, alpha)
     };
-    // Decode texels by the format of the image, which is asked for once.
+    // Decode texels by the format of the image, which is checked once.
     let value = match &image.texels {
         Texels::Rgb8(bytes) => footprint.blend(bytes.as_chunks().0, |color| decoded(color, 1.0)),
         Texels::Rgba8(bytes) => footprint.blend(bytes.as_chunks().0, |[r, g, b, a]| {

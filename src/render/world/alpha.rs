@@ -18,8 +18,8 @@ pub(crate) enum AlphaTested {
 }
 
 impl AlphaTested {
-    /// The alpha-tested surfaces of a scene of paths. The plan may prove some of them opaque, or
-    /// leave them out, but that must not change the order of products.
+    /// The alpha-tested surfaces of a path-traced scene. The plan may prove some of them opaque, or
+    /// remove them, but that must not change the order of products.
     pub(super) fn of<S: Intersect>(scene: &ValidScene) -> Self {
         let alpha = |of: &Material| material::standard(of).alpha;
         let tested = scene.materials().iter().map(|m| alpha(m) != Alpha::Opaque);

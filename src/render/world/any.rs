@@ -82,9 +82,9 @@ impl AnyWorld {
         }
     }
 
-    /// The greatest radiance that a path may meet at its end, on a surface or where it leaves the
-    /// scene, in the strongest channel; 0 where no paths are traced, infinite where there is no
-    /// useful bound on what a path carries.
+    /// The greatest radiance at the end of a path, on a surface or outside the scene, in the
+    /// strongest channel; 0 without path tracing, infinite where there is no useful bound on the
+    /// throughput.
     #[must_use]
     pub fn brightest(&self) -> f64 {
         each!(self, world => world.brightest())
@@ -98,9 +98,9 @@ impl AnyWorld {
         each!(self, world => world.render(job, on_pixel))
     }
 
-    /// Renders a part of a picture: the tiles of the job, and of traced paths only the range of
-    /// samples given, if any. It must consist of whole blocks of 16 samples. `None` if `on_pixel`
-    /// said stop; it is called as by [`Self::render`].
+    /// Renders a part of a picture: the tiles of the job, and with path tracing only the given
+    /// range of samples, if any. It must consist of whole blocks of 16 samples. `None` if
+    /// `on_pixel` said stop; it is called as by [`Self::render`].
     ///
     /// # Errors
     /// If the samples are not whole blocks, or no paths are traced.
@@ -115,7 +115,7 @@ impl AnyWorld {
         })
     }
 
-    /// Renders layers of the pixels that a job asks for; `None` if `on_pixel` said stop.
+    /// Renders layers of the pixels of a job; `None` if `on_pixel` said stop.
     ///
     /// `on_pixel` is called from all threads after each pixel.
     #[must_use]
@@ -125,8 +125,8 @@ impl AnyWorld {
         each!(world, world => world.layers(wanted, job, on_pixel))
     }
 
-    /// The world by no rule, if this is by some: rules keep the colours, but only a plan without
-    /// them keeps all that a layer may show.
+    /// The world without rules, if this one applies some: rules keep the colours, but only a plan
+    /// without them keeps everything that a layer may show.
     #[must_use]
     pub fn unpruned(&self) -> Option<Self> {
         let (scene, plan) = each!(self, world => (world.scene(), &world.plan));
@@ -171,9 +171,9 @@ impl AnyWorld {
         Some(([first, second, exact], a.plus(b).plus(c)))
     }
 
-    /// Takes samples until each pixel has those wanted: `wanted(i)` is how many each replicate of
-    /// pixel i, and its pilot, are to have at least. False if `on_pixel` said stop; tiles that were
-    /// not done are then as before.
+    /// Takes samples until each pixel has the requested number: `wanted(i)` is the minimum for each
+    /// replicate of pixel i, and for its pilot. False if `on_pixel` said stop; unfinished tiles are
+    /// then unchanged.
     ///
     /// `on_pixel` is called from all threads, after each pixel and within long ones.
     pub fn grow(

@@ -30,7 +30,7 @@ fn are_coherent<'rays>(mut rays: impl Iterator<Item = &'rays Ray>) -> bool {
 }
 
 impl<S: Intersect> World<S> {
-    /// For each ray what [`World::closest_hit`] finds.
+    /// For each ray the result of [`World::closest_hit`].
     #[must_use]
     pub fn closest_hits(&self, rays: &[Ray]) -> Vec<Option<Hit>> {
         let Some(flattened) = &self.flattened else {
@@ -45,7 +45,7 @@ impl<S: Intersect> World<S> {
                 let (ray, unit) = ray.rescaled();
                 units.push(unit);
                 let nearest = if is_finite {
-                    self.closest_hit_apart(&ray)
+                    self.closest_hit_in_objects(&ray)
                 } else {
                     Nearest::up_to(STOP, NO_PRIMITIVE)
                 };
@@ -77,7 +77,7 @@ impl<S: Intersect> World<S> {
             for (ray, t_max) in rays {
                 let (ray, unit) = ray.rescaled();
                 let t_max = t_max / unit;
-                let is_hit = self.any_hit_apart(&ray, t_max);
+                let is_hit = self.any_hit_in_objects(&ray, t_max);
                 hits.push(is_hit);
                 let triangles = FlattenedRay::new(&ray, NO_PRIMITIVE, &self.surfaces, flattened);
                 let t_max = if is_hit { STOP } else { t_max };

@@ -5,7 +5,7 @@ use crate::accel::simd::SimdLevel;
 use crate::accel::wide::{Builders, Candidate, MOST, Wide};
 use crate::ray::Ray;
 use crate::shape::geometry::{Intersect, LocalRay};
-use crate::shape::mesh::FEW;
+use crate::shape::mesh::MAX_PREPARED;
 use crate::shape::triangle::{self, WatertightRay};
 use rtc_math::to_u32;
 use rtc_valid::{self as valid, MAX_MESH_TRIANGLES, ValidScene};
@@ -31,7 +31,7 @@ pub(super) struct FlattenedRay<'traverse, S> {
     ray: Ray,
     /// The primitive that the ray starts at.
     from: (usize, u32),
-    /// The shear of the ray, once it is asked for.
+    /// The watertight ray, computed on first use.
     watertight: Option<WatertightRay>,
     /// The surface of the triangle before, and the ray in its coordinates.
     local: Option<(usize, LocalRay)>,
@@ -139,8 +139,8 @@ impl Flattened {
             surfaces[surface].shape.corners(prim_id).unwrap_or_default()
         };
         let mut hierarchy = Wide::build(Builders::All, simd, count, error_bound, corners)?;
-        // Corners in the world are those of a mesh that is not moved alone; few are prepared.
-        if count <= FEW || !indices.iter().all(|surface| shape(*surface).is_in_place()) {
+        // World-space corners are those of a mesh only if it is not transformed; few are prepared.
+        if count <= MAX_PREPARED || !indices.iter().all(|surface| shape(*surface).is_in_place()) {
             hierarchy.forget_corners();
         }
         Some(Self { starts, hierarchy })

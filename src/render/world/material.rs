@@ -165,7 +165,7 @@ pub(super) fn standard(
         slots.tint(m.emissive, m.emissive_map.as_ref())
     };
     StandardMaterial {
-        asked: slots.asked(m),
+        request: slots.request(m),
         has_shading_map: shading_maps(m).any(|map| slots.is_looked_up(map)),
         alpha: match m.alpha {
             valid::Alpha::Opaque => Alpha::Opaque,
@@ -224,7 +224,7 @@ struct Slots<'world> {
 
 impl Slots<'_> {
     /// The surface details that the material needs.
-    fn asked(&self, m: &Standard) -> AttributeRequest {
+    fn request(&self, m: &Standard) -> AttributeRequest {
         let others = [
             &m.base_color_map,
             &m.emissive_map,
@@ -343,7 +343,7 @@ impl Slots<'_> {
     }
 }
 
-/// Prepares the layers of the table that are made of numbers and colours alone.
+/// Prepares the layers of the table that consist of numbers and colours only.
 macro_rules! plain_layers {
     ($($layer:ident: $prepared:ident => $parameters:ident {
         $weight:ident: $weight_kind:ident($of_weight:ident, $weight_map:ident $(, $weight_channel:literal)?);

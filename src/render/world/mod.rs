@@ -6,7 +6,7 @@
 //! - Triangles of meshes that may be flattened are in one 8-wide BVH (`flattened`); all other
 //!   surfaces are in the `ObjectBvh`. A scene with few surfaces has a [`SmallScene`] as well, which
 //!   tests the candidates of the ray-cone cache only.
-//! - `search` holds the BVH visitors, `batch` the queries of many rays, `alpha` the alpha test.
+//! - `search` has the BVH visitors, `batch` the queries of many rays, `alpha` the alpha test.
 //! - `any` chooses the shape set and the arithmetic; `verify` renders without pruning.
 //!
 //! Queries accept directions of any length. `t` is in units of the direction's length.
@@ -71,13 +71,13 @@ pub struct Surface<S = Shape> {
 
 /// A scene prepared for tracing, of shapes `S`.
 pub struct World<S = Shape> {
-    /// The scene as validated, for what a change of its camera and settings may need again.
+    /// The validated scene, for changes of its camera and settings.
     scene: ValidScene,
     /// The camera.
     pub camera: Camera,
     /// The settings.
     pub(crate) settings: Settings,
-    /// What the picture needs of it.
+    /// The features that the picture needs.
     pub plan: Plan,
     /// The materials of the Whitted integrator; constant maps are folded into the factors.
     pub(crate) phongs: Vec<PhongMaterial>,
@@ -91,14 +91,14 @@ pub struct World<S = Shape> {
     pub(crate) verify: Option<Verify>,
     /// The surfaces that shadow rays of paths test for alpha.
     pub(crate) alpha_tested: AlphaTested,
-    apart: ObjectBvh,
+    objects: ObjectBvh,
     /// The surfaces of `objects` that cast shadows, if some do not.
     casters: Option<ObjectBvh>,
     flattened: Option<Flattened>,
     /// The SIMD instructions that rays are traced with.
     pub(crate) simd: SimdLevel,
-    /// All surfaces, if they are few and the integrator asks for bundles of rays.
-    pub(crate) few: Option<SmallScene>,
+    /// All surfaces, if they are few and the integrator uses ray cones.
+    pub(crate) small_scene: Option<SmallScene>,
 }
 
 /// The surfaces that are not flattened.
@@ -139,7 +139,7 @@ impl<S: Intersect> World<S> {
             return None;
         }
         let (ray, unit) = ray.rescaled();
-        let mut nearest = self.closest_hit_apart(&ray);
+        let mut nearest = self.closest_hit_in_objects(&ray);
         if S::FLATTENS
             && let Some(flattened) = &self.flattened
         {
@@ -174,10 +174,10 @@ impl<S: Intersect> World<S> {
 
     /// The closest hit on surfaces that are not flattened; infinite if there is none.
     #[inline]
-    fn closest_hit_apart(&self, ray: &Ray) -> Nearest<(usize, u32)> {
+    fn closest_hit_in_objects(&self, ray: &Ray) -> Nearest<(usize, u32)> {
         let mut nearest = Nearest::up_to(f64::INFINITY, NO_PRIMITIVE);
-        let apart = &self.apart;
-        if apart.is_empty() {
+        let objects = &self.objects;
+        if objects.is_empty() {
             return nearest;
         }
         let watertight = WatertightRay::new(ray);
@@ -192,11 +192,11 @@ impl<S: Intersect> World<S> {
             }
             nearest.t
         };
-        for surface in &apart.unbounded {
+        for surface in &objects.unbounded {
             visit(*surface);
         }
-        apart.bvh.traverse(ray, f64::INFINITY, |item, _| {
-            visit(apart.bounded[item as usize])
+        objects.bvh.traverse(ray, f64::INFINITY, |item, _| {
+            visit(objects.bounded[item as usize])
         });
         nearest
     }
@@ -230,10 +230,10 @@ impl<S: Intersect> World<S> {
                 add(t, surface, prim_id)
             });
         };
-        let apart = &self.apart;
-        apart.unbounded.iter().for_each(|surface| visit(*surface));
-        apart.bvh.traverse(ray, t, |item, _| {
-            visit(apart.bounded[item as usize]);
+        let objects = &self.objects;
+        objects.unbounded.iter().for_each(|surface| visit(*surface));
+        objects.bvh.traverse(ray, t, |item, _| {
+            visit(objects.bounded[item as usize]);
             t
         });
         if S::FLATTENS
@@ -251,11 +251,10 @@ impl<S: Intersect> World<S> {
         tie.first()
     }
 
-    /// Whether anything that casts shadows lies strictly between `from` and `to`; both ends may lie
-    /// on surfaces.
+    /// Whether any shadow caster is strictly between `from` and `to`; both ends may be on surfaces.
     ///
-    /// `from` should be a start of rays, off its own surface. What lies within the rounding error
-    /// of `to` does not count: a light on a surface is not hidden by it.
+    /// `from` should be a start of rays, off its own surface. Hits within the rounding error of
+    /// `to` are ignored: a light on a surface is not occluded by it.
     #[must_use]
     pub fn occluded(&self, from: Vec3, to: Vec3) -> bool {
         segment(from, to).is_some_and(|(ray, t_max)| self.any_hit(&ray, t_max))
@@ -270,7 +269,7 @@ impl<S: Intersect> World<S> {
     pub(crate) fn any_hit_from(&self, ray: &Ray, t_max: f64, from: (usize, u32)) -> bool {
         let (ray, unit) = ray.rescaled();
         let t_max = t_max / unit;
-        if self.any_hit_apart(&ray, t_max) {
+        if self.any_hit_in_objects(&ray, t_max) {
             return true;
         }
         if S::FLATTENS
@@ -285,7 +284,7 @@ impl<S: Intersect> World<S> {
     }
 
     /// The product of `pass` over all hits with 0 < t < `t_max`, until it is 0. Only flattened
-    /// triangles are asked; all other surfaces are opaque. The ray starts at the primitive `from`.
+    /// triangles are tested; all other surfaces are opaque. The ray starts at the primitive `from`.
     pub(crate) fn transmittance(
         &self,
         ray: &Ray,
@@ -295,7 +294,7 @@ impl<S: Intersect> World<S> {
     ) -> f64 {
         let (ray, unit) = ray.rescaled();
         let t_max = t_max / unit;
-        if self.any_hit_apart(&ray, t_max) {
+        if self.any_hit_in_objects(&ray, t_max) {
             return 0.0;
         }
         let mut transmittance = 1.0;
@@ -319,9 +318,9 @@ impl<S: Intersect> World<S> {
     }
 
     /// Whether a surface that casts shadows and is not flattened is hit with 0 < t < `t_max`.
-    fn any_hit_apart(&self, ray: &Ray, t_max: f64) -> bool {
-        let apart = self.casters.as_ref().unwrap_or(&self.apart);
-        if apart.is_empty() {
+    fn any_hit_in_objects(&self, ray: &Ray, t_max: f64) -> bool {
+        let objects = self.casters.as_ref().unwrap_or(&self.objects);
+        if objects.is_empty() {
             return false;
         }
         let watertight = WatertightRay::new(ray);
@@ -331,12 +330,12 @@ impl<S: Intersect> World<S> {
                 .intersect(ray, &watertight, t_max);
             hit.is_some_and(|(t, _)| t < t_max)
         };
-        if apart.unbounded.iter().any(|surface| hits(*surface)) {
+        if objects.unbounded.iter().any(|surface| hits(*surface)) {
             return true;
         }
         let mut blocked = false;
-        apart.bvh.traverse(ray, t_max, |item, t_max| {
-            blocked = blocked || hits(apart.bounded[item as usize]);
+        objects.bvh.traverse(ray, t_max, |item, t_max| {
+            blocked = blocked || hits(objects.bounded[item as usize]);
             if blocked { STOP } else { t_max }
         });
         blocked

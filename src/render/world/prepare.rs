@@ -49,10 +49,10 @@ impl<S: Prepare> World<S> {
             }
         };
         let Lookup {
-            apart,
+            objects,
             casters,
             flattened,
-            few,
+            small_scene,
         } = Lookup::of(scene, plan, &surfaces, simd);
         Self {
             scene: scene.clone(),
@@ -68,17 +68,17 @@ impl<S: Prepare> World<S> {
                 Some(_) => AlphaTested::of::<S>(scene),
                 None => AlphaTested::None,
             },
-            apart,
+            objects,
             casters,
             flattened,
             simd,
-            few,
+            small_scene,
         }
     }
 }
 
-/// The surfaces that are planned and that rays can hit; `material_of` says which of the world's
-/// materials stands for one of the scene on a surface with or without texture coordinates.
+/// The planned surfaces that rays can hit; `material_of` selects the world's material for one of
+/// the scene on a surface with or without texture coordinates.
 fn surfaces<S: Prepare>(
     scene: &ValidScene,
     plan: &Plan,
@@ -108,10 +108,10 @@ fn surfaces<S: Prepare>(
 
 /// Where rays look for the surfaces of a world.
 struct Lookup {
-    apart: ObjectBvh,
+    objects: ObjectBvh,
     casters: Option<ObjectBvh>,
     flattened: Option<Flattened>,
-    few: Option<SmallScene>,
+    small_scene: Option<SmallScene>,
 }
 
 impl Lookup {
@@ -123,31 +123,32 @@ impl Lookup {
     ) -> Self {
         let flattens = flattened_surfaces(scene);
         let is_path = matches!(scene.settings().mode, valid::Mode::Path(_));
-        // Shadow rays of paths meet what all rays meet: light counts once, by whichever strategy.
+        // Shadow rays of paths hit the same surfaces as other rays: light counts once with either
+        // strategy.
         let casts = |surface: &Surface<S>| is_path || scene.surfaces()[surface.index].casts_shadow;
-        // Shadow rays meet all flattened surfaces, so one without a shadow stays apart.
+        // Shadow rays hit all flattened surfaces, so one without a shadow is not flattened.
         let is_flattened = |surface: &Surface<S>| {
             let is_mesh = S::FLATTENS && surface.shape.triangles() > 0;
             is_mesh && flattens[surface.index] && casts(surface)
         };
-        let (flattened, apart): (Vec<u32>, Vec<u32>) = (0_u32..)
+        let (flattened, objects): (Vec<u32>, Vec<u32>) = (0_u32..)
             .take(surfaces.len())
             .partition(|index| is_flattened(&surfaces[*index as usize]));
-        let casters = apart.iter().copied();
+        let casters = objects.iter().copied();
         let casters: Vec<u32> = casters
             .filter(|index| casts(&surfaces[*index as usize]))
             .collect();
         // A world without pruning tests all surfaces, so validation finds a hit that a cone missed.
         let bundled = !is_path && plan.rules != Rules::NONE;
-        let few = || {
-            let mut few = SmallScene::new(surfaces, &apart, &casters)?;
-            few.follow(surfaces, plan);
-            Some(few)
+        let small_scene = || {
+            let mut small_scene = SmallScene::new(surfaces, &objects, &casters)?;
+            small_scene.follow(surfaces, plan);
+            Some(small_scene)
         };
         Self {
-            few: bundled.then(few).flatten(),
-            casters: (casters.len() < apart.len()).then(|| ObjectBvh::of(surfaces, &casters)),
-            apart: ObjectBvh::of(surfaces, &apart),
+            small_scene: bundled.then(small_scene).flatten(),
+            casters: (casters.len() < objects.len()).then(|| ObjectBvh::of(surfaces, &casters)),
+            objects: ObjectBvh::of(surfaces, &objects),
             flattened: Flattened::new(surfaces, &flattened, simd),
         }
     }

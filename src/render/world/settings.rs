@@ -9,24 +9,24 @@ use rtc_valid::{self as valid, ValidScene};
 /// By which rules the picture is made.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Settings {
-    /// What a pixel shows.
+    /// The kind of value of a pixel.
     pub(crate) mode: Mode,
     /// Whether surfaces hide lights from each other.
     pub(crate) shadows: bool,
     /// Whether Phong's terms of the first hit fall in steps.
     pub(crate) toon: bool,
-    /// Whether Phong's ambient term is added once, in place of once for each light.
+    /// Whether Phong's ambient term is added once, instead of once per light.
     pub(crate) ambient_once: bool,
     /// Whether rough surfaces keep the light that bounces between their facets, where paths are
     /// traced.
     pub(crate) multiple_scattering: bool,
     /// The points of each soft light.
     pub(crate) light_samples: u32,
-    /// How the samples of a pixel are laid out, where no paths are traced.
+    /// The arrangement of the samples of a pixel, without path tracing.
     pub(crate) grid: Grid,
 }
 
-/// What a pixel shows.
+/// The kind of value of a pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Mode {
     /// Phong's model.
@@ -37,7 +37,7 @@ pub(crate) enum Mode {
     Normal,
     /// Gooch's cool-to-warm shading.
     Gooch(Gooch),
-    /// The light along all paths, of which a pixel has so many.
+    /// The light along all paths, with this many paths per pixel.
     Path(u32),
 }
 
@@ -65,8 +65,8 @@ impl<S> World<S> {
     pub(super) fn show(&mut self, scene: ValidScene, plan: Plan) {
         self.camera = camera(scene.camera());
         self.settings = settings(&scene);
-        if let Some(few) = &mut self.few {
-            few.follow(&self.surfaces, &plan);
+        if let Some(small_scene) = &mut self.small_scene {
+            small_scene.follow(&self.surfaces, &plan);
         }
         (self.scene, self.plan) = (scene, plan);
     }

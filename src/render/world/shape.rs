@@ -14,7 +14,7 @@ use rtc_math::Vec3;
 use rtc_valid as valid;
 use std::sync::Arc;
 
-/// A kind of shape that is made of validated ones.
+/// A kind of shape that is prepared from validated ones.
 pub trait Prepare: Intersect {
     /// A mesh prepared once for all its instances.
     type Mesh: Send + Sync;
@@ -58,7 +58,7 @@ impl Prepare for Shape {
 
 /// A validated shape of one kind.
 trait PrepareShape {
-    /// What stands for it in a world.
+    /// Its type in a world.
     type Prepared;
 
     /// Prepares it; `None` if no ray hits it.

@@ -17,7 +17,7 @@ pub(crate) struct SmallScene {
     sheared: u64,
     /// The surfaces that cast shadows.
     casters: u64,
-    /// Per light of the plan and surface of the scene, those that may hide the one from the other.
+    /// For each light of the plan and surface of the scene, the possible occluders between them.
     hiding: Vec<Vec<u64>>,
 }
 
@@ -63,7 +63,7 @@ impl SmallScene {
         of_light.get(receiver).copied().unwrap_or(self.casters)
     }
 
-    /// The shear of a ray, if one of some surfaces looks at it.
+    /// The watertight ray of a ray, if one of some surfaces uses it.
     #[inline(always)]
     fn watertight(&self, items: u64, ray: &Ray) -> WatertightRay {
         if items & self.sheared == 0 {
@@ -73,7 +73,7 @@ impl SmallScene {
         }
     }
 
-    /// The shear of a ray, if a shape looks at it.
+    /// The watertight ray of a ray, if a shape uses it.
     #[inline(always)]
     pub(crate) fn shear_of<S: Intersect>(shape: &S, ray: &Ray) -> WatertightRay {
         if shape.uses_watertight_ray() {
@@ -101,11 +101,11 @@ fn bits(indices: impl Iterator<Item = usize>) -> u64 {
 }
 
 impl<S: Intersect> World<S> {
-    /// As [`World::closest_hit`], of a finite ray of length 1 that can meet only some surfaces.
+    /// As [`World::closest_hit`], for a finite ray of length 1 that can hit only some surfaces.
     #[inline(always)]
     pub(crate) fn closest_hit_of(
         &self,
-        few: &SmallScene,
+        small_scene: &SmallScene,
         mut items: u64,
         ray: &Ray,
     ) -> Option<Hit> {
@@ -113,7 +113,7 @@ impl<S: Intersect> World<S> {
         if items == 0 {
             return None;
         }
-        let watertight = few.watertight(items, ray);
+        let watertight = small_scene.watertight(items, ray);
         while let Some(surface) = SmallScene::pop(&mut items) {
             let shape = &self.surfaces[surface].shape;
             if let Some((t, prim_id)) = shape.closest_hit(ray, &watertight, nearest.limit()) {
@@ -123,11 +123,11 @@ impl<S: Intersect> World<S> {
         self.hit(ray, 1.0, NO_PRIMITIVE, &nearest)
     }
 
-    /// As [`World::occluded`], where only some surfaces can stand between.
+    /// As [`World::occluded`], where only some surfaces can occlude.
     #[inline(always)]
     pub(crate) fn occluded_by(
         &self,
-        few: &SmallScene,
+        small_scene: &SmallScene,
         mut items: u64,
         [from, to]: [Vec3; 2],
     ) -> bool {
@@ -138,8 +138,8 @@ impl<S: Intersect> World<S> {
         if !ray.is_scaled() {
             return self.occluded(from, to);
         }
-        let watertight = few.watertight(items, &ray);
-        // The end of the segment is asked for only where there is something to compare it with.
+        let watertight = small_scene.watertight(items, &ray);
+        // The end of the segment is computed only where it is compared.
         let is_before_end = |t: f64| segment(from, to).is_some_and(|(_, t_max)| t < t_max);
         while let Some(surface) = SmallScene::pop(&mut items) {
             let shape = &self.surfaces[surface].shape;

@@ -12,7 +12,7 @@ use rtc_plan::{Arithmetic, Effect, Plan, Rule, Rules};
 use rtc_valid::ValidScene;
 
 /// Renders as planned and without rules, and compares: `None` if `on_pixel` said stop, else the
-/// film as planned, or the first fault.
+/// planned film, or the first difference.
 ///
 /// # Errors
 /// If something that was left out adds something.
@@ -36,7 +36,7 @@ pub fn verify(
     Some(verify.into_first().map_or(Ok(planned), Err))
 }
 
-/// The film without rules, and what it shows of a plan.
+/// The film without rules, and its evidence against a plan.
 fn naively<S: Prepare>(
     scene: &ValidScene,
     plan: &Plan,
@@ -52,8 +52,8 @@ fn naively<S: Prepare>(
     Some((naive, world.verify?))
 }
 
-/// The rule without which a pixel has the value it has without all rules; `None` if `on_pixel` said
-/// stop.
+/// The rule without which a pixel has the same value as without all rules; `None` if `on_pixel`
+/// said stop.
 fn blame(
     scene: &ValidScene,
     plan: &Plan,

@@ -1,4 +1,4 @@
-//! Limits and what is charged to them.
+//! Limits and charges.
 
 use super::*;
 

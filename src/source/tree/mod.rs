@@ -89,7 +89,7 @@ enum Syntax {
     Bool,
     /// A number in JSON.
     Number,
-    /// A plain scalar of YAML.
+    /// An unquoted scalar of YAML.
     Word,
     /// A quoted string without escapes; the range includes the quotes.
     Quoted,
@@ -121,7 +121,7 @@ pub enum NodeKind {
     Bool,
     /// A number in JSON.
     Number,
-    /// A plain scalar of YAML: a number, a boolean, null, or a string. The reader decides.
+    /// An unquoted scalar of YAML: a number, a boolean, null, or a string. The reader decides.
     Word,
     /// A quoted string or a block scalar; also each key of a map in JSON.
     Text,
@@ -150,7 +150,7 @@ impl NodeKind {
 /// The type of a node with its text, aliases resolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NodeContent<'t> {
-    /// A plain scalar: a number, a boolean, null, or a string.
+    /// An unquoted scalar: a number, a boolean, null, or a string.
     Word(&'t str),
     /// A quoted string or a block scalar.
     Text(&'t str),
@@ -282,7 +282,7 @@ impl<'s> Tree<'s> {
             Syntax::Quoted | Syntax::Unescaped => NodeKind::Text,
             Syntax::List => NodeKind::List,
             Syntax::Map => NodeKind::Map,
-            Syntax::Alias => unreachable!("an alias never stands for another"),
+            Syntax::Alias => unreachable!("an alias never refers to another alias"),
         }
     }
 
@@ -297,7 +297,7 @@ impl<'s> Tree<'s> {
             Syntax::Quoted | Syntax::Unescaped => NodeContent::Text(self.quoted(node)),
             Syntax::List => NodeContent::List,
             Syntax::Map => NodeContent::Map,
-            Syntax::Alias => unreachable!("an alias never stands for another"),
+            Syntax::Alias => unreachable!("an alias never refers to another alias"),
         }
     }
 
@@ -332,7 +332,7 @@ impl<'s> Tree<'s> {
             Syntax::Quoted | Syntax::Unescaped => Some(self.quoted(node)),
             Syntax::Word => Some(self.source_of(node)),
             Syntax::Null | Syntax::Bool | Syntax::Number | Syntax::List | Syntax::Map => None,
-            Syntax::Alias => unreachable!("an alias never stands for another"),
+            Syntax::Alias => unreachable!("an alias never refers to another alias"),
         }
     }
 

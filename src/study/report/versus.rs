@@ -11,7 +11,7 @@ const MAX_LISTED: usize = 5;
 /// The comparison as text.
 #[must_use]
 pub fn versus_table(versus: &Versus) -> String {
-    // Write what was compared.
+    // Write the subjects of the comparison.
     let mut text = String::new();
     for (which, about) in ["scene    ", "reference"].iter().zip(&versus.scenes) {
         let _ = writeln!(text, "{which}  {}  {}", about.hash, about.scene);

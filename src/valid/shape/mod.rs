@@ -115,14 +115,14 @@ pub struct Ellipsoid {
     pub axes: [Vec3; 3],
 }
 
-/// A part of the boundary of a solid made of solids.
+/// A part of the boundary of a CSG solid.
 #[derive(Clone, Debug)]
 pub struct Csg {
     /// The operands, at most 64, each a solid.
     pub operands: Vec<Shape>,
     /// An expression of them.
     pub steps: Vec<SetStep>,
-    /// A bit for each operand on which this part lies.
+    /// A bit for each operand whose surface contains this part.
     pub faces: u64,
 }
 

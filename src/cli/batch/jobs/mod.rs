@@ -13,7 +13,7 @@ pub(super) struct FarmJob<'a> {
     engine: Engine,
     commands: Commands<'a>,
     frames: &'a Frames,
-    /// What it is of, in words without quotes.
+    /// The description of the job, without quotes.
     title: String,
     picture: &'a str,
     parts: u32,
@@ -68,7 +68,7 @@ impl<'a> FarmJob<'a> {
         files
     }
 
-    /// What it is, how it is run, and what it gives.
+    /// A description, the commands that run it, and its result.
     fn readme(&self) -> String {
         let Self { title, retries, .. } = self;
         let whole = self.commands.whole(&example(self.frames)).join(" ");

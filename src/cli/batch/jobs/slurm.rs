@@ -1,6 +1,5 @@
-//! The job as scripts for Slurm: an array of parts, an array of pictures that waits for it, and
-//! what
-//! submits both.
+//! The job as scripts for Slurm: an array of parts, an array of pictures that waits for it, and a
+//! script that submits both.
 
 use super::FarmJob;
 

@@ -87,8 +87,8 @@ impl GltfAssets {
     }
 }
 
-/// Adds the bytes of an asset to the source map if they are one. Otherwise findings would quote a
-/// file of another kind.
+/// Adds the bytes of an asset to the source map if they are one. Otherwise diagnostics would quote
+/// a file of another format.
 fn add_asset(
     found: &Found,
     bytes: Vec<u8>,

@@ -1,10 +1,10 @@
-//! The finding about a file that is not found.
+//! The diagnostic for a file that is not found.
 
 use super::{Missing, PendingAsset};
 use rtc_diag::{Diagnostic, clip_path, codes};
 use std::path::PathBuf;
 
-/// The finding about a file that is not found; `similar` is the name of an existing one.
+/// The diagnostic for a file that is not found; `similar` is the name of an existing one.
 pub(super) fn missing(
     pending: &PendingAsset,
     fault: &Missing,
@@ -28,7 +28,7 @@ pub(super) fn missing(
                 .hint(HINT)
         }
         Missing::Outside(searched) => {
-            let message = format!("`{name}` leads out of the folder of the scene");
+            let message = format!("`{name}` leaves the folder of the scene");
             Diagnostic::new(&codes::FILE_OUTSIDE, message)
                 .at(pending.span, "not followed")
                 .hint(searched_paths(searched))
@@ -38,7 +38,7 @@ pub(super) fn missing(
 }
 
 /// The hint for a file in another folder.
-const HINT: &str = "put the file beside the scene, or allow its folder by `--asset-root`";
+const HINT: &str = "put the file beside the scene, or allow its folder with `--asset-root`";
 
 /// The paths where a file was searched, at most a few of them.
 fn searched_paths(searched: &[PathBuf]) -> String {
@@ -57,6 +57,6 @@ fn searched_paths(searched: &[PathBuf]) -> String {
     if shown.is_empty() {
         "name a file".to_owned()
     } else {
-        format!("looked for it at {}{tail}", shown.join(", "))
+        format!("searched at {}{tail}", shown.join(", "))
     }
 }

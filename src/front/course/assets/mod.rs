@@ -101,7 +101,7 @@ impl AssetTarget {
 /// Loads all pending files of a scene that was lowered from the file `scene`; then applies sizings
 /// and assigns materials to meshes.
 ///
-/// Mesh files are added to the source map, so that findings can point into them.
+/// Mesh files are added to the source map, so that diagnostics can point into them.
 pub fn load(
     draft: UnfinishedScene,
     scene: FileId,

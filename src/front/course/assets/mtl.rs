@@ -155,7 +155,7 @@ impl MeshFile {
         libraries
     }
 
-    /// Reports once that `Ks` acts as a mirror here although `illum` asks for a highlight only.
+    /// Reports once that `Ks` acts as a mirror here although `illum` requests a highlight only.
     fn report_mirrors(
         &self,
         libraries: &[LoadedLibrary],

@@ -80,9 +80,9 @@ fn fault(fault: WordFault) -> ParseFault {
 /// Reads the numbers after the `TILT=` line.
 struct NumberReader<'a> {
     lines: Lines<'a>,
-    /// The words of the current line in reverse order.
+    /// The tokens of the current line in reverse order.
     words: Vec<Word<'a>>,
-    /// The last word read.
+    /// The last token read.
     last: Word<'a>,
 }
 
@@ -110,7 +110,7 @@ impl<'a> NumberReader<'a> {
         Err(last.fault("the profile has no line `TILT=`", "the file ends here"))
     }
 
-    /// The next word. Words are separated by white space and commas; line ends have no meaning.
+    /// The next token. Tokens are separated by white space and commas; line ends have no meaning.
     fn word(&mut self) -> Result<Word<'a>, WordFault> {
         while self.words.is_empty() {
             let mut line = Vec::new();

@@ -61,7 +61,7 @@ pub fn lower_standalone_mesh(
     if options.up_axis.is_none() && stands_on_z(&scene.meshes[0], is_stl) {
         let message = "the mesh stands on z = 0, as if z pointed up";
         let note = Diagnostic::new(&codes::Z_UP, message).at(Span::new(file, 0, 0), "the file");
-        sink.push(note.hint("`--up-axis z` turns it upright, `--up-axis y` says that it is"));
+        sink.push(note.hint("`--up-axis z` turns it upright, `--up-axis y` keeps it"));
     }
     // The span of all entities is the start of the file.
     let mut source_spans = SourceSpans::default();

@@ -41,7 +41,7 @@ impl AssetLoader<'_> {
                 self.reject(diagnostic, kind.policy);
             }
             Err(ParseFault::Faults(faults)) => {
-                // With `--lenient` the entity is left out once, so one finding is enough.
+                // With `--lenient` the entity is omitted once, so one diagnostic is enough.
                 let count = if self.options.lenient {
                     1
                 } else {
@@ -66,8 +66,8 @@ impl AssetLoader<'_> {
     ) -> Option<FileId> {
         match self.loader.found(found, kind.max_bytes, self.map) {
             Ok(bytes) if (kind.file.begins)(&bytes) => Some(self.map.add_found(found, bytes)),
-            // Other formats are not added to the source map: a finding would quote a file that is
-            // unrelated to the scene.
+            // Other formats are not added to the source map: a diagnostic would quote a file that
+            // is unrelated to the scene.
             Ok(bytes) => {
                 let name = found.shown.display();
                 let message = match bytes.is_empty() {

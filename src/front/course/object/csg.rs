@@ -1,4 +1,4 @@
-//! Solids made of solids: union, intersection and difference.
+//! CSG solids: union, intersection and difference.
 //!
 //! The operands are lowered as objects are; then their surfaces are taken from the scene again, and
 //! become the operands of one expression. A polyhedron is the intersection of half-spaces. The
@@ -73,7 +73,7 @@ macro_rules! set_record {
                 kind: Spanned<AnyScalar>, required, keys!["type"];
                 /// The two operands: objects with an inside, of any of these types, too.
                 both: [Spanned<Operand>; 2], optional, &[&["a", "b"], &["left", "right"]];
-                /// The operands in place of `a` and `b`, at most 64.
+                /// The operands instead of `a` and `b`, at most 64.
                 of: Spanned<Operands>, optional,
                     keys!["of" "operands" "objects" "children" "shapes"];
                 /// The material of operands that have none.
@@ -111,8 +111,8 @@ macro_rules! set_record {
                 };
                 let rotation = RotationKeys { rotation, axis, angle }.axes(context);
                 let expression = lowering.expression(SetStep::$name, operands, kind, context);
-                // What is shared is lowered in the order of decoding: after the operands. Errors in
-                // a material that none of them has are found, too.
+                // Shared properties are lowered in the order of decoding, after the operands.
+                // Errors in a material that no operand uses are reported, too.
                 if let FieldOutcome::Read(material) = material
                     && lowering.material(material, context).is_none()
                 {
@@ -137,21 +137,21 @@ macro_rules! set_record {
 }
 
 set_record! {
-    /// The union of solids: what is in any of them.
+    /// The union: the points in any operand.
     Union, "union"
 }
 
 set_record! {
-    /// The intersection of solids: what is in all of them.
+    /// The intersection: the points in all operands.
     Intersection, "intersection"
 }
 
 set_record! {
-    /// The difference of solids: what is in the first and in none of the others.
+    /// The difference: the points in the first operand and in no other.
     Difference, "difference"
 }
 
-/// A solid with what its surface has.
+/// A solid with the properties of its surface.
 struct PlacedSolid {
     solid: Solid,
     material: MaterialId,
@@ -283,7 +283,7 @@ impl Expression {
             casts_no_shadow: surface.casts_no_shadow,
         };
         let first = surfaces.first()?;
-        // An expression: each of its surfaces says what its operands look like.
+        // A CSG expression: each of its surfaces takes its properties from an operand.
         if let Shape::Csg(csg) = &first.shape {
             let looks = |index: u32| {
                 let shows = |surface: &&ir::Surface| {
@@ -450,7 +450,7 @@ impl OperandPlacement {
     }
 }
 
-/// The word of an operation.
+/// The keyword of an operation.
 fn word(operation: SetStep) -> &'static str {
     match operation {
         SetStep::Operand | SetStep::Union => "union",

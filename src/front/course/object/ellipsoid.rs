@@ -30,8 +30,8 @@ record! {
         axis: Spanned<Vector>, optional, &ROTATION_AXIS;
         /// The angle of rotation about the axis, in degrees.
         angle: Spanned<Degrees>, optional, &ROTATION_ANGLE;
-        /// Twelve numbers in place of the other keys: where the map whose image of the unit sphere
-        /// this is takes the x, y and z axis and the origin.
+        /// Twelve numbers instead of the other keys: the images of the x, y and z axis and of the
+        /// origin under the map from the unit sphere.
         transform: Spanned<AffineColumns>, optional, keys!["transform"];
         /// The material.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];

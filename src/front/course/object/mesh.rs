@@ -43,7 +43,7 @@ record! {
         axis: Spanned<Vector>, optional, &ROTATION_AXIS;
         /// The angle of rotation about the axis, in degrees.
         angle: Spanned<Degrees>, optional, &ROTATION_ANGLE;
-        /// Twelve numbers in place of `position` and `scale`: the columns of the transform, that is
+        /// Twelve numbers instead of `position` and `scale`: the columns of the transform, that is
         /// the images of the x, y and z axis and of the origin.
         transform: Spanned<AffineColumns>, optional, keys!["transform"];
         /// A factor as `scale`, unless the mesh would fill the view or its box contain the eye:
@@ -213,7 +213,7 @@ impl Mesh {
 /// Reports a key that `transform` overrides.
 fn report_key_without_effect(span: Option<Span>, key: &str, context: &mut Context<'_>) {
     let Some(span) = span else { return };
-    let message = || format!("`{key}` has no effect beside `transform`");
+    let message = || format!("`{key}` has no effect with `transform`");
     context.report(&codes::NO_EFFECT, span, message, |d| {
         d.at(span, "ignored")
             .severity(Severity::Warning)

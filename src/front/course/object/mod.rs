@@ -2,8 +2,9 @@
 //!
 //! The macro `kinds!` lists all types with their names; [`Object`], [`KINDS`], the decoder and the
 //! schema come from this list. Each record implements `Lower`, which adds surfaces to the scene:
-//! first `Lowering::surface_props` lowers what all surfaces of an object share (material, shadow
-//! flag, span), then `Lowering::add_surface` adds each surface with the spans of its values.
+//! first `Lowering::surface_props` lowers the properties that all surfaces of an object share
+//! (material, shadow flag, span), then `Lowering::add_surface` adds each surface with the spans of
+//! its values.
 //!
 //! * `sphere`, `plane`, `triangle`, `quad`, `disc`, `cylinder` (with the one without ends), `cone`
 //!   (with the paraboloid), `torus` and `ellipsoid` become the shape of the same name in the IR.
@@ -13,7 +14,7 @@
 //! * `mesh` becomes an instance of a mesh that is loaded later; `sizing` scales it after that.
 //! * `gltf` becomes a pending asset only.
 //!
-//! Objects of size 0 are omitted with one finding each. An object with an invalid material, or
+//! Objects of size 0 are omitted with one diagnostic each. An object with an invalid material, or
 //! with keys of no variant, is omitted after these have been reported.
 
 mod cone;
@@ -205,7 +206,7 @@ fn report_type_as_key(node: NodeId, context: &mut Context<'_>) -> bool {
         match is_alone {
             true => d.guess("write", colon, format!("type: {name}")),
             false => d.hint(format!(
-                "write `type: {name}`, and its other keys beside that"
+                "write `type: {name}`, and its other keys next to it"
             )),
         }
     });

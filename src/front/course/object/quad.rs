@@ -78,7 +78,7 @@ impl Lower for Quad {
 }
 
 impl Lowering {
-    /// Adds two triangles in place of a quad, which share the diagonal from its first corner to its
+    /// Adds two triangles instead of a quad, which share the diagonal from its first corner to its
     /// third.
     fn add_two_triangles(&mut self, props: &SurfaceProps, corners: &[Numbers; 4]) {
         for at in [[0, 1, 2], [0, 2, 3]] {
@@ -102,9 +102,8 @@ fn is_curved(quad: &Quad, corners: &[Numbers; 4], context: &mut Context<'_>) -> 
         let message =
             || "the corners of the quad are not coplanar: it becomes two triangles".to_owned();
         context.report(&codes::TWO_READINGS, span, message, |d| {
-            d.at(span, "a curved patch in some programs").hint(
-                "`curved: true` spans a patch, `curved: false` says that two triangles are meant",
-            )
+            d.at(span, "a curved patch in some programs")
+                .hint("`curved: true` makes a patch, `curved: false` two triangles")
         });
     }
     false
@@ -178,7 +177,7 @@ fn report_crossed(corners: &mut [Numbers; 4], [a, b]: [usize; 2], context: &mut 
     context.report(&codes::CROSSED_QUAD, span, message, |d| {
         let d = d.at(span, format!("the {} corner", WHICH[a]));
         let d = d.also(second, format!("the {} corner", WHICH[b]));
-        let order = "the corners stand in their order around the quad";
+        let order = "list the corners in their order around the quad";
         match lenient {
             true => d.hint(format!("these two were exchanged, because {order}")),
             false => d.hint(format!(

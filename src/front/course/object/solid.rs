@@ -98,7 +98,7 @@ record! {
 /// corners is the lower left of its texture.
 type Face = &'static [usize];
 
-/// Bit k of a corner's index says at which end of edge k the corner lies.
+/// Bit k of a corner's index selects the end of edge k.
 const BOX: &[Face] = &[
     &[0, 4, 6, 2],
     &[5, 1, 3, 7],

@@ -32,8 +32,8 @@ record! {
         /// The axis through the poles of the texture, about which it is rotated.
         axis: Spanned<Rotation<Vector>>, optional, keys!["axis" "rotation" "rotationVector"],
             json "rotation", json "rotationVector";
-        /// The rotation of the texture as a quaternion (x, y, z, w) of any length but 0, in place
-        /// of an axis and an angle.
+        /// The rotation of the texture as a quaternion (x, y, z, w) of any length but 0, instead of
+        /// an axis and an angle.
         quaternion: Spanned<Quaternion>, optional, keys!["quaternion"];
         /// The material.
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
@@ -153,7 +153,7 @@ fn texture_axis(
             inner.iter().for_each(|inner| {
                 no_effect(
                     inner,
-                    "the axis beside the radius has no effect beside `axis`",
+                    "the axis beside the radius has no effect with `axis`",
                 )
             });
             axis
@@ -203,7 +203,7 @@ fn report_two_rotations(
             );
         }
     };
-    no_effect(other, "an axis or angle has no effect beside `quaternion`");
+    no_effect(other, "an axis or angle has no effect with `quaternion`");
     if quaternion.value.0 == [0.0; 4] {
         no_effect(quaternion.span, "a quaternion of length 0 is no rotation");
     }

@@ -14,7 +14,7 @@ const HEIGHT: u32 = 512;
 const ASPECT: f64 = 1.0;
 /// The opening of a camera that we choose, in degrees from bottom to top.
 const OPENING: f64 = 35.0;
-/// Where it stands, from the middle of the scene: a three-quarter view, 34° to the right of the
+/// The position relative to the centre of the scene: a three-quarter view, 34° to the right of the
 /// front and 23° above.
 const FROM: [f64; 3] = [2.0, 1.5, 3.0];
 
@@ -26,8 +26,8 @@ pub(super) struct CameraUse {
 }
 
 impl Lowering<'_, '_, '_> {
-    /// Puts the camera into the scene: the one that is wanted, by its name, that of its node, or
-    /// its index.
+    /// Adds the camera to the scene: the requested one, by its name, that of its node, or its
+    /// index.
     pub(super) fn camera(&mut self, wanted: Option<&str>) {
         let chosen = match wanted {
             Some(name) => self.find_camera(name).and_then(|seen| self.camera_of(seen)),
@@ -82,7 +82,7 @@ impl Lowering<'_, '_, '_> {
         })
     }
 
-    /// What a camera can be called: its name, that of its node, its index.
+    /// The identifiers of a camera: its name, that of its node, its index.
     fn camera_names(&self, seen: &CameraUse) -> [String; 3] {
         let name = self
             .doc
@@ -97,7 +97,8 @@ impl Lowering<'_, '_, '_> {
     }
 }
 
-/// The camera of a projection at a place, and where it looks; none if the place has no volume.
+/// The camera of a projection with a transform, and its view direction; `None` if the transform is
+/// singular.
 fn through(projection: Projection, world: DAffine3) -> Option<(Camera, Vec3)> {
     // The directions of the axes count; scale does not.
     let z = unit(world.z_axis)?;
@@ -119,8 +120,8 @@ fn through(projection: Projection, world: DAffine3) -> Option<(Camera, Vec3)> {
     Some((camera(world.translation, [x, y, z], half, kind), -z))
 }
 
-/// Gives a camera what glTF has no words for: the size of its picture, the plane of focus, where
-/// the middle of the picture lies, in halves of it, and the lens.
+/// Sets the properties that glTF lacks: the size of the picture, the plane of focus, the offset of
+/// the centre in half sizes, and the lens.
 fn refine(camera: &mut Camera, ahead: Vec3, extras: Fields<'_, '_>) {
     let [eye, center, right, up] =
         [camera.eye, camera.center, camera.right, camera.up].map(Vec3::from_array);
@@ -136,7 +137,7 @@ fn refine(camera: &mut Camera, ahead: Vec3, extras: Fields<'_, '_>) {
         ir::Projection::Perspective => distance / reach,
         ir::Projection::Orthographic => 1.0,
     };
-    // From far away the difference of two places says little of a direction.
+    // Far from the camera, the difference of two positions has a poor direction.
     let ahead = if reach > 1.0 { ahead } else { center - eye };
     let half = [
         right * (far * f64::from(width) / 2.0),
@@ -154,8 +155,8 @@ fn refine(camera: &mut Camera, ahead: Vec3, extras: Fields<'_, '_>) {
     };
 }
 
-/// How far before a camera its plane of focus is where nothing else is said: 1, or farther where
-/// the places of both would be hard to tell apart, a power of two.
+/// The default distance of the plane of focus: 1, or more where 1 is too small relative to the
+/// coordinates; a power of two.
 fn reach(eye: Vec3) -> f64 {
     const NEAR: f64 = 1_048_576.0;
     let far = (eye.abs().max_element() / NEAR).clamp(1.0, f64::MAX);
@@ -163,7 +164,7 @@ fn reach(eye: Vec3) -> f64 {
     f64::from_bits(far.to_bits() & (0x7ff << 52))
 }
 
-/// A camera at `eye` that sees so much to each side at distance 1.
+/// A camera at `eye` with the given half extents at distance 1.
 fn camera(eye: Vec3, [x, y, z]: [Vec3; 3], half: [f64; 2], projection: ir::Projection) -> Camera {
     let ratio = (half[0] / half[1]).abs();
     #[expect(

@@ -47,8 +47,8 @@ struct Morph<'d, 's> {
 }
 
 impl Morph<'_, '_> {
-    /// Adds what the targets move of an attribute, to the first `M` of its components. False if
-    /// they leave it alone.
+    /// Adds the morph targets of an attribute, to the first `M` of its components. False if none
+    /// changes it.
     fn add<const N: usize, const M: usize>(&self, name: &str, column: &mut Column<N>) -> bool {
         let mut animated: Option<Vec<[f64; N]>> = None;
         for (target, weight) in &self.targets {

@@ -10,7 +10,7 @@ use rtc_source::tree::NodeId;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 impl Lowering<'_, '_, '_> {
-    /// Lowers the light at a node that stands at `world`.
+    /// Lowers the light at a node with the transform `world`.
     pub(super) fn light(&mut self, light: NodeId, world: DAffine3) {
         let fields = Fields::new(self.report.json, light).animated(&self.materials.animated);
         let intensity = fields.number_or("intensity", 1.0);
@@ -64,7 +64,7 @@ impl Lowering<'_, '_, '_> {
     }
 }
 
-/// A light for which glTF has no words.
+/// A light that glTF can't express.
 fn light_extras(extras: Fields<'_, '_>, world: DAffine3) -> Option<Light> {
     let position = world.translation.to_array();
     if let Some(point) = extras.object("point") {

@@ -56,13 +56,12 @@ impl Materials {
         }
     }
 
-    /// The sets of texture coordinates that the material looks at.
+    /// The sets of texture coordinates that the material uses.
     pub(super) fn uv_sets(&self, material: MaterialId) -> TexCoordSets {
         self.uv_sets.get(&material.0).copied().unwrap_or_default()
     }
 
-    /// The material that points and lines of a material have, and whether it no longer emits what
-    /// the material does.
+    /// The material for the points and lines of a material, and whether its emission was removed.
     pub(super) fn of_strokes(
         &mut self,
         material: MaterialId,
@@ -103,7 +102,7 @@ impl Materials {
         self.textures.image(doc, index, scene, source_spans, report)
     }
 
-    /// True if the material looks at tangents.
+    /// True if the material uses tangents.
     #[expect(clippy::unused_self, reason = "materials answer for what they need")]
     pub(super) fn needs_tangents(&self, material: MaterialId, scene: &Scene) -> bool {
         match scene.materials.get(material.0 as usize) {
@@ -160,9 +159,8 @@ impl Materials {
         if let (Some(lost), Some(material)) = (lost, material) {
             let [first, second] = sets.names();
             let message = format!(
-                "textures ask for more than two sets of texture coordinates: `{first}` and \
-                `{second}` are \
-                 kept, `TEXCOORD_{lost}` is not, and `{first}` is taken"
+                "textures use more than two sets of texture coordinates: `{first}` and `{second}` \
+                are kept, and `{first}` replaces `TEXCOORD_{lost}`"
             );
             let at = doc.materials[material];
             report.add(&codes::GLTF_MATERIAL_ODD, "", at, message);

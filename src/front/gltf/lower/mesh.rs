@@ -23,26 +23,26 @@ const CORNER: u64 = 4;
 const TRIANGLE: u64 = 96;
 /// Bytes that a vertex takes while morph targets or joints move it.
 const MOVED: u64 = 96;
-/// How many vertices and bytes the tangents of a corner stand for.
+/// The number of vertices and bytes per corner with tangents.
 const TANGENT: u64 = 4;
 const TANGENT_BYTES: u64 = 128;
 
 /// The meshes that were made.
 pub(super) struct Meshes<'d> {
-    /// What is different in primitives, and which that is of each primitive.
+    /// The distinct sources of primitives, and the source of each primitive.
     parts: BTreeMap<MeshParts<'d>, usize>,
     of_primitive: BTreeMap<NodeId, usize>,
-    /// The mesh of each that was asked for; none if it has no surface.
+    /// The mesh of each request; `None` if it has no surface.
     made: BTreeMap<MeshKey, Option<MeshId>>,
 }
 
-/// What two meshes that are wanted have in common if they are the same.
+/// The key by which two requested meshes are the same.
 pub(super) type MeshKey = (usize, ShapeId, bool, TexCoordSets);
 
 /// Names and accessors.
 type Pairs<'d> = Vec<(&'d str, usize)>;
 
-/// What a primitive is made of.
+/// The source data of a primitive.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct MeshParts<'d> {
     attributes: Pairs<'d>,
@@ -51,7 +51,7 @@ struct MeshParts<'d> {
     mode: u64,
 }
 
-/// A mesh that is wanted.
+/// A requested mesh.
 pub(super) struct WantedMesh<'d, 'w> {
     pub(super) primitive: &'d Primitive,
     pub(super) name: &'d str,
@@ -69,7 +69,7 @@ impl<'d> Meshes<'d> {
         }
     }
 
-    /// The mesh of a primitive of the document; none if it has no surface, or asks for too much.
+    /// The mesh of a primitive of the document; `None` if it has no surface, or exceeds the budget.
     pub(super) fn make(
         &mut self,
         doc: &'d Document<'_>,
@@ -100,14 +100,14 @@ impl<'d> Meshes<'d> {
         made
     }
 
-    /// What a mesh that is wanted has in common with the same.
+    /// The key of a requested mesh.
     pub(super) fn key(&mut self, wanted: &WantedMesh<'d, '_>) -> MeshKey {
         let (tangents, uv_sets) = (wanted.needs_tangents, wanted.uv_sets);
         let parts = self.parts(wanted.primitive);
         (parts, wanted.shape.0, tangents, uv_sets)
     }
 
-    /// The name of what a primitive is made of.
+    /// The id of the source data of a primitive.
     fn parts(&mut self, primitive: &'d Primitive) -> usize {
         let Self {
             parts,
@@ -260,7 +260,7 @@ pub(super) fn vertices(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>) -> Optio
     let elements = |name: &str| AccessorReader::of(doc, doc.accessors.get(primitive.find(name)?)?);
     let positions = elements("POSITION")?.column();
     let normals = elements("NORMAL").map_or_else(Column::default, |normals| normals.column());
-    // Without normals tangents mean nothing (glTF 2.0, section 3.7.2.1).
+    // Tangents without normals are ignored (glTF 2.0, section 3.7.2.1).
     let tangents = elements("TANGENT").filter(|_| !normals.is_empty());
     let [first, second] = &uv_sets.names();
     let uvs = |name: &str| elements(name).map_or_else(Column::default, |uvs| uvs.column());

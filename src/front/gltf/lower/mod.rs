@@ -52,11 +52,11 @@ use transform::InstanceTransforms;
 const DEPTH: u32 = 16;
 const SAMPLES: u32 = 64;
 
-/// Bytes that a surface takes, beside its name: in the scene, in the proof, and in the places of
-/// its parts.
+/// The bytes of a surface besides its name: in the scene, in the validated scene, and in the
+/// transforms of its instances.
 pub(crate) const SURFACE: u64 = 768;
 
-/// What an asset is lowered with.
+/// The inputs of lowering an asset.
 struct Lowering<'l, 'r, 's> {
     doc: &'l Document<'s>,
     report: &'l mut AssetReport<'r, 's>,
@@ -66,11 +66,11 @@ struct Lowering<'l, 'r, 's> {
     meshes: Meshes<'l>,
     strokes: StrokeMeshes,
     shapes: Deformations,
-    /// The material of each primitive that was met, in the variant.
+    /// The material of each lowered primitive, in the variant.
     chosen: BTreeMap<NodeId, MaterialId>,
-    /// The variant of the materials that was asked for.
+    /// The requested material variant.
     variant: Option<usize>,
-    /// The cameras that were met.
+    /// The cameras found so far.
     cameras: Vec<camera::CameraUse>,
 }
 
@@ -146,7 +146,7 @@ fn find_variant(name: &str, report: &mut AssetReport<'_, '_>) -> Option<usize> {
     found
 }
 
-/// Reports that the command line names what there isn't.
+/// Reports that the command line names something that does not exist.
 fn missing(entity: &str, name: &str, names: &[String], report: &mut AssetReport<'_, '_>) {
     let names: Vec<String> = names
         .iter()
@@ -182,7 +182,7 @@ impl Lowering<'_, '_, '_> {
                 .charge(Resource::Memory, memory, node.at, "the node")
     }
 
-    /// Takes down the camera and lowers the light of a node that stands at `world`.
+    /// Records the camera and lowers the light of a node with the transform `world`.
     fn camera_and_light(&mut self, index: usize, world: DAffine3) {
         let node = &self.doc.nodes[index];
         if let Some(camera) = node.camera {
@@ -197,7 +197,7 @@ impl Lowering<'_, '_, '_> {
         }
     }
 
-    /// Lowers what one node shows.
+    /// Lowers the mesh of one node.
     fn node(&mut self, index: usize, pose: &pose::Pose, worlds: &[DAffine3]) {
         let (doc, node, world) = (self.doc, &self.doc.nodes[index], worlds[index]);
         self.camera_and_light(index, world);
@@ -260,7 +260,7 @@ impl Lowering<'_, '_, '_> {
         }
     }
 
-    /// Places a mesh, unless its place has no volume: then nothing of it shows.
+    /// Places a mesh, unless its transform is singular: then it is invisible.
     fn surface(
         &mut self,
         mesh: ir::MeshId,
@@ -270,7 +270,7 @@ impl Lowering<'_, '_, '_> {
         at: NodeId,
     ) {
         if !transform::has_volume(world) {
-            let message = "the node is scaled to nothing, so it does not show".to_owned();
+            let message = "the node is scaled to zero, so it is invisible".to_owned();
             return self.report.add(&codes::GLTF_REMARK, "", at, message);
         }
         let world_from_object = world.to_cols_array_2d();

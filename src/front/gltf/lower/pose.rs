@@ -17,10 +17,10 @@ use rtc_source::Resource;
 use rtc_source::tree::NodeId;
 use std::collections::BTreeMap;
 
-/// Bytes that the weight of a morph target takes: itself, and the bits that tell it from others.
+/// The bytes of a weight of a morph target: its value and its bits in the key.
 const WEIGHT: u64 = 32;
 
-/// How all nodes stand.
+/// The transforms and weights of all nodes.
 pub(super) struct Pose {
     transforms: Vec<Transform>,
     /// The weights of nodes, where they have their own.
@@ -42,13 +42,13 @@ impl Pose {
         }
     }
 
-    /// The weights of morph targets that a node has in place of those of its mesh.
+    /// The weights of morph targets of a node that override those of its mesh.
     pub(super) fn weights(&self, node: usize) -> Option<&[f64]> {
         self.weights.get(&node).map(Vec::as_slice)
     }
 }
 
-/// The pose that the options ask for.
+/// The pose at the requested time.
 pub(super) fn pose(
     doc: &Document<'_>,
     options: &FrontOptions,
@@ -95,7 +95,7 @@ pub(super) fn pose(
     pose
 }
 
-/// The animation that was asked for: by name, or else the first if there is a time.
+/// The requested animation: by name, or else the first if there is a time.
 fn chosen<'d>(
     doc: &'d Document<'_>,
     options: &FrontOptions,
@@ -173,7 +173,7 @@ impl Pose {
     }
 }
 
-/// The keyframes of a sampler, of which only those about a time are looked at.
+/// The keyframes of a sampler; only those around the time are read.
 struct Keys<'d> {
     times: AccessorReader<'d>,
     output: AccessorReader<'d>,
@@ -236,7 +236,7 @@ impl<'d> Keys<'d> {
             .then(|| numbers.skip(at % components).take(width).collect())
     }
 
-    /// The value at a time; before the first and after the last keyframe it stands still.
+    /// The value at a time; constant before the first and after the last keyframe.
     fn sample(&self, is_rotation: bool, time: f64) -> Option<Vec<f64>> {
         let next = self.until(time);
         let (a, b) = (next.saturating_sub(1), next.min(self.times.count - 1));

@@ -13,7 +13,7 @@ use rtc_ir::{
 use rtc_source::Resource;
 
 impl Lowering<'_, '_, '_> {
-    /// Takes over what the asset says of the settings and of the environment.
+    /// Adopts the settings and the environment of the asset.
     pub(super) fn settings_extras(&mut self) {
         let root = Fields::new(self.report.json, self.report.json.root());
         let Some(extras) = root.rtc_extras() else {

@@ -9,10 +9,10 @@ use glam::{DAffine3, DMat4};
 use rtc_source::Resource;
 use std::collections::BTreeMap;
 
-/// Bytes that a joint takes: its matrix, and the bits that tell it from others.
+/// The bytes of a joint: its matrix and the bits in the key.
 const JOINT: u64 = 192;
 
-/// Names a shape; what is equal has one name.
+/// Gives a shape an id; equal shapes share it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct ShapeId {
     weights: usize,
@@ -22,13 +22,13 @@ pub(super) struct ShapeId {
 /// What moves the vertices of a mesh.
 #[derive(Clone, Copy)]
 pub(super) struct Deformation<'s> {
-    /// The weight of each morph target; those that are left out are zero.
+    /// The weight of each morph target; missing ones are zero.
     pub(super) weights: &'s [f64],
     /// From the mesh to the world, for each joint.
     pub(super) joints: Option<&'s [DAffine3]>,
 }
 
-/// The shapes met so far.
+/// The shapes so far.
 #[derive(Default)]
 pub(super) struct Deformations {
     weights: UniqueLists<f64>,
@@ -70,8 +70,7 @@ impl<T> UniqueLists<T> {
 }
 
 impl Deformations {
-    /// The shape that a node gives to its mesh, with its skin if it follows one; none if that asks
-    /// for too much.
+    /// The shape of a mesh at a node, with its skin if any; `None` if that exceeds the budget.
     pub(super) fn of_node(
         &mut self,
         doc: &Document<'_>,
@@ -145,7 +144,7 @@ impl Deformations {
     }
 }
 
-/// From the mesh to the world for each joint: its inverse bind matrix, then its place.
+/// From the mesh to the world for each joint: its inverse bind matrix, then its transform.
 fn joints(doc: &Document<'_>, skin: &Skin, worlds: &[DAffine3]) -> Vec<DAffine3> {
     let matrices = skin
         .matrices

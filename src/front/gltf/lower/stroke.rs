@@ -1,7 +1,7 @@
 //! Points and lines: meshes of one radius in world space, since glTF does not define their width.
 //!
-//! The radius is that of a pixel in the picture that is made of an asset without cameras. It is
-//! chosen once, so size, crop and camera of a picture leave the scene as it is.
+//! The radius is that of a pixel in the default picture of an asset without cameras. It is chosen
+//! once, so size, crop and camera of a picture leave the scene unchanged.
 
 use super::super::document::Document;
 use super::super::primitive::{Primitive, TRIANGLES};
@@ -27,12 +27,12 @@ const TRIANGLE: u64 = 108;
 pub(super) struct StrokeMeshes {
     /// Each with the offsets of its corners at radius 1.
     made: Vec<(MeshId, Column<3>)>,
-    /// Of what was wanted, by how it is turned and scaled, the mesh and the place of its first
-    /// vertex; none where it shows nothing.
+    /// For each request, by the linear part of its transform, the mesh and the position of its
+    /// first vertex; `None` where it is invisible.
     known: BTreeMap<(MeshKey, LinearPartBits), Option<(MeshId, Vec3)>>,
 }
 
-/// The bits of the linear part of a place.
+/// The bits of the linear part of a transform.
 type LinearPartBits = [u64; 9];
 
 /// True if the primitive has points or lines.
@@ -41,9 +41,9 @@ pub(super) fn is_stroked(primitive: &Primitive) -> bool {
 }
 
 impl StrokeMeshes {
-    /// The meshes of a primitive of points or lines at its places, still without a radius, and
-    /// where each stands; none where it shows nothing or asks for too much. Places that differ in
-    /// where they are alone share a mesh.
+    /// The meshes of a primitive of points or lines at its transforms, still without a radius, and
+    /// their positions; `None` where it is invisible or exceeds the budget. Transforms that differ
+    /// only in translation share a mesh.
     pub(super) fn make(
         &mut self,
         doc: &Document<'_>,
@@ -123,7 +123,7 @@ impl Source {
         Some(Self { mesh, ends })
     }
 
-    /// The place of the vertex that a mesh about them stands at.
+    /// The position of the first vertex, the origin of a mesh of strokes.
     fn first(&self) -> Option<Vec3> {
         let [from, _] = self.ends.first()?;
         Some(Vec3::from_array(self.mesh.positions.at(*from as usize)))

@@ -2,23 +2,23 @@
 //!
 //! Corners of one vertex may get different tangents, so vertices are split where they do.
 //!
-//! MikkTSpace compares all corners at a place with each other. So a place of very many counts as
-//! several side by side, each with its part of them.
+//! MikkTSpace compares all corners at a position with each other. So a position with very many
+//! corners is split into several.
 
 use crate::glyph::pick;
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
 use rtc_ir::{Column, Mesh};
 use rtc_math::{Vec3, to_u32};
 
-/// A mesh whose tangents are asked for, one a corner.
+/// A mesh with tangents per corner.
 struct Corners<'m> {
     mesh: &'m Mesh,
     tangents: Vec<[f64; 4]>,
-    /// Of each corner, in which part of its place it is; empty if all places are whole.
+    /// For each corner, the part of its position; empty if no position is split.
     parts: Vec<u16>,
 }
 
-/// The most corners at a place that are compared with each other.
+/// The maximum number of corners at a position that are compared with each other.
 const MOST: u32 = 512;
 
 /// Functions that give the same bits on every machine.
@@ -57,7 +57,7 @@ impl Geometry<Libm> for Corners<'_> {
         let position = self.mesh.positions.at(self.vertex(face, vert));
         let [x, y, z] = position.map(|number| number as f32);
         let part = self.parts.get(3 * face + vert).copied().unwrap_or(0);
-        // By so many of the smallest steps.
+        // The offset in the smallest steps.
         [f32::from_bits(x.to_bits().wrapping_add(part.into())), y, z]
     }
 
@@ -110,8 +110,8 @@ pub(super) fn generate(mesh: &mut Mesh) {
     split_vertices(mesh, &tangents);
 }
 
-/// In which part of its place each corner is; empty if all places are whole. Corners that are alike
-/// stay together as far as they can.
+/// For each corner, the part of its position; empty if no position is split. Equal corners stay in
+/// one part as far as possible.
 fn parts(mesh: &Mesh) -> Vec<u16> {
     if mesh.triangles.len() <= MOST as usize {
         return Vec::new();
@@ -121,7 +121,7 @@ fn parts(mesh: &Mesh) -> Vec<u16> {
     corners().for_each(|corner| counts[*corner as usize] += 1);
     let mut order: Vec<u32> = (0..to_u32(counts.len())).collect();
     order.sort_by_cached_key(|vertex| key(mesh, *vertex));
-    // The first of its corners among those at its place; none if those are few.
+    // The first of its corners among those at its position; `None` if there are few.
     let mut next: Vec<Option<u32>> = vec![None; counts.len()];
     let is_at_one_place = |a: &u32, b: &u32| key(mesh, *a)[..3] == key(mesh, *b)[..3];
     for place in order.chunk_by(is_at_one_place) {
@@ -143,7 +143,7 @@ fn parts(mesh: &Mesh) -> Vec<u16> {
     corners().map(part).map(Option::unwrap_or_default).collect()
 }
 
-/// By what MikkTSpace tells vertices apart: the place, the normal, the texture coordinates.
+/// The vertex key of MikkTSpace: position, normal, texture coordinates.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "MikkTSpace computes in 32-bit floats"
@@ -237,7 +237,7 @@ mod tests {
         }
     }
 
-    /// How many pairs of corners at one place there are to compare.
+    /// The number of pairs of corners at one position.
     fn pairs(mesh: &Mesh) -> usize {
         let parts = parts(mesh);
         let mut counts = std::collections::BTreeMap::new();

@@ -20,7 +20,7 @@ pub(super) struct LoweredTextures {
     images: BTreeMap<usize, ImageId>,
 }
 
-/// The codes of OpenGL for what lies beyond an image, and for the nearest texel.
+/// The OpenGL codes of wrap modes, and of the nearest filter.
 const CLAMP: u64 = 33071;
 const MIRROR: u64 = 33648;
 const MIN_HIT_DISTANCE: u64 = 9728;
@@ -34,8 +34,8 @@ impl LoweredTextures {
         }
     }
 
-    /// The map that a texture info of a material stands for, with the set of texture coordinates as
-    /// glTF numbers it; none if its texture has no image that can be read.
+    /// The map of a texture info of a material, with the set of texture coordinates as glTF numbers
+    /// it; `None` if its texture has no readable image.
     pub(super) fn map(
         &mut self,
         doc: &Document<'_>,

@@ -49,11 +49,11 @@ pub(super) fn worlds(
 /// The nodes that the scene shows, parents before children, in the order of the file; if there is
 /// no scene, all.
 pub(super) fn shown(doc: &Document<'_>) -> Vec<usize> {
-    // A node that is met is not shown again: a coarser level never, a root that has a parent once.
-    let mut is_met = coarser(doc);
+    // A visited node is not rendered again: a coarser level never, a root that has a parent once.
+    let mut is_visited = coarser(doc);
     let Some(scene) = doc.scenes.get(doc.scene.unwrap_or(0)) else {
         return (0..doc.nodes.len())
-            .filter(|node| doc.nodes[*node].visible && !is_met[*node])
+            .filter(|node| doc.nodes[*node].visible && !is_visited[*node])
             .collect();
     };
     let mut shown = Vec::new();
@@ -62,7 +62,7 @@ pub(super) fn shown(doc: &Document<'_>) -> Vec<usize> {
         let Some(node) = doc.nodes.get(index).filter(|node| node.visible) else {
             continue;
         };
-        if std::mem::replace(&mut is_met[index], true) {
+        if std::mem::replace(&mut is_visited[index], true) {
             continue;
         }
         shown.push(index);
@@ -90,7 +90,7 @@ fn coarser(doc: &Document<'_>) -> Vec<bool> {
     is_coarser
 }
 
-/// The places of a mesh at its node.
+/// The transforms of a mesh at its node.
 pub(super) struct InstanceTransforms<'d> {
     /// That of the node.
     world: DAffine3,
@@ -115,10 +115,10 @@ impl<'d> InstanceTransforms<'d> {
         let parts = instancing.parts.map(|accessor| elements(accessor?));
         let read = parts.iter().flatten().map(|reader| reader.count);
         let all = instancing.all.iter();
-        let said = all.filter_map(|accessor| doc.accessors.get(*accessor)?.count);
+        let counts = all.filter_map(|accessor| doc.accessors.get(*accessor)?.count);
         Self {
             world,
-            count: said.chain(read).min().unwrap_or(0),
+            count: counts.chain(read).min().unwrap_or(0),
             instances: Some(parts),
         }
     }
@@ -128,7 +128,7 @@ impl<'d> InstanceTransforms<'d> {
         self.count
     }
 
-    /// The place at `at`, which is below the count.
+    /// The transform at `at`, which is below the count.
     pub(super) fn at(&self, at: usize) -> DAffine3 {
         let Some([translations, rotations, scales]) = &self.instances else {
             return self.world;
@@ -163,7 +163,7 @@ pub(super) fn compose(translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3]
     )
 }
 
-/// True if a place keeps a volume, by far more than the IR asks.
+/// True if a transform is invertible, with a margin far above that of the IR.
 pub(super) fn has_volume(world: DAffine3) -> bool {
     let axes = [world.x_axis, world.y_axis, world.z_axis];
     let [x, y, z] = axes.map(|axis| unit(axis).unwrap_or(Vec3::ZERO));

@@ -15,21 +15,20 @@ impl Default for TexCoordSets {
 }
 
 impl TexCoordSets {
-    /// Chooses the sets of a material whose maps have the numbers of glTF, and gives the maps those
-    /// of the IR. The first of the sets that found no place comes back too; its maps take set 0 of
-    /// the IR.
+    /// Chooses the sets of a material whose maps have glTF set numbers, and renumbers the maps as
+    /// in the IR. Also returns the first set that did not fit; its maps use set 0 of the IR.
     pub(super) fn choose(material: &mut Standard) -> (Self, Option<u32>) {
-        let asked: BTreeSet<u32> = material.maps().map(|map| map.set).collect();
-        if asked.iter().all(|set| *set < 2) {
+        let used_sets: BTreeSet<u32> = material.maps().map(|map| map.set).collect();
+        if used_sets.iter().all(|set| *set < 2) {
             return (Self::default(), None);
         }
-        let mut asked = asked.into_iter();
-        let first = asked.next().unwrap_or(0);
-        let sets = Self([first, asked.next().unwrap_or(first)]);
+        let mut used_sets = used_sets.into_iter();
+        let first = used_sets.next().unwrap_or(0);
+        let sets = Self([first, used_sets.next().unwrap_or(first)]);
         for Map { set, .. } in material.maps_mut() {
             *set = u32::from(*set != sets.0[0] && *set == sets.0[1]);
         }
-        (sets, asked.next())
+        (sets, used_sets.next())
     }
 
     /// The names of the attributes.

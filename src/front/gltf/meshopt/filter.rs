@@ -1,4 +1,4 @@
-//! Filters: what decoded attributes stand for.
+//! The filters of decoded attributes.
 
 use super::Fault;
 
@@ -75,7 +75,7 @@ fn octahedral([x, y, one]: [f64; 3], most: f64) -> [f64; 3] {
     [x * scale, y * scale, z * scale]
 }
 
-/// A unit quaternion from three components; the greatest was left out, and its place is in the low
+/// A unit quaternion from three components; the largest was omitted, and its index is in the low
 /// bits of the last.
 fn quaternion([x, y, z, w]: [i16; 4]) -> [i16; 4] {
     let scale = std::f64::consts::FRAC_1_SQRT_2 / f64::from(w | 3);
@@ -103,8 +103,8 @@ fn exponential(word: [u8; 4]) -> f32 {
     float
 }
 
-/// Red, green, blue and alpha from luma and two chromas; the highest bit of alpha tells how many
-/// bits there are.
+/// Red, green, blue and alpha from luma and two chromas; the highest bit of alpha encodes the bit
+/// depth.
 fn color_from([y, co, cg]: [f64; 3], alpha: u32, most: f64) -> [f64; 4] {
     let greatest = (1_u32 << (u32::BITS - alpha.leading_zeros())) - 1;
     let a = alpha & (greatest >> 1);

@@ -2,8 +2,8 @@
 //! successor `KHR_meshopt_compression`): attributes, triangles and indices, with the filters on
 //! top.
 //!
-//! Every read is within the bytes given, and what is claimed is bounded by what so many bytes can
-//! stand for.
+//! Every read is within the given bytes, and every announced size is bounded by the size of the
+//! data.
 
 mod filter;
 mod index;
@@ -20,11 +20,11 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// The most bytes that one compressed byte can stand for: a control byte that says of four channels
-/// of a block of 256 elements that nothing changes.
+/// The maximum number of bytes decoded from one byte: a control byte for four unchanged channels of
+/// a block of 256 elements.
 const MAX_RATIO: usize = 1024;
 
-/// Why bytes are not what they should be.
+/// The reason why data are invalid.
 type Fault = &'static str;
 
 /// Bytes read one after another.
@@ -84,7 +84,7 @@ impl StreamHeader {
         };
         let size = count.checked_mul(stride).ok_or("it claims too much")?;
         if size / MAX_RATIO > bytes.len() {
-            return Err("it claims more than so few bytes can stand for");
+            return Err("it claims more data than its bytes can hold");
         }
         let text = |key| extension.text(key).unwrap_or_default();
         Ok(Self {
@@ -125,7 +125,7 @@ pub(super) fn expand(doc: &mut Document<'_>, report: &mut AssetReport<'_, '_>) {
                 extension.at,
                 "the compressed view",
             ) {
-                return Err("it asks for too much");
+                return Err("it exceeds a limit");
             }
             let decoded = decode(bytes, &header).map(|decoded| Rc::new(Cow::Owned(decoded)));
             made.insert(header, decoded.clone());

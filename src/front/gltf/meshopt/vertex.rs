@@ -4,7 +4,7 @@ use super::{Fault, Reader, unzigzag};
 
 /// Elements of a group.
 const GROUP: usize = 16;
-/// A block has at most so many bytes and elements.
+/// The maximum bytes and elements of a block.
 const BLOCK_BYTES: usize = 8192;
 const BLOCK_ELEMENTS: usize = 256;
 
@@ -153,8 +153,8 @@ fn read_row(
     Ok(())
 }
 
-/// Reads 16 differences of so many bits each; one with all bits set stands for a byte that follows
-/// the group.
+/// Reads 16 differences of the given number of bits; all bits set means that a byte after the group
+/// follows.
 fn read_group(reader: &mut Reader<'_>, width: usize, deltas: &mut [u8]) -> Result<(), Fault> {
     match width {
         0 => deltas.fill(0),

@@ -1,5 +1,5 @@
-//! The extensions that are known: where their objects stand, and what is in them. An asset may
-//! require each of them.
+//! The known extensions: the objects that carry them, and their properties. An asset may require
+//! each of them.
 
 use super::Value::{
     Attributes, Boolean, Index, Indices, Integer, Keyword, Many, Number, Numbers, One, Pointer,
@@ -12,7 +12,7 @@ use super::{Bounds, FACTOR, FREE, IndexTarget, Key, Object, POSITIVE, UNIT, opti
 #[derive(Debug)]
 pub(crate) struct Extension {
     pub(super) name: &'static str,
-    /// The kinds of objects that carry it, and what they carry.
+    /// The kinds of objects that carry it, and the object of the extension.
     pub(super) places: &'static [(&'static str, &'static Object)],
 }
 
@@ -26,8 +26,8 @@ pub(super) fn all() -> impl Iterator<Item = &'static Extension> {
     EXTENSIONS.iter().chain(OF_MATERIALS)
 }
 
-/// A row of Markdown for each extension, by their names: what carries it, and the properties that
-/// are read.
+/// A Markdown row for each extension, by name: the objects that carry it, and the supported
+/// properties.
 pub(crate) fn rows() -> String {
     let mut sorted: Vec<_> = all().collect();
     sorted.sort_unstable_by_key(|extension| extension.name);
@@ -59,7 +59,7 @@ const FROM_ONE: Bounds = Bounds {
 };
 const MANY: u64 = (1 << 53) - 1;
 
-/// An extension whose objects stand in one kind of object.
+/// An extension whose objects occur in one kind of object.
 const fn known(
     name: &'static str,
     places: &'static [(&'static str, &'static Object)],
@@ -114,7 +114,7 @@ static EXTENSIONS: &[Extension] = &[
     ),
 ];
 
-/// What a property takes that is a parameter of a kind of the table.
+/// The value of a property that is a parameter in the table of materials.
 macro_rules! value {
     (fraction) => {
         Number(UNIT)

@@ -1,13 +1,13 @@
-//! The tables as a JSON schema, with words for people: what editors tell of glTF. What it is about,
-//! the default and the unit of each property stand in `about.txt`, those of the materials'
-//! parameters in their table.
+//! The tables as a JSON Schema with descriptions, for editors of glTF. `about.txt` has the
+//! description, the default and the unit of each property, except those of material parameters,
+//! which are in their table.
 
 use super::core::ROOT;
 use super::extension::all;
 use super::{Bounds, Key, Object, Value};
 use serde_json::{Map, Value as Json, json};
 
-/// Lines of `object.property | default | unit | words`.
+/// Lines of `object.property | default | unit | description`.
 const ABOUT: &str = include_str!("about.txt");
 
 /// The schema of an asset.
@@ -44,7 +44,7 @@ impl JsonWriter {
             .filter(|(_, (kind, _))| *kind == object.name)
             .map(|(extension, (_, carried))| {
                 let mut schema = self.object(carried, extension);
-                schema["description"] = format!("What the extension `{extension}` says").into();
+                schema["description"] = format!("The extension `{extension}`").into();
                 (extension.to_owned(), schema)
             })
             .collect();
@@ -110,7 +110,7 @@ fn number(bounds: &Bounds) -> Json {
     schema
 }
 
-/// What is told of a property.
+/// The description of a property.
 struct AboutText {
     words: String,
     default: Option<Json>,
@@ -118,7 +118,7 @@ struct AboutText {
 }
 
 impl AboutText {
-    /// That of a property of an object; without words if there are none.
+    /// The description of a property of an object; empty if there is none.
     fn of(object: &str, key: &str) -> Self {
         // Both names of one extension.
         let object = &object.replace("KHR_meshopt", "EXT_meshopt");
@@ -147,7 +147,7 @@ impl AboutText {
     }
 }
 
-/// What the table of the materials' parameters says of the property of an extension.
+/// The description of an extension's property in the table of material parameters.
 fn of_parameter(key: &str) -> Option<String> {
     let (_, field) = FIELDS.iter().find(|(entry, _)| *entry == key)?;
     let (_, lines) = PARAMETERS.iter().find(|(entry, _)| entry == field)?;
@@ -164,7 +164,7 @@ macro_rules! fields {
 
 rtc_tables::extensions!(fields);
 
-/// What each parameter is, in lines.
+/// The descriptions of the parameters, as lines.
 macro_rules! documented {
     ($($(#[doc = $doc:literal])* $field:ident: $kind:ident = $default:expr, $omitted:literal;)*) => {
         const PARAMETERS: &[(&str, &[&str])] = &[$((stringify!($field), &[$($doc),*]),)*];
@@ -177,7 +177,7 @@ rtc_tables::parameters!(documented);
 mod tests {
     use super::*;
 
-    /// The ways to properties without words.
+    /// The paths of properties without a description.
     fn undescribed(schema: &Json, path: &str, found: &mut Vec<String>) {
         let properties = schema.get("properties").and_then(Json::as_object);
         for (name, property) in properties.into_iter().flatten() {

@@ -50,12 +50,12 @@ const fn optional(name: &'static str, value: Value) -> Key {
     }
 }
 
-/// What a property takes.
+/// The value of a property.
 #[derive(Debug)]
 enum Value {
     Boolean,
     Text,
-    /// One of these words.
+    /// One of these keywords.
     Keyword(&'static [&'static str]),
     /// `major.minor`.
     Version,
@@ -140,7 +140,7 @@ pub(super) enum IndexTarget {
     Own,
 }
 
-/// Each pool that lies at one place, and the way to it.
+/// Each index target at one path, with the path.
 const TARGETS: [(IndexTarget, &[&str]); 14] = [
     (IndexTarget::Accessors, &["accessors"]),
     (IndexTarget::Buffers, &["buffers"]),

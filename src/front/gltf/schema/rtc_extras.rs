@@ -1,4 +1,4 @@
-//! What `extras.rtc` holds: values for which glTF has no words, as `emit/gltf` writes them.
+//! The properties of `extras.rtc`: values that glTF can't express, as `emit/gltf` writes them.
 
 use super::Value::{Boolean, Index, Integer, Keyword, Number, Numbers, One, Text};
 use super::{FACTOR, FREE, IndexTarget, Key, Object, POSITIVE, optional, required};
@@ -28,7 +28,7 @@ const fn rtc_object(keys: &'static [Key]) -> Object {
     }
 }
 
-/// How the picture is made, and what surrounds the scene.
+/// The settings of the picture, and the environment.
 static SETTINGS: Object = rtc_object(&[
     optional(
         "mode",
@@ -64,8 +64,8 @@ static DISPLAY: Object = rtc_object(&[
         Keyword(&["mode", "none", "srgb", "agx", "pbr-neutral"]),
     ),
 ]);
-/// Its radiance; a picture of all directions, an image or rows of so many floating-point pixels;
-/// the rows of the rotation from the world to the picture.
+/// Its radiance; an image of all directions, by index or as rows of floating-point pixels; the rows
+/// of the rotation from the world to the image.
 static ENVIRONMENT: Object = rtc_object(&[
     required("radiance", Numbers(&[3], FACTOR)),
     optional("image", Index(IndexTarget::Images)),
@@ -120,5 +120,5 @@ static PHONG: Object = rtc_object(&[
     optional("bumpHeight", Number(FREE)),
 ]);
 
-/// Whether lights shine through what the node shows.
+/// Whether the surfaces of the node cast no shadow.
 static NODE: Object = rtc_object(&[optional("castsNoShadow", Boolean)]);

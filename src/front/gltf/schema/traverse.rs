@@ -1,5 +1,5 @@
-//! The walk over the JSON of an asset: each object against its table, each extension where it may
-//! stand.
+//! The traversal of the JSON of an asset: each object is checked against its table, each extension
+//! against the objects that may carry it.
 
 use super::core::ROOT;
 use super::{IndexTarget, Key, Object, TARGETS, extension, rtc_extras};
@@ -8,7 +8,7 @@ use rtc_diag::codes;
 use rtc_source::tree::{NodeId, NodeKind};
 use std::collections::BTreeSet;
 
-/// The properties of an asset that say what the others are.
+/// The properties of an asset that decide how others are checked.
 const HEADER: [&str; 3] = ["asset", "extensionsUsed", "extensionsRequired"];
 
 /// Checks the shape of the whole asset, and that its references lead somewhere; only of its header
@@ -68,13 +68,13 @@ enum Slot {
 
 pub(super) struct Walk<'w, 'r, 's> {
     pub(super) report: &'w mut AssetReport<'r, 's>,
-    /// The extensions in `extensionsUsed`; lenient, also those that should be there.
+    /// The extensions in `extensionsUsed`; with `--lenient`, also missing ones.
     declared: BTreeSet<String>,
-    /// What is in each pool.
+    /// The length of each array that indices refer to.
     slots: [Vec<Slot>; TARGETS.len()],
-    /// The asset has the extension that the pool lies in, if it lies in one.
+    /// The asset has the extension that contains the array, if any.
     present: [bool; TARGETS.len()],
-    /// The asset is glTF 2; else only its header is looked at.
+    /// The asset is glTF 2; else only its header is checked.
     is_known: bool,
     /// Objects that are still to be checked.
     pub(super) open: Vec<(NodeId, &'static Object)>,
@@ -135,7 +135,7 @@ impl Walk<'_, '_, '_> {
             .add(&codes::GLTF_UNKNOWN, "UNEXPECTED_PROPERTY", name, message);
     }
 
-    /// Extras are anything, but for what rtc itself puts there.
+    /// Extras may be anything, except for those of rtc itself.
     fn extras(&mut self, value: NodeId, owner: &'static Object) {
         let rtc = self.report.json.get(value, "rtc");
         if let Some((node, object)) = rtc.zip(rtc_extras::find(owner.name))
@@ -186,7 +186,7 @@ impl Walk<'_, '_, '_> {
                 Some((_, object)) => self.missing(value, object, 0),
                 None => {
                     let message =
-                        format!("the extension `{name}` means nothing in a {}", owner.name);
+                        format!("the extension `{name}` has no meaning in a {}", owner.name);
                     self.report.add(
                         &codes::GLTF_EXTENSION,
                         "UNEXPECTED_EXTENSION_OBJECT",
@@ -198,8 +198,7 @@ impl Walk<'_, '_, '_> {
         }
     }
 
-    /// What an extension says of a part leans on what it says of the asset, if it says anything
-    /// there.
+    /// The extension of an object refers to that of the asset, if it has properties there.
     fn has_root(&mut self, name: &str, value: NodeId, owner: &Object) {
         let target = TARGETS
             .iter()
@@ -242,7 +241,7 @@ impl Walk<'_, '_, '_> {
         {
             Some(slot @ (Slot::Unused | Slot::Used)) => *slot = Slot::Used,
             Some(Slot::NoPart) => {
-                let message = format!("what is {index} in `{target}` is no object");
+                let message = format!("item {index} of `{target}` is no object");
                 self.report.add(
                     &codes::GLTF_REFERENCE,
                     "UNRESOLVED_REFERENCE",
@@ -265,7 +264,7 @@ impl Walk<'_, '_, '_> {
         }
     }
 
-    /// Notes what nothing refers to: it costs space and has no effect.
+    /// Reports entities that nothing refers to: they cost space and have no effect.
     fn report_unused(&mut self) {
         let json = self.report.json;
         for ((target, path), slots) in TARGETS.iter().zip(&self.slots) {

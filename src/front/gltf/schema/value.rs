@@ -1,4 +1,4 @@
-//! The value of one property against what its table says.
+//! The check of one property value against its table.
 
 use super::traverse::Walk;
 use super::{Bounds, IndexTarget, Value};
@@ -7,7 +7,7 @@ use rtc_source::tree::{NodeId, NodeKind};
 use std::collections::BTreeSet;
 
 impl Walk<'_, '_, '_> {
-    /// Checks the value of the property `name`; what lies in it is put off.
+    /// Checks the value of the property `name`; nested values are deferred.
     pub(super) fn value(&mut self, node: NodeId, value: &'static Value, name: &str) {
         match value {
             Value::Boolean => drop(self.expect(node, NodeKind::Bool, name)),

@@ -4,20 +4,20 @@ use super::super::WordSpan;
 use super::super::material_use::name;
 use crate::words::{Word, WordFault};
 
-/// A picture, and how it lies on a surface.
+/// An image, and its mapping onto a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MtlMap {
     /// The file.
     pub file: String,
-    /// `-s`: by what the texture coordinates are multiplied, any numbers.
+    /// `-s`: the scale of the texture coordinates, any numbers.
     pub scale: [f64; 2],
-    /// `-o`: what is added to them then, any numbers.
+    /// `-o`: the offset added after it, any numbers.
     pub offset: [f64; 2],
     /// `-clamp on`: beyond its edge the picture is as at it.
     pub clamps: bool,
     /// `-bm`: the height of a bump map, any number.
     pub height: f64,
-    /// Where the first of these options stands that says something.
+    /// The span of the first effective option.
     pub placed: Option<WordSpan>,
 }
 

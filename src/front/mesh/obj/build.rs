@@ -1,4 +1,4 @@
-//! The mesh of an OBJ, once it is known what is in the file and that it may be had.
+//! Builds the mesh of an OBJ, after its contents are checked and charged.
 
 use super::corner::{Corner, CornerCounts, indices};
 use super::smooth::Smoothing;
@@ -12,7 +12,7 @@ use rtc_math::{Column, to_u32};
 use rtc_source::{Budget, Exceeded, Resource};
 
 impl Check {
-    /// The mesh of a file without faults.
+    /// The mesh of a file without errors.
     pub(super) fn mesh(&mut self, bytes: &[u8], budget: &Budget) -> Result<Mesh, ParseFault> {
         let smoothing = self.smoothing(bytes, budget)?;
         let is_plain = self.used == [false; 2];
@@ -68,8 +68,8 @@ impl Check {
         Ok(smoothing)
     }
 
-    /// What lines and points show, each with the material that they ask for; all vertices as points
-    /// if nothing else is there.
+    /// The strokes of lines and points, each with its material; all vertices as points if there is
+    /// nothing else.
     fn drawn_meshes(&mut self, budget: &Budget) -> Result<Vec<(Named, Mesh)>, Exceeded> {
         let has_nothing = self.triangles == 0 && self.not_drawn.is_none();
         if self.strokes.is_empty() && !has_nothing {
@@ -96,8 +96,8 @@ impl Check {
         Ok(drawn_meshes)
     }
 
-    /// The mesh of a file whose corners are positions alone: those that are used, in the order of
-    /// their first use.
+    /// The mesh of a file whose corners are positions only: the used ones, in the order of first
+    /// use.
     fn plain(&mut self, bytes: &[u8]) -> Mesh {
         const UNUSED: u32 = u32::MAX;
         let mut vertex_of = vec![UNUSED; self.vertices.positions.len()];

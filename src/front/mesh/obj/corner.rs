@@ -2,10 +2,10 @@
 
 use crate::words::{Word, WordFault};
 
-/// How many there are of what corners refer to: positions, texture coordinates, normals.
+/// The counts of positions, texture coordinates and normals.
 pub(super) type CornerCounts = [usize; 3];
 
-/// What a corner refers to, from 0.
+/// The indices of a corner, from 0.
 pub(super) type Corner = [Option<u32>; 3];
 
 /// What corners refer to, in the order of their parts.

@@ -16,7 +16,7 @@ pub(super) struct Smoothing {
     before: usize,
 }
 
-/// The number of a group, 0 for none; `rest` is what follows `s`.
+/// The number of a group, 0 for none; `rest` is the text after `s`.
 pub(super) fn group(rest: &[Word<'_>]) -> u32 {
     match rest.first() {
         Some(word) if word.bytes == b"on" => 1,
@@ -30,7 +30,7 @@ pub(super) fn group(rest: &[Word<'_>]) -> u32 {
 }
 
 impl Smoothing {
-    /// The memory that so many corners take at most.
+    /// The maximum memory for the given number of corners.
     pub(super) fn at_most(corners: usize) -> u64 {
         // A list that grows by doubling, sums and normals.
         72 * corners as u64

@@ -4,7 +4,7 @@ use super::head::{NumberKind, PlyElement, PlyForm, PlyHead, PlyProperty};
 use crate::words::{Lines, Word, WordFault};
 use std::ops::Range;
 
-/// What is still to be read of a body.
+/// The rest of a body.
 pub(super) struct PlyBody<'a> {
     bytes: &'a [u8],
     form: PlyForm,
@@ -12,11 +12,11 @@ pub(super) struct PlyBody<'a> {
     at: usize,
     lines: Lines<'a>,
     words: Vec<Word<'a>>,
-    /// How many words of the line were read.
+    /// The number of words read from the line.
     used: usize,
     /// Whether each row may have a line of its own.
     is_by_lines: bool,
-    /// How many lines were begun.
+    /// The number of lines begun.
     line: usize,
     /// The line on which the row began, if at its start.
     row_line: Option<usize>,
@@ -63,7 +63,7 @@ impl<'a> PlyBody<'a> {
         self.bytes.len() - self.at
     }
 
-    /// Whether what is left is long enough for an element.
+    /// Whether the rest is long enough for an element.
     pub(super) fn has_room(&self, element: &PlyElement<'_>) -> bool {
         let properties = element.properties.iter();
         let row: usize = properties
@@ -74,7 +74,7 @@ impl<'a> PlyBody<'a> {
             .is_some_and(|all| all <= self.left() + 1)
     }
 
-    /// The next number, of a type; `element` is what promised it.
+    /// The next number, of a type; `element` announced it.
     pub(super) fn number(
         &mut self,
         kind: NumberKind,
@@ -177,19 +177,19 @@ impl<'a> PlyBody<'a> {
         self.value == number
     }
 
-    /// A fault at the line that is read, of a text.
+    /// An error at the current line of a text.
     pub(super) fn line_fault(&self, message: &str, label: &str) -> WordFault {
         let first = self.words.first().copied().unwrap_or(Word::START);
         first.fault(message, label)
     }
 
-    /// A fault at the number that was read last.
+    /// An error at the last number read.
     pub(super) fn fault(&self, message: &str, label: &str) -> WordFault {
         WordFault::new(self.last.clone(), message, label)
     }
 }
 
-/// Whether a text has at least so many lines that are not empty.
+/// Whether a text has at least the given number of non-empty lines.
 fn has_lines(text: &[u8], rows: usize) -> bool {
     let lines = text.split(|byte| matches!(byte, b'\n' | b'\r'));
     let mut lines = lines.filter(|line| !line.trim_ascii().is_empty());

@@ -24,7 +24,7 @@ pub(super) enum NumberKind {
     F64,
 }
 
-/// A kind of thing in the body: so many rows of properties.
+/// An element of the header: a number of rows of properties.
 #[derive(Debug)]
 pub(super) struct PlyElement<'a> {
     pub(super) name: Word<'a>,
@@ -108,7 +108,7 @@ impl PlyElement<'_> {
     }
 }
 
-/// What the head says.
+/// The header.
 pub(super) struct PlyHead<'a> {
     pub(super) elements: Vec<PlyElement<'a>>,
     pub(super) form: PlyForm,
@@ -149,7 +149,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PlyHead<'_>, WordFault> {
             }
             (b"end_header", _) => {
                 let form = form
-                    .ok_or_else(|| words[0].fault("the head says no `format`", "it ends here"))?;
+                    .ok_or_else(|| words[0].fault("the header has no `format`", "it ends here"))?;
                 return Ok(PlyHead {
                     elements,
                     form,
@@ -167,7 +167,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PlyHead<'_>, WordFault> {
     Err(Word::START.fault("the head has no `end_header`", "in this file"))
 }
 
-/// Where the line of a word ends.
+/// The end of the line of a word.
 fn end(word: &Word<'_>, bytes: &[u8]) -> usize {
     let end = word.range().end;
     let rest = &bytes[end..];
@@ -182,7 +182,7 @@ fn form_of(word: &Word<'_>) -> Result<PlyForm, WordFault> {
         b"ascii" => Ok(PlyForm::Text),
         b"binary_little_endian" => Ok(PlyForm::LittleEndian),
         b"binary_big_endian" => Ok(PlyForm::BigEndian),
-        _ => Err(word.fault(format!("there is no form `{}`", word.text()), "unknown")),
+        _ => Err(word.fault(format!("there is no format `{}`", word.text()), "unknown")),
     }
 }
 

@@ -59,7 +59,7 @@ fn transforms(bits: &mut BitReader<'_>, size: ImageSize) -> Option<u32> {
     Some(width)
 }
 
-/// The number of pixels packed into one for so many colours, as a power of two.
+/// The number of pixels packed into one for a number of colours, as a power of two.
 fn packing(colors: u32) -> u32 {
     match colors {
         0..=2 => 3,

@@ -17,7 +17,7 @@ pub(super) struct WebP<'a> {
     pixel: u64,
     /// Its memory for the prefix codes, in bytes.
     codes: u64,
-    /// A fault before the pixels. It is reported after the memory for the pixels is granted.
+    /// An error before the pixels. It is reported after the memory for the pixels is granted.
     fault: Option<DecodeError>,
 }
 

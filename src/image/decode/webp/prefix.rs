@@ -1,13 +1,13 @@
-//! The prefix codes of a lossless picture, and the bits that they stand in.
+//! The prefix codes of a lossless picture, and their bit stream.
 //!
-//! Where the decoder departs from the specification, as in the order of two symbols, this follows
-//! the decoder, so that both find the same codes; but what is no complete code is refused, for the
-//! decoder does not notice all of that.
+//! Where the decoder deviates from the specification, as in the order of two symbols, this follows
+//! the decoder, so that both find the same codes. Incomplete codes are rejected, since the decoder
+//! does not detect all of them.
 
-/// What the decoder keeps of each code, beside its tables.
+/// The memory of the decoder per code, beside its tables.
 pub(super) const CODE: u64 = 56;
 
-/// What two allocations take beside what they hold, at most.
+/// The maximum overhead of two allocations.
 const ALLOCATIONS: u64 = 64;
 
 /// The longest code, in bits.
@@ -23,7 +23,7 @@ pub(super) struct BitReader<'a> {
 }
 
 impl<'a> BitReader<'a> {
-    /// The bits of these bytes but the first so many.
+    /// The bits of these bytes without the first ones.
     pub(super) fn of(bytes: &'a [u8], at: usize) -> Self {
         Self { bytes, at }
     }
@@ -49,7 +49,7 @@ impl<'a> BitReader<'a> {
         (self.at <= self.bytes.len().saturating_mul(8)).then_some(())
     }
 
-    /// A number of so many bits, at most 32.
+    /// A number of at most 32 bits.
     pub(super) fn read(&mut self, count: u32) -> Option<u32> {
         let number = self.peek() & ((1 << count) - 1);
         self.pass(count as usize)?;
@@ -72,7 +72,7 @@ pub(super) struct PrefixCode {
 }
 
 impl PrefixCode {
-    /// Reads a code of so many symbols.
+    /// Reads a code of this many symbols.
     pub(super) fn read(bits: &mut BitReader<'_>, alphabet: u16) -> Option<Self> {
         if bits.flag()? {
             Self::simple(bits, alphabet)
@@ -175,9 +175,9 @@ fn tables(counts: &[u16; LONGEST + 1]) -> u64 {
     (4 << longest.min(TABLE)) + 32 * longer + ALLOCATIONS
 }
 
-/// Reads the lengths of the codes of so many symbols, which have a code of their own.
+/// Reads the code lengths of this many symbols, which have a code of their own.
 fn lengths(bits: &mut BitReader<'_>, alphabet: u16) -> Option<Vec<u8>> {
-    /// The lengths of the codes of lengths are told in this order.
+    /// The order of the lengths of the code lengths.
     const ORDER: [usize; 19] = [
         17, 18, 0, 1, 2, 3, 4, 5, 16, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15,
     ];

@@ -16,7 +16,7 @@ use super::builder::PlanBuilder;
 use crate::rules::Rule;
 use rtc_ir::ValuePath;
 
-/// A rule: its name, its text and its proof.
+/// A rule: its name, its statement and its proof.
 pub(crate) struct PathRule {
     /// The switch of the rule.
     pub(crate) rule: Rule,
@@ -26,8 +26,8 @@ pub(crate) struct PathRule {
     pub(crate) text: &'static str,
     /// The reason why an effect is not needed: lower case, no full stop.
     pub(crate) reason: &'static str,
-    /// Removes the parts that contribute zero; returns the scene values that decided, none if
-    /// nothing changed.
+    /// Removes the parts that contribute zero; returns the scene values that decided, or an empty
+    /// list if nothing changed.
     pub(super) apply: fn(&mut PlanBuilder<'_>) -> Vec<ValuePath>,
 }
 

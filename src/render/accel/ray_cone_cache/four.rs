@@ -8,7 +8,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4};
 
 impl RayCone {
-    /// The lanes whose rays it holds.
+    /// The lanes whose rays the cone contains.
     #[inline(always)]
     fn holds_each<S: Simd>(&self, simd: S, rays: &Ray4<S>) -> u64 {
         let from = rays.origin.minus(Vectors::splat(simd, self.origin));
@@ -20,7 +20,7 @@ impl RayCone {
 }
 
 impl Shaft {
-    /// The lanes whose points it holds.
+    /// The lanes whose points the cone contains.
     #[inline(always)]
     fn holds_each<S: Simd>(&self, light: usize, from: Vectors<S>) -> u64 {
         if self.light != light {
@@ -33,8 +33,8 @@ impl Shaft {
 }
 
 impl RayConeCache {
-    /// As [`Self::along`], of the rays of some lanes: those that a cone answers, and the items that
-    /// one of them may meet.
+    /// As [`Self::along`], for the rays of some lanes: those that a cone contains, and the items
+    /// that one of them may hit.
     #[inline(always)]
     pub(crate) fn along_each<S: Simd>(
         &mut self,
@@ -42,30 +42,30 @@ impl RayConeCache {
         balls: &BoundingSpheres,
         bounce: usize,
         rays: &Ray4<S>,
-        asked: u64,
+        active: u64,
     ) -> (u64, u64) {
         let cone = &mut self.cones[bounce % LEVELS];
-        let (mut said, mut items, mut left) = (0, 0, asked);
-        let mut held = asked & cone.holds_each(simd, rays);
+        let (mut answered, mut items, mut left) = (0, 0, active);
+        let mut contained = active & cone.holds_each(simd, rays);
         while left != 0 {
-            if held == 0 && cone.pace.pauses(left.count_ones()) {
-                return (said | (left & are_sound(simd, rays)), balls.all);
+            if contained == 0 && cone.pace.pauses(left.count_ones()) {
+                return (answered | (left & are_sound(simd, rays)), balls.all);
             }
-            if held == 0 {
+            if contained == 0 {
                 let lane = left.trailing_zeros() as usize;
-                held = 1 << lane;
+                contained = 1 << lane;
                 let Some(around) = cone.around(&rays.lane(lane), balls) else {
-                    (left, held) = (left & !held, 0);
+                    (left, contained) = (left & !contained, 0);
                     continue;
                 };
                 *cone = around;
-                held |= left & cone.holds_each(simd, rays);
+                contained |= left & cone.holds_each(simd, rays);
             }
-            cone.pace.uses += held.count_ones();
-            (said, items) = (said | held, items | cone.items);
-            (left, held) = (left & !held, 0);
+            cone.pace.uses += contained.count_ones();
+            (answered, items) = (answered | contained, items | cone.items);
+            (left, contained) = (left & !contained, 0);
         }
-        (said, items)
+        (answered, items)
     }
 
     /// As [`Self::towards`], from the points of some lanes: 0 in the others.
@@ -75,28 +75,28 @@ impl RayConeCache {
         balls: &BoundingSpheres,
         [bounce, light, lights]: [usize; 3],
         from: Vectors<S>,
-        asked: u64,
+        active: u64,
         target: impl Fn() -> BoundingSphere,
     ) -> [u64; LANES] {
         let shaft = self.shaft([bounce, light, lights]);
         let mut items = [0; LANES];
-        let mut held = asked & shaft.holds_each(light, from);
-        let mut left = asked;
+        let mut contained = active & shaft.holds_each(light, from);
+        let mut left = active;
         while left != 0 {
-            if held == 0 && shaft.pace.pauses(left.count_ones()) {
+            if contained == 0 && shaft.pace.pauses(left.count_ones()) {
                 lanes_of(left).for_each(|lane| items[lane] = balls.all);
                 return items;
             }
-            if held == 0 {
+            if contained == 0 {
                 let lane = left.trailing_zeros() as usize;
                 *shaft = shaft.around(balls, light, from.lane(lane), &target());
-                held = 1 << lane | (left & shaft.holds_each(light, from));
+                contained = 1 << lane | (left & shaft.holds_each(light, from));
             }
-            for lane in lanes_of(held) {
+            for lane in lanes_of(contained) {
                 items[lane] = shaft.items;
             }
-            shaft.pace.uses += held.count_ones();
-            (left, held) = (left & !held, 0);
+            shaft.pace.uses += contained.count_ones();
+            (left, contained) = (left & !contained, 0);
         }
         items
     }

@@ -27,11 +27,11 @@ const ONE: f64 = 1.0 / 1_073_741_824.0;
 /// The widest cone, by its sine.
 const WIDEST: f64 = 0.5;
 
-/// The spheres of a few items, each known by a bit.
+/// The bounding spheres of a few items, each with a bit.
 #[derive(Debug)]
 pub(crate) struct BoundingSpheres {
     balls: Vec<(u64, BoundingSphere)>,
-    /// The items without a sphere: every ray may meet them.
+    /// The items without a sphere: every ray may hit them.
     unbounded: u64,
     /// All items.
     all: u64,
@@ -63,8 +63,8 @@ impl BoundingSpheres {
         }
     }
 
-    /// The least of the clearances given that is as large as wanted, or what is wanted, and the
-    /// items with less than that.
+    /// The least of the given clearances that is at least `wanted`, or `wanted`, and the items with
+    /// less than that.
     fn choose(&self, wanted: f64, floor: f64, clearances: &ArrayVec<f64, MAX_ITEMS>) -> (f64, u64) {
         let large = clearances.iter().filter(|clearance| **clearance >= wanted);
         let room = large.copied().reduce(f64::min).unwrap_or(wanted);
@@ -78,12 +78,12 @@ impl BoundingSpheres {
     }
 }
 
-/// How wide the next cone is to be: cones that few rays used become wider, those that many used
-/// narrower. It changes how long something takes, never what is found.
+/// The width of the next cone: wider after a cone with few rays, narrower after one with many. It
+/// changes the speed only, never the hits.
 #[derive(Clone, Copy, Debug)]
 struct ConeSizeHeuristic {
     uses: u32,
-    /// The width wanted, in radii of the smallest sphere.
+    /// The width, in radii of the smallest sphere.
     width: f64,
     /// How many rays are yet to go without a cone, and one more; 0 outside of a pause.
     pause: u32,
@@ -91,13 +91,13 @@ struct ConeSizeHeuristic {
 
 impl ConeSizeHeuristic {
     const START: Self = Self {
-        uses: Self::FEW,
+        uses: Self::MIN_USES,
         width: 0.125,
         pause: 0,
     };
 
-    /// A cone of fewer rays costs more than it saves rays that are asked four at a time.
-    const FEW: u32 = 16;
+    /// A cone for fewer rays costs more than it saves rays that are tested four at a time.
+    const MIN_USES: u32 = 16;
 
     /// The number of rays that skip the cache after a cone with few uses.
     const PAUSE: u32 = 64;
@@ -118,7 +118,7 @@ impl ConeSizeHeuristic {
     /// Whether the next `rays` rays skip the cache.
     #[inline(always)]
     fn pauses(&mut self, rays: u32) -> bool {
-        if self.pause == 0 && self.uses < Self::FEW {
+        if self.pause == 0 && self.uses < Self::MIN_USES {
             self.pause = Self::PAUSE;
         }
         let should_continue = self.pause > 1;
@@ -139,7 +139,7 @@ struct RayCone {
     near: f64,
     /// The largest squared distance of their directions.
     alike: f64,
-    /// The items that they may meet.
+    /// The items that they may hit.
     items: u64,
     pace: ConeSizeHeuristic,
 }
@@ -232,7 +232,7 @@ struct Shaft {
     from: Vec3,
     /// The largest squared distance from there; below 0 for no cone.
     near: f64,
-    /// The items that they may meet.
+    /// The items that they may hit.
     items: u64,
     pace: ConeSizeHeuristic,
 }
@@ -277,8 +277,8 @@ impl Shaft {
     }
 }
 
-/// How far a sphere stays off a segment: as far as both ends of it may be moved without meeting the
-/// sphere. Below 0 if it may be met.
+/// The clearance of a sphere from a segment: how far both ends may move without a hit. Below 0 if
+/// the segment may hit the sphere.
 fn segment_clearance(from: Vec3, to: Vec3, ball: &BoundingSphere) -> f64 {
     let (f, d) = (ball.center - from, to - from);
     let size = (from.abs() + to.abs() + ball.center.abs()).element_sum() + ball.radius;
@@ -306,7 +306,7 @@ impl RayConeCache {
         shafts: [Shaft::EMPTY; SHAFTS],
     };
 
-    /// The items that a ray after so many bounces may meet; `None` if no cone contains the ray.
+    /// The items that a ray after this many bounces may hit; `None` if no cone contains the ray.
     #[inline(always)]
     pub(crate) fn along(
         &mut self,
@@ -322,8 +322,7 @@ impl RayConeCache {
         Some(cone.items)
     }
 
-    /// The items that may stand between a point, after so many bounces, and the points of a light,
-    /// one of so many.
+    /// The items that may occlude a light, one of several, from a point after this many bounces.
     #[inline(always)]
     pub(crate) fn towards(
         &mut self,
@@ -340,8 +339,8 @@ impl RayConeCache {
         shaft.items
     }
 
-    /// The cone of the shadow rays after so many bounces to a light, one of so many. Late bounces
-    /// share one where there are many lights.
+    /// The cone of the shadow rays after this many bounces to a light, one of several. Late bounces
+    /// share one if there are many lights.
     #[inline(always)]
     fn shaft(&mut self, [bounce, light, lights]: [usize; 3]) -> &mut Shaft {
         let levels = (SHAFTS / lights.max(1)).max(1);

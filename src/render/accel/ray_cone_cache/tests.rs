@@ -10,7 +10,7 @@ use crate::shape::torus::Torus;
 use crate::shape::triangle::WatertightRay;
 use rayon::prelude::*;
 
-/// The names of the families of scenes, the size of their shapes, and how far off they stand.
+/// The names of the families of scenes, the size of their shapes, and their distance.
 const FAMILIES: [(&str, f64, f64); 5] = [
     ("generic", 1.0, 3.0),
     ("close by", 1.0, 1.001),
@@ -75,7 +75,7 @@ impl Case {
     }
 }
 
-/// Sums the hits and the faults that `intersect4` finds in the cases of each family.
+/// Sums the hits and the errors of `intersect4` in the cases of each family.
 fn no_fault(what: &str, intersect4: impl Fn(&Case) -> [u64; 2] + Sync) {
     let cases = std::env::var("RTC_RAYS")
         .ok()
@@ -157,8 +157,8 @@ fn no_shaft_passes_over_what_one_of_its_segments_hits() {
     });
 }
 
-/// Four rays, or the starts of four segments, at a time, near one another or far apart: with cones
-/// and in the pauses between them.
+/// Four rays, or the starts of four segments, at a time, close together or far apart: with cones,
+/// and while the cache is skipped.
 #[test]
 fn four_lanes_are_told_of_all_that_each_may_hit() {
     let simd = baseline();
@@ -181,8 +181,8 @@ fn four_lanes_are_told_of_all_that_each_may_hit() {
                 }
             });
             let four = Ray4::each(simd, &rays);
-            let (said, items) = bundles.along_each(simd, &balls, 0, &four, 0b1101);
-            assert_eq!(said, 0b1101);
+            let (answered, items) = bundles.along_each(simd, &balls, 0, &four, 0b1101);
+            assert_eq!(answered, 0b1101);
             let between = bundles.towards_each(&balls, [0, 0, 1], four.origin, 0b1011, || target);
             assert_eq!(between[2], 0);
             for (lane, ray) in rays.iter().enumerate() {
@@ -190,14 +190,14 @@ fn four_lanes_are_told_of_all_that_each_may_hit() {
                     direction: target.center - ray.origin,
                     ..*ray
                 };
-                let met = case.hits(ray, f64::INFINITY);
+                let hit_items = case.hits(ray, f64::INFINITY);
                 let hidden = case.hits(&segment, 1.0);
-                assert!(lane == 1 || met & !items == 0, "{index} {k} {lane}");
+                assert!(lane == 1 || hit_items & !items == 0, "{index} {k} {lane}");
                 assert!(
                     lane == 2 || hidden & !between[lane] == 0,
                     "{index} {k} {lane}"
                 );
-                hits += u64::from(met != 0) + u64::from(hidden != 0);
+                hits += u64::from(hit_items != 0) + u64::from(hidden != 0);
                 fewer += u64::from(items != balls.all) + u64::from(between[lane] != balls.all);
             }
         }
@@ -218,14 +218,14 @@ fn rays_that_are_not_of_length_one_or_not_finite_have_no_cone() {
     for (origin, direction) in rays {
         let ray = Ray { origin, direction };
         assert!(RayCone::EMPTY.around(&ray, &balls).is_none());
-        // With a cone that is asked for, and in a pause.
+        // With a requested cone, and while the cache is skipped.
         let (simd, mut bundles) = (baseline(), RayConeCache::EMPTY);
         let four = Ray4::each(simd, &[ray, case.ray, case.ray, ray]);
         for pause in [0, ConeSizeHeuristic::PAUSE] {
             bundles.cones[0].near = -1.0;
             bundles.cones[0].pace.pause = pause;
-            let (said, _) = bundles.along_each(simd, &balls, 0, &four, 0b1111);
-            assert_eq!(said, 0b0110);
+            let (answered, _) = bundles.along_each(simd, &balls, 0, &four, 0b1111);
+            assert_eq!(answered, 0b0110);
         }
     }
     assert!(!RayCone::EMPTY.holds(&case.ray));

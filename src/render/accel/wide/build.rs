@@ -19,10 +19,10 @@ use rtc_math::{Bounds, Vec3, to_u32};
 /// A link to a leaf counts no more triangles, which would take 21 GB.
 pub(crate) const MOST: usize = 1 << 29;
 
-/// Parts of so few triangles are built by one thread.
+/// Ranges of so few triangles are built by one thread.
 const ALONE: usize = 4096;
 
-/// Who builds a BVH.
+/// The builder of a BVH.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Builders {
     /// This thread. It must be so where others wait until the BVH is there: a thread that is helped
@@ -87,7 +87,7 @@ impl Wide {
     }
 }
 
-/// What leaves are made of, and by whom.
+/// The source of leaves, and their builder.
 struct Leaves<C> {
     builders: Builders,
     frame: QuantizationFrame,
@@ -95,7 +95,7 @@ struct Leaves<C> {
 }
 
 impl<C: Fn(u32) -> [Vec3; 3]> Leaves<C> {
-    /// Makes some items a leaf where they are; whether it holds their corners exactly.
+    /// Makes some items a leaf in place; returns whether it has their exact corners.
     fn fill(&self, items: &mut [TriangleRow]) -> bool {
         let numbers: ArrayVec<u32, TRIANGLES> = items.iter().map(BoxedItem::number).collect();
         let leaf = items.as_flattened_mut();
@@ -127,7 +127,7 @@ struct GrownBranch {
     is_exact: bool,
 }
 
-/// A part that is left for later, and where the link to it goes.
+/// A range deferred to later, and the address of its link.
 struct LeftPart<'items> {
     part: BuildRange<'items>,
     depth: usize,
@@ -194,8 +194,8 @@ impl BuildBranch {
         }
     }
 
-    /// Adds what is needed for a part and returns the link to it. `take` may keep what hangs below
-    /// a node for later.
+    /// Adds the node of a range and returns the link to it. `take` may defer the children of a
+    /// node.
     fn grow<'items, C: Fn(u32) -> [Vec3; 3]>(
         &mut self,
         part: BuildRange<'items>,
@@ -230,8 +230,7 @@ impl BuildBranch {
     }
 }
 
-/// The node of some children, without their links; the boxes of those that are not there are met by
-/// no ray.
+/// The node of some children, without their links; no ray hits the boxes of missing ones.
 fn node(children: &[BuildRange<'_>]) -> WideNode {
     let mut node = [0.0; LINKS + 2 * WIDTH];
     for axis in 0..3 {

@@ -1,6 +1,6 @@
 //! An 8-wide BVH over triangles. It finds candidates; the visitor computes the hits.
 //!
-//! A node holds the boxes of up to eight children, a leaf the corners of up to four triangles, both
+//! A node has the boxes of up to eight children, a leaf the corners of up to four triangles, both
 //! in f32 in a cube around the geometry. One SIMD operation tests all of them against a ray.
 
 mod build;
@@ -20,8 +20,7 @@ pub(crate) use traverse::Visitor;
 /// Below this depth the heuristic chooses; above it the middle, which needs at most 12 more.
 const HEURISTIC_DEPTH: usize = 16;
 
-/// What a traversal has left for later, with where the ray enters it: each level leaves at most
-/// seven children.
+/// The traversal stack, with the entry point of each node: a level adds at most seven children.
 type TraversalStack = ArrayVec<(f32, u32), { (HEURISTIC_DEPTH + 12) * (WIDTH - 1) + 1 }>;
 
 /// The bit of a link that leads to a leaf; the two lowest are then one less than the triangles in

@@ -53,7 +53,7 @@ impl Wide {
         let Some(any) = conservative_rays.iter().flatten().next().copied() else {
             return;
         };
-        // A ray without a conservative ray goes along with another's, and has ended.
+        // A ray without a conservative ray copies another one, and is finished.
         let mut full = [any; RAYS];
         let mut limits = [[ENDED; RAYS]; 2];
         for lane in 0..RAYS {
@@ -83,8 +83,8 @@ impl Wide {
         packet_traversal.traverse(simd);
     }
 
-    /// The conservative ray of a ray; `None` if it meets nothing, or where arithmetic cannot decide
-    /// and all triangles have been visited.
+    /// The conservative ray of a ray; `None` if it misses, or where arithmetic cannot decide and
+    /// all triangles have been visited.
     #[inline(always)]
     pub(super) fn conservative_ray<V: Visitor>(
         &self,
@@ -145,19 +145,19 @@ impl<S: Simd, V: Visitor> PacketTraversal<'_, '_, S, V> {
         None
     }
 
-    /// The nearest of the children of a node that the rays may meet; the others are left for later.
-    /// A leaf is one only if some ray meets it for itself.
+    /// The nearest of the children of a node that the rays may hit; the others are pushed. A leaf
+    /// counts only if some ray hits it individually.
     #[inline(always)]
     fn nearest_child(&mut self, simd: S, link: u32) -> Option<u32> {
         let node = &self.wide.nodes.rows()[link as usize];
-        let (mut met, enter) = self.packet.meet(simd, node, self.t_far);
+        let (mut hit_children, enter) = self.packet.meet(simd, node, self.t_far);
         let mut nearest = None;
-        while met != 0 {
-            let lane = met.trailing_zeros() as usize & (WIDTH - 1);
-            met &= met - 1;
+        while hit_children != 0 {
+            let lane = hit_children.trailing_zeros() as usize & (WIDTH - 1);
+            hit_children &= hit_children - 1;
             let child = (enter[lane], node[LINKS + lane].to_bits());
             let is_leaf = child.1 & LEAF != 0;
-            if is_leaf && !self.packet.is_met(simd, node, lane, &self.limits[0]) {
+            if is_leaf && !self.packet.is_hit(simd, node, lane, &self.limits[0]) {
                 continue;
             }
             match nearest {

@@ -14,7 +14,7 @@ const BINS: usize = 16;
 /// So many items are put into bins by one thread at a time.
 const CHUNK: usize = 1 << 14;
 
-/// The bins of an axis of so many items: few items need few.
+/// The bins of an axis for this many items: few items need few.
 #[inline(always)]
 fn bins_of(count: usize) -> usize {
     (4 + count / 4).min(BINS)
@@ -29,7 +29,7 @@ pub(super) trait BoxedItem {
     /// Its number.
     fn number(&self) -> u32;
 
-    /// The lowest corner of its box; the fourth lane means nothing.
+    /// The lowest corner of its box; the fourth lane is unused.
     fn low(&self) -> Lanes;
 
     /// The highest one.
@@ -63,7 +63,7 @@ impl BoxedItem for TriangleRow {
     }
 }
 
-/// A box, whose fourth lanes mean nothing.
+/// A box, with unused fourth lanes.
 #[derive(Clone, Copy)]
 struct LaneBox {
     min: Lanes,
@@ -109,11 +109,11 @@ struct SplitPlane {
     sides: [LaneBox; 2],
 }
 
-/// The bins of all axes: the box of what is in each, and how much that is.
+/// The bins of all axes: the box and the count of each.
 type Bins = ArrayVec<[(LaneBox, u32); 3], BINS>;
 
 impl<'items> BuildRange<'items> {
-    /// All of some items, of which the first is in this row.
+    /// A range of items, the first of which is in this row.
     pub(super) fn of(first: usize, items: &'items mut [TriangleRow]) -> Self {
         let (mut bounds, mut centers) = (LaneBox::EMPTY, LaneBox::EMPTY);
         for item in items.iter() {
@@ -129,21 +129,22 @@ impl<'items> BuildRange<'items> {
         }
     }
 
-    /// Whether it is large, with all boxes at one place, and some of its triangles may be the same.
+    /// Whether it is large, with all boxes at one position, and some of its triangles may be the
+    /// same.
     pub(super) fn may_hold_copies(&self) -> bool {
         let is_point = |axis: usize| self.centers.min[axis] == self.centers.max[axis];
         !self.is_sifted && self.items.len() > TRIANGLES && (0..3).all(is_point)
     }
 
-    /// The same without those that have the corners of one with a lower number, which is what a ray
-    /// hits that meets both. Their rows stay unused.
+    /// The same without triangles that have the corners of one with a lower number, which is the
+    /// hit of a ray through both. Their rows stay unused.
     pub(super) fn without_copies(self, corners: impl Fn(u32) -> [Vec3; 3]) -> Self {
         self.items.sort_unstable_by_key(BoxedItem::number);
         let mut known = BTreeSet::new();
         let mut kept = 0;
         for at in 0..self.items.len() {
             let corners = corners(self.items[at].number());
-            // Zeros of both signs are one place.
+            // Zeros of both signs are equal.
             let bits = corners.map(|corner| (corner + Vec3::ZERO).to_array().map(f64::to_bits));
             if known.insert(bits) {
                 self.items.swap(kept, at);
@@ -161,8 +162,8 @@ impl<'items> BuildRange<'items> {
         [self.bounds.min[axis], self.bounds.max[axis]]
     }
 
-    /// Its parts, at most eight: the one that is met most often is split next, which has the
-    /// largest area, or, deep down, the most items.
+    /// Its parts, at most eight: the one with the largest area, which is hit most often, is split
+    /// next, or, deep down, the one with the most items.
     pub(super) fn into_children(self, builders: Builders, depth: usize) -> ArrayVec<Self, WIDTH> {
         let is_deep = depth >= HEURISTIC_DEPTH;
         let weight = |part: &Self| match part.items.len() {
@@ -266,7 +267,7 @@ impl<'items> BuildRange<'items> {
     }
 }
 
-/// Bins with nothing in them.
+/// Empty bins.
 #[inline(always)]
 fn empty_bins(count: usize) -> Bins {
     let mut bins = Bins::new();
@@ -300,7 +301,7 @@ fn merged(mut bins: Bins, others: Bins) -> Bins {
     bins
 }
 
-/// The bin of a place.
+/// The bin of a position.
 #[inline(always)]
 #[expect(
     clippy::cast_possible_truncation,

@@ -180,9 +180,9 @@ impl<S: Simd> Traversal<'_, S> {
     fn step<V: Visitor>(&mut self, simd: S, visitor: &mut V) -> TraversalStep {
         if self.link & LEAF == 0 {
             let node = &self.nodes[self.link as usize];
-            let (met, enter) = self.boxes.meet(simd, node, self.t_far);
-            if met != 0 {
-                self.link = nearest(&mut self.open, met, &enter, node);
+            let (hit_children, enter) = self.boxes.meet(simd, node, self.t_far);
+            if hit_children != 0 {
+                self.link = nearest(&mut self.open, hit_children, &enter, node);
                 return TraversalStep::GoesOn;
             }
         } else if self.visit_leaf(simd, visitor) == TraversalStep::Ends {
@@ -264,22 +264,27 @@ pub(super) fn lanes_of(mut bits: u32) -> impl Iterator<Item = usize> {
     })
 }
 
-/// The nearest of the children met; the others are left for later.
+/// The nearest of the hit children; the others are pushed.
 #[inline(always)]
-fn nearest(open: &mut TraversalStack, mut met: u32, enter: &[f32; WIDTH], node: &WideNode) -> u32 {
-    let child = |met: u32| {
-        let lane = met.trailing_zeros() as usize & (WIDTH - 1);
+fn nearest(
+    open: &mut TraversalStack,
+    mut hit_children: u32,
+    enter: &[f32; WIDTH],
+    node: &WideNode,
+) -> u32 {
+    let child = |hit_children: u32| {
+        let lane = hit_children.trailing_zeros() as usize & (WIDTH - 1);
         (enter[lane], node[LINKS + lane].to_bits())
     };
-    let mut first = child(met);
-    met &= met - 1;
-    while met != 0 {
-        let mut other = child(met);
+    let mut first = child(hit_children);
+    hit_children &= hit_children - 1;
+    while hit_children != 0 {
+        let mut other = child(hit_children);
         if other.0 < first.0 {
             (first, other) = (other, first);
         }
         open.push(other);
-        met &= met - 1;
+        hit_children &= hit_children - 1;
     }
     first.1
 }

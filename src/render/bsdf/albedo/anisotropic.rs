@@ -32,7 +32,7 @@ pub(crate) fn mean(surface: Ggx) -> Split {
     Split { e0, e90 }
 }
 
-/// Of each pair of widths, by the midpoint rule over what look-ups will give: ∫ 2μ·E(μ) dμ, μ = x².
+/// For each pair of widths, by the midpoint rule over interpolated entries: ∫ 2μ·E(μ) dμ, μ = x².
 #[expect(clippy::cast_possible_truncation, reason = "the tables are of f32")]
 fn means() -> Vec<[f32; 2]> {
     const STEPS: u32 = 64;

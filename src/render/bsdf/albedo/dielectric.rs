@@ -4,8 +4,8 @@
 use super::{Split, interpolate, stored};
 use std::sync::LazyLock;
 
-/// Entries along the index, denser towards 1: entry i is at 1 + 2·(i/(n − 1))², and 3 stands for
-/// more.
+/// Entries along the index, denser towards 1: entry i is at 1 + 2·(i/(n − 1))², and 3 includes
+/// larger ones.
 pub(super) const INDICES: usize = 24;
 
 /// Entries along the roughness.
@@ -19,7 +19,7 @@ pub(super) const COSINES: usize = 24;
 pub(super) static STORED: [u8; 7 * 2 * INDICES * ROUGHNESSES * COSINES] =
     *include_bytes!("dielectric.bin");
 
-/// What is reflected and transmitted from inside: `total + f0·e0 + f90·e90`.
+/// The reflected and transmitted light from inside: `total + f0·e0 + f90·e90`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct InsideAlbedo {
     total: f64,
@@ -34,15 +34,15 @@ impl InsideAlbedo {
     }
 }
 
-/// What is reflected, and what would be refracted if nothing were reflected, by the terms of f0 and
-/// f90.
+/// The reflected light, and the light that would be refracted without reflection, by the terms of
+/// f0 and f90.
 pub(crate) fn outside(ior: f64, roughness: f64, cosine: f64) -> [Split; 2] {
     let [r0, r90, t0, t90, ..] = look_up(ior, roughness, cosine);
     let split = |e0, e90| Split { e0, e90 };
     [split(r0, r90), split(t0, t90)]
 }
 
-/// What is reflected and transmitted from inside.
+/// The reflected and transmitted light from inside.
 pub(crate) fn inside(ior: f64, roughness: f64, cosine: f64) -> InsideAlbedo {
     let [.., total, e0, e90] = look_up(ior, roughness, cosine);
     let split = Split { e0, e90 };

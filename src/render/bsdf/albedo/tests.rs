@@ -50,7 +50,7 @@ fn mirrored(wo: Vec3, h: Vec3) -> Vec3 {
     h * (2.0 * wo.dot(h)) - wo
 }
 
-/// Both terms of what is reflected by a curve of reflectance.
+/// Both terms of the light reflected by a reflectance curve.
 fn reflected(wo: Vec3, h: Vec3, weight: &dyn Fn(Vec3) -> f64, curve: f64) -> [f64; 2] {
     let wi = mirrored(wo, h);
     let weight = if wi.z > 0.0 { weight(wi) } else { 0.0 };
@@ -68,7 +68,7 @@ fn view(cosine: f64) -> Vec3 {
     Vec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine)
 }
 
-/// What a visible normal of glass adds to its seven numbers.
+/// The contribution of a visible normal of glass to its seven numbers.
 fn integrated_dielectric(ior: f64, ggx: Ggx, wo: Vec3) -> [f64; 7] {
     let transmitted = |h: Vec3, eta: f64, beyond: f64, weight: &dyn Fn(Vec3) -> f64, curve: f64| {
         let wi = h * (wo.dot(h) / eta - beyond) - wo / eta;
@@ -135,7 +135,7 @@ fn anisotropic_table() -> Vec<f64> {
     numbers
 }
 
-/// Compares a table with what it is to hold, or writes it.
+/// Compares a table with the expected one, or writes it.
 #[expect(clippy::disallowed_methods, reason = "this is how the tables are made")]
 fn is_stored(name: &str, bytes: &[u8], stored: &[u8]) {
     if std::env::var_os("RTC_UPDATE").is_some() {

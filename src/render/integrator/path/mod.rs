@@ -45,7 +45,7 @@ pub(crate) struct PathTracer<'world, S, const F: u32> {
     /// Whether rough surfaces keep the light that bounces between their facets.
     multiple_scattering: bool,
     strategy: Strategy,
-    /// Whether vertices have all details, not only those that their materials need.
+    /// Whether vertices have all shading attributes, not only those that their materials need.
     knows_all: bool,
     /// The background for camera rays that hit nothing.
     background: Background,
@@ -159,8 +159,8 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             .map_or(state.radiance, |limit| self.clamp(&state, limit))
     }
 
-    /// The radiance of a path of which the first vertex brings all its light, and the others no
-    /// more in any channel than the limit.
+    /// The radiance of a path with the full contribution of its first vertex and the others clamped
+    /// to the limit in each channel.
     fn clamp(&mut self, state: &PathState, limit: f64) -> Vec3 {
         let first = match state.bounces {
             0 => state.radiance,

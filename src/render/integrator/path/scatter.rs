@@ -154,7 +154,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         }
     }
 
-    /// Counts what was evaluated of a material.
+    /// Counts the evaluations of a material.
     #[inline]
     fn count_shading(
         &mut self,
@@ -202,7 +202,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             return Vec3::ZERO;
         };
         self.counts.add(Effect::DirectLight);
-        // Of all lights, only the environment has a density and no place.
+        // Of all lights, only the environment has a density and no position.
         if pdf.is_some() && place.is_none() {
             self.count_environment_map();
         }

@@ -20,7 +20,7 @@ pub(super) struct PathState {
     pub(super) beta: Vec3,
     /// The radiance found so far.
     pub(super) radiance: Vec3,
-    /// What of it was found at the first vertex, after a bounce.
+    /// The part of it from the first vertex, after a bounce.
     pub(super) radiance_of_first: Vec3,
     pub(super) sobol: Sobol,
     /// The number of bounces so far.

@@ -37,11 +37,11 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             let hit = self.next_hit(state)?;
             let surface = &self.world.surfaces[hit.surface];
             let at = surface.shape.interaction(&state.ray, hit.t, hit.prim_id);
-            let asked = self.asked(surface.material);
+            let request = self.request(surface.material);
             let shading_attributes =
                 surface
                     .shape
-                    .shading_attributes(&state.ray, &at, hit.prim_id, asked);
+                    .shading_attributes(&state.ray, &at, hit.prim_id, request);
             let point = self.point(surface.material, &shading_attributes, at.point);
             state.travelled += hit.t;
             let opacity = if skips_back(state, &at, point.material) {
@@ -64,19 +64,19 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         None
     }
 
-    /// The closest hit of the ray. It is a function of its own, as is [`Self::visibility`], so that
-    /// `benches/kernels.sh` can count what the BVHs take of a picture.
+    /// The closest hit of the ray. It is a separate function, as is [`Self::visibility`], so that
+    /// `benches/kernels.sh` can count the instructions of BVH traversal.
     #[inline(never)]
     fn next_hit(&self, state: &PathState) -> Option<Hit> {
         self.world.closest_hit_from(&state.ray, state.from)
     }
 
     /// The surface details that a material needs.
-    pub(super) fn asked(&self, material: usize) -> AttributeRequest {
+    pub(super) fn request(&self, material: usize) -> AttributeRequest {
         if self.knows_all {
             AttributeRequest::ALL
         } else {
-            self.world.standards[material].asked
+            self.world.standards[material].request
         }
     }
 

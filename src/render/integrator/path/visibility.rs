@@ -49,10 +49,10 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             return (None, 0.0);
         }
         let at = surface.shape.interaction(ray, hit.t, hit.prim_id);
-        let asked = self.asked(surface.material);
+        let request = self.request(surface.material);
         let shading_attributes = surface
             .shape
-            .shading_attributes(ray, &at, hit.prim_id, asked);
+            .shading_attributes(ray, &at, hit.prim_id, request);
         let point = self.point(surface.material, &shading_attributes, at.point);
         (Some(at), 1.0 - self.opacity(&point))
     }

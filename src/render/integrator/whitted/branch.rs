@@ -242,10 +242,10 @@ fn reflected_part(direction: Vec3, shading_point: &ShadingPoint<'_>) -> f64 {
 
 /// The refracted direction, if the material transmits light and there is no total reflection.
 ///
-/// The geometric normal decides where the shading normal cannot: where it is turned away from the
-/// ray, or totally reflects what its mirror then sends into the surface. With `sided` it also does
-/// where the shading normal would keep on this side of the surface what is to go through. So an eta
-/// of 1 bends no ray, whatever the shading normal.
+/// The geometric normal decides where the shading normal cannot: where the shading normal faces
+/// away from the ray, or where its total reflection points into the surface. With `sided` it also
+/// does where the shading normal would keep transmitted light on this side of the surface. So an
+/// eta of 1 bends no ray, whatever the shading normal.
 fn transmit(direction: Vec3, shading_point: &ShadingPoint<'_>, sided: bool) -> Option<Vec3> {
     let PhongMaterial { kt, eta, .. } = shading_point.material;
     if kt.get() == 0.0 {

@@ -37,12 +37,11 @@ pub(crate) struct Tracer<'world, S, const F: u32> {
     pending: Vec<Pending>,
     /// Tells of the pixel under way, and whether to continue with it.
     pub(crate) heartbeat: Heartbeat<'world>,
-    /// Whether the path under way counts 0 times: then nothing it meets says anything about a
-    /// plan.
+    /// Whether the current path has a weight of 0: then its hits are irrelevant for a plan.
     pub(crate) weightless: bool,
     /// Whether terms fall in steps: at the first hit of a cartoon.
     steps: bool,
-    /// Whether points of soft lights are spread without bias, however few they are.
+    /// Whether points of soft lights are spread without bias for any number of them.
     pub(crate) spread: bool,
     grid: Grid,
     pixel: PixelState,
@@ -96,7 +95,8 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
         !Self::can(Features::UNPRUNED) || self.world.plan.rules.contains(rule)
     }
 
-    /// Reports a fault of the plan under validation, if there is one and `is_fault` finds it.
+    /// Reports a difference of the plan under verification, if there is one and `is_fault` finds
+    /// it.
     pub(crate) fn verify(
         &self,
         effect: Effect,
@@ -112,10 +112,10 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
         }
     }
 
-    /// What a camera ray sees, by the mode of the scene; black where it meets nothing.
+    /// The value of a camera ray, by the mode of the scene; black for a miss.
     ///
-    /// It is compiled once for pictures, progressive pictures and layers, so that what it calls at
-    /// every hit is compiled into it.
+    /// It is compiled once for pictures, progressive pictures and layers, so that the functions
+    /// called at every hit are inlined into it.
     #[inline(never)]
     pub(crate) fn radiance(&mut self, ray: Ray, key: Key) -> Vec3 {
         self.counts.camera += 1;
@@ -163,7 +163,7 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
         Self::can(Features::GOOCH) && self.world.settings.toon
     }
 
-    /// Looks whether a ray after so many bounces meets what the plan leaves out.
+    /// Checks whether a ray after this many bounces hits something that the plan removed.
     fn verify_hit(&self, bounces: u32, shading_point: &ShadingPoint<'_>, value: Vec3) {
         self.verify(Effect::Depth, "a bounce left out adds something", |plan| {
             bounces > plan.max_depth && value != Vec3::ZERO && !plan.rules.contains(Rule::Cut)
@@ -173,25 +173,27 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
         });
     }
 
-    /// What a ray sees, with the maps of its material applied.
+    /// The surface that a ray hits, with the maps of its material applied.
     #[inline(always)]
     fn shading_point(&mut self, ray: &Ray, key: Key) -> Option<ShadingPoint<'world>> {
         let hit = self.closest_hit(ray)?;
         Some(self.shading_point_of(ray, hit, key))
     }
 
-    /// The closest hit, of the surfaces that the bundle of the ray may meet.
+    /// The closest hit, among the surfaces that the cone of the ray may hit.
     #[inline(always)]
     fn closest_hit(&mut self, ray: &Ray) -> Option<Hit> {
-        if let Some(few) = &self.world.few
-            && let Some(items) = self.bundles.along(&few.balls, self.bounces as usize, ray)
+        if let Some(small_scene) = &self.world.small_scene
+            && let Some(items) = self
+                .bundles
+                .along(&small_scene.balls, self.bounces as usize, ray)
         {
-            return self.world.closest_hit_of(few, items, ray);
+            return self.world.closest_hit_of(small_scene, items, ray);
         }
         self.world.closest_hit(ray)
     }
 
-    /// What a ray sees at a hit.
+    /// The surface at a hit.
     #[inline(always)]
     pub(crate) fn shading_point_of(
         &mut self,

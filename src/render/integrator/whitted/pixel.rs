@@ -14,7 +14,7 @@ use crate::sampler::sequence::Sequence;
 use crate::shape::geometry::Intersect;
 use rtc_plan::{Effect, Features, PixelClass};
 
-/// What the samples of a pixel share.
+/// The state that the samples of a pixel share.
 #[derive(Clone, Copy, Default)]
 pub(super) struct PixelState {
     /// The column and the row of the cell of the next sample, and its point of the lens.
@@ -82,7 +82,7 @@ impl<'run, S: Intersect, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
         &mut self.heartbeat
     }
 
-    /// False from when the observer said stop, and nothing counts any more.
+    /// False after the observer said stop; then results are ignored.
     #[inline]
     fn should_continue(&mut self) -> bool {
         self.heartbeat.defer(self.pending.len());
@@ -150,7 +150,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         }
     }
 
-    /// Looks whether a sample shows what the plan under validation rules out.
+    /// Checks whether a sample contradicts the plan under verification.
     #[inline(always)]
     fn verify_sample(&self, pixel: [u32; 2], sample: &Sample) {
         self.verify(Effect::Supersampling, "samples of a pixel differ", |plan| {

@@ -21,7 +21,7 @@ pub(crate) struct ShadingPoint<'world> {
     pub(crate) normal: Vec3,
     /// The unit vector to the viewer.
     pub(crate) to_viewer: Vec3,
-    /// What the surface is made of.
+    /// The material of the surface.
     pub(crate) material: &'world PhongMaterial,
     /// C at this point.
     pub(crate) color: Vec3,
@@ -75,14 +75,14 @@ impl Incidence {
 }
 
 impl ShadingPoint<'_> {
-    /// Whether it lies on an outline of a cartoon: the viewer grazes the surface itself there,
-    /// whatever its maps and the normals of its corners, which a plan may leave out.
+    /// Whether it is on a silhouette in toon shading: the viewer grazes the surface itself there,
+    /// independent of its maps and vertex normals, which a plan may remove.
     pub(super) fn is_outline(&self) -> bool {
         self.geometric().dot(self.to_viewer) < 0.2
     }
 
-    /// The geometric unit normal on the side of the viewer: the shading normal, where nothing bends
-    /// that.
+    /// The geometric unit normal on the side of the viewer: the shading normal, where they are
+    /// equal.
     pub(crate) fn geometric(&self) -> Vec3 {
         let normal = self.interaction.normal;
         if self.to_viewer.dot(normal) < 0.0 {
@@ -92,15 +92,15 @@ impl ShadingPoint<'_> {
         }
     }
 
-    /// Whether a place is on the viewer's side of the surface itself, by the sum that decides where
-    /// a ray to it starts; where both normals are one, the shading normal says so.
+    /// Whether a point is on the viewer's side of the surface itself, by the sum that decides the
+    /// start of a ray to it; where both normals are equal, the shading normal decides.
     fn is_before(&self, place: Vec3) -> bool {
         let normal = self.geometric();
         normal == self.normal || normal.dot(place - self.interaction.point) > 0.0
     }
 
-    /// `None` if the light stands exactly at the point: it has no direction then, and adds its
-    /// ambient term only.
+    /// `None` if the light is exactly at the point: it has no direction then, and adds its ambient
+    /// term only.
     fn incidence(&self, light: Vec3) -> Option<Incidence> {
         let to_light = (light - self.interaction.point).try_normalize()?;
         let n_dot_l = self.normal.dot(to_light);
@@ -114,12 +114,11 @@ impl ShadingPoint<'_> {
 
 impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     /// `Σ c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)ⁿ)]`, the mean over the points of a
-    /// soft light; an ambient term that is added once stands before the sum, as `ka·C`.
+    /// soft light; an ambient term that is added once precedes the sum, as `ka·C`.
     ///
-    /// Without shadows vis is 1, for the highlight too; with them it is 0 where something stands
-    /// between, and where N·L ≤ 0, with the shading or the geometric normal: the surface stands
-    /// in its own light. So a closed mesh lets no light in, whatever the normals of its
-    /// corners.
+    /// Without shadows vis is 1, for the highlight too; with them it is 0 where the light is
+    /// occluded, and where N·L ≤ 0, with the shading or the geometric normal: the surface shadows
+    /// itself. So a closed mesh lets no light in, whatever the normals of its corners.
     #[must_use]
     pub(crate) fn phong(&mut self, shading_point: &ShadingPoint<'_>) -> Vec3 {
         let world = self.world;
@@ -168,7 +167,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         sum
     }
 
-    /// What one point of a light adds, for a light of colour 1.
+    /// The contribution of one point of a light, for a light of colour 1.
     fn direct(&mut self, shading_point: &ShadingPoint<'_>, light: Vec3, shadowed: Hidden) -> Vec3 {
         let diffuse = shading_point.color * shading_point.material.kd.get();
         let shines = Self::can(Features::HIGHLIGHT)
@@ -201,7 +200,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         term
     }
 
-    /// Whether a surface faces a light and nothing stands between.
+    /// Whether a surface faces a light that is not occluded.
     fn is_lit(
         &mut self,
         shading_point: &ShadingPoint<'_>,
@@ -227,7 +226,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         faces && sees
     }
 
-    /// Whether nothing stands between a point and a point of a light.
+    /// Whether a point of a light is visible from a point.
     fn sees(&mut self, shading_point: &ShadingPoint<'_>, light: Vec3, shadowed: Hidden) -> bool {
         if !shadowed.maybe {
             return true;
@@ -236,24 +235,25 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         let interaction = &shading_point.interaction;
         let start = || interaction.start(light - interaction.point);
         let world = self.world;
-        let Some(few) = &world.few else {
+        let Some(small_scene) = &world.small_scene else {
             return !world.occluded(start(), light);
         };
-        let hiding = few.hiding(shadowed.light, shading_point.surface);
+        let hiding = small_scene.hiding(shadowed.light, shading_point.surface);
         if hiding == 0 {
             return true;
         }
-        let items = hiding & self.towards(few, shadowed.light, interaction.point);
-        items == 0 || !world.occluded_by(few, items, [start(), light])
+        let items = hiding & self.towards(small_scene, shadowed.light, interaction.point);
+        items == 0 || !world.occluded_by(small_scene, items, [start(), light])
     }
 
-    /// The surfaces that may stand between a point and a light, of a bundle of such ways.
+    /// The surfaces that may occlude a light from a point, by a cone of such segments.
     #[inline(always)]
-    pub(super) fn towards(&mut self, few: &SmallScene, light: usize, from: Vec3) -> u64 {
+    pub(super) fn towards(&mut self, small_scene: &SmallScene, light: usize, from: Vec3) -> u64 {
         let lights = &self.world.lights.course;
         let place = [self.bounces as usize, light, lights.len()];
         let target = || lights[light].ball();
-        self.bundles.towards(&few.balls, place, from, target)
+        self.bundles
+            .towards(&small_scene.balls, place, from, target)
     }
 
     /// Gooch et al., "A non-photorealistic lighting model for automatic technical illustration"

@@ -2,8 +2,8 @@
 //! and benefit of accuracy. Each shape's file contains its baseline.
 //!
 //! Hits with t < 1e-5 are taken for the origin of the ray and ignored; rays start at the surface
-//! point itself. The robust shape supplies what does not depend on the arithmetic: texture
-//! coordinates, shading normals and bounds.
+//! point itself. The robust shape supplies the properties that do not depend on the arithmetic:
+//! texture coordinates, shading normals and bounds.
 
 pub(crate) mod ray;
 pub(crate) mod real;
@@ -23,7 +23,7 @@ use rtc_math::{Bounds, Vec3};
 use std::fmt::Debug;
 use std::sync::Arc;
 
-/// How rays meet a shape by baseline formulas.
+/// Intersection by baseline formulas.
 pub(crate) trait Baseline<R>: Clone + Debug + Send + Sync {
     /// The first root that counts, and the part of the shape it is on; roots beyond `t_max` may be
     /// left out.
@@ -46,11 +46,11 @@ impl<R, P: Baseline<R>> Baseline<R> for Box<P> {
 
 /// A robust shape that has a baseline.
 pub(crate) trait HasBaseline {
-    /// The twin; a large one in a box.
+    /// The baseline; a large one is boxed.
     type Baseline<R: Real>: Baseline<R>;
 
-    /// The twin, of the same numbers; `mesh` is that of an instance. `None` for an instance of
-    /// none.
+    /// The baseline, from the same numbers; `mesh` is that of an instance. `None` for an instance
+    /// without one.
     fn plain<R: Real>(&self, mesh: Option<&Arc<BaselineMesh<R>>>) -> Option<Self::Baseline<R>>;
 }
 
@@ -58,14 +58,14 @@ pub(crate) trait HasBaseline {
 #[derive(Clone, Debug)]
 pub struct BaselineShape<R: Real> {
     form: BaselineKind<R>,
-    /// Answers what is not a question of arithmetic.
+    /// Forwards the methods that do not depend on the arithmetic.
     robust: Box<Shape>,
 }
 
-/// Declares the twins of all shapes.
+/// Declares the baselines of all shapes.
 macro_rules! declare {
     ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
-        /// How rays meet it.
+        /// Its intersection.
         #[derive(Clone, Debug)]
         enum BaselineKind<R: Real> {
             $($Name(<$Name as HasBaseline>::Baseline<R>),)*
@@ -97,7 +97,7 @@ macro_rules! declare {
 rtc_tables::shapes!(declare);
 
 impl<R: Real> BaselineShape<R> {
-    /// The twin of a shape; `mesh` is that of an instance. `None` for an instance of none.
+    /// The baseline of a shape; `mesh` is that of an instance. `None` for an instance without one.
     pub(crate) fn new(robust: Shape, mesh: Option<&Arc<BaselineMesh<R>>>) -> Option<Self> {
         Some(Self {
             form: BaselineKind::of(&robust, mesh)?,
@@ -144,9 +144,9 @@ impl<R: Real> Intersect for BaselineShape<R> {
         ray: &Ray,
         at: &Interaction,
         prim_id: u32,
-        asked: AttributeRequest,
+        request: AttributeRequest,
     ) -> ShadingAttributes {
-        self.robust.shading_attributes(ray, at, prim_id, asked)
+        self.robust.shading_attributes(ray, at, prim_id, request)
     }
 
     /// The lights are those of the robust shape: light is sampled in the same way by each

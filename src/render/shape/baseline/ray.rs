@@ -29,7 +29,7 @@ impl<R: Real> BaselineRay<R> {
         self.origin + self.direction * t
     }
 
-    /// Whether a root is a number and lies beyond [`MIN_HIT_DISTANCE`].
+    /// Whether a root is a number and beyond [`MIN_HIT_DISTANCE`].
     #[inline]
     pub(in crate::shape) fn counts(&self, t: R) -> bool {
         let zero = R::of(0.0);

@@ -50,7 +50,7 @@ fn largest_of_cubic<R: Real>(b: R, c: R, d: R) -> R {
     two * size * angle.cos() - third
 }
 
-/// The real roots of `t⁴ + b·t³ + c·t² + d·t + e`, in no order; what is missing is not a number.
+/// The real roots of `t⁴ + b·t³ + c·t² + d·t + e`, in any order; missing ones are NaN.
 ///
 /// Ferrari's method in Descartes' form: a root of the resolvent cubic splits the quartic into two
 /// quadratics.

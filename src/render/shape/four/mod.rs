@@ -14,7 +14,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
 use rtc_math::{U, Vec3};
 
-/// A shape that four rays meet at once.
+/// A shape that intersects four rays at once.
 #[derive(Clone, Copy)]
 pub enum Shape4<'a> {
     /// A sphere.
@@ -26,18 +26,18 @@ pub enum Shape4<'a> {
 }
 
 impl Shape4<'_> {
-    /// The roots above 0 of the lanes `asked`; infinite where there is none.
+    /// The roots above 0 of the lanes `active`; infinite for a miss.
     #[inline(always)]
     pub(crate) fn intersect<S: Simd>(
         self,
         simd: S,
         rays: &Ray4<S>,
-        asked: mask64x4<S>,
+        active: mask64x4<S>,
     ) -> f64x4<S> {
         match self {
-            Self::Sphere(sphere) => intersect(simd, sphere, rays, asked),
-            Self::Torus(torus) => torus::intersect(simd, torus, rays, asked),
-            Self::Plane(plane, axis) => plane::intersect(simd, plane, axis, rays, asked),
+            Self::Sphere(sphere) => intersect(simd, sphere, rays, active),
+            Self::Torus(torus) => torus::intersect(simd, torus, rays, active),
+            Self::Plane(plane, axis) => plane::intersect(simd, plane, axis, rays, active),
         }
     }
 
@@ -123,9 +123,9 @@ impl<S: Simd> Interactions<S> {
     }
 }
 
-/// As [`Sphere::intersect`], of the lanes `asked`; infinite where there is no root.
+/// As [`Sphere::intersect`], for the lanes `active`; infinite for a miss.
 #[inline(always)]
-fn intersect<S: Simd>(simd: S, sphere: &Sphere, rays: &Ray4<S>, asked: mask64x4<S>) -> f64x4<S> {
+fn intersect<S: Simd>(simd: S, sphere: &Sphere, rays: &Ray4<S>, active: mask64x4<S>) -> f64x4<S> {
     let number = |x: f64| f64x4::splat(simd, x);
     let (zero, none) = (number(0.0), number(f64::INFINITY));
     let f = rays.origin.minus(Vectors::splat(simd, sphere.center));
@@ -136,7 +136,7 @@ fn intersect<S: Simd>(simd: S, sphere: &Sphere, rays: &Ray4<S>, asked: mask64x4<
     let outside = f2 * number(1.0 - 64.0 * U) - r2;
     let is_beside = outside.simd_gt(zero) & (a * outside).simd_gt(b * b);
     let is_behind = b.simd_lt(zero) & (f2 * number(1.0 - 8.0 * U)).simd_gt(r2);
-    let near = asked & !(is_beside | is_behind);
+    let near = active & !(is_beside | is_behind);
     if near.all_false() {
         return none;
     }
@@ -148,8 +148,8 @@ fn intersect<S: Simd>(simd: S, sphere: &Sphere, rays: &Ray4<S>, asked: mask64x4<
     let extent = f.abs().sum();
     let sizes = r2 + foot2 + number(sphere.radius) * extent;
     let error_bound = number(16.0 * U) * (sizes + number(16.0 * U) * extent * extent);
-    let met = near & !discriminant.simd_lt(-error_bound);
-    let is_tangent = met & discriminant.simd_le(error_bound);
+    let hit_lanes = near & !discriminant.simd_lt(-error_bound);
+    let is_tangent = hit_lanes & discriminant.simd_le(error_bound);
 
     let c = f2 - r2;
     let a_discriminant = a * discriminant;
@@ -161,7 +161,7 @@ fn intersect<S: Simd>(simd: S, sphere: &Sphere, rays: &Ray4<S>, asked: mask64x4<
     let takes_first = is_ahead & first.simd_gt(zero) | !(is_ahead | second.simd_gt(zero));
     let by_step = nearest - (foot.dot(d) + root) / a;
     let t = from_afar.select(by_step, takes_first.select(first, second));
-    let is_root = met & t.simd_gt(zero);
+    let is_root = hit_lanes & t.simd_gt(zero);
     let is_cancelled = (from_afar | takes_first) & (f2 + r2).simd_gt(number(AMPLIFIED) * c.abs());
     let is_amplified =
         (r2 * (r2 + f2) * a * a).simd_gt(number(AMPLIFIED * AMPLIFIED) * a_discriminant * q * q);

@@ -7,21 +7,21 @@ use crate::shape::plane::{Axis, Plane};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
 
-/// As [`Plane::intersect`], of the lanes `asked`; infinite where there is no root.
+/// As [`Plane::intersect`], for the lanes `active`; infinite for a miss.
 #[inline(always)]
 pub(super) fn intersect<S: Simd>(
     simd: S,
     plane: &Plane,
     axis: Axis,
     rays: &Ray4<S>,
-    asked: mask64x4<S>,
+    active: mask64x4<S>,
 ) -> f64x4<S> {
     let number = |x: f64| f64x4::splat(simd, x);
     let zero = number(0.0);
     let slope = number(axis.sign) * rays.direction.along(axis.index);
     // A distance of 0 gives no root above 0, whatever its sign.
     let t = distance(simd, plane, axis, rays.origin) / slope;
-    let is_root = asked & !slope.simd_eq(zero) & t.simd_gt(zero);
+    let is_root = active & !slope.simd_eq(zero) & t.simd_gt(zero);
     is_root.select(t, number(f64::INFINITY))
 }
 

@@ -8,13 +8,13 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
 use rtc_math::Vec3;
 
-/// As [`Torus::intersect`], of the lanes `asked`; infinite where there is no root.
+/// As [`Torus::intersect`], for the lanes `wanted`; infinite for a miss.
 #[inline(always)]
 pub(super) fn intersect<S: Simd>(
     simd: S,
     torus: &Torus,
     rays: &Ray4<S>,
-    asked: mask64x4<S>,
+    wanted: mask64x4<S>,
 ) -> f64x4<S> {
     let number = |x: f64| f64x4::splat(simd, x);
     let none = number(f64::INFINITY);
@@ -25,7 +25,7 @@ pub(super) fn intersect<S: Simd>(
     let foot = f.plus(d.times(nearest));
     let outer = torus.major + torus.minor;
     let half2 = number(outer * outer * NEARLY_ONE) - foot.dot(foot);
-    let near = asked & half2.simd_ge(number(0.0));
+    let near = wanted & half2.simd_ge(number(0.0));
     if near.all_false() {
         return none;
     }
@@ -40,9 +40,9 @@ pub(super) fn intersect<S: Simd>(
     if near.all_false() {
         return none;
     }
-    let (met, root) = line.first_root(simd, low, half, near);
+    let (hit_lanes, root) = line.first_root(simd, low, half, near);
     let t = nearest + root * (number(torus.unit) / length);
-    (met & t.simd_gt(number(0.0))).select(t, none)
+    (hit_lanes & t.simd_gt(number(0.0))).select(t, none)
 }
 
 /// As [`Torus::interaction`].
@@ -181,20 +181,20 @@ impl<S: Simd> TorusRays<S> {
         outside | is_in_hole(enter) & is_in_hole(leave)
     }
 
-    /// As `TorusRay::first_root`, of the lanes `asked`: those that have one, and the roots.
+    /// As `TorusRay::first_root`, for the lanes `wanted`: those that have one, and the roots.
     #[inline(always)]
     fn first_root(
         &self,
         simd: S,
         low: f64x4<S>,
         high: f64x4<S>,
-        asked: mask64x4<S>,
+        wanted: mask64x4<S>,
     ) -> (mask64x4<S>, f64x4<S>) {
         let cubic = self.derivative(simd);
         let borders = cubic.borders(simd, low, high);
         let first = self.start(simd, low);
         let (mut before, mut after) = (first, first);
-        let (mut searched, mut exact, mut bracketed) = (asked, !asked & asked, !asked & asked);
+        let (mut searched, mut exact, mut bracketed) = (wanted, !wanted & wanted, !wanted & wanted);
         for k in 0..=3 {
             let (has, s) = match k {
                 3 => (searched, high),
@@ -318,18 +318,18 @@ impl<S: Simd> Cubic<S> {
         ]
     }
 
-    /// As `cubic_root`, of the lanes `asked`: those that have one, and the roots.
+    /// As `cubic_root`, for the lanes `wanted`: those that have one, and the roots.
     #[inline(always)]
     fn root(
         &self,
         simd: S,
         [mut a, mut b]: [f64x4<S>; 2],
-        asked: mask64x4<S>,
+        wanted: mask64x4<S>,
     ) -> (mask64x4<S>, f64x4<S>) {
         let number = |x: f64| f64x4::splat(simd, x);
         let zero = number(0.0);
         let (first, last) = (self.value(a), self.value(b));
-        let has = asked & !a.simd_ge(b) & (first.simd_lt(zero) ^ last.simd_lt(zero));
+        let has = wanted & !a.simd_ge(b) & (first.simd_lt(zero) ^ last.simd_lt(zero));
         let rises = last.simd_gt(first);
         let mut at = number(0.5) * (a + b);
         let mut active = has;

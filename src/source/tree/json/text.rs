@@ -12,7 +12,7 @@ pub(super) fn end(text: &[u8], start: usize) -> Result<(usize, bool), (usize, &'
             None => return Err((at, "a text is never closed")),
             Some(b'"') => return Ok((at + 1, has_escapes)),
             Some(b'\\') => (at, has_escapes) = (escape(text, at)?, true),
-            Some(0..0x20) => return Err((at, "a control character stands in a text")),
+            Some(0..0x20) => return Err((at, "a string contains a control character")),
             Some(_) => at += 1,
         }
     }
@@ -28,7 +28,7 @@ fn escape(text: &[u8], at: usize) -> Result<usize, (usize, &'static str)> {
         {
             Ok(at + 6)
         }
-        Some(_) => Err((at, "an escape means nothing")),
+        Some(_) => Err((at, "an escape is invalid")),
         None => Err((text.len(), "a text is never closed")),
     }
 }

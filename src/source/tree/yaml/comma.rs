@@ -9,7 +9,7 @@ use super::typo::{span, typo};
 pub(super) fn missing(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static>> {
     let source = tree.source;
     let (before, rest) = source.split_at_checked(at)?;
-    // For a plain key, the error is at the colon after it.
+    // For an unquoted key, the error is at the colon after it.
     let start = match rest.starts_with(':') {
         true => before.trim_end().rfind(char::is_whitespace)? + 1,
         false => at,
@@ -32,7 +32,7 @@ pub(super) fn missing(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static>> {
     Some(typo(
         "a comma is missing".to_owned(),
         "before this".to_owned(),
-        "what stands in brackets is separated by commas",
+        "items in brackets are separated by commas",
         span(tree, start, start + first.len_utf8()),
         (span(tree, end, end), ",".to_owned()),
     ))
@@ -66,7 +66,7 @@ pub(super) fn doubled(tree: &Tree<'_>, bracket: usize) -> Option<Mistake<'static
     let span = span(tree, at, at + 1);
     Some(typo(
         "a comma too many".to_owned(),
-        "nothing stands before this".to_owned(),
+        "there is nothing before this".to_owned(),
         "remove it",
         span,
         (span, String::new()),

@@ -129,7 +129,7 @@ fn message_of(kind: &ErrorKind) -> (String, &'static str, &'static str) {
         parts(
             "an alias without an anchor",
             "no `&` with this name before",
-            "put `&name` before the value it stands for",
+            "put `&name` before its value",
         )
     } else if matches!(kind, ErrorKind::MappingValueNotAllowed) {
         parts(
@@ -151,11 +151,11 @@ fn message_of(kind: &ErrorKind) -> (String, &'static str, &'static str) {
         parts(
             "a comma is missing",
             "before this",
-            "what stands in brackets is separated by commas",
+            "items in brackets are separated by commas",
         )
     } else if matches!(kind, ErrorKind::MisplacedFlowCollectionEnd) {
         parts(
-            "a bracket closes what was never opened",
+            "a bracket closes nothing",
             "closed here",
             "remove it, or open it before",
         )

@@ -26,7 +26,8 @@ fn ascii_lookalike(c: char) -> Option<(&'static str, &'static str)> {
     })
 }
 
-/// A mistake in a plain scalar that has such a character where only a YAML indicator makes sense.
+/// An error in an unquoted scalar that has such a character where only a YAML indicator makes
+/// sense.
 pub(super) fn in_word(tree: &Tree<'_>, start: usize, end: usize) -> Option<Mistake<'static>> {
     let word = tree.source.get(start..end)?;
     if word.is_ascii() {
@@ -154,8 +155,8 @@ fn lookalike(
 
 /// The comment at the start of a text in the syntax of another language.
 fn comment(tree: &Tree<'_>, at: usize, text: &str) -> Option<Mistake<'static>> {
-    // The line is looked at only if a comment starts here, so that a line of many words takes time
-    // in proportion to its length.
+    // The line is inspected only if a comment starts here, so that the time stays linear in the
+    // length of the line.
     let opener = ["//", "/*"]
         .into_iter()
         .find(|opener| text.starts_with(opener))?;

@@ -1,17 +1,17 @@
-//! Errors in YAML texts, with what a report of them needs.
+//! Errors in YAML texts, with the details for their reports.
 
 use crate::Span;
 
 /// The missing separator of two list items.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Separator {
-    /// A dash, in place of these spaces.
+    /// A dash instead of these spaces.
     Dash(Span),
     /// `}, {`.
     Braces,
 }
 
-/// An error in a YAML text. All except tags and plain duplicate keys prevent a tree.
+/// An error in a YAML text. All except tags and duplicate keys prevent a tree.
 #[derive(Debug)]
 pub enum Mistake<'t> {
     /// The file is UTF-16.

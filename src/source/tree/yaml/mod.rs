@@ -133,7 +133,7 @@ impl<'s> TreeBuilder<'s, '_> {
         }
     }
 
-    /// Checks a plain scalar for characters that look like YAML indicators.
+    /// Checks an unquoted scalar for characters that look like YAML indicators.
     fn plain(&mut self, start: usize, end: usize) {
         if let Some(mistake) = lookalike::in_word(&self.tree, start, end) {
             (self.report)(mistake);

@@ -82,7 +82,7 @@ impl SourceText<'_, '_> {
         let between = rest.strip_suffix(value)?;
         let message = match between.trim() {
             ":" => "no space after a colon",
-            "=" => "`=` in place of a colon",
+            "=" => "`=` instead of a colon",
             "" => "a line that is no `key: value`",
             _ => return None,
         };

@@ -152,7 +152,7 @@ impl MtlCache {
         self.unsupported.get_or_insert((span, why, 0)).2 += 1;
     }
 
-    /// Reports statements without effect, and those that programs read in two ways.
+    /// Reports statements without effect, and statements that programs interpret in two ways.
     pub(super) fn report(&mut self, sink: &mut Sink) {
         if let Some((span, why, count)) = self.unsupported.take() {
             let message = match count {

@@ -35,8 +35,7 @@ pub(super) fn is_glass(material: &MtlMaterial) -> bool {
     model.is_some_and(|model| matches!(model.value, 4 | 6 | 7 | 9))
 }
 
-/// The opacity of a material, 0 to 1. `Tr 1` is read as opaque, which is what most programs mean by
-/// it.
+/// The opacity of a material, 0 to 1. `Tr 1` is read as opaque, as most programs write it.
 pub(super) fn opacity(material: &MtlMaterial) -> f64 {
     let default_opacity = if is_glass(material) { 0.0 } else { 1.0 };
     let opacity = material.opacity.as_ref();

@@ -41,7 +41,7 @@ fn equal_triangles_are_visited_once() {
     }
 }
 
-/// Equal boxes leave the heuristic nothing to choose by; the triangles in them differ.
+/// Equal boxes give the heuristic no choice; the triangles in them differ.
 #[test]
 fn equal_boxes_build_a_hierarchy_that_ends() {
     let corners = |item: u32| {

@@ -12,8 +12,8 @@ use rayon::prelude::*;
 /// Triangles in each BVH.
 const COUNT: u32 = 96;
 
-/// How triangles and rays are made: the scale and the place of all, how far the eye is, and
-/// what is special.
+/// The generators of triangles and rays: scale and position, distance of the eye, and special
+/// cases.
 const FAMILIES: [(&str, f64, f64, f64); 8] = [
     ("generic", 1.0, 0.0, 3.0),
     ("tiny", 1e-57, 0.0, 3.0),
@@ -72,10 +72,12 @@ fn aimed(family: usize, triangles: &[Triangle], index: u64) -> Ray {
     }
 }
 
-/// So many rays, or as many as are asked for.
+/// The number of rays, or the requested one.
 fn ray_count(usual: u64) -> u64 {
-    let asked = std::env::var("RTC_RAYS").ok();
-    asked.and_then(|count| count.parse().ok()).unwrap_or(usual)
+    let requested = std::env::var("RTC_RAYS").ok();
+    requested
+        .and_then(|count| count.parse().ok())
+        .unwrap_or(usual)
 }
 
 fn built(all: &[Triangle]) -> Wide {
@@ -83,7 +85,7 @@ fn built(all: &[Triangle]) -> Wide {
     Wide::build(Builders::All, SimdLevel::best(), all.len(), 0.0, corners).unwrap()
 }
 
-/// Visits all triangles whose boxes are met.
+/// Visits all triangles whose boxes are hit.
 struct Boxed<F>(F);
 
 impl<F: FnMut(u32) -> f64> Visitor for Boxed<F> {
@@ -149,7 +151,7 @@ fn what_is_hit_for_sure_is_hit_before_the_end_of_the_ray() {
     }
 }
 
-/// What a ray visits, in order, and how far it is told to be sure.
+/// The visits of a ray, in order, and its certain hits.
 type Visits = (Vec<u32>, Vec<u32>);
 
 #[test]
@@ -184,7 +186,7 @@ fn all_levels_visit_the_same_in_the_same_order_alone_and_by_turns() {
     }
 }
 
-/// Corners of 32 bits are in the leaves with every bit; others are asked for elsewhere.
+/// 32-bit corners are in the leaves exactly; others are read elsewhere.
 #[test]
 fn corners_are_exact_or_not_there() {
     let single = |item: u32| {
@@ -235,7 +237,7 @@ fn whatever_is_hit_is_visited_and_little_else() {
                     continue;
                 };
                 let (mut culled, mut boxed) = (false, false);
-                // Even if nothing beyond that hit counts any more.
+                // Even with that hit as the end of the ray.
                 wide.traverse(&ray, t, &mut |other: Candidate<'_>| {
                     (culled, visits) = (culled || other.item == item, visits + 1);
                     t
@@ -285,7 +287,7 @@ fn the_walk_ends_where_it_is_told_to_and_visits_each_triangle_once() {
     let mut once = visited(ray, f64::INFINITY);
     once.dedup();
     assert_eq!(once, visited(ray, f64::INFINITY));
-    // What the arithmetic cannot decide is not decided here.
+    // Cases that the arithmetic cannot decide are not decided here.
     assert_eq!(
         visited(
             Ray {
@@ -314,8 +316,8 @@ fn the_walk_ends_where_it_is_told_to_and_visits_each_triangle_once() {
     );
 }
 
-/// A mesh builds its BVH when a ray first asks for it, while others wait for it: a thread that were
-/// helped could be handed a ray that waits for the same.
+/// A mesh builds its BVH for the first ray that needs it, while others wait: a thread that helped
+/// meanwhile could be handed a ray that waits for the same mesh.
 #[test]
 fn a_hierarchy_built_amid_the_work_of_all_threads_ends() {
     let corners = |item: u32| {
@@ -334,11 +336,11 @@ fn a_hierarchy_built_amid_the_work_of_all_threads_ends() {
             .eq(all.nodes.rows().as_flattened().iter().map(|x| x.to_bits()))
     );
     let shared = std::sync::OnceLock::new();
-    let asked = (0..64).into_par_iter().filter(|_| {
+    let requested = (0..64).into_par_iter().filter(|_| {
         let build = || Wide::build(Builders::One, SimdLevel::best(), 20_000, 0.0, corners);
         shared.get_or_init(build).is_some()
     });
-    assert_eq!(asked.count(), 64);
+    assert_eq!(requested.count(), 64);
 }
 
 /// A triangle takes its row of 40 bytes, and its share of the nodes.

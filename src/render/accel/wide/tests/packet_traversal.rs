@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Eight rays from one place to about one target.
+/// Eight rays from one point towards one target.
 fn side_by_side(family: usize, all: &[Triangle], index: u64) -> [(Ray, f64, Sure); 8] {
     let mut ray = aimed(family, all, index);
     if FAMILIES[family].0 == "along the axes" {

@@ -32,7 +32,7 @@ struct Hits<V: Simd> {
     surfaces: [usize; LANES],
     prims: [u32; LANES],
     /// The lanes that hit something.
-    met: u64,
+    hit_lanes: u64,
 }
 
 /// Points as their viewers see them.
@@ -50,7 +50,7 @@ struct Points<V: Simd> {
     /// The index of the surface in the scene.
     surfaces: [usize; LANES],
     /// The lanes that have a point.
-    met: u64,
+    hit_lanes: u64,
 }
 
 impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
@@ -66,7 +66,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     /// Whether samples of a world are taken four at a time.
     pub(super) fn goes_by_four(world: &World<S>) -> bool {
         Self::HAS_SHAPE4
-            && world.few.is_some()
+            && world.small_scene.is_some()
             && matches!(world.settings.mode, Mode::Phong)
             && world.phongs.iter().all(|phong| phong.kt.get() == 0.0)
     }
@@ -125,15 +125,15 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
             self.bounces = bounce;
             let hits = self.hits(simd, &rays, active);
             if bounce == 0 {
-                first = hits.met;
+                first = hits.hit_lanes;
                 self.counts.hits += u64::from(first.count_ones());
             }
             let Some(points) = self.points(simd, &rays, &hits) else {
                 break;
             };
             let value = self.phong_of(simd, &points).times(beta);
-            let met = mask64x4::from_bitmask(simd, hits.met);
-            sum = sum.plus(value).select(met, sum);
+            let hit_lanes = mask64x4::from_bitmask(simd, hits.hit_lanes);
+            sum = sum.plus(value).select(hit_lanes, sum);
             if !Self::can(Features::BOUNCE) || bounce == depth {
                 break;
             }
@@ -141,7 +141,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
             let weight = weight
                 .simd_lt(number(f64::MAX))
                 .select(weight, number(f64::MAX));
-            active = hits.met & weight.simd_gt(number(0.0)).to_bitmask();
+            active = hits.hit_lanes & weight.simd_gt(number(0.0)).to_bitmask();
             if active == 0 {
                 break;
             }
@@ -168,21 +168,21 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
             t: none,
             surfaces: [0; LANES],
             prims: [0; LANES],
-            met: 0,
+            hit_lanes: 0,
         };
-        let Some(few) = &world.few else {
+        let Some(small_scene) = &world.small_scene else {
             return hits;
         };
         let bounce = self.bounces as usize;
-        let (bundled, mut items) = self
-            .bundles
-            .along_each(simd, &few.balls, bounce, rays, active);
-        let asked = mask64x4::from_bitmask(simd, bundled);
+        let (bundled, mut items) =
+            self.bundles
+                .along_each(simd, &small_scene.balls, bounce, rays, active);
+        let cone_lanes = mask64x4::from_bitmask(simd, bundled);
         let mut next = none;
         while let Some(surface) = SmallScene::pop(&mut items) {
             let shape = &world.surfaces[surface].shape;
             let t = match shape.shape4() {
-                Some(shape) => shape.intersect(simd, rays, asked),
+                Some(shape) => shape.intersect(simd, rays, cone_lanes),
                 None => roots(shape, rays, &mut hits, bundled),
             };
             let closer = t.simd_lt(hits.t);
@@ -192,11 +192,11 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
                 hits.surfaces[lane] = surface;
             }
         }
-        hits.met = hits.t.simd_lt(none).to_bitmask();
+        hits.hit_lanes = hits.t.simd_lt(none).to_bitmask();
         let tied = next
             .simd_le(hits.t * f64x4::splat(simd, CLOSE))
             .to_bitmask()
-            & hits.met;
+            & hits.hit_lanes;
         let odd = active & !bundled;
         if tied | odd != 0 {
             for lane in lanes_of(tied | odd) {
@@ -211,11 +211,11 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         hits
     }
 
-    /// The points that rays met, if one did.
+    /// The points that rays hit, if any.
     #[inline(always)]
     fn points<V: Simd>(&self, simd: V, rays: &Ray4<V>, hits: &Hits<V>) -> Option<Points<V>> {
         let number = |x: f64| f64x4::splat(simd, x);
-        let mut rest = hits.met;
+        let mut rest = hits.hit_lanes;
         let mut all: Option<Points<V>> = None;
         while rest != 0 {
             let surface = hits.surfaces[rest.trailing_zeros() as usize];
@@ -241,7 +241,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
                 kr: number(material.kr.unwrap_or(material.ks).get()),
                 n: number(material.n.get()),
                 surfaces: [surface.index; LANES],
-                met: hits.met,
+                hit_lanes: hits.hit_lanes,
             };
             all = Some(match all {
                 None => of_surface,
@@ -253,13 +253,13 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
 }
 
 impl<V: Simd> Hits<V> {
-    /// Replaces what a lane hits.
+    /// Replaces the hit of a lane.
     fn put(&mut self, lane: usize, hit: Option<Hit>) {
         let bit = 1 << lane;
-        self.met = if hit.is_some() {
-            self.met | bit
+        self.hit_lanes = if hit.is_some() {
+            self.hit_lanes | bit
         } else {
-            self.met & !bit
+            self.hit_lanes & !bit
         };
         if let Some(Hit {
             t,
@@ -293,12 +293,12 @@ impl<V: Simd> Points<V> {
             kr: mask.select(self.kr, others.kr),
             n: mask.select(self.n, others.n),
             surfaces,
-            met: self.met,
+            hit_lanes: self.hit_lanes,
         }
     }
 }
 
-/// The rays reflected at points where nothing bends the normal.
+/// The rays reflected at points where the shading normal is the geometric normal.
 #[inline(always)]
 fn mirrored<V: Simd>(simd: V, rays: &Ray4<V>, points: &Points<V>) -> Ray4<V> {
     let number = |x: f64| f64x4::splat(simd, x);

@@ -56,7 +56,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         if !Self::can(Features::HIGHLIGHT) {
             shines = 0;
         }
-        let mut lit = points.met & !(is_black.to_bitmask() & !shines);
+        let mut lit = points.hit_lanes & !(is_black.to_bitmask() & !shines);
         self.counts
             .add_several(Effect::DirectLight, lit.count_ones());
 
@@ -100,16 +100,16 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     #[inline(always)]
     fn towards_each<V: Simd>(
         &mut self,
-        few: &SmallScene,
+        small_scene: &SmallScene,
         light: usize,
         from: Vectors<V>,
-        asked: u64,
+        active: u64,
     ) -> [u64; LANES] {
         let lights = &self.world.lights.course;
         let place = [self.bounces as usize, light, lights.len()];
         let target = || lights[light].ball();
         self.bundles
-            .towards_each(&few.balls, place, from, asked, target)
+            .towards_each(&small_scene.balls, place, from, active, target)
     }
 
     /// The lanes, of some, whose point sees a light.
@@ -119,33 +119,33 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         simd: V,
         points: &Points<V>,
         light: usize,
-        asked: u64,
+        active: u64,
     ) -> u64 {
         let world = self.world;
-        let Some(few) = &world.few else {
-            return asked;
+        let Some(small_scene) = &world.small_scene else {
+            return active;
         };
         let plan = &world.plan.lights[light];
         let (mut hiding, mut all, mut doubted) = ([0; LANES], 0, 0);
-        for lane in lanes_of(asked) {
+        for lane in lanes_of(active) {
             let surface = points.surfaces[lane];
             if plan.shadowed[surface] {
                 self.counts.shadow += 1;
-                hiding[lane] = few.hiding(light, surface);
+                hiding[lane] = small_scene.hiding(light, surface);
                 doubted |= u64::from(hiding[lane] != 0) << lane;
             }
         }
         if doubted == 0 {
-            return asked;
+            return active;
         }
-        let between = self.towards_each(few, light, points.at.point, doubted);
+        let between = self.towards_each(small_scene, light, points.at.point, doubted);
         for lane in lanes_of(doubted) {
             hiding[lane] &= between[lane];
             all |= hiding[lane];
             doubted &= !(u64::from(hiding[lane] == 0) << lane);
         }
         if doubted == 0 {
-            return asked;
+            return active;
         }
         let target = world.lights.course[light].position;
         let to = Vectors::splat(simd, target);
@@ -175,7 +175,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
             };
             hidden |= t.simd_lt(end).to_bitmask() & lanes;
         }
-        asked & !hidden
+        active & !hidden
     }
 }
 

@@ -27,8 +27,7 @@ pub(super) enum TokenKind {
     Alias,
     Plain,
     Quoted,
-    /// `
-    /// ` or `>`, with its indicators.
+    /// `|` or `>`, with its indicators.
     Header,
     /// The lines of a block scalar.
     Block,
