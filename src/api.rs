@@ -7,11 +7,11 @@
 //! - [`SceneBuilder`] builds a scene in code, and changes one: [`Camera`], [`Shape`], [`Mesh`],
 //!   [`Material`], [`Texture`], [`Light`], [`Environment`]. [`Tree`] lists the contents of a scene.
 //! - [`Diagnostic`] is an error, a warning or a note about a scene, with [`Label`]s and [`Hint`]s.
-//! - [`Options`] has the options of rendering, [`Progress`] says how far it is, [`Picture`] is the
+//! - [`Options`] has the options of rendering, [`Progress`] is its progress, [`Picture`] is the
 //!   result.
 //! - [`Cost`] is the cost of accuracy, [`Export`] is the scene as a file of another program.
-//! - [`Effect`] says whether a picture needs an effect such as shadows, and why not; [`explain()`]
-//!   gives the long text of a code or a rule.
+//! - [`Effect`] is the status of an effect such as shadows, with the reason; [`explain()`] gives
+//!   the long text of a code or a rule.
 //! - [`Error`] is returned if there is no scene or no picture.
 
 mod builder;

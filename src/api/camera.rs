@@ -25,7 +25,7 @@ pub struct Camera {
     extent: Option<f64>,
 }
 
-/// How the steps between pixels are found.
+/// The definition of the steps between pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Steps {
     /// They are given.

@@ -20,7 +20,7 @@ use std::path::PathBuf;
 pub enum Error {
     /// The scene can't be read or has errors: all diagnostics, including warnings.
     Invalid(Vec<Diagnostic>),
-    /// The picture needs more rays than allowed. The diagnostic says where the limit was reached.
+    /// The picture needs more rays than allowed. The diagnostic has the position of the limit.
     TooManyRays(Box<Diagnostic>),
     /// The request was rejected, with the reason: invalid options, too little memory, no threads.
     Refused(String),

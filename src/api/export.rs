@@ -49,7 +49,7 @@ impl Run<'_> {
         let options = Options::new();
         let mut setup = options.setup()?;
         let mut subject = self.validate(&options, &mut setup)?;
-        // A scene text says how it is shown.
+        // A scene text with its picture settings.
         if format == ExportFormat::Text {
             let observer = Observer {
                 on_step: &|_| (),

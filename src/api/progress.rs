@@ -1,4 +1,4 @@
-//! How far a render is.
+//! The progress of a render.
 
 use super::clock::Stopwatch;
 use rtc_render::Step;
@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// How far a render is, as [`Options::on_progress`](super::Options::on_progress) reports it.
+/// The progress of a render, as [`Options::on_progress`](super::Options::on_progress) reports it.
 ///
 /// ```
 /// use rtc::{Camera, Options, Phong, SceneBuilder, Shape};

@@ -34,7 +34,7 @@ pub struct Texture {
     is_of_text: bool,
 }
 
-/// Where the values of a texture come from.
+/// The source of the values of a texture.
 #[derive(Clone, Debug, PartialEq)]
 enum Source {
     Uv,
@@ -115,13 +115,13 @@ impl Texture {
         self
     }
 
-    /// How an image continues outside the unit square, along u and along v.
+    /// The continuation of an image outside the unit square, along u and along v.
     pub fn wrap(mut self, u: Wrap, v: Wrap) -> Self {
         self.wrap = [u, v];
         self
     }
 
-    /// How the texels of an image are interpolated.
+    /// The interpolation of the texels of an image.
     pub fn filter(mut self, filter: Filter) -> Self {
         self.filter = filter;
         self

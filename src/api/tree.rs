@@ -125,7 +125,7 @@ impl<'a> Tree<'a> {
         low.is_finite().then(|| [low.to_array(), high.to_array()])
     }
 
-    /// Where the camera was written, if it was.
+    /// The source position of the camera, if any.
     #[must_use]
     pub fn camera_location(&self) -> Option<Location> {
         self.location(EntityKind::Camera, 0)
@@ -182,7 +182,7 @@ impl<'a> Object<'a> {
         self.tree.around([self.index])
     }
 
-    /// Where it was written, if it was.
+    /// Its source position, if any.
     #[must_use]
     pub fn location(&self) -> Option<Location> {
         self.tree.location(EntityKind::Surface, self.index)

@@ -18,8 +18,8 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
         let read = input::read(path, &args.reading)?;
         let mut input = match fix::run(path, read, args, &reporter) {
             Ok(input) => input,
-            Err(Failure::Trouble(words)) => {
-                reporter::say(&format!("error: {words}"));
+            Err(Failure::Trouble(message)) => {
+                reporter::print_message(&format!("error: {message}"));
                 worst = Err(Failure::Unreadable);
                 continue;
             }
@@ -28,7 +28,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
         if let Some(loaded) = input.load() {
             input.validate(loaded, |_, _| ());
         }
-        match input::tell(&mut input, &mut reporter) {
+        match input::report_diagnostics(&mut input, &mut reporter) {
             Err(gone @ Failure::ClosedPipe) => return Err(gone),
             Err(Failure::Findings) if worst.is_err() => {}
             Err(failure) => worst = Err(failure),
@@ -39,7 +39,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
     scenes.report_skipped(reporter.is_quiet());
     reporter.finish()?;
     if worst.is_ok() && is_in_doubt {
-        reporter::say(&nothing_found(scenes.paths.len()));
+        reporter::print_message(&nothing_found(scenes.paths.len()));
     }
     worst
 }

@@ -24,8 +24,8 @@ pub(super) fn run(args: &Compile) -> Result<(), Failure> {
         output::refuse_terminal(target)?;
     }
     if !matches!(emit, Emit::Glb | Emit::Gltf) && args.tolerance.is_some() {
-        let words = "`--tolerance` is about the meshes of glTF; name the output .glb or .gltf";
-        return Err(Failure::Trouble(words.to_owned()));
+        let message = "`--tolerance` is about the meshes of glTF; name the output .glb or .gltf";
+        return Err(Failure::Trouble(message.to_owned()));
     }
     let mut reporter = Reporter::beside_result(&args.reporter);
     let outcome = carry_out(args, emit, &mut reporter);
@@ -51,7 +51,7 @@ fn carry_out(args: &Compile, emit: Emit, reporter: &mut Reporter) -> Result<(), 
             return write_gltf(args, emit, target, &validated, (input, reporter));
         }
         Emit::Mitsuba | Emit::Pov => {
-            return write_twin(emit, target, &validated, (input, reporter));
+            return write_exported(emit, target, &validated, (input, reporter));
         }
     };
     let encoded = codec::prepare(encoding, scene);
@@ -83,7 +83,7 @@ fn write_gltf(
 const NO_FOLDER: &str = "its vertices and images are files beside the text: give `-o FILE`";
 
 /// Writes the scene for another renderer, with meshes in files beside it or inline.
-fn write_twin(
+fn write_exported(
     emit: Emit,
     target: &Path,
     validated: &Validated,
@@ -91,13 +91,13 @@ fn write_twin(
 ) -> Result<(), Failure> {
     let output = Output::open(target, &input)?;
     let folder = folder_of((emit == Emit::Mitsuba).then_some(target), &output, &input)?;
-    let twin = input.export(&validated.lowered, folder.as_deref());
-    let twin = input::unless_refused(twin, &mut input, reporter)?;
+    let exported = input.export(&validated.lowered, folder.as_deref());
+    let exported = input::unless_refused(exported, &mut input, reporter)?;
     let interrupt = Interrupt::listen()?;
-    let files = twin.files.iter();
+    let files = exported.files.iter();
     let files = files.map(|(name, bytes)| (name.as_str(), bytes.as_slice()));
     let companions = write_sidecar(target, files, &interrupt)?;
-    output.commit(twin.text.as_bytes(), &interrupt)?;
+    output.commit(exported.text.as_bytes(), &interrupt)?;
     companions.keep();
     Ok(())
 }
@@ -128,7 +128,7 @@ fn write_sidecar<'f>(
     Ok(companions)
 }
 
-/// The same for the canonical spelling, which says how a picture is shown too.
+/// The same for the canonical spelling, which includes the output settings.
 fn carry_out_text(
     args: &Compile,
     mut input: Input,
@@ -137,7 +137,7 @@ fn carry_out_text(
     let look = OutputTransform::new(FileFormat::Png8, None, None, BackgroundFill::Film, &[]);
     let mut setup = PictureSetup {
         simd: simd::level()?,
-        ..PictureSetup::new(look.map_err(|words| Failure::Trouble(words.to_owned()))?)
+        ..PictureSetup::new(look.map_err(|message| Failure::Trouble(message.to_owned()))?)
     };
     let mut subject = input::subject(&mut setup, &mut input, reporter)?;
     let interrupt = Interrupt::listen()?;

@@ -6,7 +6,7 @@ use super::input;
 use super::interrupt::Interrupt;
 use super::merge::unfit;
 use super::output::Output;
-use super::render::{or_restart, say_saved, try_save};
+use super::render::{or_restart, print_saved, try_save};
 use super::reporter::Reporter;
 use super::simd;
 use super::system;
@@ -35,9 +35,9 @@ pub(super) fn run(args: &args::Cost) -> Result<(), Failure> {
 
 fn alone(args: &args::Cost, file: &Path) -> Result<(), Failure> {
     if args.gate.is_some() {
-        let words = "`--gate` is for a scene and its reference: `rtc cost new.yaml old.yaml \
+        let message = "`--gate` is for a scene and its reference: `rtc cost new.yaml old.yaml \
             --gate 'time<=1.2x'`";
-        return Err(Failure::Trouble(words.to_owned()));
+        return Err(Failure::Trouble(message.to_owned()));
     }
     let mut reporter = Reporter::beside_result(&args.reporter);
     let mut input = input::staged(file, &args.reading, &args.stage)?;
@@ -105,7 +105,7 @@ fn write_maps(
     Ok(())
 }
 
-/// How many threads work, 0 for one per core.
+/// The number of threads, 0 for one per core.
 pub(super) fn threads(args: &args::Cost) -> usize {
     args.threads.map_or(0, usize::from)
 }
@@ -131,7 +131,7 @@ fn measure(
     })?;
     study.map_err(|Stopped| {
         if is_saved.load(Relaxed) {
-            say_saved(&file, "what is rendered");
+            print_saved(&file, "the renders");
         }
         Failure::Interrupted
     })

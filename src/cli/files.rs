@@ -41,8 +41,10 @@ impl SceneFiles {
         match self.skipped {
             _ if is_quiet => {}
             0 => {}
-            1 => reporter::say("1 file skipped that is no scene"),
-            skipped => reporter::say(&format!("{skipped} files skipped that are no scenes")),
+            1 => reporter::print_message("1 file skipped that is no scene"),
+            skipped => {
+                reporter::print_message(&format!("{skipped} files skipped that are no scenes"))
+            }
         }
     }
 }
@@ -112,8 +114,8 @@ fn is_pattern(path: &Path) -> bool {
 /// The files that fit a pattern, and the scenes below the folders that do: at least one.
 fn fitting(pattern: &Path, is_meant: NameTest) -> Result<Vec<PathBuf>, Failure> {
     let shown = pattern.display();
-    let refused = |words: &str| Failure::Trouble(format!("`{shown}`: {words}"));
-    let pattern = FilePattern::new(pattern).map_err(|words| refused(&words))?;
+    let refused = |message: &str| Failure::Trouble(format!("`{shown}`: {message}"));
+    let pattern = FilePattern::new(pattern).map_err(|message| refused(&message))?;
     let mut found = Vec::new();
     for entry in pattern.traverse() {
         let entry = entry.map_err(|error| refused(&reason(&error)))?;
@@ -201,7 +203,7 @@ impl FilePattern {
 
 /// All scenes below a folder: at least one.
 fn below(folder: &Path, is_meant: NameTest) -> Result<Vec<PathBuf>, Failure> {
-    let refused = |words: &str| Failure::Trouble(format!("`{}`: {words}", folder.display()));
+    let refused = |message: &str| Failure::Trouble(format!("`{}`: {message}", folder.display()));
     let mut found = Vec::new();
     let entries = WalkDir::new(folder).sort_by_file_name().into_iter();
     for entry in entries.filter_entry(|entry| !is_hidden(entry)) {
@@ -224,6 +226,6 @@ fn is_hidden(entry: &DirEntry) -> bool {
 
 /// The error of the system.
 fn reason(error: &walkdir::Error) -> String {
-    let said = error.io_error().map(ToString::to_string);
-    said.unwrap_or_else(|| error.to_string())
+    let errors = error.io_error().map(ToString::to_string);
+    errors.unwrap_or_else(|| error.to_string())
 }

@@ -31,7 +31,7 @@ pub(super) fn run(
     };
     let fixed = pipeline::fix(path, text, &options, &wish);
     if !reporter.is_quiet() {
-        tell(read.name(), &fixed, args.diff);
+        report_changes(read.name(), &fixed, args.diff);
     }
     if fixed.changes == 0 {
         return Ok(read);
@@ -43,13 +43,13 @@ pub(super) fn run(
     edit::write(path, text, &fixed.text)?;
     let mut input = Input::edited(path, fixed.text.into_bytes(), options);
     if let Some(project) = project {
-        project.tell(&mut input);
+        project.report_diagnostics(&mut input);
     }
     Ok(input)
 }
 
 /// Reports the applied fixes, and the rejected ones with reasons.
-fn tell(name: &str, fixed: &FixedText, is_shown: bool) {
+fn report_changes(name: &str, fixed: &FixedText, is_shown: bool) {
     let changes = |count| match count {
         1 => "1 change".to_owned(),
         _ => format!("{count} changes"),
@@ -62,16 +62,16 @@ fn tell(name: &str, fixed: &FixedText, is_shown: bool) {
     } = *fixed;
     if made > 0 {
         let what = if is_shown { "proposed" } else { "made" };
-        reporter::say(&format!("{name}: {} {what}", changes(made)));
+        reporter::print_message(&format!("{name}: {} {what}", changes(made)));
     }
     if refused > 0 {
-        reporter::say(&format!(
+        reporter::print_message(&format!(
             "{name}: {} left out, which would not make the check better",
             changes(refused)
         ));
     }
     if guesses > 0 {
-        reporter::say(&format!(
+        reporter::print_message(&format!(
             "{name}: {} skipped as guesses; `--unsafe` applies guesses, too",
             changes(guesses)
         ));

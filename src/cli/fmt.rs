@@ -14,12 +14,12 @@ pub(super) fn run(args: &Fmt) -> Result<(), Failure> {
     for path in &scenes.paths {
         match one(path, args, &mut reporter) {
             Err(gone @ Failure::ClosedPipe) => return Err(gone),
-            Err(Failure::Trouble(words)) => {
-                reporter::say(&format!("error: {words}"));
+            Err(Failure::Trouble(message)) => {
+                reporter::print_message(&format!("error: {message}"));
                 worst = Err(Failure::Unreadable);
             }
-            Err(Failure::Input(words)) => {
-                reporter::say(&format!("error: {words}"));
+            Err(Failure::Input(message)) => {
+                reporter::print_message(&format!("error: {message}"));
                 worst = worst.and(Err(Failure::Findings));
             }
             Err(Failure::Findings) => worst = worst.and(Err(Failure::Findings)),
@@ -35,7 +35,7 @@ pub(super) fn run(args: &Fmt) -> Result<(), Failure> {
 fn one(path: &Path, args: &Fmt, reporter: &mut Reporter) -> Result<(), Failure> {
     let mut input = input::open(path, None, Options::default());
     let laid_out = input.lay_out();
-    input::tell(&mut input, reporter)?;
+    input::report_diagnostics(&mut input, reporter)?;
     let text = match laid_out {
         Ok(text) => text,
         Err(fault) => return unformatted(&input, fault, reporter.is_quiet()),
@@ -52,7 +52,7 @@ fn one(path: &Path, args: &Fmt, reporter: &mut Reporter) -> Result<(), Failure> 
     } else if !is_same {
         edit::write(path, before, &text)?;
         if !reporter.is_quiet() {
-            reporter::say(&format!("{}: formatted", input.name()));
+            reporter::print_message(&format!("{}: formatted", input.name()));
         }
     }
     match args.check && !is_same {
@@ -69,7 +69,9 @@ fn unformatted(input: &Input, fault: LayoutError, is_quiet: bool) -> Result<(), 
         LayoutError::Findings => return Err(Failure::Findings),
         LayoutError::NoScene => {
             if !is_quiet {
-                reporter::say(&format!("`{name}` is unchanged: it has no key of a scene"));
+                reporter::print_message(&format!(
+                    "`{name}` is unchanged: it has no key of a scene"
+                ));
             }
             return Ok(());
         }

@@ -19,7 +19,7 @@ enum Unit {
 /// The measures of a command.
 type Measures = [(&'static str, Unit)];
 
-/// Those of the difference of two pictures.
+/// The measures of the difference of two pictures.
 const OF_PICTURES: &Measures = &[
     ("rmse", Unit::Plain),
     ("max", Unit::Plain),
@@ -28,7 +28,7 @@ const OF_PICTURES: &Measures = &[
     ("share", Unit::Share),
 ];
 
-/// Those of one scene against another.
+/// The measures of one scene against another.
 const OF_SCENES: &Measures = &[
     ("error", Unit::Plain),
     ("time", Unit::Ratio),
@@ -71,9 +71,9 @@ fn gates(text: &str, measures: &Measures) -> Result<Gates, String> {
 }
 
 /// Reports each gate, or in quiet mode only the failed ones; an error if one failed.
-pub(super) fn pass(gates: &[JudgedGate], is_quiet: bool) -> Result<(), Failure> {
+pub(super) fn pass(gates: &[GateResult], is_quiet: bool) -> Result<(), Failure> {
     let reported = gates.iter().filter(|gate| !(gate.passed && is_quiet));
-    reported.for_each(|gate| reporter::say(&gate.to_string()));
+    reported.for_each(|gate| reporter::print_message(&gate.to_string()));
     match gates.iter().all(|gate| gate.passed) {
         true => Ok(()),
         false => Err(Failure::Findings),
@@ -119,7 +119,7 @@ impl Gate {
 /// A gate and its measured value.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct JudgedGate {
+pub(super) struct GateResult {
     /// The name of the measure.
     measure: &'static str,
     /// The measured value.
@@ -127,26 +127,27 @@ pub(super) struct JudgedGate {
     /// The limit.
     most: f64,
     /// Whether the value is within the limit.
+    #[serde(rename = "isMet")]
     pub(super) passed: bool,
 }
 
 impl Gates {
     /// The gates with their measured values.
-    pub(super) fn is_resolved(&self, measured: impl Fn(&str) -> f64) -> Vec<JudgedGate> {
-        let is_resolved = |gate: &Gate| {
+    pub(super) fn results(&self, measured: impl Fn(&str) -> f64) -> Vec<GateResult> {
+        let results = |gate: &Gate| {
             let (measure, most, value) = (gate.measure, gate.most, measured(gate.measure));
-            JudgedGate {
+            GateResult {
                 measure,
                 value,
                 most,
                 passed: value <= most,
             }
         };
-        self.0.iter().map(is_resolved).collect()
+        self.0.iter().map(results).collect()
     }
 }
 
-impl fmt::Display for JudgedGate {
+impl fmt::Display for GateResult {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
             measure,
@@ -154,8 +155,8 @@ impl fmt::Display for JudgedGate {
             most,
             passed,
         } = self;
-        let words = if *passed { "passed" } else { "failed" };
-        write!(f, "gate {words}: {measure} is {value:.6}, limit {most}")
+        let message = if *passed { "passed" } else { "failed" };
+        write!(f, "gate {message}: {measure} is {value:.6}, limit {most}")
     }
 }
 
@@ -184,7 +185,7 @@ mod tests {
 
     #[test]
     fn what_is_wrong_with_a_gate_is_named() {
-        for (text, words) in [
+        for (text, message) in [
             ("rmse<1", "write `MEASURE<=VALUE`"),
             ("rsme<=1", "no measure `rsme`"),
             ("speed<=1", "measures are rmse, max"),
@@ -194,31 +195,28 @@ mod tests {
             ("rmse<=1,", "is no gate"),
         ] {
             let error = of_pictures(text).unwrap_err();
-            assert!(error.contains(words), "{text}: {error}");
+            assert!(error.contains(message), "{text}: {error}");
         }
-        for (text, words) in [
+        for (text, message) in [
             ("error<=1x", "no `x`"),
             ("time<=10%", "no `%`"),
             ("rmse<=1", "error, time"),
         ] {
             let error = of_scenes(text).unwrap_err();
-            assert!(error.contains(words), "{text}: {error}");
+            assert!(error.contains(message), "{text}: {error}");
         }
     }
 
     #[test]
     fn a_gate_is_met_up_to_its_limit() {
         let gates = of_pictures("rmse<=1,max<=3").unwrap();
-        let is_resolved = gates.is_resolved(|name| if name == "rmse" { 1.0 } else { 3.5 });
+        let results = gates.results(|name| if name == "rmse" { 1.0 } else { 3.5 });
         assert_eq!(
-            is_resolved
-                .iter()
-                .map(|gate| gate.passed)
-                .collect::<Vec<_>>(),
+            results.iter().map(|gate| gate.passed).collect::<Vec<_>>(),
             [true, false]
         );
         assert_eq!(
-            is_resolved[1].to_string(),
+            results[1].to_string(),
             "gate failed: max is 3.500000, limit 3"
         );
     }

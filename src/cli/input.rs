@@ -22,7 +22,7 @@ pub(super) fn read(path: &Path, reading: &Reading) -> Result<Input, Failure> {
     let options = options(reading, project.as_ref())?;
     let mut input = open(path, reading.stdin_name.as_deref(), options);
     if let Some(project) = project {
-        project.tell(&mut input);
+        project.report_diagnostics(&mut input);
     }
     Ok(input)
 }
@@ -133,7 +133,10 @@ pub(super) fn set_stage(mut input: Input, stage: &args::StageArgs) -> Result<Inp
 }
 
 /// Reports new diagnostics, and fails if there are errors.
-pub(super) fn tell(input: &mut Input, reporter: &mut Reporter) -> Result<(), Failure> {
+pub(super) fn report_diagnostics(
+    input: &mut Input,
+    reporter: &mut Reporter,
+) -> Result<(), Failure> {
     let sink = input.take_diagnostics();
     let status = match input.is_read() {
         false => Err(Failure::Unreadable),
@@ -157,7 +160,7 @@ pub(super) fn light(
         is_stopped: &|| interrupt.is_raised(),
     };
     setup.light(subject, input, &observer)?;
-    tell(input, reporter)
+    report_diagnostics(input, reporter)
 }
 
 /// Validates a scene, and reports the diagnostics.
@@ -194,7 +197,7 @@ pub(super) fn subject(
     match subject {
         Ok(subject) => unless_refused(subject, input, reporter),
         Err(error) => {
-            tell(input, reporter)?;
+            report_diagnostics(input, reporter)?;
             Err(error.into())
         }
     }
@@ -206,7 +209,7 @@ pub(super) fn unless_refused<T>(
     input: &mut Input,
     reporter: &mut Reporter,
 ) -> Result<T, Failure> {
-    tell(input, reporter)?;
+    report_diagnostics(input, reporter)?;
     Ok(made.expect("what is refused has an error in the sink, and `tell` has returned it"))
 }
 

@@ -51,11 +51,11 @@ impl Interrupt {
             return Ok(listener.clone());
         }
         let state = Arc::new(InterruptState::default());
-        let heard = Arc::clone(&state);
+        let received = Arc::clone(&state);
         let on_signal = move |signal| {
             let first = HEARD.compare_exchange(0, signal, Ordering::Relaxed, Ordering::Relaxed);
             if first.is_err() {
-                heard.end();
+                received.end();
             }
         };
         listen_for(on_signal)

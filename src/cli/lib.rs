@@ -8,8 +8,7 @@
 //!    of values.
 //! 2. Each command is a module with a function `run`: `check`, `compile`, `render`, `cost`, `diff`,
 //!    `audit`, `info`, `fmt`, `new`, `merge`, `batch` (for `rtc farm`), `preview`, `lsp`,
-//!    `explain`, and `tell`
-//!    for schemas, completions and manual pages.
+//!    `explain`, and `describe` for schemas, completions and manual pages.
 //! 3. `input` reads the scene of a command with the defaults of its `rtc.toml` (`project`), and
 //!    validates it. The work itself is done by `pipeline`, `study` and `render`.
 //! 4. `reporter` prints diagnostics in the requested format; `output` writes results atomically.
@@ -36,6 +35,7 @@ mod batch;
 mod check;
 mod compile;
 mod cost;
+mod describe;
 mod diff;
 mod edit;
 mod explain;
@@ -61,7 +61,6 @@ mod shown;
 mod simd;
 mod suggest;
 mod system;
-mod tell;
 pub mod trial;
 mod turntable;
 mod typed;
@@ -120,7 +119,9 @@ impl Failure {
 #[must_use]
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     interrupt::outlive_full_files();
-    panic::set_hook(Box::new(|info| reporter::say(&internal_error(info))));
+    panic::set_hook(Box::new(|info| {
+        reporter::print_message(&internal_error(info))
+    }));
     guarded(|| dispatch(arguments))
 }
 
@@ -132,7 +133,7 @@ fn guarded(work: impl FnOnce() -> u8) -> u8 {
 fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let typed: Vec<OsString> = arguments.into_iter().collect();
     if typed.len() < 2 {
-        reporter::say(FIRST_COMMANDS);
+        reporter::print_message(FIRST_COMMANDS);
         return 2;
     }
     let cli = match Cli::try_parse_from(&typed) {
@@ -143,7 +144,7 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             let text = error.render().to_string();
             if text.lines().any(|line| line.len() > LONG_LINE) {
                 let lines: Vec<_> = text.lines().map(clip_words).collect();
-                reporter::say(&lines.join("\n"));
+                reporter::print_message(&lines.join("\n"));
             } else {
                 let _ = error.print();
             }
@@ -165,15 +166,15 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Audit(args) => audit::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Explain(args) => explain::run(&args),
-        Command::Schema(args) => tell::schema(&args),
-        Command::Completions(args) => tell::completions(&args),
-        Command::Man(args) => tell::man(&args),
+        Command::Schema(args) => describe::schema(&args),
+        Command::Completions(args) => describe::completions(&args),
+        Command::Man(args) => describe::man(&args),
     };
     match outcome {
         Ok(()) => 0,
         Err(failure) => {
-            if let Failure::Input(words) | Failure::Trouble(words) = &failure {
-                reporter::say(&format!("error: {words}"));
+            if let Failure::Input(message) | Failure::Trouble(message) = &failure {
+                reporter::print_message(&format!("error: {message}"));
             }
             failure.exit_code()
         }
@@ -181,14 +182,14 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 fn internal_error(info: &PanicHookInfo) -> String {
-    let words = info.payload_as_str().unwrap_or("no message");
+    let message = info.payload_as_str().unwrap_or("no message");
     let place = info
         .location()
         .map(|at| format!(" at {}:{}", at.file(), at.line()))
         .unwrap_or_default();
     let version = env!("CARGO_PKG_VERSION");
     format!(
-        "internal error: {words}{place}\nThis is a bug in rtc {version}: please report it with the \
+        "internal error: {message}{place}\nThis is a bug in rtc {version}: please report it with the \
         scene."
     )
 }

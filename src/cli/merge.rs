@@ -32,8 +32,8 @@ pub(super) fn run(args: &Merge) -> Result<(), Failure> {
     let (shares, count) = merged.shares();
     if args.output.extension().is_some_and(|it| it == "rtp") {
         output.commit(&merged.save(), &interrupt)?;
-        let words = format!("{} of {count} shares", shares.len());
-        return said(args, &words);
+        let text = format!("{} of {count} shares", shares.len());
+        return print_result(args, &text);
     }
     refuse_other_kind(args, &merged)?;
     let (picture, counts, found) = merged.develop().map_err(|error| refused(error, &merged))?;
@@ -48,7 +48,7 @@ pub(super) fn run(args: &Merge) -> Result<(), Failure> {
     output.commit(&bytes, &interrupt)?;
     let [width, height] = [picture.image.width, picture.image.height];
     let rays = progress::rays(counts.rays());
-    said(
+    print_result(
         args,
         &format!("{width}×{height}, of {count} shares, {rays}"),
     )
@@ -105,7 +105,7 @@ pub(super) fn read_part(
     map: &SourceMap,
 ) -> Result<RenderShard, Failure> {
     let bytes = Loader.bytes(path, MAX_BYTES, map);
-    let bytes = bytes.map_err(|error| Failure::Trouble(said_of(path, &error)))?;
+    let bytes = bytes.map_err(|error| Failure::Trouble(message_of(path, &error)))?;
     part_of(path, &bytes, max_pixels)
 }
 
@@ -116,17 +116,17 @@ pub(super) fn part_of(path: &Path, bytes: &[u8], max_pixels: u64) -> Result<Rend
 
 /// The message for an invalid part.
 pub(super) fn unfit(path: &Path, error: &dyn fmt::Display) -> Failure {
-    Failure::Input(said_of(path, error))
+    Failure::Input(message_of(path, error))
 }
 
-fn said_of(path: &Path, error: &dyn fmt::Display) -> String {
+fn message_of(path: &Path, error: &dyn fmt::Display) -> String {
     format!("`{}`: {error}", path.display())
 }
 
 /// Rejects a picture format other than that of the parts.
 fn refuse_other_kind(args: &Merge, merged: &RenderShard) -> Result<(), Failure> {
-    let asked = kind(&args.output, None)?;
-    let ((is, own), (_, other)) = (merged.look().kind.names(), asked.names());
+    let requested = kind(&args.output, None)?;
+    let ((is, own), (_, other)) = (merged.look().kind.names(), requested.names());
     if own == other {
         return Ok(());
     }
@@ -137,7 +137,7 @@ fn refuse_other_kind(args: &Merge, merged: &RenderShard) -> Result<(), Failure> 
 
 /// The message for parts that can't be merged.
 fn refused(error: ShardError, merged: &RenderShard) -> Failure {
-    let words = match &error {
+    let text = match &error {
         ShardError::Missing(shares, _) => {
             let first = shares.first().copied().unwrap_or(1);
             format!("{error}\nhelp: `{}` renders it", merged.command(first))
@@ -149,12 +149,12 @@ fn refused(error: ShardError, merged: &RenderShard) -> Failure {
         | ShardError::OtherPicture(_)
         | ShardError::Overlap(_) => error.to_string(),
     };
-    Failure::Input(words)
+    Failure::Input(text)
 }
 
-fn said(args: &Merge, words: &str) -> Result<(), Failure> {
+fn print_result(args: &Merge, text: &str) -> Result<(), Failure> {
     if !args.reporter.quiet {
-        reporter::say(&format!("{}: {words}", args.output.display()));
+        reporter::print_message(&format!("{}: {text}", args.output.display()));
     }
     Ok(())
 }

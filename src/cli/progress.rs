@@ -48,10 +48,10 @@ impl RenderProgress {
         self.bar.inc(u64::from(step.is_done));
     }
 
-    /// Begins a round of `pixels` more; `words` describe the quality reached.
-    pub(super) fn round(&self, pixels: u64, words: String) {
+    /// Begins a round of `pixels` more; `message` describe the quality reached.
+    pub(super) fn round(&self, pixels: u64, message: String) {
         self.bar.set_length(self.bar.position() + pixels);
-        self.bar.set_message(words);
+        self.bar.set_message(message);
     }
 
     /// The time since the start.
@@ -59,7 +59,7 @@ impl RenderProgress {
         self.bar.elapsed()
     }
 
-    /// Takes the bar away and says how long it took.
+    /// Removes the bar and returns the elapsed time.
     pub(super) fn finish(self) -> Duration {
         let elapsed = self.bar.elapsed();
         self.bar.finish_and_clear();

@@ -36,7 +36,7 @@ pub(super) struct PlanReport {
     rows: Vec<ReportRow>,
 }
 
-/// Of which samples of the picture rays were counted.
+/// The samples of the picture whose rays were counted.
 #[derive(Clone, Copy)]
 struct SampledPaths {
     stride: Stride,
@@ -44,7 +44,7 @@ struct SampledPaths {
     samples: u64,
     /// All of them.
     paths: u64,
-    /// Those of the whole picture.
+    /// The rays of the whole picture.
     all: u64,
 }
 
@@ -100,7 +100,7 @@ struct ReportRow {
 }
 
 impl ReportRow {
-    /// That of a verdict, with the rays that it takes and saves.
+    /// The row of a status, with the rays that it takes and saves.
     fn new(
         status: &EffectStatus,
         [costs, saves]: [u64; 2],
@@ -130,7 +130,7 @@ impl ReportRow {
             _ => format!("{about}{}", HumanCount(count)),
         };
         let status = &self.status;
-        let words = match &self.of {
+        let message = match &self.of {
             Some(of) => format!("{of}: {}", status.reason),
             None => status.reason.clone(),
         };
@@ -139,7 +139,7 @@ impl ReportRow {
         } else {
             format!(" ({})", self.places.join(", "))
         };
-        let reason = folded(&(words + &places));
+        let reason = folded(&(message + &places));
         if self.of.is_some() {
             return reason;
         }
@@ -296,11 +296,11 @@ impl<'scene> Counter<'scene> {
             k += 1;
         }
         let stride = Stride::new(k);
-        let met = u64::from(stride.of(width)) * u64::from(stride.of(height));
+        let hit = u64::from(stride.of(width)) * u64::from(stride.of(height));
         let sampled = SampledPaths {
             stride,
             samples,
-            paths: met.saturating_mul(samples),
+            paths: hit.saturating_mul(samples),
             all,
         };
         Self { scene, sampled }
@@ -364,11 +364,11 @@ fn at(file: &str, line: u32) -> String {
 }
 
 /// The text in indented lines of at most [`WIDTH`] columns.
-fn folded(words: &str) -> String {
+fn folded(message: &str) -> String {
     const INDENT: &str = "    ";
     let mut text = String::new();
     let mut line = INDENT.to_owned();
-    for word in words.split(' ') {
+    for word in message.split(' ') {
         if line.trim_start().chars().count() > 0
             && line.chars().count() + 1 + word.chars().count() > WIDTH
         {

@@ -8,7 +8,7 @@ use rtc_diag::{Format, PrintOptions, Printer, Severity, Sink};
 use rtc_source::SourceMap;
 use std::io::{self, IsTerminal, Write};
 
-/// Where the terminal does not say how wide it is.
+/// The default width of a terminal.
 const WIDTH: usize = 100;
 
 /// Reports the diagnostics of one file after another.
@@ -20,7 +20,7 @@ pub(super) struct Reporter {
     /// Findings are JSON objects.
     tells_objects: bool,
     /// A diagnostic of a file was printed.
-    has_told: bool,
+    has_reported: bool,
 }
 
 impl Reporter {
@@ -63,14 +63,14 @@ impl Reporter {
             quiet,
             verbose,
             tells_objects: message_format == args::MessageFormat::Json,
-            has_told: false,
+            has_reported: false,
         }
     }
 
     /// Reports the diagnostics of the file `name`.
     pub(super) fn file(&mut self, name: &str, sink: Sink, map: &SourceMap) -> Result<(), Failure> {
         let text = self.printer.file(name, sink, map);
-        self.has_told |= !text.is_empty();
+        self.has_reported |= !text.is_empty();
         write(self.to_stdout, &text)
     }
 
@@ -80,8 +80,8 @@ impl Reporter {
             return;
         }
         match self.tells_objects {
-            true => say(&picture.object()),
-            false => say(&picture.words(self.verbose)),
+            true => print_message(&picture.object()),
+            false => print_message(&picture.text(self.verbose)),
         }
     }
 
@@ -92,7 +92,7 @@ impl Reporter {
 
     /// True if the terminal of a user has received no message, and quiet mode is off.
     pub(super) fn left_in_doubt(&self) -> bool {
-        !self.has_told && !self.to_stdout && !self.quiet && io::stderr().is_terminal()
+        !self.has_reported && !self.to_stdout && !self.quiet && io::stderr().is_terminal()
     }
 
     /// True in quiet mode.
@@ -102,8 +102,8 @@ impl Reporter {
 }
 
 /// Prints to standard error, without control characters. A closed stream is ignored.
-pub(super) fn say(words: &str) {
-    let harmless = words.replace(|c: char| c.is_control() && c != '\n', "\u{fffd}");
+pub(super) fn print_message(message: &str) {
+    let harmless = message.replace(|c: char| c.is_control() && c != '\n', "\u{fffd}");
     let _ = writeln!(io::stderr(), "{harmless}");
 }
 

@@ -53,10 +53,10 @@ fn flag(error: &Error, typed: &[OsString]) -> Option<String> {
     if !is_samples && !SIZES.contains(&wrong.as_str()) {
         return None;
     }
-    let (kept, asked) = apart(typed);
+    let (kept, foreign_flags) = without_foreign_flags(typed);
     let scene = scene(&kept)?;
     let value = |flag: &str| {
-        let found = asked.iter().rev().find(|(name, _)| name == flag);
+        let found = foreign_flags.iter().rev().find(|(name, _)| name == flag);
         found.and_then(|(_, value)| value.as_deref())
     };
     Some(if is_samples {
@@ -76,17 +76,17 @@ fn flag(error: &Error, typed: &[OsString]) -> Option<String> {
 type RequestedFlag = (String, Option<String>);
 
 /// The arguments without the flags of other renderers, and those flags.
-fn apart(typed: &[OsString]) -> (Vec<OsString>, Vec<RequestedFlag>) {
-    let (mut kept, mut asked) = (Vec::new(), Vec::new());
-    let mut words = typed.iter().peekable();
-    while let Some(word) = words.next() {
-        let text = word.to_string_lossy();
+fn without_foreign_flags(typed: &[OsString]) -> (Vec<OsString>, Vec<RequestedFlag>) {
+    let (mut kept, mut foreign_flags) = (Vec::new(), Vec::new());
+    let mut arguments = typed.iter().peekable();
+    while let Some(argument) = arguments.next() {
+        let text = argument.to_string_lossy();
         let (name, value) = match text.split_once('=') {
             Some((name, value)) => (name, Some(value.to_owned())),
             None => (text.as_ref(), None),
         };
         if !SAMPLES.contains(&name) && !SIZES.contains(&name) {
-            kept.push(word.clone());
+            kept.push(argument.clone());
             continue;
         }
         let is_value = |next: &&OsString| {
@@ -94,12 +94,12 @@ fn apart(typed: &[OsString]) -> (Vec<OsString>, Vec<RequestedFlag>) {
             next.starts_with(|first: char| first.is_ascii_digit()) && !Path::new(&*next).exists()
         };
         let value = value.or_else(|| {
-            let next = words.next_if(is_value)?;
+            let next = arguments.next_if(is_value)?;
             Some(next.to_string_lossy().into_owned())
         });
-        asked.push((name.to_owned(), value));
+        foreign_flags.push((name.to_owned(), value));
     }
-    (kept, asked)
+    (kept, foreign_flags)
 }
 
 /// The scene of a command that makes pictures, if it can be read; `None` of another command.
@@ -108,7 +108,7 @@ fn apart(typed: &[OsString]) -> (Vec<OsString>, Vec<RequestedFlag>) {
     reason = "a command without a scene is not one without a picture"
 )]
 fn scene(kept: &[OsString]) -> Option<Option<Scene>> {
-    let is_verb = |word: &OsString| word == "render" || word == "farm";
+    let is_verb = |argument: &OsString| argument == "render" || argument == "farm";
     if !kept.get(1).is_some_and(is_verb) {
         return None;
     }
@@ -173,8 +173,11 @@ fn pixels(scene: Option<&Scene>, sides: [Option<u32>; 2], whole: Option<[u32; 2]
 }
 
 /// The message for requested samples that a scene does not use, if any.
-pub(super) fn idle(asked: &Overrides, mode: &Mode) -> Option<&'static str> {
-    let (is_spp, is_side) = (asked.spp.is_some(), asked.supersampling.is_some());
+pub(super) fn idle(foreign_flags: &Overrides, mode: &Mode) -> Option<&'static str> {
+    let (is_spp, is_side) = (
+        foreign_flags.spp.is_some(),
+        foreign_flags.supersampling.is_some(),
+    );
     match mode {
         Mode::Path(_) => is_side.then_some(
             "warning: `--supersampling` has no effect: the scene is path-traced; `--spp N` traces \
@@ -199,9 +202,9 @@ mod tests {
     fn flags_of_other_renderers_are_set_apart_with_their_values() {
         let typed = "rtc render --width=64 a.yaml --height 48 --samples --res x".split(' ');
         let typed: Vec<OsString> = typed.map(OsString::from).collect();
-        let (kept, asked) = apart(&typed);
+        let (kept, foreign_flags) = without_foreign_flags(&typed);
         assert_eq!(kept, ["rtc", "render", "a.yaml", "x"]);
-        let asked: Vec<_> = asked
+        let foreign_flags: Vec<_> = foreign_flags
             .iter()
             .map(|(name, value)| (name.as_str(), value.as_deref()))
             .collect();
@@ -211,7 +214,7 @@ mod tests {
             ("--samples", None),
             ("--res", None),
         ];
-        assert_eq!(asked, wanted);
+        assert_eq!(foreign_flags, wanted);
     }
 
     #[test]

@@ -18,14 +18,14 @@ pub(super) struct Turntable {
 
 /// Which views of a turntable are shown.
 pub(super) struct Views {
-    /// How many there are.
+    /// The number of views.
     pub(super) count: u32,
     /// Those that are shown, from 0.
     pub(super) shown: Range<u32>,
 }
 
 impl Views {
-    /// So many views, and of them only the first to the last given, from 1, if any are.
+    /// The number of views, and the range of them to render, from 1, if any.
     pub(super) fn new(
         count: Option<u32>,
         frames: Option<[u32; 2]>,
@@ -45,8 +45,8 @@ impl Views {
 }
 
 impl Turntable {
-    /// So many views around `up`, or without it the axis of the world that is nearest to that of
-    /// the camera.
+    /// A number of views around `up`, or by default around the world axis closest to the camera's
+    /// up vector.
     pub(super) fn new(scene: &Scene, up: Option<[f64; 3]>, count: u32) -> Self {
         let camera = scene.camera.clone();
         let axis = up.map_or_else(

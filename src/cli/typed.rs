@@ -5,30 +5,33 @@ use std::ffi::OsString;
 /// The arguments without the program and without these options and their values, which are the next
 /// argument or the rest of their own.
 pub(super) fn without(typed: &[OsString], options: &[&str]) -> Vec<String> {
-    let mut words = typed.iter().skip(1).map(|word| word.to_string_lossy());
+    let mut arguments = typed
+        .iter()
+        .skip(1)
+        .map(|argument| argument.to_string_lossy());
     let mut kept = Vec::new();
-    while let Some(word) = words.next() {
-        if options.contains(&word.as_ref()) {
-            words.next();
-        } else if !options.iter().any(|option| holds(&word, option)) {
-            kept.push(word.into_owned());
+    while let Some(argument) = arguments.next() {
+        if options.contains(&argument.as_ref()) {
+            arguments.next();
+        } else if !options.iter().any(|option| holds(&argument, option)) {
+            kept.push(argument.into_owned());
         }
     }
     kept
 }
 
 /// Whether an argument is an option with its value.
-fn holds(word: &str, option: &str) -> bool {
-    let rest = word.strip_prefix(option);
+fn holds(argument: &str, option: &str) -> bool {
+    let rest = argument.strip_prefix(option);
     rest.is_some_and(|rest| !option.starts_with("--") || rest.starts_with('='))
 }
 
 /// An argument quoted for a POSIX shell.
-pub(super) fn quoted(word: &str) -> String {
+pub(super) fn quoted(argument: &str) -> String {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "_-./:=,+@%".contains(letter);
-    match !word.is_empty() && word.chars().all(is_plain) {
-        true => word.to_owned(),
-        false => format!("'{}'", word.replace('\'', "'\\''")),
+    match !argument.is_empty() && argument.chars().all(is_plain) {
+        true => argument.to_owned(),
+        false => format!("'{}'", argument.replace('\'', "'\\''")),
     }
 }
 

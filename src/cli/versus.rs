@@ -3,7 +3,7 @@
 use super::Failure;
 use super::args::{self, StudyFormat};
 use super::cost::{about, threads, with_runtime};
-use super::gate::{self, JudgedGate};
+use super::gate::{self, GateResult};
 use super::input;
 use super::interrupt::Interrupt;
 use super::output::Output;
@@ -21,7 +21,7 @@ pub(super) struct VersusReport<'a> {
     #[serde(flatten)]
     found: &'a Versus,
     /// The gates of `--gate`, in their order.
-    gates: &'a [JudgedGate],
+    gates: &'a [GateResult],
 }
 
 /// Compares the scenes and writes the report.
@@ -59,9 +59,9 @@ fn carry_out(args: &args::Cost, files: [&Path; 2], reporter: &mut Reporter) -> R
     let interrupt = Interrupt::listen()?;
     let [a, b] = [&first.1, &second.1].map(|scene| scene.camera.size);
     if a != b {
-        let words = "pictures of one size are compared";
+        let message = "pictures of one size are compared";
         return Err(Failure::Input(format!(
-            "{words}: `{}` has {} × {} pixels, `{}` {} × {}",
+            "{message}: `{}` has {} × {} pixels, `{}` {} × {}",
             first.0.scene, a[0], a[1], second.0.scene, b[0], b[1]
         )));
     }
@@ -76,15 +76,15 @@ fn carry_out(args: &args::Cost, files: [&Path; 2], reporter: &mut Reporter) -> R
     })?;
     let found = found.map_err(|Stopped| Failure::Interrupted)?;
     let gates = args.gate.as_ref();
-    let is_resolved = gates.map_or_else(Vec::new, |gates| {
-        gates.is_resolved(|name| measure(&found, name))
+    let results = gates.map_or_else(Vec::new, |gates| {
+        gates.results(|name| measure(&found, name))
     });
     let report = match args.format {
-        StudyFormat::Json => json(&found, &is_resolved)?,
+        StudyFormat::Json => json(&found, &results)?,
         StudyFormat::Table | StudyFormat::Csv => versus_table(&found),
     };
     output.commit(report.as_bytes(), &interrupt)?;
-    gate::pass(&is_resolved, reporter.is_quiet())
+    gate::pass(&results, reporter.is_quiet())
 }
 
 /// A validated scene with its diagnostics.
@@ -107,7 +107,7 @@ fn measure(found: &Versus, name: &str) -> f64 {
     }
 }
 
-fn json(found: &Versus, gates: &[JudgedGate]) -> Result<String, Failure> {
+fn json(found: &Versus, gates: &[GateResult]) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(&VersusReport { found, gates });
     text.map(|text| text + "\n")
         .map_err(|error| Failure::Trouble(error.to_string()))

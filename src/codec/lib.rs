@@ -94,7 +94,7 @@ impl Encoded<'_> {
     /// Writes the file in pieces: columns and pixels are not copied in memory.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// The bytes of `out`.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         match &self.0 {
             Writing::Json(text) => out.write_all(text),

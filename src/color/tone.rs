@@ -197,8 +197,8 @@ mod tests {
         for k in 0..=1000 {
             let x = f64::from(k) / 1000.0;
             let polynomial = fit.iter().rev().fold(0.0, |sum, c| sum * x + c);
-            let apart = (sigmoid(x, 20.0 / 33.0) - polynomial).abs();
-            assert!(apart < 0.006, "{x}: {apart}");
+            let difference = (sigmoid(x, 20.0 / 33.0) - polynomial).abs();
+            assert!(difference < 0.006, "{x}: {difference}");
         }
     }
 

@@ -39,7 +39,7 @@ impl<W: Write> AnimatedPng<W> {
     /// Writes the next picture.
     ///
     /// # Errors
-    /// If it can't be written, or is not as the head says.
+    /// If it can't be written, or does not match the header.
     pub fn add(&mut self, picture: &Picture) -> io::Result<()> {
         let (mut pixels, mut row) = (Vec::new(), Vec::new());
         for index in 0..self.height.min(picture.image.height) as usize {

@@ -32,8 +32,8 @@ pub struct PictureHead {
     pub has_tiles: bool,
 }
 
-/// Where the strips of a picture come from, from the top. Each has the width and the channels of
-/// its picture.
+/// The source of the strips of a picture, from the top. Each has the width and the channels of its
+/// picture.
 pub struct StripSource<'s> {
     next: &'s mut dyn FnMut() -> io::Result<Cow<'s, Picture>>,
     /// The hashes of the tiles of the strips so far.
@@ -69,7 +69,7 @@ impl StripSource<'_> {
 }
 
 impl PictureHead {
-    /// That of a picture, in a form.
+    /// The header of a picture, in a format.
     #[must_use]
     pub fn of(picture: &Picture, form: FileFormat) -> Self {
         let Picture {

@@ -7,7 +7,7 @@ use ::gif::{Encoder, EncodingError, Frame, Repeat};
 use ::png::BitDepth;
 use std::io::{self, ErrorKind, Write};
 
-/// How many pixels the choice of colours leaves out, from 1 to 30: all count.
+/// The sampling step for choosing the palette, from 1 to 30: all pixels count.
 const SPEED: i32 = 1;
 
 /// A GIF that is partly written.

@@ -93,7 +93,7 @@ fn plain(value: f64) -> f64 {
     if value.is_nan() { f64::NAN } else { value }
 }
 
-/// How many tiles a picture has.
+/// The number of tiles of a picture.
 #[must_use]
 pub fn tile_count([width, height]: [u32; 2]) -> usize {
     width.div_ceil(TILE) as usize * height.div_ceil(TILE) as usize
@@ -103,7 +103,7 @@ pub fn tile_count([width, height]: [u32; 2]) -> usize {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MerkleTree {
     root: TileHash,
-    /// How far above the leaves the nodes are.
+    /// The level of the nodes above the leaves.
     level: u8,
     nodes: Vec<TileHash>,
 }
@@ -194,7 +194,7 @@ impl MerkleTree {
         [VERSION, self.level].into_iter().chain(hashes).collect()
     }
 
-    /// How many bytes the tree of a picture with all its leaves has.
+    /// The bytes of the tree of a picture with all its leaves.
     pub(super) fn length(size: [u32; 2]) -> usize {
         2 + 32 * (1 + tile_count(size))
     }

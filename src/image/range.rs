@@ -5,7 +5,7 @@ use super::{FileFormat, Image, Layers, Picture};
 /// The values of a picture that its files change.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RangeClipping {
-    /// How many pixels have a value that is no number: 0 in every file.
+    /// The number of pixels with a NaN, which is 0 in every file.
     pub unnumbered: u64,
     /// The channels with values beyond the largest float that an EXR has for them, 3.4e38 in 32
     /// bits and 65 504 in 16, which replaces them.
@@ -13,7 +13,7 @@ pub struct RangeClipping {
 }
 
 impl Image {
-    /// How many pixels have a value that is no number.
+    /// The number of pixels with a NaN.
     #[must_use]
     pub fn unnumbered(&self) -> u64 {
         self.pixels

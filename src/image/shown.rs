@@ -112,7 +112,7 @@ impl ShownPicture {
         self.size
     }
 
-    /// How many pixels it has.
+    /// Its number of pixels.
     #[must_use]
     pub fn pixels(&self) -> usize {
         self.size[0] as usize * self.size[1] as usize

@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 
 /// A camera with any frustum, including sheared ones.
 ///
-/// Sub-sample (i, j) of pixel (x, y), y downwards, looks from the eye through `center + (x +
-/// (i+½)/factor − width/2)·right + (height/2 − y − (j+½)/factor)·up`.
+/// Sub-sample (i, j) of pixel (x, y), y downwards, looks from the eye through
+/// `center + (x + (i+½)/factor − width/2)·right + (height/2 − y − (j+½)/factor)·up`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Camera {

@@ -140,6 +140,6 @@ impl Scene {
 pub struct Lowered {
     /// The scene. Entities that failed are left out, and the sink has an error for each.
     pub scene: Scene,
-    /// Where its values were written.
+    /// The source spans of its values.
     pub source_spans: SourceSpans,
 }

@@ -128,7 +128,7 @@ impl Photometry {
     }
 }
 
-/// How a scene of the course spells an emitter.
+/// The spelling of an emitter in the scene format.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spelling<'a> {
     /// The value of its key `type`.
@@ -248,7 +248,7 @@ impl Emitter {
         }
     }
 
-    /// How a scene of the course writes this emitter.
+    /// The spelling of this emitter in the scene format.
     #[must_use]
     pub fn spelling(&self) -> Spelling<'_> {
         let range = self.range().map(|range| ("range", range));

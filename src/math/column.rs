@@ -116,7 +116,7 @@ impl<const N: usize> Column<N> {
         self.len() == 0
     }
 
-    /// How many bytes its numbers take.
+    /// The number of bytes of its values.
     #[must_use]
     pub fn bytes(&self) -> usize {
         match self {

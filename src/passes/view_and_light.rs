@@ -45,7 +45,7 @@ pub enum SceneKind {
 /// Whether a path-traced scene is placed in the studio.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum StudioChoice {
-    /// If it has no light; as a dimmed fill light if its own light shows little of it.
+    /// If the scene has no light; as a dimmed fill light if its own light illuminates little of it.
     #[default]
     Auto,
     /// Yes, whatever its environment is.

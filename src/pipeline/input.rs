@@ -83,7 +83,7 @@ pub struct Provenance {
     pub is_unlit: bool,
     /// Whether the studio may still add light to its own.
     pub fill: FillLight,
-    /// How its view was chosen, if it has none.
+    /// The choice of its view, if it has none.
     pub framing: Option<Framing>,
 }
 

@@ -90,7 +90,7 @@ pub struct Rounds<'a> {
 pub enum RenderError {
     /// The observer stopped it.
     Stopped,
-    /// The limit on rays was exceeded; the diagnostic says where.
+    /// The limit on rays was exceeded; the diagnostic has the position.
     RanOut(Box<Diagnostic>),
     /// It can't be rendered, for this reason.
     Refused(String),

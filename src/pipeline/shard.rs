@@ -60,7 +60,7 @@ struct ShardHeader {
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 struct ShardTiles {
     root: String,
-    /// Of each tile that has samples the hash of its sums and layers, in the order of the film.
+    /// For each tile with samples, the hash of its sums and layers, in the order of the film.
     leaves: Vec<String>,
 }
 

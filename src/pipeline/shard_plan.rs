@@ -5,7 +5,7 @@ use rtc_render::{SAMPLES_OF_BLOCK, Tiles};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// How a picture is divided.
+/// The division of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum ShardBy {
@@ -19,7 +19,7 @@ pub enum ShardBy {
 /// A range of shares of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ShardPlan {
-    /// How the picture is divided.
+    /// The division of the picture.
     pub by: ShardBy,
     /// The first share, from 1.
     pub first: u32,

@@ -16,7 +16,8 @@
 //!    integrator that the remaining work needs.
 //! 4. Status ([`EffectStatus`]): for each [`Effect`], whether it is needed, pruned or absent, the
 //!    reason, the rule, and the scene values that decide. `rtc compile --explain` prints them, and
-//!    `rtc render --verify-effects` checks at every pixel that the removed work contributes nothing.
+//!    `rtc render --verify-effects` checks at every pixel that the removed work contributes
+//!    nothing.
 //!
 //! # Guarantees
 //!

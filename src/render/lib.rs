@@ -10,7 +10,7 @@
 //!    each pixel of its tile.
 //! 4. `integrator` traces the camera rays of a pixel and shades their hits.
 //! 5. `film` sums the samples of each pixel and returns the [`Film`]; a [`PartialFilm`] has part of
-//!   the picture, a [`ProgressiveFilm`] can be refined.
+//!    the picture, a [`ProgressiveFilm`] can be refined.
 //!
 //! # Modules
 //!

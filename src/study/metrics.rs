@@ -165,12 +165,12 @@ mod tests {
 
     #[test]
     fn independent_noise_cancels_in_the_product() {
-        let truth = [row(&[0.5; 4])];
+        let true_image = [row(&[0.5; 4])];
         let noisy = |signs: [f64; 4]| [row(&signs.map(|sign| 0.6 + 0.2 * sign))];
         let (a, b) = (noisy([1.0, 1.0, -1.0, -1.0]), noisy([1.0, -1.0, 1.0, -1.0]));
-        let bias = mean_product([&a, &truth], [&b, &truth]).sqrt();
+        let bias = mean_product([&a, &true_image], [&b, &true_image]).sqrt();
         assert!(
-            (bias - 0.1).abs() < 1e-12 && rmse(&a, &truth) > 2.0 * bias * LEVELS,
+            (bias - 0.1).abs() < 1e-12 && rmse(&a, &true_image) > 2.0 * bias * LEVELS,
             "{bias}"
         );
     }

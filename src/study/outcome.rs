@@ -62,7 +62,7 @@ pub struct MoreBounces {
     /// The depth of the scene.
     #[serde(rename = "own")]
     pub scene_depth: u32,
-    /// How the search for deeper paths ended.
+    /// The end of the search for deeper paths.
     pub end: DepthEnd,
     /// Each greater depth that was tried.
     pub deeper: Vec<BounceCost>,

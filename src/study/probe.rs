@@ -225,12 +225,12 @@ mod tests {
 
     #[test]
     fn the_bound_holds_as_often_as_it_says_where_few_pixels_have_most_of_the_error() {
-        let truth = 0.95 + 0.05 * 100.0;
+        let reference = 0.95 + 0.05 * 100.0;
         for count in [MIN_PROBES_SMALL, MIN_PROBES] {
             let mut rng = Rng::new(count as u64);
             let held = (0..400).filter(|_| {
                 let found: Vec<_> = (0..count).map(|_| once(square(&mut rng))).collect();
-                mean_and_bound(&found).1 >= truth
+                mean_and_bound(&found).1 >= reference
             });
             let held = held.count();
             // The bound promises 0.9; one that always holds would be useless.

@@ -21,7 +21,7 @@ pub struct ProgressiveRender {
     pub(super) keeps_lights: bool,
 }
 
-/// How a progressive render is saved and resumed.
+/// Saving and resuming of a progressive render.
 pub struct CheckpointSink<'a> {
     /// The checkpoint to resume from.
     pub resumed_from: Option<ProgressiveRender>,

@@ -49,7 +49,7 @@ pub(super) struct Depths {
     pub(super) more: MoreBounces,
 }
 
-/// How the search for deeper paths ended.
+/// The end of the search for deeper paths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub enum DepthEnd {

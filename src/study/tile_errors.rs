@@ -117,11 +117,11 @@ mod tests {
         let squares = [0.01, 0.04, 0.01, 0.02];
         assert_eq!(errors(&squares, 1.0).interval(), [0.02, 0.02]);
         assert_eq!(errors(&[0.5], 0.5).interval(), [0.0, 1.0]);
-        let [few, many] = [0.1, 0.9].map(|fraction| errors(&squares, fraction).interval());
-        assert!(few[0] < many[0] && many[0] < 0.02 && 0.02 < many[1] && many[1] < few[1]);
+        let [some, many] = [0.1, 0.9].map(|fraction| errors(&squares, fraction).interval());
+        assert!(some[0] < many[0] && many[0] < 0.02 && 0.02 < many[1] && many[1] < some[1]);
         // The expected value: ln of the factor is t₃·√(0.9/4)·s/0.02, and s is 0.01·√2.
         let low = 0.02 / exp(3.182 * 0.225_f64.sqrt() * 2.0_f64.sqrt() / 2.0);
-        assert!((few[0] / low - 1.0).abs() < 1e-12, "{few:?}");
+        assert!((some[0] / low - 1.0).abs() < 1e-12, "{some:?}");
     }
 
     #[test]

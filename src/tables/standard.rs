@@ -44,7 +44,7 @@ macro_rules! parameters {
             unlit: flag = false, "is_default";
             /// The index of refraction, at least 1; 0 mirrors all light.
             ior: ior = 1.5, "never";
-            /// How far the index differs between colours: 20 over the Abbe number.
+            /// The dispersion of the index: 20 over the Abbe number.
             dispersion: non_negative = 0.0, "is_zero";
             /// How much of light is mirrored that no metal mirrors.
             specular: fraction = 1.0, "is_one";

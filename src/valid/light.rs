@@ -58,7 +58,7 @@ pub struct PointLight {
     pub falloff: Falloff,
 }
 
-/// How the irradiance depends on the distance.
+/// The falloff of the irradiance with the distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Falloff {
     /// Not at all, as in the course.

@@ -144,7 +144,7 @@ fn layers_are_pictures_beside_a_png() {
             &["-o", "b.png", "--aov", "unmet"][..],
             "`--target-error LEVELS`",
         ),
-        (&["-o", "b.jpg", "--aov", "uv"], "within an EXR"),
+        (&["-o", "b.jpg", "--aov", "uv"], "or an EXR"),
         (&["-o", "-", "--aov", "uv"], "name the picture .exr"),
         (
             &["-o", "b.png", "--aov", "uv", "--strips"],

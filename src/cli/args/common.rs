@@ -8,7 +8,7 @@ use rtc_front::UpAxis;
 use rtc_source::{Limits, Resource};
 use std::path::PathBuf;
 
-/// How the input is read.
+/// The options for reading the input.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct Reading {
     /// Name standard input in messages
@@ -96,7 +96,7 @@ impl Reading {
             };
             for subject in subjects {
                 let set = levels.set(*subject, level);
-                set.map_err(|words| format!("`--{}`: {words}", level.name()))?;
+                set.map_err(|message| format!("`--{}`: {message}", level.name()))?;
             }
         }
         Ok(levels)

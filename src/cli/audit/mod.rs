@@ -29,7 +29,7 @@ pub(super) fn run(args: &Audit) -> Result<(), Failure> {
     if args.format.is_json() {
         output::to_stdout(report.json()?.as_bytes())?;
     } else if !args.reporter.quiet || !result.findings.is_empty() {
-        output::to_stdout(report.words().as_bytes())?;
+        output::to_stdout(report.to_text().as_bytes())?;
     }
     match result.findings.is_empty() {
         true => Ok(()),
@@ -80,8 +80,8 @@ fn carry_out(args: &Audit, reporter: &mut Reporter) -> Result<(AuditResult, u64)
 /// Why a file can't be audited.
 pub(super) fn refused(path: &Path, error: RenderError) -> Failure {
     match error {
-        RenderError::Refused(words) => {
-            Failure::Trouble(format!("`{}` can't be audited: {words}", path.display()))
+        RenderError::Refused(message) => {
+            Failure::Trouble(format!("`{}` can't be audited: {message}", path.display()))
         }
         error @ (RenderError::Stopped | RenderError::RanOut(_)) => error.into(),
     }
@@ -189,13 +189,13 @@ pub(super) fn judge_part(
     result: &AuditResult,
 ) -> Result<(), Failure> {
     let scene = args.scene.as_deref().unwrap_or(Path::new("-"));
-    let words = AuditReport::new([path, scene], seed, result).words();
-    let words = words.trim_end();
+    let message = AuditReport::new([path, scene], seed, result).to_text();
+    let message = message.trim_end();
     if !result.findings.is_empty() {
-        return Err(Failure::Input(words.to_owned()));
+        return Err(Failure::Input(message.to_owned()));
     }
     if !args.reporter.quiet {
-        reporter::say(words);
+        reporter::print_message(message);
     }
     Ok(())
 }

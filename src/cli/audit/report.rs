@@ -25,7 +25,7 @@ pub(crate) struct AuditReport {
     passes: bool,
     /// The seed by which tiles were drawn; a string, as it has 64 bits.
     seed: String,
-    /// How many tiles there are to draw; 0 if the metadata were found to be wrong before.
+    /// The number of tiles; 0 if the metadata are wrong.
     tiles: u64,
     /// The pixels of a tile, but for those at the border.
     tile_pixels: u64,
@@ -43,7 +43,7 @@ pub(crate) struct AuditReport {
     settings: Vec<ReportedSetting>,
 }
 
-/// Something that the picture says and that is not so.
+/// A difference between the metadata and the facts.
 #[derive(Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 struct ReportedFinding {
@@ -105,7 +105,7 @@ impl AuditReport {
     }
 
     /// The report for people.
-    pub(super) fn words(&self) -> String {
+    pub(super) fn to_text(&self) -> String {
         let Self {
             picture,
             seed,
@@ -135,7 +135,7 @@ impl AuditReport {
                 _ => format!("98 % sure that fewer than {percent} % of the tiles differ ({bound})"),
             });
         }
-        lines.extend(findings.iter().take(MOST).map(ReportedFinding::words));
+        lines.extend(findings.iter().take(MOST).map(ReportedFinding::to_text));
         lines.extend(more(findings.len()));
         if !settings.is_empty() {
             lines.push("settings of the picture that the scene has otherwise:".to_owned());
@@ -157,7 +157,7 @@ impl AuditReport {
     }
 }
 
-/// That there are more than are listed.
+/// The line for omitted entries.
 fn more(count: usize) -> Option<String> {
     let more = count.checked_sub(MOST).filter(|more| *more > 0)?;
     Some(format!("  and {more} more (`--format json` has all)"))
@@ -184,7 +184,7 @@ impl ReportedFinding {
         }
     }
 
-    fn words(&self) -> String {
+    fn to_text(&self) -> String {
         let Self {
             subject,
             tile,

@@ -57,7 +57,7 @@ impl<'a> Commands<'a> {
     /// The command that renders a part of the picture of a frame, in a folder that is given with a
     /// slash, or empty where it is the current one.
     pub(super) fn part(&self, folder: &str, frame: &str, part: &str) -> Vec<String> {
-        let words = [
+        let arguments = [
             "--picture",
             &self.picture,
             "--parts-by",
@@ -69,19 +69,19 @@ impl<'a> Commands<'a> {
             "-o",
             &format!("{folder}{}", self.name(frame, part)),
         ];
-        let words = words.map(str::to_owned).to_vec();
-        [self.render(folder, frame), words].concat()
+        let arguments = arguments.map(str::to_owned).to_vec();
+        [self.render(folder, frame), arguments].concat()
     }
 
     /// The command that merges parts of the picture of a frame, whose names are given.
     pub(super) fn merge(&self, folder: &str, frame: &str, parts: &[String]) -> Vec<String> {
-        let mut words = vec!["merge".to_owned()];
-        words.extend(parts.iter().map(|name| format!("{folder}{name}")));
+        let mut arguments = vec!["merge".to_owned()];
+        arguments.extend(parts.iter().map(|name| format!("{folder}{name}")));
         if self.allows_huge {
-            words.push("--allow-huge".to_owned());
+            arguments.push("--allow-huge".to_owned());
         }
-        words.extend(["-o".to_owned(), format!("{folder}{}", self.output(frame))]);
-        words
+        arguments.extend(["-o".to_owned(), format!("{folder}{}", self.output(frame))]);
+        arguments
     }
 
     /// The names of all parts of the picture of a frame.
@@ -113,22 +113,22 @@ impl<'a> Commands<'a> {
         // The scene already has its light: a dark scene stays dark.
         let scene = format!("{folder}{}", self.frames.scene(frame));
         let scene = ["render", &scene, "--studio", "off"];
-        let mut words = scene.map(str::to_owned).to_vec();
-        words.extend_from_slice(&self.look);
-        words.extend_from_slice(&self.limits);
+        let mut arguments = scene.map(str::to_owned).to_vec();
+        arguments.extend_from_slice(&self.look);
+        arguments.extend_from_slice(&self.limits);
         if let Frames::Turntable(_, count) = self.frames {
             let frames = format!("{frame}..{frame}");
             let turn = ["--turntable", &count.to_string(), "--frames", &frames];
-            words.extend(turn.map(str::to_owned));
+            arguments.extend(turn.map(str::to_owned));
         }
-        words
+        arguments
     }
 }
 
 /// The output settings that are not part of the scene.
 fn look(args: &Farm) -> Vec<String> {
-    let mut words = Vec::new();
-    let mut say = |flag: &str, value: String| words.push(format!("--{flag}={value}"));
+    let mut arguments = Vec::new();
+    let mut print_message = |flag: &str, value: String| arguments.push(format!("--{flag}={value}"));
     if let Some(Crop {
         x,
         y,
@@ -136,35 +136,37 @@ fn look(args: &Farm) -> Vec<String> {
         height,
     }) = args.wanted.crop
     {
-        say("crop", format!("{x},{y},{width},{height}"));
+        print_message("crop", format!("{x},{y},{width},{height}"));
     }
     if args.wanted.arithmetic != ArithmeticArg::default() {
-        say("arithmetic", name(args.wanted.arithmetic));
+        print_message("arithmetic", name(args.wanted.arithmetic));
     }
     if let Some(map) = args.look.tonemap {
-        say("tonemap", name(map));
+        print_message("tonemap", name(map));
     }
     if let Some(Exposure::Stops(stops)) = args.look.exposure {
-        say("exposure", stops.to_string());
+        print_message("exposure", stops.to_string());
     }
     match args.look.background {
         BackgroundArg::Fill(BackgroundFill::Film) => {}
         BackgroundArg::Fill(BackgroundFill::Transparent) => {
-            say("background", "transparent".to_owned());
+            print_message("background", "transparent".to_owned());
         }
         BackgroundArg::Fill(BackgroundFill::Color([r, g, b])) => {
-            say("background", format!("{r},{g},{b}"));
+            print_message("background", format!("{r},{g},{b}"));
         }
-        BackgroundArg::Color([r, g, b]) => say("background", format!("#{r:02x}{g:02x}{b:02x}")),
+        BackgroundArg::Color([r, g, b]) => {
+            print_message("background", format!("#{r:02x}{g:02x}{b:02x}"))
+        }
     }
     if !args.look.aov.is_empty() {
         let layers: Vec<String> = args.look.aov.iter().copied().map(name).collect();
-        say("aov", layers.join(","));
+        print_message("aov", layers.join(","));
     }
     if let Some(bits) = args.look.bits {
-        say("bits", name(bits));
+        print_message("bits", name(bits));
     }
-    words
+    arguments
 }
 
 /// A value as it is typed.

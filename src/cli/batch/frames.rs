@@ -19,7 +19,7 @@ const MOST_OF_LIST: u32 = 1024;
 
 impl Frames {
     pub(super) fn new(args: &Farm) -> Result<Self, Failure> {
-        let frames = Self::asked(args)?;
+        let frames = Self::requested(args)?;
         let count = frames.range().map_or(1, |[first, last]| last - first + 1);
         if args.to == Engine::OpenJd && count > MOST_OF_LIST {
             return Err(Failure::Trouble(format!(
@@ -29,8 +29,8 @@ impl Frames {
         Ok(frames)
     }
 
-    fn asked(args: &Farm) -> Result<Self, Failure> {
-        let trouble = |words: &str| Err(Failure::Trouble(words.to_owned()));
+    fn requested(args: &Farm) -> Result<Self, Failure> {
+        let trouble = |message: &str| Err(Failure::Trouble(message.to_owned()));
         if let Some(views) = Views::new(args.turntable, args.frames)? {
             if args.stage.up.is_some() {
                 return trouble(

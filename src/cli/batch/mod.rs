@@ -57,7 +57,7 @@ pub(super) fn run(args: &Farm) -> Result<(), Failure> {
     if !args.reporter.quiet {
         let (folder, picture, run) = (args.output.display(), &args.picture, job.how_to_run());
         let parts = args.parts;
-        reporter::say(&format!(
+        reporter::print_message(&format!(
             "{folder}: {picture} in {parts} parts; in the folder, `{run}` runs them"
         ));
     }

@@ -5,7 +5,7 @@ mod scenes;
 
 use super::Failure;
 use super::args::Diff;
-use super::gate::{self, JudgedGate};
+use super::gate::{self, GateResult};
 use super::input;
 use super::interrupt::Interrupt;
 use super::output::{self, Output};
@@ -35,7 +35,7 @@ const MAP_PIXEL: u64 = 40;
 /// Bytes of a pixel that a page takes besides: both pictures and their copies.
 const PAGE_PIXEL: u64 = 104;
 
-/// Compares two pictures or two scenes, and says how they differ.
+/// Compares two pictures or two scenes, and reports the differences.
 pub(super) fn run(args: &Diff) -> Result<(), Failure> {
     match [&args.new, &args.old].map(|path| input::is_picture(path)) {
         [true, true] => pictures::run(args),
@@ -78,7 +78,7 @@ pub(super) struct DiffReport<'a> {
     /// The difference of the pictures.
     difference: Difference,
     /// The gates of `--gate`, in their order.
-    gates: &'a [JudgedGate],
+    gates: &'a [GateResult],
     /// The values of the IR that differ; absent if pictures were compared.
     #[serde(skip_serializing_if = "Option::is_none")]
     changes: Option<&'a [Change]>,
@@ -99,16 +99,16 @@ fn report(
         Some(pictures) => write(args, outputs, (compared, pictures), budget, interrupt)?,
     };
     let gates = args.gate.as_ref();
-    let is_resolved = gates.map_or_else(Vec::new, |gates| {
-        gates.is_resolved(|name| measure(&found, name))
+    let results = gates.map_or_else(Vec::new, |gates| {
+        gates.results(|name| measure(&found, name))
     });
     if args.format.is_json() {
-        output::to_stdout(json(args, compared, &found, &is_resolved)?.as_bytes())?;
+        output::to_stdout(json(args, compared, &found, &results)?.as_bytes())?;
     } else if !args.reporter.quiet {
         let scenes = compared.changes.map_or_else(String::new, changed);
-        output::to_stdout((scenes + &words(args, compared.size, &found)).as_bytes())?;
+        output::to_stdout((scenes + &message(args, compared.size, &found)).as_bytes())?;
     }
-    gate::pass(&is_resolved, args.reporter.quiet)
+    gate::pass(&results, args.reporter.quiet)
 }
 
 /// Writes the map and the page of two pictures, and hands on how they differ.
@@ -163,7 +163,7 @@ fn measure(found: &Difference, name: &str) -> f64 {
 
 /// What differs in the scenes, a line each.
 fn changed(changes: &[Change]) -> String {
-    /// So many lines at most.
+    /// The maximum number of lines.
     const MOST: usize = 40;
     let line = |Change { path, new, old }: &Change| {
         let (new, old) = (value_text(new.as_ref()), value_text(old.as_ref()));
@@ -182,7 +182,7 @@ fn changed(changes: &[Change]) -> String {
     }
 }
 
-fn words(args: &Diff, [width, height]: [u32; 2], found: &Difference) -> String {
+fn message(args: &Diff, [width, height]: [u32; 2], found: &Difference) -> String {
     let names = format!(
         "{} and {}: {width}×{height}",
         args.new.display(),
@@ -218,7 +218,7 @@ fn json(
     args: &Diff,
     compared: &Compared<'_>,
     found: &Difference,
-    gates: &[JudgedGate],
+    gates: &[GateResult],
 ) -> Result<String, Failure> {
     let report = DiffReport {
         schema: "rtc-diff/1",

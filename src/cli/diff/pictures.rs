@@ -10,7 +10,7 @@ use rtc_image::{ShownFile, ShownPicture};
 use rtc_source::{Budget, SourceMap};
 use std::path::Path;
 
-/// Compares two pictures, and says how they differ.
+/// Compares two pictures, and reports the differences.
 pub(super) fn run(args: &Diff) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()?;
     let map = SourceMap::with_limits(args.reading.limits(|_| ()));

@@ -22,14 +22,14 @@ struct DiffSide {
     subject: RenderSubject,
 }
 
-/// Compares two scenes, and says how they differ.
+/// Compares two scenes, and reports the differences.
 pub(super) fn run(args: &Diff) -> Result<(), Failure> {
     if [&args.new, &args.old]
         .iter()
         .all(|file| file.as_os_str() == "-")
     {
-        let words = "standard input is one scene; give a file for the other";
-        return Err(Failure::Trouble(words.to_owned()));
+        let message = "standard input is one scene; give a file for the other";
+        return Err(Failure::Trouble(message.to_owned()));
     }
     let mut reporter = Reporter::beside_result(&args.reporter);
     let outcome = carry_out(args, &mut reporter);
@@ -77,7 +77,7 @@ impl DiffSide {
     ) -> Result<Self, Failure> {
         let mut input = input::read(file, &args.reading)?;
         let look = OutputTransform::new(FileFormat::Png8, None, None, BackgroundFill::Film, &[]);
-        let look = look.map_err(|words| Failure::Trouble(words.to_owned()))?;
+        let look = look.map_err(|message| Failure::Trouble(message.to_owned()))?;
         let mut setup = PictureSetup {
             overrides: args.wanted.overrides(),
             set: args.wanted.set.clone(),
@@ -107,8 +107,8 @@ impl DiffSide {
     fn see_by(&mut self, camera: &Camera) -> Result<(), Failure> {
         let validated = &mut self.subject.validated;
         let unseen = || {
-            let words = "the camera of the new scene can't see the old one";
-            Failure::Trouble(words.to_owned())
+            let message = "the camera of the new scene can't see the old one";
+            Failure::Trouble(message.to_owned())
         };
         validated.scene = validated.scene.seen_by(camera).ok_or_else(unseen)?;
         validated.lowered.scene.camera = camera.clone();
@@ -143,7 +143,7 @@ impl DiffSide {
         } = film.map_err(|error| ended(error, input, reporter))?.film;
         let film = (image, coverage, &counts);
         let picture = setup.develop(subject, film, &[], input, observer.is_stopped)?;
-        input::tell(input, reporter)?;
+        input::report_diagnostics(input, reporter)?;
         let Picture { image, .. } = picture;
         Ok(ShownPicture::of(image))
     }

@@ -25,17 +25,17 @@ impl Workspace {
                 self.laid_out(&params.text_document.uri)
             }),
             method::HOVER => reply(id, params, |at: TextDocumentPositionParams| {
-                let (document, words) = self.known(&at.text_document.uri)?;
-                hover::hover(document, at.position, words, self.columns)
+                let (document, schema) = self.known(&at.text_document.uri)?;
+                hover::hover(document, at.position, schema, self.columns)
             }),
             method::COMPLETION => reply(id, params, |at: TextDocumentPositionParams| {
-                let (document, words) = self.known(&at.text_document.uri)?;
-                let items = completion::completions(document, at.position, words, self.columns);
+                let (document, schema) = self.known(&at.text_document.uri)?;
+                let items = completion::completions(document, at.position, schema, self.columns);
                 Some(items)
             }),
             method::DEFINITION => reply(id, params, |at: TextDocumentPositionParams| {
-                let (document, words) = self.known(&at.text_document.uri)?;
-                outline::definition(document, at.position, words, self.columns)
+                let (document, schema) = self.known(&at.text_document.uri)?;
+                outline::definition(document, at.position, schema, self.columns)
             }),
             _ => self.answer_of_whole(id, &method, params),
         }
@@ -57,12 +57,12 @@ impl Workspace {
                 Some(outline::presentation(params.color))
             }),
             method::INLAY_HINT => reply(id, params, |params: InlayHintParams| {
-                let (document, words) = self.known(&params.text_document.uri)?;
-                Some(outline::hints(document, params.range, words, self.columns))
+                let (document, schema) = self.known(&params.text_document.uri)?;
+                Some(outline::hints(document, params.range, schema, self.columns))
             }),
             _ => {
-                let words = format!("`{method}` is not known here");
-                Response::new_err(id, ErrorCode::MethodNotFound as i32, words)
+                let schema = format!("`{method}` is not known here");
+                Response::new_err(id, ErrorCode::MethodNotFound as i32, schema)
             }
         }
     }

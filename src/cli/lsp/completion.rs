@@ -15,7 +15,7 @@ use std::path::Path;
 /// The placeholder for text that is not typed yet.
 const BLANK: &str = "rtc0blank";
 
-/// So many files are proposed at most, from folders so deep below the scene.
+/// The maximum number of suggested files, and the depth of folders below the scene.
 const MOST_FILES: usize = 500;
 const DEPTH: usize = 3;
 
@@ -31,8 +31,8 @@ pub(super) fn completions(
     let before = lines.before(offset);
     let typed = before.len() - before.trim_end_matches(is_of_word).len();
     let start = offset - typed;
-    let (before, word) = before.split_at(before.len() - typed);
-    let as_value = before.trim_end().ends_with(':') || word.starts_with('*');
+    let (before, keyword) = before.split_at(before.len() - typed);
+    let as_value = before.trim_end().ends_with(':') || keyword.starts_with('*');
     // The completion replaces the rest of the token under the cursor.
     let rest = document.text.get(offset..).unwrap_or_default();
     let end = offset + rest.find(|c| !is_of_word(c)).unwrap_or(rest.len());
@@ -126,7 +126,7 @@ fn proposed(
             .collect();
     }
     let schemas = vocabulary.at(tree, &steps);
-    let mut items = words(&schemas);
+    let mut items = keywords(&schemas);
     if is_file(&schemas) {
         items.extend(files(document.path.parent().unwrap_or(Path::new("."))));
     }
@@ -146,20 +146,20 @@ fn key_item((name, schema): (&str, &Value)) -> CompletionItem {
 }
 
 /// The keywords that a value may be.
-fn words(schemas: &[&Map<String, Value>]) -> Vec<CompletionItem> {
+fn keywords(schemas: &[&Map<String, Value>]) -> Vec<CompletionItem> {
     let mut found: Vec<String> = Vec::new();
     for schema in schemas {
         let listed = schema.get("enum").and_then(Value::as_array);
         let listed = listed.into_iter().flatten().map(plain);
         let alone = schema.get("const").map(plain);
-        let truth = schema.get("type").and_then(Value::as_str) == Some("boolean");
+        let reference = schema.get("type").and_then(Value::as_str) == Some("boolean");
         let truths = ["true", "false"]
             .iter()
-            .filter(|_| truth)
-            .map(|word| (*word).to_owned());
-        for word in listed.chain(alone).chain(truths) {
-            if !found.contains(&word) {
-                found.push(word);
+            .filter(|_| reference)
+            .map(|keyword| (*keyword).to_owned());
+        for keyword in listed.chain(alone).chain(truths) {
+            if !found.contains(&keyword) {
+                found.push(keyword);
             }
         }
     }

@@ -27,13 +27,13 @@ pub(super) type FileDiagnostics = (DocumentUri, Vec<EditorDiagnostic>);
 pub(super) fn diagnostics(document: &OpenText, columns: Columns) -> Vec<FileDiagnostics> {
     let mut own = Vec::new();
     let mut others: Vec<FileDiagnostics> = Vec::new();
-    if let Some(CheckedText::Trouble(words)) = &document.checked {
+    if let Some(CheckedText::Trouble(error_text)) = &document.checked {
         own.push(EditorDiagnostic {
             range: Range::default(),
             severity: DiagnosticSeverity::ERROR,
             code: None,
             source: SOURCE,
-            message: words.clone(),
+            message: error_text.clone(),
             related_information: None,
         });
     }
@@ -174,8 +174,14 @@ pub(super) fn actions(
             .map(|(hint, change)| {
                 let (start, end) = (change.span.start as usize, change.span.end as usize);
                 let edit = TextEdit::new(lines.range(start, end), change.text.clone());
-                let is_sure = !change.is_guess;
-                quick_fix(document, hint.text.clone(), is_sure, edit, reported.clone())
+                let is_certain = !change.is_guess;
+                quick_fix(
+                    document,
+                    hint.text.clone(),
+                    is_certain,
+                    edit,
+                    reported.clone(),
+                )
             })
             .collect::<Vec<_>>()
     });
@@ -185,7 +191,7 @@ pub(super) fn actions(
 fn quick_fix(
     document: &OpenText,
     title: String,
-    is_sure: bool,
+    is_certain: bool,
     edit: TextEdit,
     repaired: EditorDiagnostic,
 ) -> CodeAction {
@@ -194,7 +200,7 @@ fn quick_fix(
         kind: CodeActionKind::QUICKFIX,
         diagnostics: Some(vec![repaired]),
         edit: change_of(document, edit),
-        is_preferred: Some(is_sure),
+        is_preferred: Some(is_certain),
     }
 }
 

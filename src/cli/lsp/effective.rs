@@ -37,8 +37,8 @@ pub(super) fn value(
         Err(_) => found == *written,
     };
     let line = found.to_string();
-    let is_told = !is_same && line.len() <= MOST;
-    is_told.then(|| match found.is_object() {
+    let is_shown = !is_same && line.len() <= MOST;
+    is_shown.then(|| match found.is_object() {
         true => format!("in effect\n```json\n{found:#}\n```"),
         false => format!("in effect `{line}`"),
     })

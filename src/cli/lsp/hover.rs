@@ -73,20 +73,20 @@ fn facts(schemas: &[&Map<String, Value>]) -> String {
         ("maximum", "at most"),
         ("exclusiveMaximum", "below"),
     ];
-    for (key, word) in bounds {
+    for (key, keyword) in bounds {
         let bound = schemas.iter().find_map(|schema| schema.get(key)?.as_f64());
         let bound = bound.filter(|bound| bound.abs() < LIMIT);
-        facts.extend(bound.map(|bound| format!("{word} {bound}")));
+        facts.extend(bound.map(|bound| format!("{keyword} {bound}")));
     }
-    let words = schemas
+    let keywords = schemas
         .iter()
         .find_map(|schema| schema.get("enum")?.as_array());
-    facts.extend(words.map(|words| {
-        let words: Vec<_> = words
+    facts.extend(keywords.map(|keywords| {
+        let keywords: Vec<_> = keywords
             .iter()
-            .map(|word| format!("`{}`", plain(word)))
+            .map(|keyword| format!("`{}`", plain(keyword)))
             .collect();
-        format!("one of {}", words.join(", "))
+        format!("one of {}", keywords.join(", "))
     }));
     facts.extend(unit(schemas).map(|unit| format!("in {unit}")));
     let default = schemas.iter().find_map(|schema| schema.get("default"));
@@ -117,7 +117,7 @@ pub(super) fn plain(value: &Value) -> String {
 
 /// The value of an alias.
 fn aliased(tree: &Tree<'_>, value: rtc_source::tree::NodeId) -> String {
-    /// So many bytes of it at most.
+    /// The maximum length, in bytes.
     const MOST: usize = 400;
     let target = tree.target(value);
     if target == value {

@@ -57,7 +57,7 @@ struct Server {
     workspace: Workspace,
 }
 
-/// Serves one editor until it says that it has enough, or is gone.
+/// Serves one editor until it sends `exit` or disconnects.
 pub(super) fn run(args: args::Lsp) -> Result<(), Failure> {
     let trouble = |error: io::Error| Failure::Trouble(format!("lsp: {error}"));
     let mut server = Server {
@@ -111,21 +111,23 @@ impl Server {
             match incoming {
                 Incoming::Message(Message::Notification(own)) if own.method == "exit" => {
                     let is_asked = self.state == SessionState::ShutDown;
-                    let words = "the editor left without `shutdown`";
-                    let failure = || Failure::Input(words.to_owned());
+                    let error_text = "the editor left without `shutdown`";
+                    let failure = || Failure::Input(error_text.to_owned());
                     return is_asked.then_some(()).ok_or_else(failure);
                 }
                 Incoming::Message(message) => self.hear(message),
                 Incoming::Cancelled(id) => {
-                    let words = "taken back".to_owned();
+                    let error_text = "cancelled".to_owned();
                     let code = ErrorCode::RequestCanceled as i32;
-                    self.send(Response::new_err(id, code, words));
+                    self.send(Response::new_err(id, code, error_text));
                 }
                 // An editor that is gone is noticed where its next message is waited for.
-                Incoming::NoMessage(code, words) => {
-                    let _ = wire::refuse(&mut self.out, code, &words);
+                Incoming::NoMessage(code, error_text) => {
+                    let _ = wire::refuse(&mut self.out, code, &error_text);
                 }
-                Incoming::Broken(words) => return Err(Failure::Trouble(format!("lsp: {words}"))),
+                Incoming::Broken(error_text) => {
+                    return Err(Failure::Trouble(format!("lsp: {error_text}")));
+                }
             }
         }
     }
@@ -151,8 +153,8 @@ impl Server {
     /// The response to a request; an internal error is a response, too, and the server continues.
     fn answered(&mut self, request: Request) -> Response {
         let id = request.id.clone();
-        let refused = |code: ErrorCode, words: &str| {
-            Response::new_err(id.clone(), code as i32, words.to_owned())
+        let refused = |code: ErrorCode, error_text: &str| {
+            Response::new_err(id.clone(), code as i32, error_text.to_owned())
         };
         match (self.state, request.method.as_str()) {
             (SessionState::Starting, "initialize") => {
@@ -171,9 +173,9 @@ impl Server {
             }
             (SessionState::Running, _) => {
                 let answer = AssertUnwindSafe(|| self.workspace.answer(request));
-                let words = "internal error of rtc; please report it with the scene";
+                let error_text = "internal error of rtc; please report it with the scene";
                 panic::catch_unwind(answer)
-                    .unwrap_or_else(|_| refused(ErrorCode::InternalError, words))
+                    .unwrap_or_else(|_| refused(ErrorCode::InternalError, error_text))
             }
             (SessionState::ShutDown, _) => {
                 refused(ErrorCode::InvalidRequest, "`shutdown` came before")

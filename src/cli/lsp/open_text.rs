@@ -147,7 +147,9 @@ impl OpenText {
         let check = AssertUnwindSafe(|| self.checked_anew(reading));
         let checked = match panic::catch_unwind(check) {
             Ok(Ok(scene)) => CheckedText::Read(Box::new(scene)),
-            Ok(Err(Failure::Trouble(words) | Failure::Input(words))) => CheckedText::Trouble(words),
+            Ok(Err(Failure::Trouble(message) | Failure::Input(message))) => {
+                CheckedText::Trouble(message)
+            }
             Ok(Err(_)) => CheckedText::Trouble("the scene can't be checked".to_owned()),
             Err(_) => CheckedText::Trouble(FAULT.to_owned()),
         };
@@ -159,7 +161,7 @@ impl OpenText {
         let bytes = self.text.as_bytes().to_vec();
         let mut input = Input::edited(&self.path, bytes, options);
         if let Some(project) = project {
-            project.tell(&mut input);
+            project.report_diagnostics(&mut input);
         }
         let loaded = input.load();
         let validated = loaded.and_then(|loaded| input.validate(loaded, |_, _| ()));
@@ -180,7 +182,7 @@ impl OpenText {
         })
     }
 
-    /// How the text is read.
+    /// The options for reading the document.
     pub(super) fn options(&self, reading: &Reading) -> Result<(Options, Option<Project>), Failure> {
         let project = Project::of(&self.path, reading)?;
         let options = Options {

@@ -100,7 +100,7 @@ fn number(tree: &Tree<'_>, id: NodeId) -> Option<f32> {
     }
 }
 
-/// How a colour is written.
+/// The spelling of a colour.
 pub(super) fn presentation(color: EditorColor) -> Vec<ColorPresentation> {
     let EditorColor {
         red, green, blue, ..

@@ -155,11 +155,11 @@ impl Vocabulary {
     }
 }
 
-/// Whether a map says by one of its values that a rule is for it.
+/// Whether a value of a map selects a rule.
 fn is_meant(rule: &Value, tree: &Tree<'_>, node: NodeId) -> bool {
-    let asked = rule.pointer("/if/properties").and_then(Value::as_object);
-    asked.is_some_and(|asked| {
-        asked.iter().all(|(key, value)| {
+    let conditions = rule.pointer("/if/properties").and_then(Value::as_object);
+    conditions.is_some_and(|conditions| {
+        conditions.iter().all(|(key, value)| {
             let word = value.get("const").and_then(Value::as_str);
             let own = tree.get(node, key).and_then(|own| tree.text(own));
             word.is_some() && word == own

@@ -246,7 +246,7 @@ pub(super) struct MarkupContent {
     pub(super) value: String,
 }
 
-/// How a text is marked.
+/// The markup of a text.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum MarkupKind {
@@ -295,7 +295,7 @@ impl CompletionItemKind {
     pub(super) const REFERENCE: Self = Self(18);
 }
 
-/// How the text that is put in is read.
+/// The syntax of the inserted text.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(super) struct InsertTextFormat(u8);
 
@@ -339,7 +339,7 @@ pub(super) struct ColorInformation {
     pub(super) color: EditorColor,
 }
 
-/// How a colour is written.
+/// The spelling of a colour.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct ColorPresentation {
     pub(super) label: String,

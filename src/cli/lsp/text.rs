@@ -7,14 +7,14 @@ use rtc_math::to_u32;
 /// The units of columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Columns {
-    /// Those of UTF-16, which every editor understands.
+    /// UTF-16, which every editor supports.
     Utf16,
     /// Bytes.
     Utf8,
 }
 
 impl Columns {
-    /// Those of the kinds an editor offers that take the least work.
+    /// The cheapest of the encodings that an editor offers.
     pub(super) fn of(offered: &[PositionEncodingKind]) -> Self {
         match offered.contains(&PositionEncodingKind::UTF8) {
             true => Self::Utf8,
@@ -75,7 +75,7 @@ pub(super) struct TextLines<'t> {
     widths: Vec<usize>,
 }
 
-/// So many bytes.
+/// The number of bytes.
 const STRIDE: usize = 1 << 9;
 
 impl<'t> TextLines<'t> {

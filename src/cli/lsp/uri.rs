@@ -54,7 +54,7 @@ impl FromStr for DocumentUri {
 }
 
 impl<'t> UriParts<'t> {
-    /// Those of a text, whatever it is (RFC 3986, appendix B).
+    /// The parts of any text (RFC 3986, appendix B).
     fn of(text: &'t str) -> Self {
         let (text, fragment) = text.split_once('#').unwrap_or((text, ""));
         let (text, query) = text.split_once('?').unwrap_or((text, ""));

@@ -38,7 +38,7 @@ pub(super) struct Inbox {
 }
 
 impl Inbox {
-    /// That of a stream, which is read by a thread of its own.
+    /// The queue of a stream, which is read by a thread of its own.
     ///
     /// # Errors
     /// If there is no thread to be had.
@@ -81,7 +81,7 @@ impl Inbox {
         self.next()
     }
 
-    /// Puts a message behind the others, or takes one of them back, as it says.
+    /// Queues a message, or cancels a queued one if it is a cancellation.
     fn put(&mut self, incoming: Incoming) {
         let Some(id) = taken_back(&incoming) else {
             return self.waiting.push_back(incoming);
@@ -133,7 +133,7 @@ fn next(input: &mut impl BufRead) -> io::Result<Option<Incoming>> {
 
 /// The length of the message whose head comes next; none at the end of the stream.
 fn head(input: &mut impl BufRead) -> io::Result<Option<u64>> {
-    let wrong = |words: &str| io::Error::new(io::ErrorKind::InvalidData, words.to_owned());
+    let wrong = |message: &str| io::Error::new(io::ErrorKind::InvalidData, message.to_owned());
     let mut length = None;
     loop {
         let mut line = Vec::new();
@@ -162,8 +162,8 @@ fn head(input: &mut impl BufRead) -> io::Result<Option<u64>> {
 ///
 /// # Errors
 /// If the stream can't be written.
-pub(super) fn refuse(out: &mut impl Write, code: i32, words: &str) -> io::Result<()> {
-    let error = json!({ "code": code, "message": words });
+pub(super) fn refuse(out: &mut impl Write, code: i32, message: &str) -> io::Result<()> {
+    let error = json!({ "code": code, "message": message });
     let answer = json!({ "jsonrpc": "2.0", "id": null, "error": error }).to_string();
     write!(out, "Content-Length: {}\r\n\r\n{answer}", answer.len())?;
     out.flush()

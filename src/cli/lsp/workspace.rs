@@ -191,7 +191,7 @@ impl Workspace {
         Some(self.published(files))
     }
 
-    /// All that is found in some files, in whatever text it shows.
+    /// All diagnostics in some files, from any document.
     fn published(&self, mut files: Vec<DocumentUri>) -> Vec<Message> {
         files.sort_unstable_by(|a, b| a.as_str().cmp(b.as_str()));
         files.dedup();
@@ -201,7 +201,7 @@ impl Workspace {
             let of_file = reported.filter(|(own, _): &&FileDiagnostics| *own == file);
             for diagnostic in of_file.flat_map(|(_, list)| list) {
                 // A file and the scenes that name it may report the same diagnostic.
-                if known.insert(own_words(diagnostic)) {
+                if known.insert(identity(diagnostic)) {
                     all.push(diagnostic.clone());
                 }
             }
@@ -219,7 +219,7 @@ impl Workspace {
 }
 
 /// The identity of a diagnostic.
-fn own_words(own: &EditorDiagnostic) -> (Position, Position, Option<&str>, &str) {
+fn identity(own: &EditorDiagnostic) -> (Position, Position, Option<&str>, &str) {
     (own.range.start, own.range.end, own.code, &own.message)
 }
 

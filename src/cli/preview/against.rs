@@ -67,7 +67,9 @@ impl Against {
             Ok(validated) => {
                 input::unless_refused(validated, &mut scene.input, &mut reporter).map(drop)
             }
-            Err(error) => input::tell(&mut scene.input, &mut reporter).and(Err(error.into())),
+            Err(error) => {
+                input::report_diagnostics(&mut scene.input, &mut reporter).and(Err(error.into()))
+            }
         };
         reporter.finish()?;
         validated?;
@@ -96,8 +98,8 @@ impl OtherScene {
         }
         (self.shown, self.seen) = (None, None);
         let Some((mut setup, mut subject)) = self.scene.validate(setup, view_settings)? else {
-            let words = "the reference can't be rendered in these settings";
-            return Err(RenderError::Refused(words.to_owned()));
+            let message = "the reference can't be rendered in these settings";
+            return Err(RenderError::Refused(message.to_owned()));
         };
         let input = &mut self.scene.input;
         setup.light(&mut subject, input, observer)?;
@@ -126,7 +128,7 @@ impl OtherScene {
 
 /// The picture in a file, as a PNG.
 fn picture(path: &Path, reading: &args::Reading) -> Result<RenderedPicture, Failure> {
-    let refused = |words: String| Failure::Trouble(format!("`{}`: {words}", path.display()));
+    let refused = |message: String| Failure::Trouble(format!("`{}`: {message}", path.display()));
     let map = SourceMap::with_limits(reading.limits(|_| ()));
     let bytes = shown::read(path, &map)?;
     let file = shown::opened(path, &bytes, map.budget())?;

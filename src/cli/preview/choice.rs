@@ -24,7 +24,8 @@ impl Choice {
     pub(super) fn read(bytes: &[u8]) -> Option<Self> {
         let choice: Self = serde_json::from_slice(bytes).ok()?;
         let is_sound = |(parameter, value): (&Parameter, &u32)| {
-            let is_known = words(*parameter).is_none_or(|words| (*value as usize) < words.len());
+            let is_known =
+                keywords(*parameter).is_none_or(|keywords| (*value as usize) < keywords.len());
             *value >= parameter.lowest() && is_known
         };
         let is_known = choice.integrator.is_none() || choice.integrator().is_some();
@@ -40,8 +41,8 @@ impl Choice {
     }
 
     pub(super) fn integrator(&self) -> Option<IntegratorChoice> {
-        let word = self.integrator.as_deref()?;
-        IntegratorArg::from_str(word, false)
+        let keyword = self.integrator.as_deref()?;
+        IntegratorArg::from_str(keyword, false)
             .ok()
             .map(IntegratorChoice::from)
     }
@@ -75,13 +76,13 @@ impl Choice {
         let values =
             values.map(|(parameter, value)| (parameter.flag(), parameter.flag_value(*value)));
         let integrator = self.integrator.clone();
-        let integrator = integrator.map(|word| ("--integrator", Some(word)));
+        let integrator = integrator.map(|keyword| ("--integrator", Some(keyword)));
         values.chain(integrator).collect()
     }
 }
 
 /// The text of a value of a parameter that is not a number.
-fn words(parameter: Parameter) -> Option<Vec<String>> {
+fn keywords(parameter: Parameter) -> Option<Vec<String>> {
     let is_named = matches!(parameter, Parameter::Precision | Parameter::Denoise);
     is_named.then(|| {
         parameter
@@ -109,7 +110,7 @@ pub(super) fn reported(scene: &Scene, own: &Setting) -> Value {
             "name": parameter.name(),
             "lowest": parameter.lowest(),
             "own": own.get(parameter),
-            "words": words(parameter),
+            "words": keywords(parameter),
             "idle": not_applicable(parameter, scene),
         })
     };

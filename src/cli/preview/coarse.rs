@@ -12,7 +12,7 @@ use rtc_valid::{self as valid, ValidationOptions};
 /// The approximate number of pixels.
 const PIXELS: u64 = 20_000;
 
-/// So many paths a pixel.
+/// Paths per pixel.
 const PATHS: u32 = 2;
 
 /// The crude picture; `None` if there is none that is quicker. The subject is as before afterwards.

@@ -14,15 +14,15 @@ const EYE: &str = "--eye";
 const ORBIT: &str = "--orbit";
 
 /// The arguments of the preview as arguments of `rtc render`.
-pub(super) struct RenderWords(Vec<OsString>);
+pub(super) struct RenderCommand(Vec<OsString>);
 
-impl RenderWords {
+impl RenderCommand {
     /// From the arguments of a preview, program name first.
     pub(super) fn new(typed: &[OsString]) -> Self {
         let kept = without(typed, &OWN).into_iter().skip(1);
-        let words = ["rtc".to_owned(), "render".to_owned()].into_iter();
-        let words = words.chain(kept.filter(|word| word != OPEN));
-        Self(words.map(OsString::from).collect())
+        let arguments = ["rtc".to_owned(), "render".to_owned()].into_iter();
+        let arguments = arguments.chain(kept.filter(|argument| argument != OPEN));
+        Self(arguments.map(OsString::from).collect())
     }
 
     /// With the flags of a view and of settings, instead of the typed ones.
@@ -37,9 +37,9 @@ impl RenderWords {
         let more = more
             .into_iter()
             .flat_map(|(name, value)| [name.to_owned()].into_iter().chain(value));
-        let words = kept.chain(more).map(|word| quoted(&word));
-        let words: Vec<_> = words.collect();
-        format!("rtc {}", words.join(" "))
+        let arguments = kept.chain(more).map(|argument| quoted(&argument));
+        let arguments: Vec<_> = arguments.collect();
+        format!("rtc {}", arguments.join(" "))
     }
 }
 
@@ -52,20 +52,20 @@ mod tests {
         let typed =
             "rtc preview my.yaml --open --orbit 30,20 --depth=3 --port 80 --against HEAD --spp 4";
         let typed: Vec<_> = typed.split(' ').map(OsString::from).collect();
-        let words = RenderWords::new(&typed);
+        let arguments = RenderCommand::new(&typed);
         assert_eq!(
-            words.command(&[], &Choice::default()),
+            arguments.command(&[], &Choice::default()),
             "rtc render my.yaml --orbit 30,20 --depth=3 --spp 4"
         );
         let choice = Choice::read(br#"{"values": {"depth": 1}, "integrator": null}"#).unwrap();
         let view = [("--eye", "1,2,3".to_owned())];
         assert_eq!(
-            words.command(&view, &choice),
+            arguments.command(&view, &choice),
             "rtc render my.yaml --spp 4 --eye 1,2,3 --depth 1"
         );
         let choice = Choice::read(br#"{"values": {"denoise": 1, "depth": 1}, "integrator": null}"#);
         assert_eq!(
-            words.command(&[], &choice.unwrap()),
+            arguments.command(&[], &choice.unwrap()),
             "rtc render my.yaml --orbit 30,20 --spp 4 --denoise --depth 1"
         );
     }

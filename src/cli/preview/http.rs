@@ -50,7 +50,7 @@ impl HttpRequest {
 pub(super) enum BadRequest {
     /// It did not come to its end.
     Gone,
-    /// It is refused with this status.
+    /// It is rejected with this status.
     Refused(u16),
 }
 
@@ -107,8 +107,8 @@ impl HttpReply {
     }
 
     /// A text reply, for example an error message.
-    pub(super) fn words(status: u16, words: &str) -> Self {
-        Self::of(status, "text/plain; charset=utf-8", words.into())
+    pub(super) fn message(status: u16, message: &str) -> Self {
+        Self::of(status, "text/plain; charset=utf-8", message.into())
     }
 
     /// A page whose script and style have the mark.

@@ -2,7 +2,7 @@
 //!
 //! - `session` runs on the main thread: it reads the scene (`scene`), renders it (`coarse` first),
 //!   and
-//!   publishes the result. `against` renders the reference, `asked`, `costs` and `pixels` compute
+//!   publishes the result. `against` renders the reference, `reports`, `costs` and `pixels` compute
 //!   reports.
 //! - `preview_state` is the state that all threads share: the published picture under a version,
 //!   and the
@@ -18,7 +18,6 @@
 //! token of the printed address.
 
 mod against;
-mod asked;
 mod choice;
 mod coarse;
 mod command;
@@ -28,6 +27,7 @@ mod http;
 mod pixels;
 mod preview_state;
 mod renderings;
+mod reports;
 mod routes;
 mod scene;
 mod serve;
@@ -39,7 +39,7 @@ use super::interrupt::{self, Interrupt};
 use super::project::Project;
 use super::{Failure, args, input, output, render, reporter};
 use against::Against;
-use command::RenderWords;
+use command::RenderCommand;
 use preview_state::PreviewState;
 use routes::Routes;
 use serve::AuthGuard;
@@ -52,8 +52,8 @@ use watch::Watched;
 /// Shows the scene until the program is stopped.
 pub(super) fn run(args: &args::Preview, typed: &[OsString]) -> Result<(), Failure> {
     if args.file.as_os_str() == "-" {
-        let words = "standard input can be read only once, so it has no preview; give a file";
-        return Err(Failure::Trouble(words.to_owned()));
+        let message = "standard input can be read only once, so it has no preview; give a file";
+        return Err(Failure::Trouble(message.to_owned()));
     }
     Interrupt::listen()?;
     let against = Against::new(args)?;
@@ -62,7 +62,7 @@ pub(super) fn run(args: &args::Preview, typed: &[OsString]) -> Result<(), Failur
         Arc::new(Watched::default()),
     );
     let shown = (Arc::clone(&preview_state), Arc::clone(&watched));
-    let session = Session::new(args, RenderWords::new(typed), shown, against)?;
+    let session = Session::new(args, RenderCommand::new(typed), shown, against)?;
     let (listener, port) = serve::bind(args.port)?;
     let auth_guard = AuthGuard::new(port)?;
     let project = Project::of(&args.file, &args.reading)?;

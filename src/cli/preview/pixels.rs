@@ -18,8 +18,8 @@ pub(super) struct PixelTable {
 }
 
 impl PixelTable {
-    /// That of a picture, by its values before the tone map and its layers `instance.X` and
-    /// `depth.Z`.
+    /// The readout of a picture, from its values before the tone map and its layers `instance.X`
+    /// and `depth.Z`.
     pub(super) fn new(
         image: &Image,
         layers: &Layers,
@@ -55,8 +55,9 @@ impl PixelTable {
         let value = self.values.get(index)?;
         let (number, depth) = self.hits.get(index).copied().unwrap_or_default();
         let is_hit = number > 0;
-        let words = self.surfaces.get(&number);
-        let [name, line] = [0, 1].map(|at| words.map(|own| &own[at]).filter(|own| !own.is_empty()));
+        let message = self.surfaces.get(&number);
+        let [name, line] =
+            [0, 1].map(|at| message.map(|own| &own[at]).filter(|own| !own.is_empty()));
         Some(json!({
             "x": x,
             "y": y,

@@ -15,7 +15,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 /// The requested view.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ViewSettings {
-    /// From where, if not as the scene says.
+    /// The view, if not the scene's own.
     pub(super) view_override: Option<ViewOverride>,
     /// In which settings.
     pub(super) choice: Choice,
@@ -71,7 +71,7 @@ pub(super) struct PreviewData {
     pub(super) read: ReadState,
     is_working: bool,
     shown: NumberedPicture,
-    /// Of which reading of the scene the picture is.
+    /// The reading of the scene that the picture shows.
     load: u64,
     /// The reference.
     against: NumberedPicture,

@@ -45,7 +45,7 @@ struct FixOrder {
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 struct LookOrder {
-    /// From where; as the scene says without.
+    /// The view; `None` for the scene's own.
     view: Option<Value>,
     is_moving: bool,
 }
@@ -142,7 +142,7 @@ impl Routes {
             (state.read.text.clone(), state.view_settings.view_override)
         };
         let (Some(text), Some(view_override)) = (text, view_override) else {
-            return HttpReply::words(409, "there is no other view to write");
+            return HttpReply::message(409, "there is no other view to write");
         };
         match view::written(&self.path, &text, &self.options, &view_override) {
             Ok(new) => {
@@ -150,9 +150,9 @@ impl Routes {
                 if reply.is_ok() {
                     self.preview_state.look(None, false);
                 }
-                reply.map_or_else(|words| HttpReply::words(409, &words), |()| done(1))
+                reply.map_or_else(|message| HttpReply::message(409, &message), |()| done(1))
             }
-            Err(words) => HttpReply::words(409, words),
+            Err(message) => HttpReply::message(409, message),
         }
     }
 
@@ -166,16 +166,16 @@ impl Routes {
             let state = self.preview_state.state();
             match (state.read.text.clone(), wish(&state.read, &order)) {
                 (Some(text), Some(wish)) => (text, wish),
-                _ => return HttpReply::words(409, "the scene is another one by now"),
+                _ => return HttpReply::message(409, "the scene is another one by now"),
             }
         };
         let fixed = pipeline::fix(&self.path, &text, &self.options, &wish);
         if fixed.changes == 0 {
-            return HttpReply::words(409, "that would not make the check better");
+            return HttpReply::message(409, "that would not make the check better");
         }
         match put(&self.path, &text, &fixed.text) {
             Ok(()) => done(fixed.changes),
-            Err(words) => HttpReply::words(409, &words),
+            Err(message) => HttpReply::message(409, &message),
         }
     }
 }
@@ -201,7 +201,7 @@ fn done(changes: usize) -> HttpReply {
 
 fn put(path: &Path, before: &str, after: &str) -> Result<(), String> {
     edit::write(path, before, after).map_err(|error| match error {
-        Failure::Trouble(words) => words,
+        Failure::Trouble(message) => message,
         Failure::Findings
         | Failure::Input(_)
         | Failure::Unreadable

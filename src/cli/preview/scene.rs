@@ -19,7 +19,7 @@ pub(super) struct ReadScene {
     integrator: Option<IntegratorChoice>,
     /// Whether it has keys for another view.
     pub(super) can_write: bool,
-    /// How its own camera sees it, once that is known.
+    /// The view of its own camera, once known.
     pub(super) scene_camera: Option<SceneCamera>,
 }
 

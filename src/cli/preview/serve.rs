@@ -220,7 +220,7 @@ pub(super) fn open(address: &str) {
         .stdout(std::process::Stdio::null())
         .stderr(std::process::Stdio::null());
     if let Err(error) = browser.spawn() {
-        reporter::say(&format!("can't open a browser by `{program}`: {error}"));
+        reporter::print_message(&format!("can't open a browser by `{program}`: {error}"));
     }
 }
 

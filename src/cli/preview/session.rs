@@ -2,7 +2,7 @@
 //! a file or of the view restarts it.
 
 use super::against::Against;
-use super::command::RenderWords;
+use super::command::RenderCommand;
 use super::preview_state::{PreviewState, ReadState, ReportedDiagnostic, ViewSettings, Work};
 use super::scene::{self, ReadScene, ShownScene};
 use super::view::SceneCamera;
@@ -26,7 +26,7 @@ pub(super) struct Session<'a> {
     /// The picture in the requested settings.
     pub(super) setup: PictureSetup,
     /// The arguments of the command, for the shown command line.
-    words: RenderWords,
+    arguments: RenderCommand,
     loads: u64,
     pub(super) scene: Option<ReadScene>,
     /// The scene as it was rendered last.
@@ -41,7 +41,7 @@ pub(super) struct Session<'a> {
 impl<'a> Session<'a> {
     pub(super) fn new(
         args: &'a args::Preview,
-        words: RenderWords,
+        arguments: RenderCommand,
         (preview_state, watched): (Arc<PreviewState>, Arc<Watched>),
         against: Option<Against>,
     ) -> Result<Self, Failure> {
@@ -58,7 +58,7 @@ impl<'a> Session<'a> {
             watched,
             reporter: Reporter::beside_result(&args.reporter),
             setup: renderings::setup(args)?,
-            words,
+            arguments,
             loads: 0,
             scene: None,
             shown: None,
@@ -78,14 +78,14 @@ impl<'a> Session<'a> {
             if work.orders.reload || work.orders.look {
                 self.look(&work)?;
             } else if work.orders.effects {
-                self.tell_effects(&work);
+                self.publish_effects(&work);
             }
             // Newer requests come first.
             if work.orders.pixel.is_some() && !self.preview_state.is_stale(work.age) {
-                self.tell_pixel(&work);
+                self.publish_pixel(&work);
             }
             if work.orders.costs && !self.preview_state.is_stale(work.age) {
-                self.tell_costs(&work)?;
+                self.publish_costs(&work)?;
             }
         }
         self.reporter.finish()?;
@@ -104,7 +104,7 @@ impl<'a> Session<'a> {
                 self.watched
                     .set(&known, paths.into_iter().flatten().cloned().collect());
                 (self.scene, self.shown) = (None, None);
-                return self.fail(&failure_told(&failure));
+                return self.fail(&reported_failure(&failure));
             }
         };
         let paths = scene.input.map().paths_read().into_iter();
@@ -125,8 +125,8 @@ impl<'a> Session<'a> {
         let rendered = self.render(work, &is_stopped);
         match rendered {
             Ok(true) => {
-                self.tell_effects(work);
-                self.tell_settings(work);
+                self.publish_effects(work);
+                self.publish_settings(work);
                 if !self.show_against(work, &is_stopped) {
                     return Ok(());
                 }
@@ -140,10 +140,10 @@ impl<'a> Session<'a> {
                 }
                 self.publish(true, &work.view_settings, None);
             }
-            Err(RenderError::Refused(words)) => self.fail(&words),
+            Err(RenderError::Refused(message)) => self.fail(&message),
         }
         self.preview_state.rest();
-        self.tell()
+        self.report_diagnostics()
     }
 
     /// Renders the scene; whether there is a picture.
@@ -227,8 +227,10 @@ impl<'a> Session<'a> {
             Ok(Some(rendering)) => self.preview_state.put_against(rendering, work.age),
             Ok(None) => {}
             Err(RenderError::Stopped) => return false,
-            Err(RenderError::RanOut(diagnostic)) => super::reporter::say(&diagnostic.message),
-            Err(RenderError::Refused(words)) => super::reporter::say(&words),
+            Err(RenderError::RanOut(diagnostic)) => {
+                super::reporter::print_message(&diagnostic.message)
+            }
+            Err(RenderError::Refused(message)) => super::reporter::print_message(&message),
         }
         true
     }
@@ -270,7 +272,7 @@ impl<'a> Session<'a> {
             }
             scene_camera
         });
-        let (load, words) = (self.loads, &self.words);
+        let (load, arguments) = (self.loads, &self.arguments);
         self.preview_state.show(|state| {
             let read = &mut state.read;
             (read.load, read.text, read.diagnostics) = (load, text, diagnostics);
@@ -280,12 +282,12 @@ impl<'a> Session<'a> {
                 .scene_camera
                 .as_ref()
                 .map_or(&[][..], |own| &own.flags);
-            state.command = words.command(view, &view_settings.choice);
+            state.command = arguments.command(view, &view_settings.choice);
         });
     }
 
     /// Shows and reports the reason, which is no diagnostic, why there is no picture.
-    fn fail(&mut self, words: &str) {
+    fn fail(&mut self, message: &str) {
         self.publish(true, &ViewSettings::default(), None);
         let (load, is_read) = (self.loads, self.scene.is_some());
         self.preview_state.show(|state| {
@@ -294,13 +296,13 @@ impl<'a> Session<'a> {
             }
             state.read.load = load;
             state.read.is_failed = true;
-            state.read.fault = Some(words.to_owned());
+            state.read.fault = Some(message.to_owned());
         });
-        super::reporter::say(&format!("error: {words}"));
+        super::reporter::print_message(&format!("error: {message}"));
     }
 
     /// Reports the diagnostics on the terminal, once.
-    fn tell(&mut self) -> Result<(), Failure> {
+    fn report_diagnostics(&mut self) -> Result<(), Failure> {
         let Some(scene) = &mut self.scene else {
             return Ok(());
         };
@@ -349,9 +351,9 @@ fn reported(diagnostic: &Diagnostic, input: &Input) -> ReportedDiagnostic {
     }
 }
 
-fn failure_told(failure: &Failure) -> String {
+fn reported_failure(failure: &Failure) -> String {
     match failure {
-        Failure::Input(words) | Failure::Trouble(words) => words.clone(),
+        Failure::Input(message) | Failure::Trouble(message) => message.clone(),
         Failure::Findings | Failure::Unreadable | Failure::Interrupted | Failure::ClosedPipe => {
             "the scene can't be read".to_owned()
         }

@@ -80,7 +80,7 @@ impl ViewOverride {
         rounded(up * pixel, pixel, UP_DIGITS)
     }
 
-    /// The same as a view of a stage.
+    /// The same as passes use it.
     pub(super) fn view(&self, yfov: Option<f64>) -> View {
         let Self { eye, center, up } = *self;
         View {
@@ -224,12 +224,13 @@ pub(super) fn written(
 /// Whether two cameras show the same, but for rounding.
 fn is_near(a: &Camera, b: &Camera) -> bool {
     let scale = Vec3::from_array(b.eye).distance(Vec3::from_array(b.center));
-    let apart = |a: [f64; 3], b: [f64; 3]| Vec3::from_array(a).distance(Vec3::from_array(b));
+    let distance_between =
+        |a: [f64; 3], b: [f64; 3]| Vec3::from_array(a).distance(Vec3::from_array(b));
     let step = Vec3::from_array(b.up).distance(Vec3::ZERO);
-    apart(a.eye, b.eye) <= NEAR * scale
-        && apart(a.center, b.center) <= NEAR * scale
-        && apart(a.up, b.up) <= NEAR_STEP * step
-        && apart(a.right, b.right) <= NEAR_STEP * step
+    distance_between(a.eye, b.eye) <= NEAR * scale
+        && distance_between(a.center, b.center) <= NEAR * scale
+        && distance_between(a.up, b.up) <= NEAR_STEP * step
+        && distance_between(a.right, b.right) <= NEAR_STEP * step
         && a.size == b.size
 }
 
@@ -300,8 +301,8 @@ mod tests {
             (view_override.eye, before.eye),
             (view_override.center, before.center),
         ] {
-            let apart = Vec3::from_array(own).distance(Vec3::from_array(sent));
-            assert!(apart < 0.002, "{apart}");
+            let distance_between = Vec3::from_array(own).distance(Vec3::from_array(sent));
+            assert!(distance_between < 0.002, "{distance_between}");
         }
     }
 

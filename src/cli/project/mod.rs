@@ -114,7 +114,7 @@ impl Project {
     }
 
     /// Adds its diagnostics to those of a scene.
-    pub(super) fn tell(&self, input: &mut Input) {
+    pub(super) fn report_diagnostics(&self, input: &mut Input) {
         let path = self.path.display().to_string();
         if let Some(reason) = self.withheld {
             let message = format!("`{}` is not read: {reason}", clip_path(&path));

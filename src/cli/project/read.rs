@@ -14,7 +14,7 @@ use toml::de::{DeString, DeTable, DeValue};
 /// The keys at the top.
 const KEYS: [&str; 5] = ["asset-root", "levels", "limits", "render", "up-axis"];
 
-/// Those of `[render]`, as the flags.
+/// The options of `[render]`, as the flags.
 const RENDER_KEYS: [&str; 7] = [
     "size",
     "supersampling",
@@ -132,7 +132,9 @@ impl ProjectReader<'_> {
         let name = key.get_ref().as_ref();
         let subject = match LevelSubject::parse(name) {
             Ok(subject) => subject,
-            Err(words) => return self.fault(key.span(), format!("`{}`: {words}", clip(name)), ""),
+            Err(reason) => {
+                return self.fault(key.span(), format!("`{}`: {reason}", clip(name)), "");
+            }
         };
         let word = value.get_ref().as_str();
         let level = DiagnosticLevel::ALL
@@ -142,8 +144,8 @@ impl ProjectReader<'_> {
             Some(level) => self.settings.levels.set(subject, level),
             None => Err("a level is `\"allow\"`, `\"warn\"` or `\"deny\"`".to_owned()),
         };
-        if let Err(words) = set {
-            self.fault(value.span(), words, "");
+        if let Err(reason) = set {
+            self.fault(value.span(), reason, "");
         }
     }
 

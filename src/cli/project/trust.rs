@@ -12,7 +12,7 @@ const LIST: &str = "trusted-projects";
 
 /// The trust in an `rtc.toml`.
 pub(super) enum Trust {
-    /// All of it.
+    /// Everything.
     Full,
     /// It may lower limits, and add this folder, that of the scene, to the search.
     Within(PathBuf),
@@ -28,9 +28,9 @@ pub(super) fn is_listed(folder: &Path) -> Result<bool, Failure> {
         return Ok(false);
     };
     let listed = listed(&file.bytes).ok_or_else(|| {
-        let words =
+        let message =
             "the only key is `trusted-projects`, a list of folders, as `[\"/home/me/scenes\"]`";
-        Failure::Trouble(format!("`{}`: {words}", path.display()))
+        Failure::Trouble(format!("`{}`: {message}", path.display()))
     })?;
     let holds = |own: &PathBuf| {
         let own = own.canonicalize();
@@ -58,7 +58,7 @@ fn listed(bytes: &[u8]) -> Option<Vec<PathBuf>> {
     Some(folders)
 }
 
-/// Where the user's own settings are.
+/// The path of the user's own settings.
 fn own_settings() -> Option<PathBuf> {
     let named = |name| env::var_os(name).map(PathBuf::from);
     let given = named("XDG_CONFIG_HOME").or_else(|| named("APPDATA"));

@@ -17,9 +17,9 @@ use std::path::{Path, PathBuf};
 /// Pictures a second, unless they are given.
 const RATE: u16 = 12;
 
-/// How many pictures a second the output shows; `None` of one that is no animation.
+/// The frames per second of an animation; `None` for other outputs.
 pub(super) fn rate(args: &args::Render, output: &Path) -> Result<Option<u16>, Failure> {
-    let refused = |words: &str| Err(Failure::Trouble(words.to_owned()));
+    let refused = |message: &str| Err(Failure::Trouble(message.to_owned()));
     match output.extension().is_some_and(is_apng) || is_gif(output) {
         false if args.fps.is_some() => {
             refused("`--fps` is for a turntable in one file; name it .apng or .gif")
@@ -92,8 +92,8 @@ impl RenderSetup {
             }
             reporter.made(&made);
         }
-        if let Some(words) = remark(&self.output).filter(|_| !reporter.is_quiet()) {
-            reporter::say(words);
+        if let Some(message) = remark(&self.output).filter(|_| !reporter.is_quiet()) {
+            reporter::print_message(message);
         }
         begun.map_or(Ok(()), |animation| Ok(animation.finish()?))
     }
@@ -107,8 +107,8 @@ pub(super) fn still(output: &Path) -> PathBuf {
 
 /// The message about the palette of an output.
 fn remark(output: &Path) -> Option<&'static str> {
-    let words = "note: a GIF holds 256 colours a picture; `-o NAME.apng` holds all of them";
-    is_gif(output).then_some(words)
+    let message = "note: a GIF holds 256 colours a picture; `-o NAME.apng` holds all of them";
+    is_gif(output).then_some(message)
 }
 
 fn is_apng(extension: &OsStr) -> bool {

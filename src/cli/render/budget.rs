@@ -58,13 +58,13 @@ impl PictureClock {
         self.0.set(Instant::now());
         let time = time?;
         let is_late = took > time + LATE.max(time.mul_f64(LATE_PART));
-        let words = match (is_late, coarse) {
+        let message = match (is_late, coarse) {
             (false, None) => return None,
             (true, None) => late(took, time),
             (true, Some(coarse)) => format!("{}, and {}", late(took, time), lacking(coarse)),
             (false, Some(coarse)) => lacking(coarse),
         };
-        let diagnostic = Diagnostic::new(&codes::TOO_SHORT, words);
+        let diagnostic = Diagnostic::new(&codes::TOO_SHORT, message);
         Some(match coarse {
             Some(CoarsePicture { complete_after, .. }) => diagnostic.hint(format!(
                 "a sample for each pixel takes about `--time-budget {:.2}`",

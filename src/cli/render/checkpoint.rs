@@ -30,7 +30,7 @@ pub(super) struct Checkpoint {
 /// The hint for a checkpoint that can't be resumed.
 pub(crate) fn or_restart(failure: Failure) -> Failure {
     match failure {
-        Failure::Input(words) => Failure::Input(format!("{words}; `--restart` starts over")),
+        Failure::Input(message) => Failure::Input(format!("{message}; `--restart` starts over")),
         other @ (Failure::Findings
         | Failure::Unreadable
         | Failure::Trouble(_)
@@ -124,7 +124,7 @@ impl RenderSetup {
             false => self.share_by_share(saving, subject, &mut done, order, run_context)?,
             true => self.round_by_round(saving, subject, &mut done, order, run_context)?,
         };
-        input::tell(input, reporter)?;
+        input::report_diagnostics(input, reporter)?;
         let bytes = self.picture.encode(&picture, subject)?;
         let written = output.commit(&bytes, interrupt);
         if interrupt.is_raised() {
@@ -212,7 +212,7 @@ impl RenderSetup {
             Ok(rendering) => rendering,
             Err(error) => {
                 if is_saved.into_inner() {
-                    checkpoint.tell("what is done");
+                    checkpoint.report_saved("the state");
                 }
                 return Err(ended(error, input, reporter));
             }
@@ -298,20 +298,20 @@ impl Checkpoint {
                 0 => String::new(),
                 _ => format!("{finished} finished and of the next "),
             };
-            self.tell(&format!("{frames}{shares} of {count} shares"));
+            self.report_saved(&format!("{frames}{shares} of {count} shares"));
         }
     }
 
     /// Prints how to resume.
-    fn tell(&self, what: &str) {
-        say_saved(&self.file, what);
+    fn report_saved(&self, what: &str) {
+        print_saved(&self.file, what);
     }
 }
 
 /// Prints the saved progress, and how to resume.
-pub(crate) fn say_saved(file: &Path, what: &str) {
+pub(crate) fn print_saved(file: &Path, what: &str) {
     let file = file.display();
-    reporter::say(&format!(
+    reporter::print_message(&format!(
         "saved {what} in `{file}`; the same command resumes"
     ));
 }
@@ -321,7 +321,7 @@ pub(crate) fn try_save(file: &Path, bytes: &[u8]) -> bool {
     let saved = NewFile::save(file, bytes);
     if let Err(error) = &saved {
         let file = file.display();
-        reporter::say(&format!(
+        reporter::print_message(&format!(
             "warning: `{file}` can't be written: {error}; the render continues, and the last \
             checkpoint stays"
         ));

@@ -11,7 +11,7 @@ use std::path::Path;
 
 /// The requested output transform.
 pub(super) fn look(args: &OutputTransformArgs, output: &Path) -> Result<OutputTransform, Failure> {
-    let refused = |words: &str| Failure::Trouble(words.to_owned());
+    let refused = |message: &str| Failure::Trouble(message.to_owned());
     let kind = kind(output, args.bits)?;
     let aovs: Vec<Aov> = args.aov.iter().map(|layer| Aov::from(*layer)).collect();
     let tone = args.tonemap.map(Tone::from);

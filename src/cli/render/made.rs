@@ -36,7 +36,7 @@ pub(super) struct Quality {
     pub(super) known: KnownBy,
 }
 
-/// How it is known.
+/// The source of the estimate.
 pub(super) enum KnownBy {
     /// The picture grew until it was good enough.
     Growing {
@@ -52,7 +52,7 @@ pub(super) enum KnownBy {
     Probing {
         /// The likely error, in grey levels.
         estimate: f64,
-        /// So many pixels.
+        /// The number of pixels.
         probes: usize,
         /// Each so often.
         samples: u32,
@@ -87,14 +87,14 @@ impl MadePicture {
 
     /// The text: size, light, rays and time; if `verbose`, how often each effect was simulated and
     /// the bytes on huge pages; the quality.
-    pub(crate) fn words(&self, verbose: bool) -> String {
+    pub(crate) fn text(&self, verbose: bool) -> String {
         let ([width, height], light) = (self.size, &self.light);
         let work = progress::summary(self.counts.rays(), self.elapsed);
         let line = format!("{}: {width}×{height}, {light}{work}", self.output.display());
         let simulated = verbose.then(|| simulated(&self.counts));
         let pages = verbose.then(huge_pages).flatten();
         let clamped = self.is_clamped.then(|| clamped(&self.counts.clamped));
-        let quality = self.quality.as_ref().map(Quality::words);
+        let quality = self.quality.as_ref().map(Quality::text);
         let lines = [Some(line), simulated, pages, clamped, quality];
         lines.into_iter().flatten().collect::<Vec<_>>().join("\n")
     }
@@ -133,18 +133,18 @@ fn clamped(light: &ClampedLight) -> String {
     format!("clamped: {paths} paths, which takes {share:.3} % of the light")
 }
 
-/// The same as an object.
+/// The same as a JSON object.
 fn clamped_object(light: &ClampedLight) -> Value {
     json!({ "paths": light.paths, "shareOfLight": light.share() })
 }
 
 fn simulated(counts: &Counts) -> String {
-    let words = effects(counts).map(|(name, count)| format!("{name} {}", HumanCount(count)));
-    format!("simulated: {}", words.collect::<Vec<_>>().join("; "))
+    let text = effects(counts).map(|(name, count)| format!("{name} {}", HumanCount(count)));
+    format!("simulated: {}", text.collect::<Vec<_>>().join("; "))
 }
 
 impl Quality {
-    /// Of a denoised picture.
+    /// For a denoised picture.
     pub(super) fn probed(probed: &ProbedError) -> Self {
         Self {
             error: probed.error,
@@ -165,7 +165,7 @@ impl Quality {
         }
     }
 
-    fn words(&self) -> String {
+    fn text(&self) -> String {
         let bound = match self.coarse() {
             Some(CoarsePicture { block, .. }) => {
                 format!("no bound: of some blocks of {block} × {block} pixels one was sampled")

@@ -33,7 +33,7 @@ pub(super) fn jobs(args: &args::Render) -> Result<Option<Vec<RenderJob>>, Failur
             )),
         };
     }
-    let refused = |words: &str| Err(Failure::Trouble(words.to_owned()));
+    let refused = |message: &str| Err(Failure::Trouble(message.to_owned()));
     if args.part.is_some() || args.checkpoint.is_some() {
         return refused(
             "`--part` and `--checkpoint` are for one scene and a picture of its own name",
@@ -102,7 +102,7 @@ impl<'a> Destination<'a> {
         matches!(self, Self::Folder(_) | Self::Pattern(_))
     }
 
-    /// That of the picture of a scene.
+    /// The destination for the picture of a scene.
     fn of(&self, stem: &OsStr) -> PathBuf {
         let named = || PathBuf::from(stem).with_added_extension("png");
         match self {
@@ -193,8 +193,8 @@ fn carry_out(
             }
             Err(end @ (Failure::Interrupted | Failure::ClosedPipe)) => return Err(end),
             Err(Failure::Findings | Failure::Unreadable) => {}
-            Err(Failure::Input(words) | Failure::Trouble(words)) => {
-                reporter::say(&format!("error: `{}`: {words}", scene.display()));
+            Err(Failure::Input(message) | Failure::Trouble(message)) => {
+                reporter::print_message(&format!("error: `{}`: {message}", scene.display()));
             }
         }
         failed += 1;

@@ -33,7 +33,7 @@ use super::suggest;
 use super::turntable::{self, Turntable, Views};
 use budget::PictureClock;
 use checkpoint::{Checkpoint, RunContext, Saving};
-pub(super) use checkpoint::{ended, or_restart, say_saved, try_save};
+pub(super) use checkpoint::{ended, or_restart, print_saved, try_save};
 use layers::LayerFiles;
 pub(super) use look::{kind, refuse_layers};
 pub(super) use made::{MadePicture, effects};
@@ -52,7 +52,7 @@ struct RenderSetup {
     output: PathBuf,
     picture: PictureSetup,
     /// The requests of the command line.
-    asked: Overrides,
+    requested: Overrides,
     /// Views around the scene, if more than its own.
     turntable: Option<Views>,
     /// Pictures a second of a turntable in one file.
@@ -60,7 +60,7 @@ struct RenderSetup {
     up: Option<[f64; 3]>,
     /// The share of the picture that is rendered, if not all of it.
     part: Option<PartSetup>,
-    /// Where it is saved on its way.
+    /// The checkpoint.
     checkpoint: Option<Checkpoint>,
     /// Whether it is rendered in strips, and of how many rows.
     strips: Option<Option<u32>>,
@@ -74,7 +74,7 @@ impl From<RenderError> for Failure {
         match error {
             RenderError::Stopped => Self::Interrupted,
             RenderError::RanOut(_) => Self::Findings,
-            RenderError::Refused(words) => Self::Trouble(words),
+            RenderError::Refused(message) => Self::Trouble(message),
         }
     }
 }
@@ -119,10 +119,10 @@ impl RenderSetup {
         let still = rate.map(|_| animation::still(&output));
         let picture = part.as_ref().map_or(output.as_path(), PartSetup::picture);
         let picture = still.as_deref().unwrap_or(picture);
-        let asked = args.wanted.overrides();
+        let requested = args.wanted.overrides();
         let settled = project::picture(args.file(), &args.reading, goal)?;
         let picture = PictureSetup {
-            overrides: asked.or(settled),
+            overrides: requested.or(settled),
             goal,
             threads: args.threads.map_or(0, usize::from),
             rules: rules(&args.pruning, goal),
@@ -143,7 +143,7 @@ impl RenderSetup {
         Ok(Self {
             output,
             picture,
-            asked,
+            requested,
             turntable,
             rate,
             up: args.stage.up,
@@ -180,15 +180,15 @@ impl RenderSetup {
         let mut subject = match subject {
             Ok(subject) => input::unless_refused(subject, input, reporter)?,
             Err(error) => {
-                input::tell(input, reporter)?;
+                input::report_diagnostics(input, reporter)?;
                 return Err(error.into());
             }
         };
         let scene = &subject.validated.lowered.scene;
-        let idle = suggest::idle(&self.asked, &scene.settings.mode);
+        let idle = suggest::idle(&self.requested, &scene.settings.mode);
         idle.filter(|_| !reporter.is_quiet())
             .into_iter()
-            .for_each(reporter::say);
+            .for_each(reporter::print_message);
         self.picture.window(scene)?;
         let interrupt = Interrupt::listen()?;
         let observer = Observer {
@@ -196,7 +196,7 @@ impl RenderSetup {
             is_stopped: &|| interrupt.is_raised(),
         };
         self.picture.light(&mut subject, input, &observer)?;
-        input::tell(input, reporter)?;
+        input::report_diagnostics(input, reporter)?;
         if let Some(checkpoint) = &self.checkpoint {
             let mut saving = Saving::begin(checkpoint, &self.output, input)?;
             let run_context = (input, reporter, &interrupt);
@@ -314,7 +314,7 @@ impl RenderSetup {
         found
             .into_iter()
             .for_each(|diagnostic| input.push(diagnostic));
-        input::tell(input, reporter)?;
+        input::report_diagnostics(input, reporter)?;
         Ok((picture, made))
     }
 }
@@ -324,7 +324,7 @@ fn halted(error: RenderError, input: &mut Input, reporter: &mut Reporter) -> Res
     match error {
         RenderError::RanOut(diagnostic) => {
             input.push(*diagnostic);
-            input::tell(input, reporter)
+            input::report_diagnostics(input, reporter)
         }
         error @ (RenderError::Stopped | RenderError::Refused(_)) => Err(error.into()),
     }

@@ -22,7 +22,7 @@ impl PartSetup {
         let Some([index, count]) = args.part else {
             return Ok(None);
         };
-        let trouble = |words: &str| Err(Failure::Trouble(words.to_owned()));
+        let trouble = |message: &str| Err(Failure::Trouble(message.to_owned()));
         if has_goal(args) {
             return trouble(
                 "a part can't estimate the error of the whole picture; set its samples with \
@@ -103,7 +103,7 @@ impl RenderSetup {
         if !reporter.is_quiet() {
             let path = self.output.display();
             let work = progress::summary(made.counts().rays(), elapsed);
-            reporter::say(&format!("{path}: share {first} of {count}, {work}"));
+            reporter::print_message(&format!("{path}: share {first} of {count}, {work}"));
         }
         Ok(())
     }

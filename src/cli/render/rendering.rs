@@ -1,4 +1,4 @@
-//! One render: as the scene says or until a goal is reached, or where its rays ran out; with a bar
+//! One render: in the setting of the scene or to a target, up to the ray limit; with a bar
 //! that shows how far it is.
 
 use super::super::interrupt::Interrupt;
@@ -99,7 +99,7 @@ impl<'a> KeptGrowth<'a> {
     }
 }
 
-/// So many threads, for 0 one a core.
+/// The number of threads, 0 for one per core.
 pub(super) fn workers(threads: usize) -> usize {
     match threads {
         0 => std::thread::available_parallelism().map_or(1, usize::from),

@@ -25,7 +25,7 @@ impl Sheet {
     /// A sheet of the pictures of these renders, which are not made yet. It is none of them.
     pub(super) fn new(path: &Path, plans: &[(PathBuf, RenderSetup)]) -> Result<Self, Failure> {
         let name = path.display();
-        let refused = |words: String| Err(Failure::Trouble(words));
+        let refused = |message: String| Err(Failure::Trouble(message));
         if !path
             .extension()
             .is_some_and(|extension| extension.eq_ignore_ascii_case("png"))

@@ -10,13 +10,13 @@ use std::path::Path;
 /// The largest picture file that is read, in bytes.
 const MAX_BYTES: u64 = 1 << 32;
 
-/// Where the terminal does not say how wide it is, and the most letters of a line.
+/// The default width of a terminal, and the maximum length of a line.
 const WIDTH: u32 = 80;
 const WIDEST: u32 = 400;
 
 /// Prints the picture of a file, as wide as the terminal at most.
 pub(super) fn show(path: &Path) -> Result<(), Failure> {
-    let trouble = |words: String| Failure::Trouble(format!("`{}`: {words}", path.display()));
+    let trouble = |message: String| Failure::Trouble(format!("`{}`: {message}", path.display()));
     let bytes = Loader.bytes(path, MAX_BYTES, &SourceMap::default());
     let bytes = bytes.map_err(|error| trouble(error.to_string()))?;
     let picture = ShownPicture::read(&bytes, u64::MAX);

@@ -45,7 +45,7 @@ impl RenderSetup {
             None => return written,
         };
         written?;
-        input::tell(input, reporter)?;
+        input::report_diagnostics(input, reporter)?;
         let size = [window.width, window.height];
         reporter.made(&MadePicture::new(path, setup, size, (counts, elapsed)));
         Ok(())

@@ -108,7 +108,7 @@ fn human_marks_the_source() {
     3 + Shadows: true
       |
 
-    a b.yaml: 1 error, 1 warning; `rtc explain VA001` tells more
+    a b.yaml: 1 error, 1 warning; see `rtc explain VA001`
     "#);
 }
 
@@ -143,7 +143,7 @@ fn human_shows_far_places_apart() {
       1 | Eye: 1
         | --- first
 
-    a b.yaml: 1 error; `rtc explain VA001` tells more
+    a b.yaml: 1 error; see `rtc explain VA001`
     "#);
 }
 
@@ -165,14 +165,14 @@ fn human_names_the_byte_or_column_where_lines_mean_nothing() {
     --> a b.yaml: byte 5000
      = note: `0xff` here
 
-    a b.yaml: 1 error; `rtc explain SY001` tells more
+    a b.yaml: 1 error; see `rtc explain SY001`
     "#);
     assert_snapshot!(print(Format::Human, PLAIN, &[b'x'; 9_000], late), @r#"
     error[SY001]: the file is not UTF-8
     --> a b.yaml:1:5001
      = note: `0xff` here
 
-    a b.yaml: 1 error; `rtc explain SY001` tells more
+    a b.yaml: 1 error; see `rtc explain SY001`
     "#);
     assert_snapshot!(print(Format::Human, PLAIN, b"", |_| vec![
         Diagnostic::new(&codes::NOT_FINITE, "too large").pointer("/lights/0")
@@ -181,7 +181,7 @@ fn human_names_the_byte_or_column_where_lines_mean_nothing() {
      |
      = note: at `/lights/0`
 
-    a b.yaml: 1 error; `rtc explain VA001` tells more
+    a b.yaml: 1 error; see `rtc explain VA001`
     "#);
 }
 
@@ -200,7 +200,7 @@ fn human_pictures_commands() {
     2 ~ \u{7}[2J: 1
       |
 
-    a b.yaml: 1 warning; `rtc explain SC001` tells more
+    a b.yaml: 1 warning; see `rtc explain SC001`
     "#);
 }
 
@@ -302,14 +302,14 @@ fn equal_findings_are_folded_for_people_alone() {
     assert!(
         text.contains("= note: the same 7 times more, at lines 3, 4, 5, 6, 7, 8, …")
             && text.contains("another")
-            && text.ends_with("a b.yaml: 9 errors; `rtc explain VA001` tells more\n"),
+            && text.ends_with("a b.yaml: 9 errors; see `rtc explain VA001`\n"),
         "{text}"
     );
     let short = print(Format::Short, PLAIN, lines.as_bytes(), flood);
     assert_eq!(short.lines().count(), 9);
     // Three diagnostics are not folded.
-    let few = |at: Span| flood(at).into_iter().take(4).collect();
-    let text = print(Format::Human, PLAIN, lines.as_bytes(), few);
+    let some = |at: Span| flood(at).into_iter().take(4).collect();
+    let text = print(Format::Human, PLAIN, lines.as_bytes(), some);
     assert_eq!(text.matches("the same word").count(), 3);
 }
 

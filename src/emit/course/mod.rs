@@ -292,7 +292,7 @@ impl<'s> SceneWriter<'s> {
 
 /// The numbers of materials in the text.
 struct MaterialNames {
-    /// How many surfaces, or operands, have each.
+    /// The number of surfaces, or operands, with each material.
     uses: Vec<usize>,
     /// The number of each in the order of first use.
     numbers: Vec<Option<usize>>,

@@ -140,7 +140,7 @@ impl GltfAsset {
     /// Writes the asset without its sidecar files.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// The fields of `out`.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         if !self.is_binary {
             out.write_all(&self.json)?;

@@ -19,7 +19,7 @@ pub(super) const FINEST: f64 = 1.0 / 256.0;
 /// The distance between the two points that decide whether a triangle is on the boundary, in
 /// diagonals of the solid.
 const APART: f64 = 1e-6;
-/// How far the mesh of an operand may be from it, in diagonals of the solid.
+/// The maximum distance of the mesh of an operand from it, in diagonals of the solid.
 const MESH_ERROR: f64 = 4e-3;
 /// Halvings of that distance, until it is well below [`APART`].
 const BISECTIONS: u32 = 16;

@@ -1,6 +1,6 @@
-//! Numbers in plain scalars, by the core schema of YAML 1.2.
+//! Numbers in unquoted scalars, by the core schema of YAML 1.2.
 
-/// The result of reading a plain scalar as a number.
+/// The result of reading an unquoted scalar as a number.
 pub(super) enum ScalarNumber {
     Number(f64),
     /// `.inf`, `.nan`, or a number beyond the range of a 64-bit float.
@@ -8,7 +8,7 @@ pub(super) enum ScalarNumber {
     NoNumber,
 }
 
-/// Reads a plain scalar as a number.
+/// Reads an unquoted scalar as a number.
 pub(super) fn parse_number(scalar: &str) -> ScalarNumber {
     if let Some(value) = short_decimal(scalar) {
         return ScalarNumber::Number(value);

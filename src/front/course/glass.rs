@@ -12,7 +12,7 @@ use rtc_source::Span;
 /// A material that transmits light.
 pub(super) struct Glass {
     pub(super) id: MaterialId,
-    /// Where the file declares it transparent.
+    /// The span that declares it transparent.
     pub(super) span: Span,
     /// Whether it shows only the light that it transmits, without its own colour.
     pub(super) is_clear: bool,

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! 1. The parser of `rtc_source::tree::yaml` makes a tree in which every node has a span. `syntax`
-//!   turns its errors into diagnostics.
+//!    turns its errors into diagnostics.
 //! 2. Maps are decoded to *records*. The macro `record!` (in `record`) declares a record once, in
 //!    the file that is named after it: `camera`, `light`, `material`, `object::sphere` and so on.
 //!    The declaration is the Rust type, its decoder and its schema. A field may have several

@@ -275,8 +275,8 @@ impl MapReader {
         foreign_key_advice(record_name, key).map(|advice| (advice.to_owned(), None))
     }
 
-    /// Of all groups with this key, the one with the fewest missing keys: the index of its field
-    /// and these keys.
+    /// The group with this key that has the fewest missing keys: the index of its field and these
+    /// keys.
     fn nearest_group(
         &self,
         key: &str,

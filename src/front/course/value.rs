@@ -341,7 +341,7 @@ impl Decode for FileName {
 /// The title of file names in the schema. Editors complete files for it.
 pub const FILE: &str = "file";
 
-/// Whether a plain scalar is a string by the core schema: no number, no boolean and not null.
+/// Whether an unquoted scalar is a string by the core schema: no number, no boolean and not null.
 fn is_string(scalar: &str) -> bool {
     !is_number(scalar)
         && !matches!(

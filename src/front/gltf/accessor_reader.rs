@@ -132,8 +132,7 @@ impl<'d> AccessorReader<'d> {
         vector
     }
 
-    /// Where the elements are, and the bytes from one to the next, if none is replaced and each is
-    /// one column.
+    /// The elements as bytes with a stride, if none is replaced and each is one column.
     fn plain(&self) -> Option<(&'d [u8], usize)> {
         self.base
             .filter(|_| self.sparse.is_none() && self.layout.columns == 1)

@@ -44,7 +44,7 @@ pub(super) enum Semantic {
     Weights(u64),
     /// It starts with an underscore, and we don't know.
     Custom,
-    /// It is no name of an attribute.
+    /// It is no attribute semantic.
     None,
 }
 

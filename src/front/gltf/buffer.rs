@@ -28,7 +28,7 @@ pub(super) type Bytes<'s> = Rc<Cow<'s, [u8]>>;
 /// The address and length of some bytes: within a document, equal keys are the same bytes.
 pub(super) type ByteRange = (usize, usize);
 
-/// Where these bytes are.
+/// The location of these bytes.
 pub(super) fn byte_range(bytes: &[u8]) -> ByteRange {
     (bytes.as_ptr().addr(), bytes.len())
 }
@@ -58,7 +58,7 @@ pub(super) struct BufferView {
     pub(super) offset: usize,
     pub(super) length: Option<usize>,
     pub(super) stride: Option<usize>,
-    /// What its `target` says.
+    /// Its `target`.
     target: Option<Purpose>,
     /// Decompressed bytes.
     pub(super) decoded: Option<Bytes<'static>>,

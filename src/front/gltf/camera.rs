@@ -6,7 +6,7 @@ use super::report::AssetReport;
 use rtc_diag::codes;
 use rtc_math::shortest;
 
-/// How a camera makes a picture; it looks along its negative z axis, y is up.
+/// The projection of a camera; it looks along its negative z axis, y is up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Projection {
     /// The vertical opening in radians, and width over height if the picture's own does not count.

@@ -33,14 +33,14 @@ pub(super) fn is_glb(name: &str, bytes: &[u8]) -> bool {
     bytes.starts_with(MAGIC) || bytes.get(16..20) == Some(JSON) || name.ends_with(".glb")
 }
 
-/// Where the text of a `.glb` ends, with the header of the chunk behind it.
+/// The end of the text of a `.glb`, with the header of the chunk after it.
 pub(super) fn text_end(bytes: &[u8]) -> usize {
     let length = bytes.get(HEADER..).and_then(<[u8]>::first_chunk);
     let length = length.map_or(0, |length| u32::from_le_bytes(*length));
     (HEADER + CHUNK_HEADER + CHUNK_HEADER).saturating_add(length as usize)
 }
 
-/// Finds the parts of a `.glb`. `None` if there is no text; the sink says why.
+/// Finds the parts of a `.glb`. `None`, with an error, if there is no text.
 pub(super) fn open(file: FileId, bytes: &[u8], is_lenient: bool, sink: &mut Sink) -> Option<Parts> {
     let mut scan = Scan {
         file,
@@ -70,7 +70,7 @@ struct Scan<'a> {
     sink: &'a mut Sink,
     json: Option<Range<usize>>,
     bin: Option<Range<usize>>,
-    /// How many chunks came before.
+    /// The number of chunks before.
     chunks: usize,
 }
 
@@ -169,7 +169,7 @@ impl Scan<'_> {
         Some(())
     }
 
-    /// The chunks, up to where the header says that the file ends, or else to its end; false if it
+    /// The chunks, up to the length in the header, or else to the end of the file; false if it
     /// ends within one.
     fn chunks(&mut self) -> bool {
         let (declared, size) = (self.word(8).unwrap_or(0), self.bytes.len());

@@ -221,7 +221,7 @@ fn values(
     bad
 }
 
-/// How many elements are beyond a bound, for each component.
+/// The number of elements beyond a bound, for each component.
 fn count_beyond(elements: &AccessorReader<'_>, declared: &[f64], is_min: bool) -> [usize; 16] {
     let mut beyond = [0; 16];
     elements.each(|_, element| {

@@ -74,11 +74,11 @@ pub(super) const CONVERT: &str =
 fn of_first_version(json: &Tree<'_>) -> Option<NodeId> {
     let root = json.root();
     let version = json.at(root, &["asset", "version"]);
-    let says_so = |at: &NodeId| match json.text(*at) {
+    let is_declared = |at: &NodeId| match json.text(*at) {
         Some(text) => text == "1" || text.starts_with("1."),
         None => json.number(*at).is_some_and(|number| number == 1.0),
     };
-    if let Some(at) = version.filter(says_so) {
+    if let Some(at) = version.filter(is_declared) {
         return Some(at);
     }
     let parts = ["accessors", "bufferViews", "buffers", "meshes", "nodes"];
@@ -98,7 +98,7 @@ fn of_first_version(json: &Tree<'_>) -> Option<NodeId> {
     }
 }
 
-/// Refuses glTF 1.0, and says how to convert it. True if the asset is that.
+/// Rejects glTF 1.0, with a hint on converting it. True if the asset is that.
 pub(super) fn is_refused(report: &mut AssetReport<'_, '_>) -> bool {
     let at = of_first_version(report.json);
     if let Some(at) = at {

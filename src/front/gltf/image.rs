@@ -19,7 +19,7 @@ pub(super) struct Image {
     pub(super) at: NodeId,
     pub(super) name: String,
     pub(super) view: Option<usize>,
-    /// What `mimeType`, or else a data URI, says.
+    /// The declared type: `mimeType`, or else that of a data URI.
     pub(super) media: Option<String>,
     /// What its first bytes say.
     pub(super) format: Option<ImageCoding>,

@@ -74,7 +74,7 @@ pub(super) struct ElementLayout {
 }
 
 impl ElementLayout {
-    /// How many components an element has.
+    /// The number of components of an element.
     pub(super) fn components(self) -> usize {
         self.columns * self.rows
     }

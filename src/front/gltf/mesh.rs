@@ -36,7 +36,7 @@ impl Mesh {
         }
     }
 
-    /// How many morph targets its primitives have.
+    /// The number of morph targets of its primitives.
     pub(super) fn targets(&self) -> usize {
         self.primitives
             .first()

@@ -9,8 +9,8 @@
 //! 3. `schema` checks each object against a table of its properties: types, ranges, required
 //!    properties, unknown properties, and references.
 //! 4. `document` builds typed objects from the tree (`accessor`, `buffer`, `mesh`, `node`, `skin`,
-//!   `material`, `texture`, `animation`, `camera`, `light`). References are indices. Each object
-//!   keeps its node, so each diagnostic has a location.
+//!    `material`, `texture`, `animation`, `camera`, `light`). References are indices. Each object
+//!    keeps its node, so each diagnostic has a location.
 //! 5. The `check` functions of these modules test rules between objects: buffer views within their
 //!    buffer, a tree of nodes, attributes of equal length.
 //! 6. `resource` loads buffers and images: data URIs, and files in the folder of the asset.
@@ -109,8 +109,10 @@ const BOM: &str = "\u{feff}";
 /// that of the file.
 #[must_use]
 pub fn is_gltf(name: &str, bytes: &[u8]) -> bool {
-    let says_so = || memchr::memmem::find(bytes, b"\"asset\"").is_some();
-    container::is_glb(name, bytes) || name.ends_with(".gltf") || (opens_object(bytes) && says_so())
+    let is_declared = || memchr::memmem::find(bytes, b"\"asset\"").is_some();
+    container::is_glb(name, bytes)
+        || name.ends_with(".gltf")
+        || (opens_object(bytes) && is_declared())
 }
 
 /// Frees the memory of a lowered asset, except for its text, which diagnostics point into.

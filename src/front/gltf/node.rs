@@ -8,7 +8,7 @@ use rtc_math::unit;
 use rtc_source::tree::{NodeId, Tree};
 use std::collections::BTreeSet;
 
-/// How far a rotation may be from length 1.
+/// The tolerance of the length of a rotation.
 const UNIT: f64 = 0.007_69;
 const IDENTITY: [f64; 16] = [
     1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0,
@@ -46,8 +46,8 @@ pub(super) struct Node {
 pub(super) struct Instancing {
     /// Translation, rotation, scale.
     pub(super) parts: [Option<usize>; 3],
-    /// Those of all attributes, of an application's own too: each says how many instances there
-    /// are.
+    /// The accessors of all attributes, application-specific ones too; each gives the number of
+    /// instances.
     pub(super) all: Vec<usize>,
 }
 
@@ -64,7 +64,7 @@ impl Instancing {
     }
 }
 
-/// How a node is placed in its parent.
+/// The transform of a node in its parent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Transform {
     /// Column by column.
@@ -349,8 +349,8 @@ fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut AssetReport<'_, '_>)
 
 fn check_empty(node: &Node, report: &mut AssetReport<'_, '_>) {
     let fields = Fields::new(report.json, node.at);
-    let says = ["children", "mesh", "camera", "extensions", "extras"];
-    if !says.iter().any(|key| fields.has(key)) {
+    let declares = ["children", "mesh", "camera", "extensions", "extras"];
+    if !declares.iter().any(|key| fields.has(key)) {
         report.add(
             &codes::GLTF_REMARK,
             "NODE_EMPTY",

@@ -16,7 +16,7 @@ pub(super) struct AnimatedProperty {
     /// The object that has it.
     pub(super) at: NodeId,
     pub(super) key: &'static str,
-    /// How many numbers it takes.
+    /// Its number of values.
     pub(super) width: usize,
     /// The range of each number.
     range: [f64; 2],
@@ -100,7 +100,7 @@ const FOLLOWED: &[PointerRow] = &[
     ("spot", "outerConeAngle", 1, [0.0, FRAC_PI_2]),
 ];
 
-/// How many numbers a kind of the table of extensions takes, and their range; maps take none.
+/// The number of values of a kind in the table of extensions, and their range; none for maps.
 macro_rules! numbers {
     (fraction) => {
         (1, UNIT)

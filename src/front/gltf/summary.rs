@@ -13,11 +13,11 @@ pub struct AssetSummary {
     pub version: String,
     /// The program that wrote it; empty if it does not say.
     pub generator: String,
-    /// How many there are of each kind: the key of the list, and its items.
+    /// The number of each kind: the key of the list, and its items.
     pub counts: Vec<(&'static str, usize)>,
     /// The names in `extensionsUsed`.
     pub extensions: Vec<String>,
-    /// Those of them that a reader must know.
+    /// The required ones among them.
     pub required: Vec<String>,
     /// The animations.
     pub animations: Vec<AnimationSummary>,
@@ -32,7 +32,7 @@ pub struct AssetSummary {
 pub struct AnimationSummary {
     /// Its name, empty if it has none.
     pub name: String,
-    /// How many properties it moves.
+    /// The number of properties it animates.
     pub channels: usize,
     /// The time of its last keyframe in seconds, as its accessors say.
     pub seconds: f64,

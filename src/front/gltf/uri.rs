@@ -32,7 +32,7 @@ pub(super) enum Uri {
 /// The reason why a URI is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum UriFault {
-    /// It is none, for this reason.
+    /// It is invalid, for this reason.
     Malformed(&'static str),
     /// It leads out of the folder, in this way.
     Outside(&'static str),
@@ -43,7 +43,7 @@ pub(super) enum UriFault {
 /// Reads a URI.
 ///
 /// # Errors
-/// If it is none, or leads out of the folder of the asset.
+/// If it is invalid, or leaves the folder of the asset.
 pub(super) fn parse(uri: &str) -> Result<Uri, UriFault> {
     if let Some(rest) = strip_scheme(uri, "data") {
         return data(rest);

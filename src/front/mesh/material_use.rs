@@ -11,7 +11,7 @@ use std::ops::Range;
 pub struct Named {
     /// The name.
     pub text: String,
-    /// Where it is first written.
+    /// The span of its first use.
     pub at: WordSpan,
 }
 

@@ -101,7 +101,7 @@ pub fn is_mtl(head: &[u8]) -> bool {
 /// Reads the materials of a file.
 ///
 /// # Errors
-/// If they would take more than the budget has.
+/// If they exceed the budget.
 pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Library, ParseFault> {
     // A word of two bytes takes 24 while its line is read, in a list that grows by doubling.
     budget.has(Resource::Memory, 24 * bytes.len() as u64)?;

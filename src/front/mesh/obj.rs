@@ -55,13 +55,13 @@ struct Check {
     vertices: Vertices,
     /// The corners of all faces.
     corners: usize,
-    /// How many triangles the faces have.
+    /// The number of triangles of the faces.
     triangles: usize,
     /// Whether any corner has a texture coordinate, and a normal.
     used: [bool; 2],
-    /// How many corners have no normal and are of a smoothing group.
+    /// The number of corners in smoothing groups without a normal.
     smooth_corners: usize,
-    /// How many ends lines and points have.
+    /// The number of ends of lines and points.
     ends: usize,
     /// Lines and points, each with its material.
     strokes: Vec<(Named, Segments)>,

@@ -50,12 +50,12 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault>
 /// The state so far.
 struct PlyReader<'a> {
     body: PlyBody<'a>,
-    /// How many vertices there are to be.
+    /// The declared number of vertices.
     vertices: usize,
     parsed: Parsed,
     polygons: Polygons,
     strokes: Segments,
-    /// How many rows of faces have more numbers than they should.
+    /// The number of face rows with too many values.
     long: usize,
 }
 

@@ -17,7 +17,7 @@ const COMPARED_PER_CORNER: usize = 32;
 /// Triangulates the polygons of a file by ear clipping.
 #[derive(Debug)]
 pub(super) struct EarClipper {
-    /// So many corners may still be compared.
+    /// The remaining number of comparisons.
     left: usize,
     /// The corners of the polygon, flat.
     flat: Vec<Point2>,

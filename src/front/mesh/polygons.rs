@@ -42,12 +42,12 @@ impl Polygons {
         self.corners.split_off(first)
     }
 
-    /// How many polygons there are.
+    /// The number of polygons.
     pub(super) fn count(&self) -> usize {
         self.ends.len()
     }
 
-    /// How many corners they have in all.
+    /// The total number of their corners.
     pub(super) fn corners(&self) -> usize {
         self.corners.len()
     }
@@ -60,7 +60,7 @@ impl Polygons {
     /// invalid corner.
     ///
     /// # Errors
-    /// If it would take more memory than there is.
+    /// If it exceeds the available memory.
     pub(super) fn cut(
         self,
         parsed: &mut Parsed,

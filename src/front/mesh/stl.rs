@@ -1,7 +1,7 @@
 //! STL (3D Systems, "StereoLithography interface specification", 1989), as text or binary:
 //! triangles that share no corners and are shaded flat.
 //!
-//! The normals of the file are not read: the order of the corners says the same.
+//! The normals of the file are not read: the order of the corners determines them.
 
 use super::tint::decoded;
 use super::{MAX_FAULTS, ParseFault, Parsed, first_lines};
@@ -16,7 +16,7 @@ const HEAD: usize = 84;
 /// A binary triangle: its normal, its corners, and two bytes of any kind.
 const TRIANGLE: usize = 50;
 
-/// So much of a file is read, at most, to find one that fits a name.
+/// The maximum number of bytes read to find one with a given name.
 const LOOKED_AT: usize = 1 << 16;
 
 /// True if a file that begins so is an STL.
@@ -52,7 +52,7 @@ fn is_binary(head: &[u8]) -> bool {
     count > 0 && (length == size || ((is_cut || length > size) && are_triangles()))
 }
 
-/// How many triangles a binary file says that it has.
+/// The number of triangles that a binary file declares.
 fn count(head: &[u8]) -> Option<u32> {
     let count = head.get(HEAD - 4..HEAD)?.try_into().ok()?;
     Some(u32::from_le_bytes(count))

@@ -58,7 +58,7 @@ impl<'run> StrokeMesher<'run> {
     /// The meshes of points and lines; empty if there are none.
     ///
     /// # Errors
-    /// If they would take more memory than there is.
+    /// If they exceed the available memory.
     pub(super) fn draw(&self, strokes: Segments) -> Result<Vec<Mesh>, Exceeded> {
         let (points, lines): (Vec<_>, Vec<_>) =
             strokes.ends.into_iter().partition(|[from, to]| from == to);

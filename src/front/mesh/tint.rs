@@ -38,7 +38,7 @@ impl Tints {
         self.colors.iter().all(|[red, ..]| red.is_infinite())
     }
 
-    /// How many colours were added, or skipped.
+    /// The number of colours that were added or skipped.
     pub(super) fn count(&self) -> usize {
         self.colors.len()
     }

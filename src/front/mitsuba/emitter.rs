@@ -53,12 +53,12 @@ impl<'run> Lowering<'run> {
             self.approximate(node.span, "the texture of a spot is left out");
         }
         let cutoff = node.number("cutoff_angle").unwrap_or(20.0);
-        let beam = node.number("beam_width").unwrap_or(cutoff * 3.0 / 4.0);
+        let inner = node.number("beam_width").unwrap_or(cutoff * 3.0 / 4.0);
         let axis = unit(to_world.vector(Vec3::Z)).unwrap_or(Vec3::Z);
         let emitter = Emitter::Spot {
             position: to_world.point(Vec3::ZERO).to_array(),
             direction: axis.to_array(),
-            inner_angle: beam.min(cutoff * 0.999).to_radians(),
+            inner_angle: inner.min(cutoff * 0.999).to_radians(),
             outer_angle: cutoff.to_radians(),
             range: None,
         };

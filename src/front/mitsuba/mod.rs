@@ -4,13 +4,13 @@
 //! bytes ─ xml ─▶ Node tree ─ sensor, bsdf, emitter, shape ─▶ UnfinishedScene ─ assets ─▶ Lowered
 //! ```
 //!
-//! - [`xml`] reads the text. It resolves `<default>`, `<include>` and `<ref>`, converts the names of
-//!   older versions (`toWorld`) to those of version 3 (`to_world`), and collects all mistakes. Each
-//!   [`Node`] keeps the spans of its element and of its properties.
+//! - [`xml`] reads the text. It resolves `<default>`, `<include>` and `<ref>`, converts the names
+//!   of older versions (`toWorld`) to those of version 3 (`to_world`), and collects all mistakes.
+//!   Each [`Node`] keeps the spans of its element and of its properties.
 //! - [`value`] parses numbers, vectors, matrices, colours and spectra.
-//! - [`sensor`], [`bsdf`], [`emitter`] and [`shape`] lower one kind of plugin each. A plugin that is
-//!   not supported is replaced by the closest one, and a property without effect is ignored, both
-//!   with a warning: the picture is made all the same.
+//! - [`sensor`], [`bsdf`], [`emitter`] and [`shape`] lower one kind of plugin each. A plugin that
+//!   is not supported is replaced by the closest one, and a property without effect is ignored,
+//!   both with a warning: the picture is made all the same.
 //! - Meshes, textures and environment maps become pending assets, which `course::assets` loads
 //!   within the limits and search paths of all scenes.
 //!
@@ -57,7 +57,7 @@ pub fn is_mitsuba(bytes: &[u8]) -> bool {
 
 /// Lowers a scene. Files that it includes come into the map; meshes and pictures are loaded.
 ///
-/// `None` if the text is not XML, or is not a scene; the sink says why.
+/// `None` if the text is not XML, or is not a scene; the sink has the error.
 pub fn lower(
     file: FileId,
     map: &mut SourceMap,

@@ -26,7 +26,7 @@ const IS_DOUBLE: u32 = 0x2000;
 
 /// Why a mesh cannot be read.
 pub(super) enum Fault {
-    /// The file is damaged; the text says how.
+    /// The file is damaged, with the error.
     Damaged(&'static str),
     Limit(Exceeded),
 }

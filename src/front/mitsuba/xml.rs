@@ -170,9 +170,9 @@ struct XmlReader<'run> {
     defaults: BTreeMap<String, String>,
     /// The major version of the file.
     version: u32,
-    /// How many files are open.
+    /// The number of open files.
     depth: usize,
-    /// How many files were included.
+    /// The number of included files.
     files: usize,
     /// Whether the last attribute has a parameter without a value.
     has_unset: bool,

@@ -83,7 +83,7 @@ pub fn is_whole(bytes: &[u8]) -> bool {
 
 /// Lowers a scene. Files that it includes come into the map; meshes and pictures are loaded.
 ///
-/// `None` if the file cannot be unpacked, or exceeds the budget; the sink says why.
+/// `None` if the file cannot be unpacked, or exceeds the budget; the sink has the error.
 pub fn lower(
     file: FileId,
     map: &mut SourceMap,
@@ -138,9 +138,9 @@ struct Lowering<'run> {
     open_object: Option<(Text, Vec<PlacedShape>)>,
     /// The files that are open, the innermost last.
     files: Vec<file::OpenFile>,
-    /// How many files were included.
+    /// The number of included files.
     included: usize,
-    /// How many files were looked for.
+    /// The number of searched files.
     lookups: usize,
     /// The included files by the paths that the scene names; none without a file.
     parts: BTreeMap<String, Option<TokenReader>>,

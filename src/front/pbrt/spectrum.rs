@@ -45,7 +45,7 @@ enum IndexSpectrum {
     /// The values at the primaries.
     Primaries([f64; 3]),
     Pairs(Rc<[(f64, f64)]>),
-    /// That of a metal by name.
+    /// The spectrum of a metal by name.
     Metal(ComplexIndex),
 }
 

@@ -61,7 +61,7 @@ impl Opener {
 pub(super) struct StateStack {
     saved: Vec<(Opener, GraphicsState, Span)>,
     is_reported: bool,
-    /// How many states are open beyond the deepest that are saved.
+    /// The number of open states beyond the deepest saved one.
     beyond: usize,
 }
 

@@ -280,7 +280,7 @@ impl<'a> PixelFile<'a> {
         }
     }
 
-    /// How many channels of a byte the pixels will have.
+    /// The number of 8-bit channels of the pixels.
     fn channels(&self) -> usize {
         if self.opacity == Opacity::Kept && self.layout().has_alpha() {
             4

@@ -75,7 +75,7 @@ impl Claim {
 /// The setup of a picture whose metadata has these settings, of this form and with these layers.
 ///
 /// # Errors
-/// If they can't be read, or a part of such a picture can't be made without the rest.
+/// If they can't be read, or a part of such a picture can't be rendered separately.
 pub(super) fn setup(
     settings: &str,
     form: FileFormat,

@@ -26,10 +26,10 @@ const _: () = assert!(TILE == Tiles::SIDE, "a tile of a file is one of a film");
 /// confidence of 98 %.
 pub const ODDS: u64 = 50;
 
-/// How many tiles are drawn, and by which seed.
+/// The number of tiles to draw, and the seed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AuditDraw {
-    /// So many, or all if there are fewer.
+    /// The number, or all if there are fewer.
     pub tiles: u64,
     /// The seed.
     pub seed: u64,
@@ -54,7 +54,7 @@ pub enum AuditSubject {
     Samples,
 }
 
-/// Something that a picture says and that is not so.
+/// A difference between a picture's metadata and the facts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AuditFinding {
     /// The subject.
@@ -74,7 +74,7 @@ pub struct AuditFinding {
 /// The result of an audit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AuditResult {
-    /// How many tiles there are to draw.
+    /// The number of tiles.
     pub all: u64,
     /// The number of tiles of a film that each node covers.
     pub film_tiles: u64,

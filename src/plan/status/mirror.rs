@@ -16,7 +16,7 @@ pub(super) fn statuses(findings: &Findings<'_>) -> Vec<EffectStatus> {
     all
 }
 
-/// The status of an effect of bounces if no bounce contributes; `requires` says whether a material
+/// The status of an effect of bounces if no bounce contributes; `requires` is whether a material
 /// requires the effect.
 fn no_bounce(
     findings: &Findings<'_>,

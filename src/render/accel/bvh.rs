@@ -78,6 +78,7 @@ impl Bvh {
             }
             t_max
         };
+        // Test the items of a single leaf without the box test.
         match self.nodes.as_slice() {
             [] => return,
             [only] => {
@@ -86,6 +87,7 @@ impl Bvh {
             }
             _ => {}
         }
+        // Traverse the nodes from a stack, the nearer child first.
         let slabs = Slabs::new(ray);
         let mut open = [0_u32; MAX_DEPTH];
         let mut depth = 1;
@@ -93,13 +95,16 @@ impl Bvh {
             depth -= 1;
             let index = open[depth];
             let node = &self.nodes[index as usize];
+            // Skip nodes beyond the current end.
             if !slabs.meet(&node.bounds, t_max) {
                 continue;
             }
+            // Test the items of a leaf.
             if node.count > 0 {
                 t_max = visit_leaf(node, t_max);
                 continue;
             }
+            // Push both children, the nearer one last.
             let (first, second) = (index + 1, node.link);
             let down = slabs.runs_down(usize::from(node.axis));
             open[depth] = if down { first } else { second };
@@ -160,6 +165,7 @@ pub(crate) fn split(items: &mut [Item], at_once: u32, by_heuristic: bool) -> (us
             max: bounds.max.max(center),
         }
     };
+    // Bin the centres of the boxes along each axis.
     let spread = items.iter().fold(Bounds::EMPTY, center);
     let size = spread.max - spread.min;
     let scale = size.recip() * BINS as f64;
@@ -167,6 +173,7 @@ pub(crate) fn split(items: &mut [Item], at_once: u32, by_heuristic: bool) -> (us
         let place = (item.bounds.center()[axis] - spread.min[axis]) * scale[axis];
         (place as usize).min(BINS - 1)
     };
+    // Choose the split of least SAH cost.
     if by_heuristic {
         let wide = (0..3).filter(|axis| size[*axis] > 0.0 && scale[*axis].is_finite());
         let borders = wide.filter_map(|axis| {
@@ -177,6 +184,7 @@ pub(crate) fn split(items: &mut [Item], at_once: u32, by_heuristic: bool) -> (us
             return (axis, first);
         }
     }
+    // Otherwise split at the median of the longest axis.
     let axis = (0..3)
         .max_by(|a, b| size[*a].total_cmp(&size[*b]))
         .unwrap_or(0);

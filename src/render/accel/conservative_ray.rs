@@ -31,7 +31,7 @@ pub(crate) struct QuantizationFrame {
     center: Vec3,
     /// A power of two.
     scale: f64,
-    /// How far rounding may have moved a corner, in the cube.
+    /// The rounding error of a corner, in the cube.
     error_bound: f64,
 }
 
@@ -197,7 +197,7 @@ impl ConservativeRay {
         end as f32 * (1.0 + 2.0 * f32::EPSILON) + self.error
     }
 
-    /// Where the conservative ray is certainly before a `t_max` of the ray.
+    /// The t up to which the conservative ray is certainly before a `t_max` of the ray.
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "rounded down")]
     pub(in crate::accel) fn t_certain(&self, t_max: f64) -> f32 {

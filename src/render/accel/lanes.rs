@@ -19,17 +19,17 @@ pub(in crate::accel) const TRIANGLES: usize = 4;
 /// of numbers; four cache lines.
 pub(in crate::accel) type WideNode = [f32; 64];
 
-/// Where the links of a node are.
+/// The offset of the links in a node.
 pub(in crate::accel) const LINKS: usize = 6 * WIDTH;
 
 /// A triangle in a BVH: the nine coordinates of its corners, and its item as the bits of a number.
 /// The triangles of a leaf share their rows.
 pub(in crate::accel) type TriangleRow = [f32; ITEM + 1];
 
-/// So many rows at least follow the first row of each leaf.
+/// The minimum number of rows after the first row of each leaf.
 pub(in crate::accel) const ROWS_AFTER: usize = 6;
 
-/// So many numbers are seen of a leaf at most.
+/// The maximum number of values read per leaf.
 const SEEN: usize = 64;
 
 /// A leaf of one to four triangles: for each corner and axis the coordinates of all of them, then
@@ -50,7 +50,7 @@ impl<'rows> WideLeaf<'rows> {
         Self { numbers, count }
     }
 
-    /// How many triangles it has.
+    /// The number of its triangles.
     #[inline(always)]
     pub(in crate::accel) fn count(&self) -> usize {
         self.count
@@ -82,7 +82,7 @@ impl<'rows> WideLeaf<'rows> {
     }
 }
 
-/// By how much the far ends of boxes grow: more than the relative errors of both ends.
+/// The factor on the far ends of boxes: more than the relative errors of both ends.
 pub(in crate::accel) const FAR_SCALE: f32 = 1.0 + 16.0 * f32::EPSILON;
 
 /// Which of the numbers of a triangle is its item.
@@ -112,7 +112,7 @@ fn splat4<S: Simd>(simd: S, [x, y, z]: [f32; 3]) -> [f32x4<S>; 3] {
     ]
 }
 
-/// Where the nearer ends of boxes are among those of an axis.
+/// The offsets of the nearer ends of boxes, per axis.
 #[inline(always)]
 pub(in crate::accel) fn nearer_ends([x, y, z]: [bool; 3]) -> [usize; 3] {
     let nearer = |down: bool| if down { WIDTH } else { 0 };
@@ -125,7 +125,7 @@ pub(in crate::accel) struct BoxLanes<S: Simd> {
     near_origin: [f32x8<S>; 3],
     far_origin: [f32x8<S>; 3],
     inverse: [f32x8<S>; 3],
-    /// Where the nearer ends of boxes are among those of an axis.
+    /// The offsets of the nearer ends of boxes, per axis.
     near: [usize; 3],
 }
 
@@ -140,7 +140,7 @@ impl<S: Simd> BoxLanes<S> {
         }
     }
 
-    /// Where the conservative ray enters the slabs of an axis.
+    /// The t where the conservative ray enters the slabs of an axis.
     #[inline(always)]
     fn enter<const AXIS: usize>(&self, simd: S, node: &WideNode) -> f32x8<S> {
         let at = 2 * WIDTH * AXIS + (self.near[AXIS] & WIDTH);
@@ -148,7 +148,7 @@ impl<S: Simd> BoxLanes<S> {
         (ends - self.near_origin[AXIS]) * self.inverse[AXIS]
     }
 
-    /// Where the conservative ray leaves the slabs of an axis.
+    /// The t where the conservative ray leaves the slabs of an axis.
     #[inline(always)]
     fn leave<const AXIS: usize>(&self, simd: S, node: &WideNode) -> f32x8<S> {
         let at = 2 * WIDTH * AXIS + (!self.near[AXIS] & WIDTH);
@@ -224,8 +224,8 @@ impl<S: Simd> TriangleLanes<f32x4<S>> {
         }
     }
 
-    /// Which triangles of a leaf the conservative ray may hit before `t_far`; if `CERTAIN`, also which
-    /// it certainly hits before `t_certain`.
+    /// Which triangles of a leaf the conservative ray may hit before `t_far`; if `CERTAIN`, also
+    /// which it certainly hits before `t_certain`.
     #[inline(always)]
     pub(in crate::accel) fn intersect4<const CERTAIN: bool>(
         &self,

@@ -19,7 +19,7 @@ type OfRays = [f32; RAYS];
 
 /// Eight conservative rays that have the same main axis, and the same signs along all axes.
 pub(in crate::accel) struct Packet<S: Simd> {
-    /// Where the nearer ends of boxes are among those of an axis.
+    /// The offsets of the nearer ends of boxes, per axis.
     near: [usize; 3],
     /// The origins that let boxes be entered first, and left last.
     first: [f32; 3],
@@ -65,6 +65,7 @@ impl<S: Simd> Packet<S> {
         simd: S,
         conservative_rays: &[ConservativeRay; RAYS],
     ) -> Option<Self> {
+        // Reject rays with different main axes or signs.
         if !are_alike(conservative_rays) {
             return None;
         }
@@ -74,6 +75,7 @@ impl<S: Simd> Packet<S> {
         let [mut near_origin, mut far_origin, mut inverses] = [[zero; 3]; 3];
         let [mut first, mut last] = [[0.0; 3]; 2];
         let mut inverse = [[0.0; 2]; 3];
+        // Bound the origins and the inverse directions of all rays along each axis.
         for axis in 0..3 {
             let (near, near_range) = of_each(conservative_rays, |conservative_ray| {
                 conservative_ray.near_origin[axis]
@@ -89,6 +91,7 @@ impl<S: Simd> Packet<S> {
             first[axis] = near_range[usize::from(!down[axis])];
             last[axis] = far_range[usize::from(down[axis])];
         }
+        // Collect the shear of each ray for the triangle test.
         let origin = |k: usize| {
             lanes(
                 of_each(conservative_rays, |conservative_ray| {
@@ -125,7 +128,7 @@ impl<S: Simd> Packet<S> {
         })
     }
 
-    /// Where the ends of boxes begin, nearer or farther ones.
+    /// The offsets of the ends of boxes, nearer or farther ones.
     #[inline(always)]
     fn ends(&self, axis: usize, is_far: bool) -> usize {
         let near = if is_far {

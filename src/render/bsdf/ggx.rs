@@ -20,7 +20,7 @@ pub(super) struct Ggx {
 }
 
 impl Ggx {
-    /// That of roughness 1.
+    /// The distribution of roughness 1.
     pub(super) const ROUGH: Self = Self { x: 1.0, y: 1.0 };
 
     /// The same width, α = roughness², in all directions.

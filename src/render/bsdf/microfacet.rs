@@ -100,10 +100,12 @@ impl<const F: u32> Microfacet<F> {
         if !can::<F>(MICROFACETS) {
             return Self::NONE;
         }
+        // Choose the distribution of normals.
         let ggx = match standard.anisotropy {
             None => Ggx::isotropic(standard.roughness),
             Some(anisotropy) => Ggx::anisotropic(standard.roughness, anisotropy.strength),
         };
+        // Add the thin film, if any.
         let film = standard
             .iridescence
             .filter(|film| can::<F>(LAYERS) && film.thickness > 0.0);
@@ -116,6 +118,7 @@ impl<const F: u32> Microfacet<F> {
                 film.factor,
             )
         });
+        // Decide whether and how light is transmitted.
         let transmits = can::<F>(TRANSMISSION) && standard.transmission > 0.0;
         let ior = if standard.ior > 0.0 {
             standard.ior

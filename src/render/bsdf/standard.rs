@@ -44,7 +44,7 @@ pub struct StandardParameters {
 /// `KHR_materials_anisotropy`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Anisotropy {
-    /// How far the roughness along the direction grows towards 1.
+    /// The growth of the roughness along the direction towards 1.
     pub strength: f64,
     /// The unit vector of the direction in x and y.
     pub direction: [f64; 2],

@@ -57,7 +57,7 @@ impl Grid {
         self.points > 1
     }
 
-    /// How many samples a pixel takes.
+    /// The number of samples of a pixel.
     pub(crate) fn samples(&self) -> u32 {
         let cells = self.factor.saturating_mul(self.factor);
         cells.saturating_mul(self.points)
@@ -69,7 +69,7 @@ impl Grid {
         [cell % self.factor, cell / self.factor, sample % self.points]
     }
 
-    /// Those of the sample after one, without a division.
+    /// The indices of the next sample, without a division.
     #[inline]
     pub(crate) fn after(&self, [column, row, k]: [u32; 3]) -> [u32; 3] {
         if k + 1 < self.points {

@@ -31,11 +31,11 @@ pub struct Camera {
     pub lens_radius: f64,
     /// The points of the lens for each sub-sample; 1 for a pinhole.
     pub lens_samples: u32,
-    /// How the rays run.
+    /// The projection of the rays.
     pub projection: Projection,
 }
 
-/// How the rays of a camera run.
+/// The projection of a camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Projection {
     /// From the lens through the point of the image.

@@ -196,6 +196,7 @@ impl<'bytes> FilmBytes<'bytes> {
             self.number()?,
             self.number()?,
         );
+        // Check the rectangle.
         let pixels = u64::from(width) * u64::from(height);
         if pixels > max_pixels {
             return Err(FilmError::TooLarge(pixels));
@@ -203,6 +204,7 @@ impl<'bytes> FilmBytes<'bytes> {
         if x.checked_add(width).is_none() || y.checked_add(height).is_none() {
             return Err(FilmError::Corrupt("its rectangle is too far away"));
         }
+        // Decode the kind of values and sums.
         let values = match values {
             0 => Values::Display,
             1 => Values::Linear,
@@ -235,7 +237,7 @@ impl<'bytes> FilmBytes<'bytes> {
         self.counts_of_effects()
     }
 
-    /// So many counts as there are today.
+    /// The current number of counts.
     pub(super) fn counts_of_effects(&mut self) -> Result<Counts, FilmError> {
         let mut counts = Counts::default().to_array();
         for count in &mut counts {

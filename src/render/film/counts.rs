@@ -44,7 +44,7 @@ impl ClampedLight {
     /// Counts a path with the sum of its channels' radiance, and the amount clamped.
     pub(crate) fn add(&mut self, radiance: f64, taken: f64) {
         const UNITS: f64 = 1_099_511_627_776.0;
-        /// So much for a path that the sum of 2³² of them is a number.
+        /// A maximum per path such that 2³² of them do not overflow.
         const MOST: f64 = 7.9e28;
         #[expect(
             clippy::cast_possible_truncation,

@@ -180,7 +180,7 @@ pub struct Crop {
 }
 
 impl Crop {
-    /// How many pixels it has.
+    /// Its number of pixels.
     #[must_use]
     pub fn pixels(self) -> usize {
         self.width as usize * self.height as usize

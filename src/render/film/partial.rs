@@ -10,12 +10,12 @@ use rtc_image::Image;
 use std::fmt;
 use std::ops::Range;
 
-/// How the samples of a pixel are summed.
+/// The summation of the samples of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Summation {
     /// One after the other: all of them are one part.
     InOrder,
-    /// So many samples in aligned blocks along a binary tree.
+    /// This many samples in aligned blocks along a binary tree.
     InBlocks(u32),
     /// The one sample is a distance.
     Distance,
@@ -28,7 +28,7 @@ pub(crate) struct FilmLayout {
     pub(crate) crop: Crop,
     /// The conversion of sums to pixels.
     pub(crate) values: Values,
-    /// How their samples are summed.
+    /// The summation of their samples.
     pub(crate) summation: Summation,
 }
 
@@ -37,8 +37,7 @@ pub(crate) struct FilmLayout {
 pub struct PartialFilm {
     pub(super) layout: FilmLayout,
     pub(super) counts: Counts,
-    /// Of each tile of the picture the nodes that are there, in order, those of a whole subtree
-    /// joined.
+    /// For each tile of the picture its present nodes, in order, with whole subtrees merged.
     pub(super) tiles: Vec<Vec<SumNode>>,
 }
 
@@ -98,7 +97,7 @@ impl fmt::Display for FilmError {
 impl std::error::Error for FilmError {}
 
 impl FilmLayout {
-    /// How many leaves the tree of sums has.
+    /// The number of leaves of the tree of sums.
     pub(super) fn blocks(&self) -> u32 {
         match self.summation {
             Summation::InOrder | Summation::Distance => 1,

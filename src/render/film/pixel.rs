@@ -109,7 +109,7 @@ pub(crate) struct PixelSum {
     pub(crate) radiance: Vec3,
     /// The number of samples that hit a surface.
     pub(crate) hits: u32,
-    /// How many samples there are.
+    /// The number of samples.
     pub(crate) samples: u32,
 }
 

@@ -20,7 +20,7 @@ pub struct Replicates {
     /// The tone map of the mean, and the factor before it; `None` where each sample is clamped to
     /// [0, 1].
     tone: Option<(Tone, f64)>,
-    /// Of each replicate and of the pilot, the sum of its samples, clamped if `tone` is `None`.
+    /// For each replicate and for the pilot, the sum of its samples, clamped if `tone` is `None`.
     sums: [Vec3; 3],
     /// The sum of the squared lengths of those of the pilot.
     square: f64,

@@ -25,7 +25,7 @@ pub(crate) trait FilmTile<Sample> {
 pub(crate) struct Tile<'film, A: Accumulator> {
     /// The rectangle of the picture.
     area: Crop,
-    /// That of the film.
+    /// The index in the film.
     film: Crop,
     stride: Stride,
     kept: &'film mut [A::PixelState],

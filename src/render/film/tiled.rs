@@ -8,7 +8,7 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub(crate) struct Tiled<K> {
     crop: Crop,
-    /// Of each tile the values in rows; none where the tile is not held.
+    /// For each tile the values in rows; empty for missing tiles.
     tiles: Vec<Vec<K>>,
     elsewhere: K,
 }
@@ -37,7 +37,7 @@ impl<K> Tiled<K> {
         self.crop
     }
 
-    /// How many pixels the part has.
+    /// The number of pixels of the part.
     #[must_use]
     pub(crate) fn len(&self) -> usize {
         self.crop.pixels()

@@ -60,12 +60,14 @@ impl AnyWorld {
         on_pixel: &OnPixel<'_>,
         between: &dyn Fn(),
     ) -> Option<DenoisedFilm> {
+        // Render both halves of the samples.
         let middle = samples / 2;
         let ranges = [0..middle, middle..samples];
         let a = self.range(&ranges[0], job, on_pixel)?;
         between();
         let b = self.range(&ranges[1], job, on_pixel)?;
         between();
+        // Render the guides of both halves, and those of more camera rays.
         let (rays, most) = GUIDE_RAYS;
         let rays = samples.saturating_mul(rays).min(most).max(samples);
         let [first, second] = ranges;
@@ -73,9 +75,11 @@ impl AnyWorld {
         let (mut guides, of_guides) = guides;
         scale_distances(&mut guides);
         let [first, second, exact] = &guides;
+        // Denoise, with each half weighting the other.
         let half = |image, guides| NoisyHalf { image, guides };
         let halves = [half(&a.image, first), half(&b.image, second)];
         let image = denoise(halves, exact);
+        // Average the halves for the noisy picture and the coverage.
         let [first, second] = [middle, samples - middle].map(f64::from);
         let mean = |a: f64, b: f64| (a * first + b * second) / (first + second);
         let pairs = a.image.pixels.iter().zip(&b.image.pixels);

@@ -8,7 +8,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
 use rtc_math::{SPLITTER, Vec3};
 
-/// How many lanes there are.
+/// The number of lanes.
 pub(crate) const LANES: usize = 4;
 
 /// The bits of all lanes.
@@ -152,7 +152,7 @@ impl<S: Simd> Vectors<S> {
         self.dot(self).sqrt()
     }
 
-    /// Those of length 1 along them, and in which lanes there is one.
+    /// The unit vectors along them, and the lanes that have one.
     #[inline(always)]
     pub(crate) fn normalized(self) -> (mask64x4<S>, Self) {
         let number = |x: f64| f64x4::splat(self.x.simd, x);

@@ -27,8 +27,8 @@ const LOG2_1_5: [f64; 2] = [
     f64::from_bits(0x3e4c_fdeb_43cf_d006),
 ];
 
-/// Of a polynomial in s², s = (x − b)/(x + b), that times s⁵ is 3/2·ln(x/b) − 3·s − s³: the
-/// coefficients, the last first.
+/// The coefficients, the last first, of a polynomial in s², s = (x − b)/(x + b), that times s⁵ is
+/// 3/2·ln(x/b) − 3·s − s³.
 const LN: [f64; 6] = [
     f64::from_bits(0x3fca_7e28_4a45_4eef),
     f64::from_bits(0x3fcd_864a_93c9_db65),
@@ -38,7 +38,7 @@ const LN: [f64; 6] = [
     f64::from_bits(0x3fe3_3333_3333_3303),
 ];
 
-/// Of the polynomial in z² by Remez that gives eᶻ: the coefficients, the last first.
+/// The coefficients, the last first, of the Remez polynomial in z² for eᶻ.
 const EXP: [f64; 5] = [
     f64::from_bits(0x3e66_3769_72be_a4d0),
     f64::from_bits(0xbebb_bd41_c5d2_6bf1),
@@ -61,7 +61,7 @@ const LN_2_PARTS: [f64; 2] = [
     f64::from_bits(0xbe20_5c61_0ca8_6c39),
 ];
 
-/// From where on a number has a whole part to be taken off.
+/// The smallest number whose integer part is subtracted.
 const WHOLE: f64 = f64::from_bits(0x3fe0_0001_0000_0000);
 
 /// `x` to the power `y`, and in which lanes that is so: where x is a normal number below 1, y

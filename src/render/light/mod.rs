@@ -103,11 +103,13 @@ impl<'world, S: Intersect> Lights<'world, S> {
             let plan = world.plan.paths.as_ref();
             plan.map_or(LightUse::All, |plan| plan.lights[index])
         };
+        // List the punctual lights that the plan keeps.
         let punctual = world.lights.punctual.iter().enumerate();
         let mut lights = punctual
             .filter(|(index, _)| left(*index) != LightUse::Nothing)
             .map(|(index, light)| Light::Punctual(light.clone(), left(index)))
             .collect::<Vec<_>>();
+        // List the emissive surfaces: shapes as one light, meshes by triangle.
         let mut first_light_of_surface = vec![None; world.surfaces.len()];
         for (index, surface) in world.surfaces.iter().enumerate() {
             let material = &world.standards[surface.material];
@@ -130,6 +132,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
                 }));
             }
         }
+        // The environment is the last light.
         lights.push(Light::Environment);
         let mut all = Self {
             world,

@@ -140,7 +140,7 @@ impl PhongLobeSampler {
             .normalize()
     }
 
-    /// How many directions lie on the side of both normals, as long as the count continues.
+    /// The number of directions on the side of both normals, as long as the count continues.
     #[must_use]
     pub(crate) fn count_above(
         &self,

@@ -79,10 +79,12 @@ impl ConeProfile {
     /// The stretch inside the nappe below the apex.
     fn inside(&self) -> Option<Interval<ConeFace>> {
         let Self { w, x, sigma, tau } = *self;
+        // Compute the quadratic a·t² − 2·b·t + c along the ray.
         let a = difference_of_products(x.length(), x.length(), tau, tau);
         let b = -(w.dot(x) + sigma * tau);
         let c = (w.length() - sigma) * (w.length() + sigma);
         let side = |t: f64| (t, ConeFace::Side);
+        // A ray parallel to the side hits it once.
         if a == 0.0 {
             let t = self.refined(c / (2.0 * b));
             let (before, after) = (side(f64::NEG_INFINITY), side(f64::INFINITY));
@@ -99,12 +101,14 @@ impl ConeProfile {
             };
             return (t.is_finite() && (b < 0.0) == (tau > 0.0)).then_some(below);
         }
+        // Otherwise the ray misses the nappe, or hits it twice.
         let discriminant = difference_of_products(b, b, a, c);
         if a > 0.0 && (discriminant < 0.0 || sigma - tau * (b / a) < 0.0) {
             return None;
         }
         let (first, second) = roots(a, b, c, discriminant);
         let (first, second) = (self.refined(first), self.refined(second));
+        // A steeper ray is inside up to its only hit of the lower nappe, or from it on.
         Some(if a > 0.0 {
             Interval {
                 enter: side(first),

@@ -99,7 +99,7 @@ impl Intersect for Ellipsoid {
         true
     }
 
-    /// Those of the unit sphere: u = φ/2π and v = 1 − θ/π about the third axis.
+    /// The coordinates of the unit sphere: u = φ/2π and v = 1 − θ/π about the third axis.
     fn shading_attributes(
         &self,
         ray: &Ray,

@@ -197,7 +197,7 @@ pub struct LocalRay {
 }
 
 impl LocalRay {
-    /// That of a ray in the coordinates of the shape.
+    /// The watertight ray of a ray in the coordinates of the shape.
     #[must_use]
     #[inline]
     pub fn new(ray: Ray) -> Self {

@@ -78,7 +78,7 @@ impl PreparedMesh {
         }
     }
 
-    /// How many triangles have an area.
+    /// The number of triangles with an area.
     #[inline]
     pub(crate) fn count(&self) -> usize {
         self.corners.len()
@@ -90,7 +90,7 @@ impl PreparedMesh {
         self.corners[triangle as usize]
     }
 
-    /// Where the corners of one of them are.
+    /// The positions of the corners of one of them.
     #[inline(always)]
     pub(crate) fn vertices(&self, triangle: u32) -> [Vec3; 3] {
         places(&self.positions, self.corners(triangle))
@@ -161,13 +161,13 @@ impl PreparedMesh {
 /// where that is certain.
 fn has_area([a, b, c]: [Vec3; 3]) -> bool {
     /// A sine this large is not an error of rounding.
-    const SURE: f64 = 1e-6;
+    const MIN_AREA: f64 = 1e-6;
     /// Above this no product is below the normal numbers.
     const NORMAL: f64 = 1e-290;
     let (first, second) = (b - a, c - a);
     let size = first.abs().max_element() * second.abs().max_element();
     let area = first.cross(second).abs().max_element();
-    size > NORMAL && area > SURE * size || Normal::of([a, b, c]).is_some()
+    size > NORMAL && area > MIN_AREA * size || Normal::of([a, b, c]).is_some()
 }
 
 /// Where three corners are.

@@ -55,7 +55,7 @@ pub struct Plane {
 }
 
 impl Normal {
-    /// That of a vector, which must not be zero.
+    /// The normal along a vector, which must not be zero.
     #[must_use]
     #[inline(always)]
     pub(crate) fn new(vector: Vec3) -> Self {
@@ -68,7 +68,7 @@ impl Normal {
         }
     }
 
-    /// That of a triangle, or `None` if its corners are in line.
+    /// The normal of a triangle, or `None` if its corners are collinear.
     #[must_use]
     #[inline(always)]
     pub(crate) fn of([a, b, c]: [Vec3; 3]) -> Option<Self> {
@@ -219,7 +219,7 @@ impl Intersect for Plane {
         self.intersect(ray).map(|t| (t, 0))
     }
 
-    /// Those of the half-space behind the plane.
+    /// The crossings of the half-space behind the plane.
     fn visit_crossings(&self, ray: &Ray, visit: &mut dyn FnMut(SolidCrossing)) {
         let rise = self.normal.raw.dot(ray.direction);
         let is_behind = self.normal.raw.dot(ray.origin - self.anchor) < 0.0;

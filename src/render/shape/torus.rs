@@ -46,7 +46,7 @@ pub struct Torus {
     pub(super) axis: Vec3,
     /// From the centre to the middle of the tube.
     pub(super) major: f64,
-    /// Of the tube.
+    /// The radius of the tube.
     pub(super) minor: f64,
     /// The power of two near the outer radius, a normal number as its reciprocal is.
     pub(super) unit: f64,

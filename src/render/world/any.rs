@@ -17,9 +17,9 @@ use std::ops::Range;
 
 /// A scene prepared as planned. It renders on the threads of the current pool.
 pub enum AnyWorld {
-    /// Of the basic shapes alone.
+    /// With the basic shapes only.
     Basic(World<Basic>),
-    /// Of all shapes.
+    /// With all shapes.
     All(World<Shape>),
     /// By baseline formulas.
     Plain(World<BaselineShape<f64>>),

@@ -8,7 +8,7 @@ use crate::ray::Ray;
 use crate::shape::geometry::Intersect;
 use crate::shape::tie::Nearest;
 
-/// So many rays are prepared at once.
+/// The number of rays prepared at once.
 const CHUNK: usize = 64;
 
 /// Whether most rays point nearly where the one before points, within about 8°: they visit much

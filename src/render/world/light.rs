@@ -11,7 +11,7 @@ use rtc_valid::{self as valid, ValidScene};
 /// The lights of a world. There are two kinds of lists; the one that the integrator does not use is
 /// empty.
 pub(crate) struct LightList {
-    /// Those of Whitted's integrator, in the order in which their terms are summed.
+    /// The lights of Whitted's integrator, in the order in which their terms are summed.
     pub(crate) course: Vec<CourseLight>,
     /// The lights without extent of paths.
     pub(crate) punctual: Vec<Punctual>,

@@ -6,7 +6,7 @@ use crate::camera::{Camera, Projection};
 use rtc_plan::Plan;
 use rtc_valid::{self as valid, ValidScene};
 
-/// By which rules the picture is made.
+/// The rules applied to the picture.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Settings {
     /// The kind of value of a pixel.

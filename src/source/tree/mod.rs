@@ -137,10 +137,10 @@ impl NodeKind {
     pub fn name(self) -> &'static str {
         match self {
             Self::Null => "null",
-            Self::Bool => "a truth value",
+            Self::Bool => "a boolean",
             Self::Number => "a number",
             Self::Word => "a word",
-            Self::Text => "a text",
+            Self::Text => "a string",
             Self::List => "a list",
             Self::Map => "an object",
         }

@@ -42,7 +42,7 @@ mod tests {
     /// from lines.
     #[test]
     fn what_is_surely_an_area_is_one() {
-        let mut sure = 0;
+        let mut certain = 0;
         for step in 0..4000 {
             let size = libm::ldexp(1.0, step % 401 - 200);
             let (along, off) = (
@@ -51,12 +51,15 @@ mod tests {
             );
             let first = Vec3::new(0.1, 0.7, -0.3) * size;
             let second = first * along + Vec3::new(0.9, -0.2, 0.4) * (size * off);
-            sure += i32::from(surely_spans([first, second]));
+            certain += i32::from(surely_spans([first, second]));
             assert!(
                 !surely_spans([first, second]) || spans([first, second]),
                 "{first:?} {second:?}"
             );
         }
-        assert!((2000..4000).contains(&sure), "both answers are met: {sure}");
+        assert!(
+            (2000..4000).contains(&certain),
+            "both answers are met: {certain}"
+        );
     }
 }

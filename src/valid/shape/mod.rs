@@ -21,7 +21,7 @@ pub struct Surface {
     pub index: usize,
 }
 
-/// How an enum stores a small shape.
+/// The storage of a small shape in an enum.
 type Inline<T> = T;
 
 /// Declares the valid shapes: the struct of those with `derived` values, and the enum of all.

@@ -354,7 +354,7 @@ fn half_spaces(surfaces: &[ir::Surface]) -> Option<Vec<Solid>> {
     is_polyhedron.then(|| planes.iter().map(solid).collect())
 }
 
-/// Where the coordinates of operands are: scaled, turned, then moved.
+/// The transform of the operands: scale, rotation, then translation.
 struct OperandPlacement {
     /// The images of the axes, of length 1.
     axes: [Vec3; 3],

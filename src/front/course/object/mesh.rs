@@ -63,7 +63,7 @@ record! {
         /// materials, which also use `Ke`, `Tf`, `Pr`, `Pm`, `Ps`, `Pc`, `Pcr`, `aniso`, `map_d`,
         /// `map_Ke`, `map_Pr`, `map_Pm` and the placement of maps.
         materials: Spanned<LibraryKind>, optional, keys!["materials"];
-        /// Of an OBJ: only the faces with the `usemtl` of this name; empty for faces without one.
+        /// For an OBJ: only the faces with the `usemtl` of this name; empty for faces without one.
         part: Spanned<PartName>, optional, keys!["part"];
         /// A name for people to read.
         label: Spanned<DisplayName>, optional, keys!["label"];

@@ -21,7 +21,7 @@ pub(super) struct Materials {
     /// The properties of all parts that an animation has moved.
     pub(super) animated: AnimatedValues,
     made: Vec<Option<MaterialId>>,
-    /// That of primitives without one.
+    /// The default material of primitives.
     default: Option<MaterialId>,
     textures: LoweredTextures,
     /// The sets of texture coordinates that materials look at, where these are not the first two.
@@ -235,7 +235,7 @@ impl MaterialReader<'_, '_, '_, '_> {
         standard
     }
 
-    /// Phong's model, if `extras.rtc` says it.
+    /// The Phong material in `extras.rtc`, if any.
     fn phong(&mut self, fields: Fields<'_, '_>) -> Option<Phong> {
         let extension = fields.rtc_extras()?.object("phong")?;
         let mut texture = |key| {

@@ -142,7 +142,7 @@ impl<'d> MeshParts<'d> {
     }
 }
 
-/// How many elements an accessor has.
+/// The number of elements of an accessor.
 fn count(doc: &Document<'_>, accessor: usize) -> u64 {
     let accessor = doc
         .accessors
@@ -151,14 +151,14 @@ fn count(doc: &Document<'_>, accessor: usize) -> u64 {
     accessor.unwrap_or(0) as u64
 }
 
-/// How many vertices a primitive has.
+/// The number of vertices of a primitive.
 fn vertices_of(doc: &Document<'_>, primitive: &Primitive) -> u64 {
     primitive
         .find("POSITION")
         .map_or(0, |accessor| count(doc, accessor))
 }
 
-/// How many corners the parts of a primitive have.
+/// The number of corners of the parts of a primitive.
 pub(super) fn corners(doc: &Document<'_>, primitive: &Primitive) -> u64 {
     let accessor = primitive.indices.map(|indices| count(doc, indices));
     accessor.unwrap_or_else(|| vertices_of(doc, primitive))

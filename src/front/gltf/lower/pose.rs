@@ -196,7 +196,7 @@ impl<'d> Keys<'d> {
         self.interpolation == Interpolation::Cubic
     }
 
-    /// How many numbers a value has.
+    /// The number of components of a value.
     fn width(&self) -> usize {
         let numbers = self.output.count * self.output.layout.components();
         numbers / self.times.count / if self.is_cubic() { 3 } else { 1 }
@@ -206,7 +206,7 @@ impl<'d> Keys<'d> {
         self.times.at::<1>(key)[0]
     }
 
-    /// How many keyframes are not after a time.
+    /// The number of keyframes up to a time.
     fn until(&self, time: f64) -> usize {
         let (mut low, mut high) = (0, self.times.count);
         while low < high {

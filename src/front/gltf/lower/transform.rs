@@ -92,7 +92,7 @@ fn coarser(doc: &Document<'_>) -> Vec<bool> {
 
 /// The transforms of a mesh at its node.
 pub(super) struct InstanceTransforms<'d> {
-    /// That of the node.
+    /// The transform of the node.
     world: DAffine3,
     /// The instances of `EXT_mesh_gpu_instancing` at the node: translations, rotations and scales.
     instances: Option<[Option<AccessorReader<'d>>; 3]>,
@@ -100,7 +100,7 @@ pub(super) struct InstanceTransforms<'d> {
 }
 
 impl<'d> InstanceTransforms<'d> {
-    /// That of the node alone.
+    /// The transform of the node only.
     pub(super) fn one(world: DAffine3) -> Self {
         Self {
             world,
@@ -109,7 +109,7 @@ impl<'d> InstanceTransforms<'d> {
         }
     }
 
-    /// Those of instances.
+    /// The transforms of instances.
     pub(super) fn many(doc: &'d Document<'_>, world: DAffine3, instancing: &Instancing) -> Self {
         let elements = |accessor| AccessorReader::of(doc, doc.accessors.get(accessor)?);
         let parts = instancing.parts.map(|accessor| elements(accessor?));
@@ -123,7 +123,7 @@ impl<'d> InstanceTransforms<'d> {
         }
     }
 
-    /// How many there are.
+    /// The number of transforms.
     pub(super) fn count(&self) -> usize {
         self.count
     }

@@ -8,7 +8,7 @@ const GROUP: usize = 16;
 const BLOCK_BYTES: usize = 8192;
 const BLOCK_ELEMENTS: usize = 256;
 
-/// How the differences of a channel of four bytes are meant; of version 0 all are bytes.
+/// The encoding of the differences of a channel of four bytes; version 0 has bytes only.
 #[derive(Clone, Copy)]
 enum Channel {
     Bytes,

@@ -12,7 +12,7 @@ pub(super) struct Smoothing {
     /// The groups and vertices that have a normal, in order.
     corners: Vec<(u32, u32)>,
     sums: Vec<Vec3>,
-    /// How many normals the file has itself.
+    /// The number of normals in the file itself.
     before: usize,
 }
 

@@ -8,7 +8,7 @@ use std::ops::Range;
 pub(super) struct PlyBody<'a> {
     bytes: &'a [u8],
     form: PlyForm,
-    /// Where the next number begins; of a text, the next line.
+    /// The offset of the next number; of a text, of the next line.
     at: usize,
     lines: Lines<'a>,
     words: Vec<Word<'a>>,
@@ -26,7 +26,7 @@ pub(super) struct PlyBody<'a> {
 }
 
 impl<'a> PlyBody<'a> {
-    /// The body of a file whose head says so.
+    /// The body of a file, in the format of its header.
     pub(super) fn new(bytes: &'a [u8], head: &PlyHead<'_>) -> Self {
         let (body, form) = (head.start, head.form);
         let rows = head
@@ -58,7 +58,7 @@ impl<'a> PlyBody<'a> {
         }
     }
 
-    /// How many bytes are left; of a text, at most.
+    /// The number of remaining bytes; for a text, an upper bound.
     pub(super) fn left(&self) -> usize {
         self.bytes.len() - self.at
     }

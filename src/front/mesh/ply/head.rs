@@ -3,7 +3,7 @@
 use super::super::material_use::{Named, name};
 use crate::words::{Lines, Word, WordFault};
 
-/// How the numbers of the body are written.
+/// The encoding of the numbers in the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PlyForm {
     Text,
@@ -29,7 +29,7 @@ pub(super) enum NumberKind {
 pub(super) struct PlyElement<'a> {
     pub(super) name: Word<'a>,
     pub(super) count: usize,
-    /// Where the count is written.
+    /// The span of the count.
     promise: Word<'a>,
     pub(super) properties: Vec<PlyProperty<'a>>,
 }
@@ -97,7 +97,7 @@ impl PlyProperty<'_> {
 }
 
 impl PlyElement<'_> {
-    /// The file has fewer than it says.
+    /// The file has fewer than declared.
     pub(super) fn is_cut_off(&self) -> WordFault {
         let message = format!(
             "the file ends before the last of {} of `{}`",
@@ -112,14 +112,14 @@ impl PlyElement<'_> {
 pub(super) struct PlyHead<'a> {
     pub(super) elements: Vec<PlyElement<'a>>,
     pub(super) form: PlyForm,
-    /// Where the body begins.
+    /// The offset of the body.
     pub(super) start: usize,
     /// The pictures that comments name: the first, and how many.
     pub(super) textures: Option<(Named, usize)>,
 }
 
 impl PlyHead<'_> {
-    /// How many vertices there are to be.
+    /// The declared number of vertices.
     pub(super) fn vertices(&self) -> usize {
         let mut elements = self.elements.iter();
         let vertices = elements.find(|element| element.name.bytes == b"vertex");

@@ -35,7 +35,7 @@ const VALUES: [&[&[u8]]; 22] = [
     &[b"linear_alpha"],
 ];
 
-/// Where the values begin that belong together.
+/// The offsets of values that belong together.
 const NORMAL: usize = 3;
 const UV: usize = 6;
 const SECOND_UV: usize = 8;

@@ -28,7 +28,7 @@ impl<'a> BitReader<'a> {
         Self { bytes, at }
     }
 
-    /// How many were read.
+    /// The number of bits read.
     pub(super) fn at(&self) -> usize {
         self.at
     }
@@ -63,7 +63,7 @@ impl<'a> BitReader<'a> {
 
 /// A complete prefix code, or one symbol, which takes no bits.
 pub(super) struct PrefixCode {
-    /// How many symbols have a code of each length.
+    /// The number of symbols with a code of each length.
     counts: [u16; LONGEST + 1],
     /// The symbols, in the order of their codes.
     symbols: Vec<u16>,

@@ -21,7 +21,7 @@ const MARGIN: f64 = 1.0 / 4_294_967_296.0;
 /// The margin of sines: 2⁻²⁰. A cosine near 1 gives a sine to 10⁻⁸.
 const SINE_MARGIN: f64 = 1.0 / 1_048_576.0;
 
-/// How far the square of a direction's length may be from 1.
+/// The tolerance of the square of a direction's length.
 const ONE: f64 = 1.0 / 1_073_741_824.0;
 
 /// The widest cone, by its sine.
@@ -85,7 +85,7 @@ struct ConeSizeHeuristic {
     uses: u32,
     /// The width, in radii of the smallest sphere.
     width: f64,
-    /// How many rays are yet to go without a cone, and one more; 0 outside of a pause.
+    /// The number of rays that still skip the cache, plus one; 0 while it is used.
     pause: u32,
 }
 

@@ -47,6 +47,7 @@ impl Wide {
         if count == 0 {
             return None;
         }
+        // Compute the bounds of all triangles.
         let bounds = |item| Bounds::of(corners(item).iter().copied()).grown(error_bound);
         let all = || (0..count).into_par_iter();
         let whole = match builders {
@@ -57,6 +58,7 @@ impl Wide {
             let centers = (0..count).map(|item| bounds(item).center() / f64::from(count));
             centers.sum::<Vec3>()
         };
+        // Quantize the boxes to f32 in a cube around the geometry, rounded outward.
         let frame = QuantizationFrame::around(whole, mean, error_bound);
         let item = |item| TriangleRow::of_box(item, frame.rounded_outward(bounds(item)));
         let mut triangles = Pages::zeroed(count as usize + ROWS_AFTER);
@@ -68,6 +70,7 @@ impl Wide {
                 .zip(all())
                 .for_each(|(row, n)| *row = item(n)),
         }
+        // Build the nodes, and merge the branches.
         let leaves = Leaves {
             builders,
             frame,
@@ -141,6 +144,7 @@ fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
     leaves: &Leaves<C>,
 ) -> (u32, Vec<GrownBranch>) {
     let alone = ALONE.max(items.len() / 64);
+    // Build the top of the hierarchy, and leave small ranges for later.
     let mut top = BuildBranch::new();
     let mut left = Vec::new();
     let root = top.grow(BuildRange::of(0, items), 0, leaves, &mut |part| {
@@ -151,6 +155,7 @@ fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
         }
         Some(part)
     });
+    // Build these ranges, in parallel if requested.
     let grow = |left: LeftPart<'_>| {
         let mut branch = BuildBranch::new();
         let link = branch.grow(left.part, left.depth, leaves, &mut Some);
@@ -160,6 +165,7 @@ fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
         Builders::One => left.into_iter().map(grow).collect(),
         Builders::All => left.into_par_iter().map(grow).collect(),
     };
+    // Append the branches, and renumber the links into them.
     let mut nodes = top.nodes.len();
     let mut branches = Vec::with_capacity(grown.len() + 1);
     for (node, lane, link, mut branch) in grown {

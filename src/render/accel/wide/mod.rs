@@ -36,7 +36,7 @@ pub(crate) struct Wide {
     simd: SimdLevel,
     frame: QuantizationFrame,
     nodes: Pages<WideNode>,
-    /// Those of a leaf side by side.
+    /// The triangles of a leaf together.
     triangles: Pages<TriangleRow>,
     root: u32,
     /// What 1 of the cube is in space, if leaves hold all corners exactly.

@@ -176,6 +176,7 @@ impl<S: Simd, V: Visitor> PacketTraversal<'_, '_, S, V> {
     fn visit_leaf(&mut self, simd: S, link: u32) {
         let leaf = leaf_at(self.wide.triangles.rows(), link);
         for lane in 0..leaf.count() {
+            // Test one triangle against all rays of the packet.
             let hit_mask = if V::IS_CERTAIN {
                 self.packet
                     .intersect4::<true>(simd, leaf, lane, &self.limits)
@@ -192,6 +193,7 @@ impl<S: Simd, V: Visitor> PacketTraversal<'_, '_, S, V> {
                 lane,
                 unit: self.wide.unit,
             };
+            // Report the candidate to each ray that may hit it, and update its end.
             for ray in lanes_of(hit_mask.maybe) {
                 let (_, _, visitor) = &mut self.rays[ray];
                 let is_certain = hit_mask.certain & 1 << ray != 0;

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 /// The most bins of an axis.
 const BINS: usize = 16;
 
-/// So many items are put into bins by one thread at a time.
+/// The number of items that one thread bins at a time.
 const CHUNK: usize = 1 << 14;
 
 /// The bins of an axis for this many items: few items need few.
@@ -95,7 +95,7 @@ pub(super) struct BuildRange<'items> {
     pub(super) items: &'items mut [TriangleRow],
     bounds: LaneBox,
     centers: LaneBox,
-    /// No two of them have the same corners.
+    /// All of them have distinct corners.
     is_sifted: bool,
 }
 
@@ -339,7 +339,7 @@ fn best_split(bins: &Bins, size: Lanes) -> Option<SplitPlane> {
     best
 }
 
-/// Adds a bin to one side, and says how much work that side is; infinite while it is empty.
+/// Adds a bin to one side, and returns its SAH cost; infinite while it is empty.
 fn add_work(side: &mut (LaneBox, u32), (bounds, count): &(LaneBox, u32)) -> f32 {
     side.0.add(bounds.min, bounds.max);
     side.1 += count;

@@ -202,6 +202,7 @@ impl<S: Simd> Traversal<'_, S> {
     fn visit_leaf<V: Visitor>(&mut self, simd: S, visitor: &mut V) -> TraversalStep {
         let leaf = leaf_at(self.rows, self.link);
         let all = 0b1111 >> (3 - (self.link & 3));
+        // Test the triangles of the leaf against the ray.
         let hit_mask = match (V::CULLS, V::IS_CERTAIN) {
             (false, _) => HitMask {
                 maybe: all,
@@ -215,11 +216,13 @@ impl<S: Simd> Traversal<'_, S> {
                 self.triangles.intersect4::<true>(simd, leaf, limits)
             }
         };
+        // A certain hit may end the traversal.
         for lane in lanes_of(hit_mask.certain & all) {
             if visitor.accepts_certain(leaf.item(lane)) {
                 return TraversalStep::Ends;
             }
         }
+        // Report the candidates, and shorten the ray.
         let mut t_max = None;
         for lane in lanes_of(hit_mask.maybe & all) {
             let item = leaf.item(lane);

@@ -32,7 +32,7 @@ pub(super) struct PathState {
     pub(super) absorption: Vec3,
     /// The wavelength channel that dispersion picked.
     pub(super) channel: Option<usize>,
-    /// How far the ray has come, surfaces that it went through included.
+    /// The distance that the ray has travelled, through skipped surfaces too.
     pub(super) travelled: f64,
 }
 

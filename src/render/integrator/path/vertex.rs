@@ -34,6 +34,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     ) -> Option<T> {
         state.travelled = 0.0;
         for skipped in 0..MAX_SKIPPED {
+            // Find the closest hit and its shading attributes.
             let hit = self.next_hit(state)?;
             let surface = &self.world.surfaces[hit.surface];
             let at = surface.shape.interaction(&state.ray, hit.t, hit.prim_id);
@@ -44,6 +45,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
                     .shading_attributes(&state.ray, &at, hit.prim_id, request);
             let point = self.point(surface.material, &shading_attributes, at.point);
             state.travelled += hit.t;
+            // Skip the hit with the probability of its transparency.
             let opacity = if skips_back(state, &at, point.material) {
                 0.0
             } else {
@@ -53,6 +55,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
                 (state.ray, state.from) = (at.ray(state.ray.direction), (hit.surface, hit.prim_id));
                 continue;
             }
+            // Shade the vertex.
             let vertex = PathVertex {
                 at: &at,
                 point: &point,

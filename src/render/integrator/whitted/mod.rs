@@ -45,7 +45,7 @@ pub(crate) struct Tracer<'world, S, const F: u32> {
     pub(crate) spread: bool,
     grid: Grid,
     pixel: PixelState,
-    /// How many bounces the path under way has behind it.
+    /// The number of bounces of the current path.
     bounces: u32,
     bundles: RayConeCache,
     /// Whether samples are taken four at a time where they can be.
@@ -128,6 +128,7 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
             key,
             kind: BranchKind::Mirrored,
         };
+        // Follow the branches of the path, from the camera ray on.
         loop {
             if Self::can(Features::UNPRUNED) {
                 self.weightless = path.beta == 0.0;
@@ -140,10 +141,12 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
                 if self.steps && shading_point.is_outline() {
                     return OUTLINE;
                 }
+                // Add the local shading, weighted by the branch.
                 let value = self.local(&shading_point) * path.beta;
                 self.verify_hit(bounces, &shading_point, value);
                 sum += value;
                 if Self::can(Features::BOUNCE) {
+                    // Push the reflected and refracted rays.
                     self.branch(&path, &shading_point);
                 }
             }

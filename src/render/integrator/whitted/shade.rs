@@ -123,6 +123,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     pub(crate) fn phong(&mut self, shading_point: &ShadingPoint<'_>) -> Vec3 {
         let world = self.world;
         let samples = world.settings.light_samples;
+        // Add the ambient term once, or once per light.
         let ambient = shading_point.color * shading_point.material.ka.get();
         let (mut sum, ambient) = match world.settings.ambient_once {
             true => (ambient, Vec3::ZERO),
@@ -137,6 +138,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
                 break;
             }
             let mut term = ambient;
+            // Add the direct light, averaged over the points of a soft light.
             if Self::can(Features::LIGHT) && plan.direct {
                 let shadowed = Hidden {
                     light: index,
@@ -157,6 +159,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
                     term += direct.sum::<Vec3>() / f64::from(samples);
                 }
             }
+            // Check the plan, if requested.
             self.verify(Effect::DirectLight, "a light left out shines", |plan| {
                 let kept = &plan.lights[index];
                 let left_out = if kept.is_used { term - ambient } else { term };

@@ -99,7 +99,7 @@ impl<S: Simd> Interactions<S> {
         }
     }
 
-    /// Those of `self` in the lanes of a mask, those of `other` elsewhere.
+    /// Selects `self` in the lanes of a mask, and `other` elsewhere.
     #[inline(always)]
     pub(crate) fn select(self, mask: mask64x4<S>, other: Self) -> Self {
         Self {

@@ -85,7 +85,7 @@ struct Probe<S: Simd> {
 }
 
 impl<S: Simd> Probe<S> {
-    /// Those of `self` in the lanes of a mask, those of `other` elsewhere.
+    /// Selects `self` in the lanes of a mask, and `other` elsewhere.
     #[inline(always)]
     fn select(self, mask: mask64x4<S>, other: Self) -> Self {
         Self {

@@ -69,7 +69,7 @@ pub enum Mistake<'t> {
     Unclosed {
         /// The bracket.
         bracket: Span,
-        /// Where its content seems to continue.
+        /// The position where its content seems to continue.
         runs_into: Option<Span>,
         /// A comment in its line, which may hide the closing bracket.
         comment: Option<Span>,

@@ -138,15 +138,15 @@ fn what_is_hit_for_sure_is_hit_before_the_end_of_the_ray() {
             [hits, found.certain.len() as u64, wrong]
         };
         let add = |a: [u64; 3], b: [u64; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
-        let [hits, sure, wrong] = (0..ray_count(60_000))
+        let [hits, certain_hits, wrong] = (0..ray_count(60_000))
             .into_par_iter()
             .map(intersect4)
             .reduce(|| [0; 3], add);
-        println!("| sure of | {name} | {sure} of {hits} | {wrong} wrong |");
+        println!("| sure of | {name} | {certain_hits} of {hits} | {wrong} wrong |");
         assert_eq!(wrong, 0, "{name}");
         assert!(
-            name == "slivers" || 3 * sure > hits,
-            "{name}: {sure} of {hits}"
+            name == "slivers" || 3 * certain_hits > hits,
+            "{name}: {certain_hits} of {hits}"
         );
     }
 }

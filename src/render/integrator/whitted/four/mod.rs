@@ -123,6 +123,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
                 break;
             }
             self.bounces = bounce;
+            // Find the closest hits and their surface points.
             let hits = self.hits(simd, &rays, active);
             if bounce == 0 {
                 first = hits.hit_lanes;
@@ -131,12 +132,14 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
             let Some(points) = self.points(simd, &rays, &hits) else {
                 break;
             };
+            // Add the local shading, weighted by the path.
             let value = self.phong_of(simd, &points).times(beta);
             let hit_lanes = mask64x4::from_bitmask(simd, hits.hit_lanes);
             sum = sum.plus(value).select(hit_lanes, sum);
             if !Self::can(Features::BOUNCE) || bounce == depth {
                 break;
             }
+            // Weight the mirrored rays; lanes without weight end.
             let weight = beta * points.kr;
             let weight = weight
                 .simd_lt(number(f64::MAX))
@@ -173,11 +176,13 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         let Some(small_scene) = &world.small_scene else {
             return hits;
         };
+        // Look up the candidates of all rays in the ray-cone cache.
         let bounce = self.bounces as usize;
         let (bundled, mut items) =
             self.bundles
                 .along_each(simd, &small_scene.balls, bounce, rays, active);
         let cone_lanes = mask64x4::from_bitmask(simd, bundled);
+        // Keep the nearest root of each lane, and the second one for ties.
         let mut next = none;
         while let Some(surface) = SmallScene::pop(&mut items) {
             let shape = &world.surfaces[surface].shape;
@@ -193,6 +198,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
             }
         }
         hits.hit_lanes = hits.t.simd_lt(none).to_bitmask();
+        // Resolve ties, and rays outside of the cone, one by one.
         let tied = next
             .simd_le(hits.t * f64x4::splat(simd, CLOSE))
             .to_bitmask()
@@ -218,6 +224,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         let mut rest = hits.hit_lanes;
         let mut all: Option<Points<V>> = None;
         while rest != 0 {
+            // Take the lanes that hit one surface together.
             let surface = hits.surfaces[rest.trailing_zeros() as usize];
             let same = lanes_of(rest).filter(|lane| hits.surfaces[*lane] == surface);
             let same = same.fold(0, |bits, lane| bits | 1 << lane);
@@ -225,6 +232,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
             let surface = &self.world.surfaces[surface];
             let material = &self.world.phongs[surface.material];
             let shape = &surface.shape;
+            // Compute the surface points and the material of these lanes.
             let at = match shape.shape4() {
                 Some(shape) => shape.interactions(simd, rays, hits.t),
                 None => interactions(simd, shape, rays, hits, same),
@@ -274,7 +282,7 @@ impl<V: Simd> Hits<V> {
 }
 
 impl<V: Simd> Points<V> {
-    /// Those of `self` in some lanes, those of `others` elsewhere.
+    /// Selects `self` in some lanes, and `others` elsewhere.
     #[inline(always)]
     fn select(self, simd: V, lanes: u64, others: Self) -> Self {
         let mask = mask64x4::from_bitmask(simd, lanes);

@@ -56,10 +56,12 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         if !Self::can(Features::HIGHLIGHT) {
             shines = 0;
         }
+        // Exclude lanes that reflect no light.
         let mut lit = points.hit_lanes & !(is_black.to_bitmask() & !shines);
         self.counts
             .add_several(Effect::DirectLight, lit.count_ones());
 
+        // Exclude lanes that face away from the light, or are in its shadow.
         let to_light = Vectors::splat(simd, place).minus(points.at.point);
         let inverse = number(1.0) / to_light.length();
         let has_way = inverse.simd_gt(zero) & inverse.simd_lt(number(f64::INFINITY));
@@ -76,8 +78,10 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         if lit == 0 {
             return term;
         }
+        // Add the diffuse term.
         let cosine = is_before.select(n_dot_l, zero);
         let mut direct = points.color.times(points.kd * cosine);
+        // Add the highlight.
         shines &= lit;
         if shines != 0 {
             self.counts
@@ -125,6 +129,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         let Some(small_scene) = &world.small_scene else {
             return active;
         };
+        // Collect the possible occluders of each lane.
         let plan = &world.plan.lights[light];
         let (mut hiding, mut all, mut doubted) = ([0; LANES], 0, 0);
         for lane in lanes_of(active) {
@@ -138,6 +143,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         if doubted == 0 {
             return active;
         }
+        // Keep those that the cone of shadow rays may hit.
         let between = self.towards_each(small_scene, light, points.at.point, doubted);
         for lane in lanes_of(doubted) {
             hiding[lane] &= between[lane];
@@ -147,12 +153,14 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         if doubted == 0 {
             return active;
         }
+        // Trace the shadow rays against the remaining occluders.
         let target = world.lights.course[light].position;
         let to = Vectors::splat(simd, target);
         let origin = points.at.start(simd, to.minus(points.at.point));
         let direction = to.minus(origin);
         let rays = Ray4 { origin, direction };
         let mut hidden = 0;
+        // Rays that need scaling are traced one by one.
         for lane in lanes_of(doubted) {
             if !rays.lane(lane).is_scaled() {
                 doubted &= !(1 << lane);
@@ -160,6 +168,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
                 hidden |= u64::from(is_hidden) << lane;
             }
         }
+        // Test each occluder against the lanes that need it.
         let end = ends(simd, &rays, to);
         while let Some(surface) = SmallScene::pop(&mut all) {
             let of_surface = |lane: &usize| hiding[*lane] >> surface & 1 == 1;
@@ -179,8 +188,8 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     }
 }
 
-/// Where the segments of rays to one point end, as [`crate::world::segment`] says; 0 where both
-/// ends are equal within rounding.
+/// The ends of rays to one point, as [`crate::world::segment`] says; 0 where both ends are equal
+/// within rounding.
 #[inline(always)]
 fn ends<V: Simd>(simd: V, rays: &Ray4<V>, to: Vectors<V>) -> f64x4<V> {
     let number = |x: f64| f64x4::splat(simd, x);

@@ -12,7 +12,7 @@ use serde_json::json;
 
 impl Session<'_> {
     /// Publishes the effects that the picture needs, if requested.
-    pub(super) fn tell_effects(&self, work: &Work) {
+    pub(super) fn publish_effects(&self, work: &Work) {
         if !work.wants_effects {
             return;
         }
@@ -24,7 +24,7 @@ impl Session<'_> {
     }
 
     /// Publishes the effects at the requested pixel.
-    pub(super) fn tell_pixel(&mut self, work: &Work) {
+    pub(super) fn publish_pixel(&mut self, work: &Work) {
         let (Some(scene), Some((setup, subject)), Some(place)) =
             (&self.scene, &mut self.shown, work.orders.pixel)
         else {
@@ -45,7 +45,7 @@ impl Session<'_> {
     }
 
     /// Publishes the settings of the scene, if requested.
-    pub(super) fn tell_settings(&mut self, work: &Work) {
+    pub(super) fn publish_settings(&mut self, work: &Work) {
         let own = match work.wants_settings {
             true => self.own(work),
             false => None,
@@ -82,8 +82,8 @@ impl Session<'_> {
     }
 
     /// Publishes the costs of accuracy in the scene, unless a newer request arrives.
-    pub(super) fn tell_costs(&mut self, work: &Work) -> Result<(), Failure> {
-        self.tell_settings(work);
+    pub(super) fn publish_costs(&mut self, work: &Work) -> Result<(), Failure> {
+        self.publish_settings(work);
         let Some((setup, studied)) = self.own(work) else {
             return Ok(());
         };
