@@ -52,7 +52,7 @@ pub(super) fn write(
 ) -> io::Result<()> {
     let sources = channels(head);
     let header = header(head, &sources);
-    let place = place_of_tree(&header);
+    let offset = offset_of_tree(&header);
     let written = ::exr::block::write(
         &mut out,
         [header].into_iter().collect(),
@@ -89,15 +89,15 @@ pub(super) fn write(
             io::Error::other(other.to_string())
         }
     })?;
-    if let Some((place, tree)) = place.zip(strips.tree(head)) {
-        out.seek(SeekFrom::Start(place))?;
+    if let Some((offset, tree)) = offset.zip(strips.tree(head)) {
+        out.seek(SeekFrom::Start(offset))?;
         out.write_all(&tree.bytes())?;
     }
     Ok(())
 }
 
 /// The offset of the tree in a file with this header, if it has space for one.
-fn place_of_tree(header: &Header) -> Option<u64> {
+fn offset_of_tree(header: &Header) -> Option<u64> {
     // A file that ends with its head.
     let mut file = Vec::new();
     let headers = [header.clone()].into_iter().collect();

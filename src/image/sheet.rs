@@ -35,9 +35,9 @@ pub fn shrunk(image: Image, [width, height]: [u32; 2]) -> Image {
 }
 
 /// The pixels of a side that one of fewer pixels covers; at least one.
-fn span(from: u32, to: u32, place: u32) -> Range<usize> {
+fn span(from: u32, to: u32, column: u32) -> Range<usize> {
     let ratio = from as f32 / to as f32;
-    let start = place as f32 * ratio;
+    let start = column as f32 * ratio;
     let [start, end] = [start, start + ratio].map(|at| at.ceil() as usize);
     let from = from as usize;
     let start = start.min(from.saturating_sub(1));
@@ -108,11 +108,11 @@ pub fn contact_sheet(pictures: &[(String, Option<Image>)]) -> Image {
             }
             None => (0..width * height).for_each(|at| put(at % width, at / width, [MISSING; 3])),
         }
-        for (place, letter) in shown_name(name).into_iter().enumerate() {
+        for (column, letter) in shown_name(name).into_iter().enumerate() {
             let glyph = BASIC_FONTS.get(letter).unwrap_or_default();
             for (y, row) in glyph.into_iter().enumerate() {
                 let lit = (0..GLYPH).filter(|x| row >> x & 1 == 1);
-                lit.for_each(|x| put(place * GLYPH + x, height + MARGIN / 2 + y, [INK; 3]));
+                lit.for_each(|x| put(column * GLYPH + x, height + MARGIN / 2 + y, [INK; 3]));
             }
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! # Overview
 //!
-//! - Vectors: [`Vec3`] (glam, f64), [`Bounds`], [`Basis`], [`unit`] and [`length`] for vectors of
+//! - Vectors: [`Vec3`] (glam, f64), [`Bounds`], [`Basis`], [`unit()`] and [`length()`] for vectors of
 //!   any
 //!   size, [`camera_basis`] and [`view_basis`], rotations ([`rotated_about`], [`axis_and_angle`]).
 //! - Exact arithmetic: error-free transformations ([`two_sum`], [`two_product`]), compensated sums

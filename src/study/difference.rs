@@ -166,12 +166,12 @@ fn heat_color(value: f64) -> [f64; 3] {
         [0.99, 0.55, 0.38],
         [1.0, 1.0, 0.9],
     ];
-    let place = value.clamp(0.0, 1.0) * 4.0;
+    let scaled = value.clamp(0.0, 1.0) * 4.0;
     let below = (0..4)
         .rev()
-        .find(|stop| f64::from(*stop) <= place)
+        .find(|stop| f64::from(*stop) <= scaled)
         .unwrap_or(0);
-    let fraction = place - f64::from(below);
+    let fraction = scaled - f64::from(below);
     let (from, to) = (STOPS[below as usize], STOPS[below as usize + 1]);
     [0, 1, 2].map(|c| from[c] * (1.0 - fraction) + to[c] * fraction)
 }

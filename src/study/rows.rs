@@ -96,10 +96,10 @@ fn ranked(rows: Vec<StudyRow>, reference: &Reference, fraction: f64) -> Vec<Stud
         |a: usize, b: usize| errors[a].is_clearly_below(&errors[b], pareto::EQUAL_ERROR);
     let mut rows: Vec<_> = rows.into_iter().map(Some).collect();
     let ranked = pareto::ranking(&points, is_better).into_iter();
-    let ranked = ranked.filter_map(|(place, front)| {
+    let ranked = ranked.filter_map(|(index, front)| {
         Some(StudyRow {
             front,
-            ..rows[place].take()?
+            ..rows[index].take()?
         })
     });
     ranked.collect()

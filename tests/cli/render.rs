@@ -205,7 +205,7 @@ fn a_target_is_met_said_and_the_same_on_any_threads() {
         "{reporter}"
     );
     assert!(
-        said.contains(" grey levels (90 %), ") && said.contains(" samples a pixel on the mean, "),
+        said.contains(" grey levels (90 %), ") && said.contains(" samples per pixel on average, "),
         "{reporter}"
     );
     assert!(render(&["--target-error", "2", "--threads", "3"]).stdout == one.stdout);

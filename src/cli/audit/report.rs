@@ -193,7 +193,7 @@ impl ReportedFinding {
             stated,
             anew,
         } = self;
-        let place = match (tile, area) {
+        let location = match (tile, area) {
             (Some(tile), Some([x, y, ..])) => format!("tile {tile} at ({x}, {y}): "),
             _ => String::new(),
         };
@@ -209,6 +209,6 @@ impl ReportedFinding {
             "values" => "the hash of the values of which it was made",
             _ => "its pixels, by their hash",
         };
-        format!("  {place}{what}{pixel}\n    in the file  {stated}\n    made anew    {anew}")
+        format!("  {location}{what}{pixel}\n    in the file  {stated}\n    rendered     {anew}")
     }
 }

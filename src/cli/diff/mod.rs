@@ -191,7 +191,7 @@ fn message(args: &Diff, [width, height]: [u32; 2], found: &Difference) -> String
     if found.is_none() {
         return format!("{names}, no difference\n");
     }
-    let place = found.max_at.map_or_else(String::new, |[x, y]| {
+    let location = found.max_at.map_or_else(String::new, |[x, y]| {
         format!(", first in column {x}, row {y}")
     });
     let Difference {
@@ -206,7 +206,7 @@ fn message(args: &Diff, [width, height]: [u32; 2], found: &Difference) -> String
     format!(
         "{names}\n\
          rmse    {rmse:.4} grey levels\n\
-         max     {max:.2} grey levels{place}\n\
+         max     {max:.2} grey levels{location}\n\
          relmse  {relative_mse:.3e}\n\
          flip    {flip:.6}\n\
          share   {:.4} % of the pixels are off by more than {levels} grey levels\n",

@@ -22,12 +22,12 @@ const DEPTH: usize = 3;
 /// The completions at a position.
 pub(super) fn completions(
     document: &OpenText,
-    place: Position,
+    position: Position,
     vocabulary: &Vocabulary,
     columns: Columns,
 ) -> Vec<CompletionItem> {
     let lines = document.lines(columns);
-    let offset = lines.offset(place);
+    let offset = lines.offset(position);
     let before = lines.before(offset);
     let typed = before.len() - before.trim_end_matches(is_of_word).len();
     let start = offset - typed;

@@ -29,7 +29,7 @@ pub(super) fn value(
         .map(|node| tree.span(node));
     let spans = spans.map(|own| Span::new(file, own.start, own.end));
     let places = spans.flat_map(|span| lowered.source_spans.paths(span));
-    let mut values = places.filter_map(|place| of(&lowered.scene, place));
+    let mut values = places.filter_map(|path| of(&lowered.scene, path));
     let found = plain(values.next()?);
     let written = tree.written(target);
     let is_same = match serde_json::from_str(written) {
@@ -45,9 +45,9 @@ pub(super) fn value(
 }
 
 /// The value at a path of the IR; `None` for values that may be large.
-fn of(scene: &Scene, place: ValuePath) -> Option<Value> {
-    let at = place.index as usize;
-    let whole = match place.entity {
+fn of(scene: &Scene, path: ValuePath) -> Option<Value> {
+    let at = path.index as usize;
+    let whole = match path.entity {
         EntityKind::Camera => json(&scene.camera),
         EntityKind::Settings => json(&scene.settings),
         EntityKind::Light => json(scene.lights.get(at)?),
@@ -59,9 +59,9 @@ fn of(scene: &Scene, place: ValuePath) -> Option<Value> {
     }?;
     let entity = ValuePath {
         field: Field::Whole,
-        ..place
+        ..path
     };
-    let pointer = place.to_string();
+    let pointer = path.to_string();
     let pointer = pointer.strip_prefix(&entity.to_string())?;
     whole.pointer(pointer).cloned()
 }

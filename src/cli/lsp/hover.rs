@@ -12,13 +12,13 @@ use serde_json::{Map, Value};
 /// The hover text at a position.
 pub(super) fn hover(
     document: &OpenText,
-    place: Position,
+    position: Position,
     vocabulary: &Vocabulary,
     columns: Columns,
 ) -> Option<Hover> {
     let (lines, mut parts) = (document.lines(columns), Vec::new());
-    let offset = lines.offset(place);
-    let mut range = Range::new(place, place);
+    let offset = lines.offset(position);
+    let mut range = Range::new(position, position);
     if let Some((reported, (start, end))) = meaning(document, offset, vocabulary) {
         parts.push(reported);
         range = lines.range(start, end);

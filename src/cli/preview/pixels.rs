@@ -75,8 +75,8 @@ fn surface(index: usize, validated: &Validated, input: &Input) -> [String; 2] {
     let scene = &validated.lowered.scene;
     let name = scene.names.get(index).filter(|name| !name.is_empty());
     let shape = scene.surfaces.get(index).map(|own| own.shape.kind().name());
-    let place = ValuePath::new(EntityKind::Surface, index, Field::Whole);
-    let span = validated.lowered.source_spans.span(place);
+    let path = ValuePath::new(EntityKind::Surface, index, Field::Whole);
+    let span = validated.lowered.source_spans.span(path);
     let line = span.map(|span| input.line(span));
     [
         name.cloned()

@@ -207,9 +207,9 @@ impl PreviewState {
     }
 
     /// Requests the effects of a pixel. The current task continues first.
-    pub(super) fn want_pixel(&self, place: [u32; 2]) {
+    pub(super) fn want_pixel(&self, position: [u32; 2]) {
         let mut state = self.state();
-        state.orders.pixel = Some(place);
+        state.orders.pixel = Some(position);
         self.changed.notify_all();
     }
 

@@ -187,7 +187,7 @@ impl Quality {
                     ),
                     _ => String::new(),
                 };
-                format!("{bound}, {mean:.0} samples a pixel on the mean, {min} … {most}{end}")
+                format!("{bound}, {mean:.0} samples per pixel on average, {min} … {most}{end}")
             }
             KnownBy::Probing {
                 estimate,

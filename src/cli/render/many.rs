@@ -23,8 +23,8 @@ pub(super) fn jobs(args: &args::Render) -> Result<Option<Vec<RenderJob>>, Failur
     let found = files::scenes(&args.files, false)?;
     found.report_skipped(args.reporter.quiet);
     let scenes = found.paths;
-    let place = Destination::new(args.output.as_deref());
-    if scenes == args.files && scenes.len() == 1 && !place.is_for_many() {
+    let destination = Destination::new(args.output.as_deref());
+    if scenes == args.files && scenes.len() == 1 && !destination.is_for_many() {
         return match &args.contact_sheet {
             None => Ok(None),
             Some(_) => Err(Failure::Trouble(
@@ -39,7 +39,7 @@ pub(super) fn jobs(args: &args::Render) -> Result<Option<Vec<RenderJob>>, Failur
             "`--part` and `--checkpoint` are for one scene and a picture of its own name",
         );
     }
-    if let Destination::One(output) = &place {
+    if let Destination::One(output) = &destination {
         return refused(&format!(
             "`{}` is one picture, and there are {} scenes; give `-o FOLDER/` or `-o '{STEM}.png'`",
             output.display(),
@@ -47,7 +47,7 @@ pub(super) fn jobs(args: &args::Render) -> Result<Option<Vec<RenderJob>>, Failur
         ));
     }
     let job = |scene: PathBuf| {
-        let output = place.of(stem(&scene, args)?);
+        let output = destination.of(stem(&scene, args)?);
         Ok(RenderJob { scene, output })
     };
     let jobs = scenes.into_iter().map(job);
@@ -214,15 +214,15 @@ mod tests {
 
     #[test]
     fn a_name_of_many_holds_the_stem() {
-        let place = |output| Destination::new(Some(Path::new(output)));
+        let destination = |output| Destination::new(Some(Path::new(output)));
         assert_eq!(
-            place("out/{stem}-{stem}.exr").of(OsStr::new("a")),
+            destination("out/{stem}-{stem}.exr").of(OsStr::new("a")),
             Path::new("out/a-a.exr")
         );
         assert_eq!(
-            place("out/").of(OsStr::new("a.b")),
+            destination("out/").of(OsStr::new("a.b")),
             Path::new("out/a.b.png")
         );
-        assert!(!place("a.png").is_for_many() && !place("-").is_for_many());
+        assert!(!destination("a.png").is_for_many() && !destination("-").is_for_many());
     }
 }

@@ -110,8 +110,8 @@ impl LocalModel<'_> {
             let weight = self.weight(index, near, size);
             if weight >= LEAST_WEIGHT {
                 let guide = &self.fitted.guides[near];
-                let place: Guide = std::array::from_fn(|k| guide[k] - self.exact[index][k]);
-                terms.add(weight, &place, self.fitted.image.pixels[near]);
+                let pixel_at: Guide = std::array::from_fn(|k| guide[k] - self.exact[index][k]);
+                terms.add(weight, &pixel_at, self.fitted.image.pixels[near]);
             }
         }
         let noisy = self.fitted.image.pixels[index];
@@ -143,7 +143,7 @@ impl LocalModel<'_> {
             let is_inside = |[x, y]: [usize; 2]| {
                 (PATCH..width + PATCH).contains(&x) && (PATCH..height + PATCH).contains(&y)
             };
-            if !moved.iter().all(|place| is_inside(*place)) {
+            if !moved.iter().all(|pixel_at| is_inside(*pixel_at)) {
                 continue;
             }
             let [p, q] = moved.map(|[x, y]| (y - PATCH) * width + x - PATCH);
@@ -168,12 +168,12 @@ mod tests {
 
     /// A picture of a colour for each pixel.
     fn image(color: impl Fn(u32, u32) -> f64) -> Image {
-        let place = |index: u32| (index % SIDE, index / SIDE);
+        let pixel_at = |index: u32| (index % SIDE, index / SIDE);
         Image {
             width: SIDE,
             height: SIDE,
             pixels: (0..SIDE * SIDE)
-                .map(|index| [color(place(index).0, place(index).1); 3])
+                .map(|index| [color(pixel_at(index).0, pixel_at(index).1); 3])
                 .collect(),
         }
     }

@@ -13,9 +13,9 @@ pub(super) struct Terms {
 
 impl Terms {
     /// Adds a value with a weight at a position.
-    pub(super) fn add(&mut self, weight: f64, place: &[f64; TERMS - 1], value: [f64; 3]) {
+    pub(super) fn add(&mut self, weight: f64, guide: &[f64; TERMS - 1], value: [f64; 3]) {
         let mut terms = [1.0; TERMS];
-        terms[1..].copy_from_slice(place);
+        terms[1..].copy_from_slice(guide);
         for (i, term) in terms.iter().enumerate() {
             let weighted = weight * term;
             for (sum, other) in self.matrix[i][..=i].iter_mut().zip(&terms) {

@@ -116,8 +116,8 @@ fn times(study: &Study) -> String {
     let items: String = lines
         .iter()
         .enumerate()
-        .map(|(place, line)| {
-            let mark = if place == last { " class=\"at\"" } else { "" };
+        .map(|(index, line)| {
+            let mark = if index == last { " class=\"at\"" } else { "" };
             format!("<li{mark}>{line}</li>\n")
         })
         .collect();

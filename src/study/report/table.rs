@@ -48,11 +48,11 @@ pub fn table(study: &Study) -> String {
     text += &effects(study);
     text += "\n";
     // Write the advice.
-    for (place, advice) in study.advice.iter().enumerate() {
+    for (index, advice) in study.advice.iter().enumerate() {
         text += &wrapped(advice);
         // The first line is the main advice. Its command stays on one line, so that it can be
         // copied.
-        if let (0, Some(command)) = (place, &study.command) {
+        if let (0, Some(command)) = (index, &study.command) {
             let _ = writeln!(text, "  {command}");
         }
     }
@@ -98,7 +98,7 @@ fn more_bounces(bounces: Option<&MoreBounces>) -> String {
 pub(super) fn steps(bounces: &MoreBounces) -> Vec<BounceCost> {
     let last = bounces.deeper.len().saturating_sub(1);
     let all = bounces.deeper.iter().enumerate();
-    let listed = all.filter(|(place, _)| (place + 1).is_power_of_two() || *place == last);
+    let listed = all.filter(|(index, _)| (index + 1).is_power_of_two() || *index == last);
     listed.map(|(_, cost)| *cost).collect()
 }
 
@@ -166,17 +166,17 @@ const FLIP: usize = 9;
 fn columns(study: &Study, used: &[Parameter]) -> Vec<usize> {
     let is_alike = study.rows.iter().all(|row| row.spread.deviation == 0.0);
     let mut shown: Vec<_> = (0..COLUMNS.len())
-        .filter(|place| *place != COLUMNS.len() - 1 || study.part.tiles > 0)
-        .filter(|place| !(is_alike && [MEAN, SPREAD].contains(place)))
+        .filter(|index| *index != COLUMNS.len() - 1 || study.part.tiles > 0)
+        .filter(|index| !(is_alike && [MEAN, SPREAD].contains(index)))
         .collect();
     let parameters = used
         .iter()
         .map(|parameter| width(*parameter))
         .sum::<usize>();
-    for place in [MODEL, MEAN, FLIP, SPREAD] {
-        let columns = shown.iter().map(|place| COLUMNS[*place].1).sum::<usize>();
+    for index in [MODEL, MEAN, FLIP, SPREAD] {
+        let columns = shown.iter().map(|index| COLUMNS[*index].1).sum::<usize>();
         if 1 + parameters + columns > WIDTH {
-            shown.retain(|other| *other != place);
+            shown.retain(|other| *other != index);
         }
     }
     shown
