@@ -171,6 +171,7 @@ impl Format {
 /// builder.add(Shape::sphere([0.0; 3], 1.0), Phong::default());
 /// let scene = builder.build().unwrap();
 /// let options = Options::new().size(16, 12).trace_paths(true).samples(4).environment([1.0; 3]);
+/// let options = options.set("multipleScattering", "false");
 /// assert_eq!(scene.render(&options)?.width(), 16);
 /// # Ok::<(), rtc::Error>(())
 /// ```
@@ -179,6 +180,7 @@ impl Format {
 pub struct Options {
     pub(super) format: Format,
     overrides: Overrides,
+    set: Vec<(String, String)>,
     threads: usize,
     pub(super) rays: Option<u64>,
     crop: Option<Crop>,
@@ -229,6 +231,15 @@ impl Options {
     /// The maximum number of bounces after the first hit.
     pub fn depth(mut self, bounces: u32) -> Self {
         self.overrides.depth = Some(bounces);
+        self
+    }
+
+    /// Any setting by its name in the IR and a value in JSON, as [`SceneBuilder::set`]. An unknown
+    /// name or a value of another type is an error of the render.
+    ///
+    /// [`SceneBuilder::set`]: super::SceneBuilder::set
+    pub fn set(mut self, name: impl Into<String>, value: impl Into<String>) -> Self {
+        self.set.push((name.into(), value.into()));
         self
     }
 
@@ -395,6 +406,7 @@ impl Options {
             OutputTransform::new(kind, self.tone, self.exposure, self.background, &self.aovs);
         let mut setup = PictureSetup::new(look.map_err(refused)?);
         setup.overrides = self.overrides;
+        setup.set.clone_from(&self.set);
         setup.crop = self.crop;
         setup.threads = self.threads;
         setup.goal.error = self.target_error;

@@ -2,7 +2,7 @@
 
 use super::standard::is_default;
 use arbitrary::Arbitrary;
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 
 /// The integrator and its sampling parameters.
@@ -51,10 +51,27 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// The settings of an asset that has none: path tracing.
+    #[must_use]
+    pub fn paths() -> Self {
+        Self {
+            mode: Mode::Path(PathSettings::default()),
+            shadows: true,
+            max_depth: PathSettings::DEPTH,
+            ..Self::default()
+        }
+    }
+
+    /// The schema of the text form.
+    #[must_use]
+    pub fn schema() -> Schema {
+        schemars::schema_for!(Self)
+    }
+
     /// The names of the fields in the text form, in order.
     #[must_use]
     pub fn names() -> Vec<String> {
-        let schema = schemars::schema_for!(Self);
+        let schema = Self::schema();
         let properties = schema.get("properties").and_then(|all| all.as_object());
         properties.map_or_else(Vec::new, |all| all.keys().cloned().collect())
     }

@@ -25,7 +25,7 @@ mod view_and_light;
 
 pub use emission::emissive_surfaces;
 pub use framing::{Framing, Orbit};
-pub use overrides::Overrides;
+pub use overrides::{CountSetting, Overrides};
 pub use settings::set;
 pub use studio::fill;
 pub use view_and_light::{

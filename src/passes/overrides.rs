@@ -1,4 +1,7 @@
 //! Overrides of settings: values that replace those of a scene before it is validated.
+//!
+//! A number that can be overridden is one row of [`CountSetting::ALL`]. From it come the flag of
+//! `rtc render` with its help, the key of `rtc.toml` and what it does to a scene.
 
 use rtc_ir::{Material, Mode, Scene};
 
@@ -21,54 +24,102 @@ pub struct Overrides {
     pub spp: Option<u32>,
 }
 
+/// A number of samples or bounces that replaces that of a scene.
+#[derive(Debug)]
+pub struct CountSetting {
+    /// The flag without `--`, and the key in `rtc.toml`.
+    pub name: &'static str,
+    /// What the flag does, for its help.
+    pub help: &'static str,
+    /// The least value.
+    pub least: u32,
+    /// The value in the overrides.
+    pub of: fn(&mut Overrides) -> &mut Option<u32>,
+    /// Replaces the number of a scene.
+    set: fn(&mut Scene, u32),
+}
+
+impl CountSetting {
+    /// All of them, in the order of the help.
+    pub const ALL: [Self; 6] = [
+        Self {
+            name: "supersampling",
+            help: "Take N × N samples in each pixel",
+            least: 1,
+            of: |overrides| &mut overrides.supersampling,
+            set: |scene, side| scene.settings.supersampling = side,
+        },
+        Self {
+            name: "aperture-samples",
+            help: "Sample N points of the lens for each sample of a pixel",
+            least: 1,
+            of: |overrides| &mut overrides.aperture_samples,
+            set: |scene, points| scene.camera.lens.samples = points,
+        },
+        Self {
+            name: "light-samples",
+            help: "Sample N points of each soft light",
+            least: 1,
+            of: |overrides| &mut overrides.light_samples,
+            set: |scene, points| scene.settings.light_samples = points,
+        },
+        Self {
+            name: "glossy-samples",
+            help: "Trace N rays for each glossy reflection",
+            least: 1,
+            of: |overrides| &mut overrides.glossy_samples,
+            set: |scene, rays| {
+                let lobes = scene.materials.iter_mut().filter_map(Material::phong_mut);
+                let counts = lobes.map(|phong| &mut phong.glossy_samples);
+                counts
+                    .filter(|count| **count > 1)
+                    .for_each(|count| *count = rays);
+            },
+        },
+        Self {
+            name: "spp",
+            help: "Trace N paths in each pixel, in path-traced scenes",
+            least: 1,
+            of: |overrides| &mut overrides.spp,
+            set: |scene, paths| {
+                if let Mode::Path(path) = &mut scene.settings.mode {
+                    path.samples = paths;
+                }
+            },
+        },
+        Self {
+            name: "depth",
+            help: "Follow N bounces after the first hit",
+            least: 0,
+            of: |overrides| &mut overrides.depth,
+            set: |scene, bounces| scene.settings.max_depth = bounces,
+        },
+    ];
+}
+
 impl Overrides {
     /// These overrides, and `others` where these have no value.
     #[must_use]
-    pub fn or(self, others: Self) -> Self {
-        Self {
-            size: self.size.or(others.size),
-            supersampling: self.supersampling.or(others.supersampling),
-            aperture_samples: self.aperture_samples.or(others.aperture_samples),
-            light_samples: self.light_samples.or(others.light_samples),
-            glossy_samples: self.glossy_samples.or(others.glossy_samples),
-            depth: self.depth.or(others.depth),
-            spp: self.spp.or(others.spp),
+    pub fn or(mut self, mut others: Self) -> Self {
+        self.size = self.size.or(others.size);
+        for CountSetting { of, .. } in &CountSetting::ALL {
+            *of(&mut self) = of(&mut self).or(*of(&mut others));
         }
+        self
     }
 
     /// Writes the given values into `scene`.
-    pub fn apply(&self, scene: &mut Scene) {
-        let Self {
-            size,
-            supersampling,
-            aperture_samples,
-            light_samples,
-            glossy_samples,
-            depth,
-            spp,
-        } = *self;
-        if let Some(size) = size {
+    pub fn apply(mut self, scene: &mut Scene) {
+        if let Some(size) = self.size {
             let ratio = f64::from(scene.camera.size[1]) / f64::from(size[1]);
             scene.camera.right = scene.camera.right.map(|component| component * ratio);
             scene.camera.up = scene.camera.up.map(|component| component * ratio);
             scene.camera.size = size;
         }
-        if let Some(samples) = glossy_samples {
-            let lobes = scene
-                .materials
-                .iter_mut()
-                .filter_map(Material::phong_mut)
-                .map(|phong| &mut phong.glossy_samples);
-            lobes
-                .filter(|count| **count > 1)
-                .for_each(|count| *count = samples);
+        for CountSetting { of, set, .. } in &CountSetting::ALL {
+            if let Some(value) = *of(&mut self) {
+                set(scene, value);
+            }
         }
-        if let (Some(spp), Mode::Path(path)) = (spp, &mut scene.settings.mode) {
-            path.samples = spp;
-        }
-        scene.camera.lens.samples = aperture_samples.unwrap_or(scene.camera.lens.samples);
-        scene.settings.light_samples = light_samples.unwrap_or(scene.settings.light_samples);
-        scene.settings.supersampling = supersampling.unwrap_or(scene.settings.supersampling);
-        scene.settings.max_depth = depth.unwrap_or(scene.settings.max_depth);
     }
 }

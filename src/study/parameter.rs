@@ -2,6 +2,7 @@
 
 use super::setting::Setting;
 use rtc_ir::{Light, Material, Mode, Phong, Scene};
+use rtc_passes::CountSetting;
 use rtc_plan::{Arithmetic, Effect, EffectState, EffectStatus, Plan, Rules, loss};
 use rtc_valid::revalidate;
 use schemars::JsonSchema;
@@ -58,6 +59,15 @@ impl Parameter {
             Self::Depth => "depth",
             Self::Precision => "precision",
         }
+    }
+
+    /// The number of the overrides that it is; none for denoising and precision.
+    #[must_use]
+    pub fn count(self) -> Option<&'static CountSetting> {
+        let flag = self.flag();
+        CountSetting::ALL
+            .iter()
+            .find(|count| flag.strip_prefix("--") == Some(count.name))
     }
 
     /// The flag of `rtc render` that sets it.

@@ -119,25 +119,15 @@ impl Setting {
     /// numbers of rays if the setting has the largest of them.
     #[must_use]
     pub fn overrides(&self, scene: &Scene) -> Overrides {
-        let Self {
-            supersampling,
-            aperture,
-            lights,
-            glossy,
-            paths,
-            depth,
-            denoise: _,
-            precision: _,
-        } = *self;
-        Overrides {
-            size: None,
-            supersampling: Some(supersampling),
-            aperture_samples: Some(aperture),
-            light_samples: Some(lights),
-            glossy_samples: Some(glossy).filter(|glossy| lobes(scene).max() != Some(*glossy)),
-            depth: Some(depth),
-            spp: Some(paths),
+        let mut overrides = Overrides::default();
+        for parameter in Parameter::ALL {
+            if let Some(count) = parameter.count() {
+                *(count.of)(&mut overrides) = Some(self.get(parameter));
+            }
         }
+        let largest = lobes(scene).max();
+        overrides.glossy_samples = overrides.glossy_samples.filter(|own| largest != Some(*own));
+        overrides
     }
 
     /// Formats the given parameters: "4×4 with 16 aperture samples, depth 3". The robust arithmetic

@@ -56,6 +56,8 @@ struct PictureWords {
     #[pyo3(item)]
     depth: Option<u32>,
     #[pyo3(item)]
+    settings: BTreeMap<String, String>,
+    #[pyo3(item)]
     target_error: Option<f64>,
     #[pyo3(item)]
     threads: usize,
@@ -129,6 +131,9 @@ impl PictureWords {
         }
         if let Some((azimuth, elevation)) = self.orbit {
             options = options.orbit(azimuth, elevation);
+        }
+        for (name, value) in &self.settings {
+            options = options.set(name, value);
         }
         for name in &self.aovs {
             options = options.layer(aov(name)?);

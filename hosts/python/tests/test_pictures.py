@@ -72,6 +72,14 @@ def test_a_difference_is_that_of_the_command_line(tmp_path, ball):
         rtc.diff(fine, rtc.load(ball).render(size=8))
 
 
+def test_any_setting_can_be_set(ball):
+    scene = rtc.load(ball)
+    fine = scene.render(settings={"supersampling": 4})
+    assert rtc.diff(fine, scene.render(supersampling=4)).max == 0
+    with pytest.raises(rtc.SceneError, match="there is no setting `samples`"):
+        scene.render(settings={"samples": 4})
+
+
 def test_other_threads_of_python_run_meanwhile(ball):
     scene, done, turns = rtc.load(ball), threading.Event(), [0]
 

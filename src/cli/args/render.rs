@@ -52,7 +52,7 @@ pub(crate) struct Render {
         long,
         value_name = "LEVELS",
         value_parser = levels,
-        conflicts_with_all = ["supersampling", "aperture_samples", "spp"],
+        conflicts_with_all = ["supersampling", "aperture-samples", "spp"],
         help_heading = "Sampling",
     )]
     pub(crate) target_error: Option<f64>,
@@ -64,7 +64,7 @@ pub(crate) struct Render {
         long,
         value_name = "SECONDS",
         value_parser = seconds,
-        conflicts_with_all = ["supersampling", "aperture_samples", "spp"],
+        conflicts_with_all = ["supersampling", "aperture-samples", "spp"],
         help_heading = "Sampling",
     )]
     pub(crate) time_budget: Option<Duration>,

@@ -1,8 +1,8 @@
 //! The settings of a picture, for every command that renders: size, samples, and the region.
 
 use super::super::parse::{crop, setting, size};
-use clap::{Args, ValueEnum};
-use rtc_passes::Overrides;
+use clap::{Arg, ArgMatches, Args, Command, Error, FromArgMatches, ValueEnum};
+use rtc_passes::{CountSetting, Overrides};
 use rtc_plan as plan;
 use rtc_render::Crop;
 
@@ -13,49 +13,8 @@ pub(crate) struct WantedArgs {
     /// The picture keeps its height in the scene.
     #[arg(long, value_name = "WxH|N", value_parser = size, help_heading = "Picture")]
     pub(crate) size: Option<[u32; 2]>,
-    /// Take N × N samples in each pixel
-    #[arg(
-        long,
-        value_name = "N",
-        value_parser = clap::value_parser!(u32).range(1..),
-        help_heading = "Sampling",
-    )]
-    pub(crate) supersampling: Option<u32>,
-    /// Sample N points of the lens for each sample of a pixel
-    #[arg(
-        long,
-        value_name = "N",
-        value_parser = clap::value_parser!(u32).range(1..),
-        help_heading = "Sampling",
-    )]
-    pub(crate) aperture_samples: Option<u32>,
-    /// Sample N points of each soft light
-    #[arg(
-        long,
-        value_name = "N",
-        value_parser = clap::value_parser!(u32).range(1..),
-        help_heading = "Sampling",
-    )]
-    pub(crate) light_samples: Option<u32>,
-    /// Trace N rays for each glossy reflection
-    #[arg(
-        long,
-        value_name = "N",
-        value_parser = clap::value_parser!(u32).range(1..),
-        help_heading = "Sampling",
-    )]
-    pub(crate) glossy_samples: Option<u32>,
-    /// Trace N paths in each pixel, in path-traced scenes
-    #[arg(
-        long,
-        value_name = "N",
-        value_parser = clap::value_parser!(u32).range(1..),
-        help_heading = "Sampling",
-    )]
-    pub(crate) spp: Option<u32>,
-    /// Follow N bounces after the first hit
-    #[arg(long, value_name = "N", help_heading = "Sampling")]
-    pub(crate) depth: Option<u32>,
+    #[command(flatten)]
+    pub(crate) counts: CountArgs,
     /// Render only this rectangle, in pixels from the upper left corner
     #[arg(long, value_name = "X,Y,W,H", value_parser = crop, help_heading = "Picture")]
     pub(crate) crop: Option<Crop>,
@@ -80,13 +39,44 @@ impl WantedArgs {
     pub(crate) fn overrides(&self) -> Overrides {
         Overrides {
             size: self.size,
-            supersampling: self.supersampling,
-            aperture_samples: self.aperture_samples,
-            light_samples: self.light_samples,
-            glossy_samples: self.glossy_samples,
-            depth: self.depth,
-            spp: self.spp,
+            ..self.counts.0
         }
+    }
+}
+
+/// The flags of [`CountSetting::ALL`].
+#[derive(Debug)]
+pub(crate) struct CountArgs(Overrides);
+
+impl Args for CountArgs {
+    fn augment_args(command: Command) -> Command {
+        command.args(CountSetting::ALL.map(
+            |CountSetting {
+                 name, help, least, ..
+             }| {
+                let number = clap::value_parser!(u32).range(i64::from(least)..);
+                let flag = Arg::new(name).long(name).value_name("N").help(help);
+                flag.value_parser(number).help_heading("Sampling")
+            },
+        ))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for CountArgs {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
+        let mut counts = Self(Overrides::default());
+        counts.update_from_arg_matches(matches).map(|()| counts)
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
+        for CountSetting { name, of, .. } in &CountSetting::ALL {
+            *of(&mut self.0) = matches.get_one(name).copied();
+        }
+        Ok(())
     }
 }
 

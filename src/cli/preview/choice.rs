@@ -50,15 +50,12 @@ impl Choice {
     /// The requested picture, in these settings.
     pub(super) fn settle(&self, setup: &PictureSetup) -> PictureSetup {
         let of = |parameter| self.values.get(&parameter).copied();
-        let chosen = Overrides {
-            size: None,
-            supersampling: of(Parameter::Supersampling),
-            aperture_samples: of(Parameter::Aperture),
-            light_samples: of(Parameter::Lights),
-            glossy_samples: of(Parameter::Glossy),
-            depth: of(Parameter::Depth),
-            spp: of(Parameter::Paths),
-        };
+        let mut chosen = Overrides::default();
+        for (parameter, value) in &self.values {
+            if let Some(count) = parameter.count() {
+                *(count.of)(&mut chosen) = Some(*value);
+            }
+        }
         PictureSetup {
             overrides: chosen.or(setup.overrides),
             arithmetic: of(Parameter::Precision).map_or(setup.arithmetic, arithmetic),

@@ -5,7 +5,9 @@ use super::trust::Trust;
 use super::{ProjectFault, ProjectSettings};
 use rtc_diag::{Code, DiagnosticLevel, LevelSubject, clip, codes, nearest};
 use rtc_front::UpAxis;
+use rtc_passes::CountSetting;
 use rtc_source::{Limits, Resource};
+use std::iter;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
@@ -13,17 +15,6 @@ use toml::de::{DeString, DeTable, DeValue};
 
 /// The keys at the top.
 const KEYS: [&str; 5] = ["asset-root", "levels", "limits", "render", "up-axis"];
-
-/// The options of `[render]`, as the flags.
-const RENDER_KEYS: [&str; 7] = [
-    "size",
-    "supersampling",
-    "aperture-samples",
-    "light-samples",
-    "glossy-samples",
-    "spp",
-    "depth",
-];
 
 type ProjectKey<'t> = Spanned<DeString<'t>>;
 type Value<'t> = Spanned<DeValue<'t>>;
@@ -174,35 +165,25 @@ impl ProjectReader<'_> {
 
     fn render(&mut self, key: &ProjectKey<'_>, value: &Value<'_>) {
         let name = key.get_ref().as_ref();
-        let number = || {
-            let number = whole(value.get_ref()).and_then(|number| u32::try_from(number).ok());
-            number.filter(|number| *number > 0 || name == "depth")
-        };
         let render = &mut self.settings.render;
-        let slot = match name {
-            "size" => {
-                render.size = written(value.get_ref()).and_then(|text| parse::size(&text).ok());
-                if render.size.is_none() {
-                    let message = "`size` is the width and height of the picture".to_owned();
-                    self.fault(value.span(), message, "write it as `\"640x480\"` or 512");
-                }
-                return;
+        if name == "size" {
+            render.size = written(value.get_ref()).and_then(|text| parse::size(&text).ok());
+            if render.size.is_none() {
+                let message = "`size` is the width and height of the picture".to_owned();
+                self.fault(value.span(), message, "write it as `\"640x480\"` or 512");
             }
-            "supersampling" => &mut render.supersampling,
-            "aperture-samples" => &mut render.aperture_samples,
-            "light-samples" => &mut render.light_samples,
-            "glossy-samples" => &mut render.glossy_samples,
-            "spp" => &mut render.spp,
-            "depth" => &mut render.depth,
-            _ => return self.unknown(key, &RENDER_KEYS),
+            return;
+        }
+        let Some(count) = CountSetting::ALL.iter().find(|count| count.name == name) else {
+            let names = CountSetting::ALL.iter().map(|count| count.name);
+            return self.unknown(key, &iter::once("size").chain(names).collect::<Vec<_>>());
         };
-        *slot = number();
-        if slot.is_none() {
-            self.fault(
-                value.span(),
-                format!("`{name}` is a whole number, at least 1"),
-                "",
-            );
+        let number = whole(value.get_ref()).and_then(|number| u32::try_from(number).ok());
+        let number = number.filter(|number| *number >= count.least);
+        *(count.of)(render) = number;
+        if number.is_none() {
+            let message = format!("`{name}` is a whole number, at least {}", count.least);
+            self.fault(value.span(), message, "");
         }
     }
 

@@ -221,8 +221,8 @@ impl<'s> SceneWriter<'s> {
             supersampling,
             pattern,
             light_samples,
-            toon,
             ambient,
+            ..
         } = settings;
         // Render mode.
         match mode {
@@ -238,15 +238,6 @@ impl<'s> SceneWriter<'s> {
                 }
             }
         }
-        if *toon {
-            self.line(0, "Toon: true");
-        }
-        match ambient {
-            Ambient::Once => self.line(0, "Ambient: once"),
-            // Written explicitly, because a JSON version of the text would have another default.
-            Ambient::PerLight if *mode == Mode::Phong => self.line(0, "Ambient: perLight"),
-            Ambient::PerLight => {}
-        }
         // Shadows and recursion.
         self.line(0, &format!("Shadows: {shadows}"));
         self.line(0, &format!("MaxRecursionDepth: {max_depth}"));
@@ -259,13 +250,33 @@ impl<'s> SceneWriter<'s> {
             Pattern::Jitter => self.line(2, "pattern: jitter"),
             Pattern::Random => self.line(2, "pattern: random"),
         }
-        if *light_samples != 1
-            || lights
-                .iter()
-                .filter_map(Light::point)
-                .any(|light| light.radius > 0.0)
-        {
-            self.line(0, &format!("LightSamples: {light_samples}"));
+        let points = || lights.iter().filter_map(Light::point);
+        if *light_samples == 1 && points().any(|light| light.radius > 0.0) {
+            self.line(0, "LightSamples: 1");
+        }
+        // Written explicitly, because a JSON version of the text would have another default.
+        if *ambient == Ambient::PerLight && *mode == Mode::Phong {
+            self.line(0, "Ambient: perLight");
+        }
+        self.other_settings(settings);
+    }
+
+    /// Writes all other settings that have not their defaults, by their names in the IR.
+    fn other_settings(&mut self, settings: &Settings) {
+        const WRITTEN: [&str; 5] = ["mode", "shadows", "maxDepth", "supersampling", "pattern"];
+        let fields = serde_json::to_value(settings);
+        let Ok(serde_json::Value::Object(fields)) = fields else {
+            self.finite = false;
+            return;
+        };
+        for (name, value) in fields {
+            if !WRITTEN.contains(&name.as_str()) {
+                let (first, rest) = name.split_at(1);
+                let value = value
+                    .as_str()
+                    .map_or_else(|| value.to_string(), str::to_owned);
+                self.line(0, &format!("{}{rest}: {value}", first.to_ascii_uppercase()));
+            }
         }
     }
 

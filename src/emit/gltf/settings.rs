@@ -2,10 +2,7 @@
 
 use super::writer::{GltfWriter, extras, number};
 use rtc_color::Tone;
-use rtc_ir::{
-    Ambient, Display, EntityKind, Environment, Field, Gooch, Mode, PathSettings, Pattern, Pixels,
-    Settings, ValuePath,
-};
+use rtc_ir::{Display, EntityKind, Environment, Field, Pixels, Settings, ValuePath};
 use serde_json::{Map as Block, Value, json};
 
 impl GltfWriter<'_> {
@@ -13,7 +10,7 @@ impl GltfWriter<'_> {
     /// environment.
     pub(super) fn settings(&mut self) {
         let mut rtc_extras = Block::new();
-        if self.scene.settings != of_gltf() {
+        if self.scene.settings != Settings::paths() {
             let path = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
             self.reporter.in_extras("how the picture is made", path);
             rtc_extras = settings(&self.scene.settings);
@@ -62,71 +59,16 @@ impl GltfWriter<'_> {
     }
 }
 
-/// The default settings for a glTF asset.
-fn of_gltf() -> Settings {
-    Settings {
-        mode: Mode::Path(PathSettings::default()),
-        shadows: true,
-        max_depth: PathSettings::DEPTH,
-        supersampling: 1,
-        pattern: Pattern::Grid,
-        light_samples: 1,
-        toon: false,
-        ambient: Ambient::PerLight,
-    }
-}
-
+/// The fields of the text form; the mode is its word, with its parameters apart.
 fn settings(settings: &Settings) -> Block<String, Value> {
-    let Settings {
-        mode,
-        shadows,
-        max_depth,
-        supersampling,
-        pattern,
-        light_samples,
-        toon,
-        ambient,
-    } = settings;
-    let (mode, parameters) = match mode {
-        Mode::Phong => ("phong", None),
-        Mode::Depth => ("zbuffer", None),
-        Mode::Normal => ("normal", None),
-        Mode::Gooch(Gooch { b, y, alpha, beta }) => {
-            let rtc_extras = json!({ "b": b, "y": y, "alpha": alpha, "beta": beta });
-            ("gooch", Some(rtc_extras))
+    let Ok(Value::Object(mut fields)) = serde_json::to_value(settings) else {
+        return Block::new();
+    };
+    if let Some(Value::Object(mode)) = fields.get("mode").cloned() {
+        for (word, parameters) in mode {
+            fields.insert("mode".to_owned(), word.as_str().into());
+            fields.insert(word, parameters);
         }
-        Mode::Path(PathSettings {
-            samples,
-            multiple_scattering,
-        }) => {
-            let rtc_extras =
-                json!({ "samples": samples, "multipleScattering": multiple_scattering });
-            ("path", Some(rtc_extras))
-        }
-    };
-    let pattern = match pattern {
-        Pattern::Grid => "grid",
-        Pattern::Jitter => "jitter",
-        Pattern::Random => "random",
-    };
-    let ambient = match ambient {
-        Ambient::PerLight => "perLight",
-        Ambient::Once => "once",
-    };
-    let pairs = [
-        ("mode", mode.into()),
-        ("shadows", (*shadows).into()),
-        ("maxDepth", (*max_depth).into()),
-        ("supersampling", (*supersampling).into()),
-        ("pattern", pattern.into()),
-        ("lightSamples", (*light_samples).into()),
-        ("toon", (*toon).into()),
-        ("ambient", ambient.into()),
-    ];
-    let pairs = pairs
-        .into_iter()
-        .map(|(key, value)| (key.to_owned(), value));
-    pairs
-        .chain(parameters.map(|rtc_extras| (mode.to_owned(), rtc_extras)))
-        .collect()
+    }
+    fields
 }

@@ -124,6 +124,7 @@ class Scene:
         *,
         supersampling: int | None = None,
         depth: int | None = None,
+        settings: Mapping[str, Any] | None = None,
         target_error: float | None = None,
         aovs: Sequence[str] = (),
         format: str = "png",
@@ -137,7 +138,8 @@ class Scene:
         """Renders its picture; what is not said is as the scene says, or as `rtc render` does.
 
         `size` is width and height, one number being both; `spp` are paths a pixel of scenes whose paths are
-        traced, `supersampling` sub-samples along each side of a pixel of others. With `target_error`, in grey
+        traced, `supersampling` sub-samples along each side of a pixel of others; `settings` sets any setting of
+        the IR by its name, as `{"lightSamples": 4}`. With `target_error`, in grey
         levels of 8 bits, samples are taken until the picture is that good. `aovs` are layers: albedo, normal,
         depth, uv, instance, position. `format` is png or png16 (values as displayed), exr or exr16 (linear).
         Ctrl-C ends it with KeyboardInterrupt; other threads of Python run meanwhile.
@@ -149,6 +151,7 @@ class Scene:
             "spp": spp,
             "supersampling": supersampling,
             "depth": depth,
+            "settings": {name: json.dumps(value) for name, value in (settings or {}).items()},
             "target_error": target_error,
             "threads": threads,
             "max_rays": max_rays,

@@ -37,9 +37,7 @@ use glam::DAffine3;
 use material::Materials;
 use mesh::Meshes;
 use rtc_diag::codes;
-use rtc_ir::{
-    self as ir, EntityKind, Field, Lowered, MaterialId, Mode, Scene, SourceSpans, ValuePath,
-};
+use rtc_ir::{self as ir, EntityKind, Field, Lowered, MaterialId, Scene, SourceSpans, ValuePath};
 use rtc_math::Vec3;
 use rtc_source::Resource;
 use rtc_source::tree::NodeId;
@@ -47,10 +45,6 @@ use shape::Deformations;
 use std::collections::BTreeMap;
 use stroke::{StrokeMeshes, is_stroked};
 use transform::InstanceTransforms;
-
-/// Bounces of a path, paths a pixel.
-const DEPTH: u32 = 16;
-const SAMPLES: u32 = 64;
 
 /// The bytes of a surface besides its name: in the scene, in the validated scene, and in the
 /// transforms of its instances.
@@ -114,20 +108,7 @@ pub(crate) fn empty() -> Scene {
         center: Vec3::ZERO,
         radius: 1.0,
     });
-    let settings = ir::Settings {
-        mode: Mode::Path(ir::PathSettings {
-            samples: SAMPLES,
-            multiple_scattering: true,
-        }),
-        shadows: true,
-        max_depth: DEPTH,
-        supersampling: 1,
-        pattern: ir::Pattern::Grid,
-        light_samples: 1,
-        toon: false,
-        ambient: ir::Ambient::PerLight,
-    };
-    Scene::new(camera, settings)
+    Scene::new(camera, ir::Settings::paths())
 }
 
 /// The index of the variant of this name.

@@ -7,10 +7,11 @@ use super::Lowering;
 use rtc_color::Tone;
 use rtc_diag::codes;
 use rtc_ir::{
-    Ambient, Display, EntityKind, Environment, Field, Gooch, Image, ImageId, Mode, PathSettings,
-    Pattern, Pixels, Settings, ValuePath,
+    Display, EntityKind, Environment, Field, Gooch, Image, ImageId, Mode, PathSettings, Pixels,
+    Settings, ValuePath,
 };
 use rtc_source::Resource;
+use serde_json::Value as Json;
 
 impl Lowering<'_, '_, '_> {
     /// Adopts the settings and the environment of the asset.
@@ -117,37 +118,20 @@ impl Lowering<'_, '_, '_> {
     }
 }
 
-/// Changes the settings that are named.
+/// Changes the settings that are named. The schema has reported wrong values.
 fn read(extras: Fields<'_, '_>, settings: &mut Settings) {
-    let Settings {
-        mode,
-        shadows,
-        max_depth,
-        supersampling,
-        pattern,
-        light_samples,
-        toon,
-        ambient,
-    } = settings;
-    if let Some(chosen) = extras.text("mode").and_then(|word| mode_of(&word, extras)) {
-        *mode = chosen;
+    if let Some(mode) = extras.text("mode").and_then(|word| mode_of(&word, extras)) {
+        settings.mode = mode;
     }
-    if extras.has("shadows") {
-        *shadows = extras.boolean("shadows");
+    for name in Settings::names().iter().filter(|name| *name != "mode") {
+        let written = extras.node(name).map(|at| extras.json.written(at));
+        if let Some(value) = written.and_then(|text| serde_json::from_str::<Json>(text).ok())
+            && let Ok(mut all) = serde_json::to_value(&*settings)
+        {
+            all[name] = value;
+            *settings = serde_json::from_value(all).unwrap_or_else(|_| settings.clone());
+        }
     }
-    *max_depth = extras.count_or("maxDepth", *max_depth);
-    *supersampling = extras.count_or("supersampling", *supersampling);
-    *light_samples = extras.count_or("lightSamples", *light_samples);
-    *toon = extras.boolean("toon");
-    *ambient = match extras.text("ambient").as_deref() {
-        Some("once") => Ambient::Once,
-        _ => Ambient::PerLight,
-    };
-    *pattern = match extras.text("pattern").as_deref() {
-        Some("jitter") => Pattern::Jitter,
-        Some("random") => Pattern::Random,
-        _ => Pattern::Grid,
-    };
 }
 
 fn mode_of(word: &str, extras: Fields<'_, '_>) -> Option<Mode> {

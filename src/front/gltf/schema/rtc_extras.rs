@@ -2,20 +2,21 @@
 
 use super::Value::{Boolean, Index, Integer, Keyword, Number, Numbers, One, Text};
 use super::{FACTOR, FREE, IndexTarget, Key, Object, POSITIVE, optional, required};
+use rtc_ir::Settings;
+use serde_json::Value as Json;
+use std::sync::LazyLock;
 
 /// The object that `extras.rtc` of a kind of object is, if it is read there.
 pub(super) fn find(owner: &str) -> Option<&'static Object> {
-    let found = PLACES.iter().find(|(place, _)| *place == owner);
-    found.map(|(_, object)| *object)
+    match owner {
+        "asset" => Some(&SETTINGS),
+        "camera" => Some(&CAMERA),
+        "light" => Some(&LIGHT),
+        "material" => Some(&MATERIAL),
+        "node" => Some(&NODE),
+        _ => None,
+    }
 }
-
-static PLACES: &[(&str, &Object)] = &[
-    ("asset", &SETTINGS),
-    ("camera", &CAMERA),
-    ("light", &LIGHT),
-    ("material", &MATERIAL),
-    ("node", &NODE),
-];
 
 /// The greatest count.
 const MANY: u64 = u32::MAX as u64;
@@ -28,24 +29,56 @@ const fn rtc_object(keys: &'static [Key]) -> Object {
     }
 }
 
-/// The settings of the picture, and the environment.
-static SETTINGS: Object = rtc_object(&[
-    optional(
-        "mode",
-        Keyword(&["phong", "zbuffer", "normal", "gooch", "path"]),
-    ),
-    optional("shadows", Boolean),
-    optional("maxDepth", Integer(0, MANY)),
-    optional("supersampling", Integer(1, MANY)),
-    optional("pattern", Keyword(&["grid", "jitter", "random"])),
-    optional("lightSamples", Integer(1, MANY)),
-    optional("toon", Boolean),
-    optional("ambient", Keyword(&["perLight", "once"])),
-    optional("gooch", One(&GOOCH)),
-    optional("path", One(&PATH)),
-    optional("display", One(&DISPLAY)),
-    optional("environment", One(&ENVIRONMENT)),
-]);
+/// The settings of the picture, by their names in the IR, and the environment; the mode is a word,
+/// with its parameters apart.
+static SETTINGS: LazyLock<Object> = LazyLock::new(|| {
+    let schema = Json::from(Settings::schema());
+    let fields = schema["properties"].as_object().into_iter().flatten();
+    let settings = fields.map(|(name, field)| {
+        let definition = field["$ref"]
+            .as_str()
+            .and_then(|path| schema.pointer(path.trim_start_matches('#')));
+        optional(name.clone().leak(), value_of(definition.unwrap_or(field)))
+    });
+    let parts = [
+        optional("gooch", One(&GOOCH)),
+        optional("path", One(&PATH)),
+        optional("display", One(&DISPLAY)),
+        optional("environment", One(&ENVIRONMENT)),
+    ];
+    rtc_object(settings.chain(parts).collect::<Vec<_>>().leak())
+});
+
+/// What a setting takes, by its schema.
+fn value_of(schema: &Json) -> super::Value {
+    let bound = |key: &str, unbound| schema[key].as_f64().unwrap_or(unbound);
+    match schema["type"]
+        .as_str()
+        .or_else(|| schema["type"][0].as_str())
+    {
+        Some("boolean") => Boolean,
+        Some("integer") => Integer(schema["minimum"].as_u64().unwrap_or(0), MANY),
+        Some("number") => Number(super::Bounds {
+            min: bound("minimum", f64::NEG_INFINITY),
+            max: bound("maximum", f64::INFINITY),
+            above: false,
+        }),
+        Some("array") => Numbers(&[3], FACTOR),
+        _ => {
+            // Variants: a word, or an object of parameters under one.
+            let variants = schema["oneOf"].as_array().into_iter().flatten();
+            let words = variants.filter_map(|variant| {
+                let parameters = || variant["properties"].as_object()?.keys().next();
+                let word = variant["const"].as_str();
+                word.or_else(|| parameters().map(String::as_str))
+                    .map(str::to_owned)
+            });
+            let words = words.map(|word| &*word.leak());
+            Keyword(words.collect::<Vec<_>>().leak())
+        }
+    }
+}
+
 static GOOCH: Object = rtc_object(&[
     required("b", Number(FREE)),
     required("y", Number(FREE)),
