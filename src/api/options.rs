@@ -154,10 +154,7 @@ impl Format {
     /// The extension of its file name.
     #[must_use]
     pub fn extension(self) -> &'static str {
-        match self {
-            Self::Png | Self::Png16 => "png",
-            Self::Exr | Self::ExrHalf => "exr",
-        }
+        self.kind().traits().extensions[0]
     }
 }
 

@@ -109,12 +109,13 @@ impl Picture {
     #[must_use]
     pub fn rgba8(&self) -> Vec<u8> {
         let alpha = |index: usize| self.alpha().map_or(1.0, |alpha| f64::from(alpha[index]));
-        let shown = |index: usize, pixel: [f64; 3]| match self.format {
-            Format::Png | Format::Png16 => pixel,
-            Format::Exr | Format::ExrHalf if alpha(index) > 0.0 => {
+        let is_linear = self.format.kind().is_linear();
+        let shown = |index: usize, pixel: [f64; 3]| match is_linear {
+            false => pixel,
+            true if alpha(index) > 0.0 => {
                 Tone::Srgb.display(pixel.map(|value| value / alpha(index)))
             }
-            Format::Exr | Format::ExrHalf => [0.0; 3],
+            true => [0.0; 3],
         };
         let pixels = self.pixels().iter().enumerate();
         let bytes = pixels.flat_map(|(index, pixel)| {

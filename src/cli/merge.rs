@@ -126,10 +126,11 @@ fn message_of(path: &Path, error: &dyn fmt::Display) -> String {
 /// Rejects a picture format other than that of the parts.
 fn refuse_other_kind(args: &Merge, merged: &RenderShard) -> Result<(), Failure> {
     let requested = kind(&args.output, None)?;
-    let ((is, own), (_, other)) = (merged.look().kind.names(), requested.names());
-    if own == other {
+    let (own, requested) = (merged.look().kind.traits(), requested.traits());
+    if own.extensions == requested.extensions {
         return Ok(());
     }
+    let (is, other) = (own.name, requested.extensions[0]);
     Err(Failure::Input(format!(
         "the parts are of {is}; those of another picture are rendered with `--picture NAME.{other}`"
     )))

@@ -120,22 +120,86 @@ pub enum FileFormat {
     ExrHalf,
 }
 
+/// The properties of a file format.
+#[derive(Clone, Copy, Debug)]
+pub struct FormatTraits {
+    /// Its name.
+    pub name: &'static str,
+    /// The extensions of its files, the usual one first.
+    pub extensions: &'static [&'static str],
+    /// The bits of a channel of a colour.
+    pub bits: u32,
+    /// Whether it has linear values of any size; otherwise display values.
+    pub is_linear: bool,
+    /// Whether it has an alpha channel.
+    pub has_alpha: bool,
+    /// Whether it has metadata about its origin.
+    pub has_metadata: bool,
+    /// Whether it has layers, or files of this format beside it have them.
+    pub has_layers: bool,
+    /// Whether it is compressed as a whole, so that its strips are kept until the last.
+    pub is_whole: bool,
+}
+
 impl FileFormat {
-    /// Its name, and the extension of its files.
+    /// All formats. Of those with the same extension the first is the usual one.
+    pub const ALL: [Self; 6] = [
+        Self::Png8,
+        Self::Png16,
+        Self::Jpeg,
+        Self::Webp,
+        Self::Exr,
+        Self::ExrHalf,
+    ];
+
+    /// Its properties.
     #[must_use]
-    pub fn names(self) -> (&'static str, &'static str) {
+    pub const fn traits(self) -> FormatTraits {
+        const PNG: FormatTraits = FormatTraits {
+            name: "PNG",
+            extensions: &["png"],
+            bits: 8,
+            is_linear: false,
+            has_alpha: true,
+            has_metadata: true,
+            has_layers: true,
+            is_whole: false,
+        };
+        const EXR: FormatTraits = FormatTraits {
+            name: "EXR",
+            extensions: &["exr"],
+            bits: 32,
+            is_linear: true,
+            ..PNG
+        };
         match self {
-            Self::Png8 | Self::Png16 => ("PNG", "png"),
-            Self::Jpeg => ("JPEG", "jpg"),
-            Self::Webp => ("WebP", "webp"),
-            Self::Exr | Self::ExrHalf => ("EXR", "exr"),
+            Self::Png8 => PNG,
+            Self::Png16 => FormatTraits { bits: 16, ..PNG },
+            Self::Jpeg => FormatTraits {
+                name: "JPEG",
+                extensions: &["jpg", "jpeg"],
+                has_alpha: false,
+                has_metadata: false,
+                has_layers: false,
+                is_whole: true,
+                ..PNG
+            },
+            Self::Webp => FormatTraits {
+                name: "WebP",
+                extensions: &["webp"],
+                has_layers: false,
+                is_whole: true,
+                ..PNG
+            },
+            Self::Exr => EXR,
+            Self::ExrHalf => FormatTraits { bits: 16, ..EXR },
         }
     }
 
     /// Whether it has linear values of any size; otherwise display values.
     #[must_use]
     pub fn is_linear(self) -> bool {
-        matches!(self, Self::Exr | Self::ExrHalf)
+        self.traits().is_linear
     }
 }
 

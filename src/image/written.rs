@@ -105,10 +105,13 @@ impl WrittenPicture {
 /// order of its bytes, of an EXR its channels by name, little-endian.
 #[must_use]
 pub fn samples(picture: &Picture, form: FileFormat) -> Vec<u8> {
-    let depth = match form {
-        FileFormat::Exr | FileFormat::ExrHalf => return exr::samples(picture, form),
-        FileFormat::Png16 => BitDepth::Sixteen,
-        FileFormat::Png8 | FileFormat::Jpeg | FileFormat::Webp => BitDepth::Eight,
+    let traits = form.traits();
+    if traits.is_linear {
+        return exr::samples(picture, form);
+    }
+    let depth = match traits.bits {
+        16 => BitDepth::Sixteen,
+        _ => BitDepth::Eight,
     };
     let (mut all, mut bytes) = (Vec::new(), Vec::new());
     for row in 0..picture.image.height as usize {

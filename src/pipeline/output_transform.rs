@@ -4,8 +4,8 @@ use super::picture_diagnostics;
 use rtc_color::Tone;
 use rtc_diag::Diagnostic;
 use rtc_image::{
-    self as image, Association, BackgroundFill, EncodeError, FileFormat, Image, Layers, Origin,
-    Picture, PictureHead, RangeClipping,
+    self as image, Association, BackgroundFill, EncodeError, FileFormat, FormatTraits, Image,
+    Layers, Origin, Picture, PictureHead, RangeClipping,
 };
 use rtc_ir::Display;
 use rtc_plan::Arithmetic;
@@ -60,8 +60,8 @@ impl OutputTransform {
         if is_linear && requested == Some(Exposure::Auto) {
             return Err("`--exposure auto` is for PNG; an EXR holds linear values");
         }
-        if kind == FileFormat::Jpeg && background == BackgroundFill::Transparent {
-            return Err("a JPEG has no opacity; name the picture .png or .webp");
+        if !kind.traits().has_alpha && background == BackgroundFill::Transparent {
+            return Err("this form of file has no opacity; name the picture .png, .webp or .exr");
         }
         // Drop duplicate layers.
         let mut aovs: Vec<Aov> = Vec::new();
@@ -209,10 +209,12 @@ impl OutputTransform {
     /// The maximum number of bytes per pixel while encoding: as numbers, packed, and in the growing
     /// file.
     pub fn memory(&self) -> usize {
-        let channel = match self.kind {
-            FileFormat::Png8 | FileFormat::Jpeg | FileFormat::Webp => 1,
-            FileFormat::Png16 => 2,
-            FileFormat::Exr | FileFormat::ExrHalf => 4,
+        let channel = match self.kind.traits() {
+            // Layers have 32 bits.
+            FormatTraits {
+                is_linear: true, ..
+            } => 4,
+            FormatTraits { bits, .. } => bits as usize / 8,
         };
         let layers: usize = self.aovs.iter().map(|aov| aov.channels().len()).sum();
         4 * channel * (4 + layers)
@@ -354,9 +356,9 @@ impl ResolvedOutputTransform {
         }
     }
 
-    /// Whether the file stores the hashes of its film tiles; a JPEG has no metadata.
+    /// Whether the file stores the hashes of its film tiles.
     fn has_tiles(&self) -> bool {
-        self.has_metadata && self.kind != FileFormat::Jpeg
+        self.has_metadata && self.kind.traits().has_metadata
     }
 
     /// Whether the file contains metadata about its origin.

@@ -3,7 +3,7 @@
 
 use super::output_transform::{Losses, ResolvedOutputTransform};
 use super::{Input, Observer, PictureSetup, RayCounter, RenderError, RenderSubject};
-use rtc_image::{BLOCK_ROWS, FileFormat, Picture, StripSource};
+use rtc_image::{BLOCK_ROWS, Picture, StripSource};
 use rtc_render::{Counts, Crop, Film, Job};
 use rtc_study::Goal;
 use rtc_valid::Mode;
@@ -62,7 +62,7 @@ impl PictureSetup {
     /// If it must be known as a whole.
     pub fn check_strips(&self, subject: &RenderSubject) -> Result<(), RenderError> {
         let is_distances = matches!(subject.validated.scene.settings().mode, Mode::Depth);
-        let is_whole = matches!(self.look.kind, FileFormat::Jpeg | FileFormat::Webp);
+        let is_whole = self.look.kind.traits().is_whole;
         let reasons = [
             (is_whole, WHOLE),
             (self.goal != Goal::default(), GOAL),

@@ -29,11 +29,11 @@ fn what_a_form_does_not_hold_is_refused() {
     let cases = [
         (
             &["-o", "a.jpg", "--background", "transparent"][..],
-            "a JPEG has no opacity",
+            "has no opacity",
         ),
         (
             &["-o", "a.webp", "--bits", "16"],
-            "`--bits` is for PNG and EXR",
+            "the channels of WebP files have 8 bits, not 16",
         ),
         (&["-o", "a.jpg", "--aov", "depth"], "layers need a PNG"),
         (&["-o", "a.webp", "--strips"], "compressed as a whole"),

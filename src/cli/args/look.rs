@@ -96,6 +96,17 @@ pub(crate) enum BitDepth {
     ThirtyTwo,
 }
 
+impl BitDepth {
+    /// As a number.
+    pub(crate) fn bits(self) -> u32 {
+        match self {
+            Self::Eight => 8,
+            Self::Sixteen => 16,
+            Self::ThirtyTwo => 32,
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Layer {
     /// Channels albedo.R, .G, .B: base colours, linear

@@ -25,7 +25,7 @@ impl LayerFiles {
             return Ok(Self(Vec::new()));
         }
         let open = |aov: &Aov| {
-            let (_, extension) = look.kind.names();
+            let extension = look.kind.traits().extensions[0];
             let path = path.with_extension(format!("{}.{extension}", aov.name()));
             Ok((*aov, Output::open(&path, input)?))
         };

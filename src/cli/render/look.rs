@@ -17,7 +17,7 @@ pub(super) fn look(args: &OutputTransformArgs, output: &Path) -> Result<OutputTr
     let tone = args.tonemap.map(Tone::from);
     let look = OutputTransform::new(kind, tone, args.exposure, args.background.fill(kind), &aovs);
     let mut look = look.map_err(refused)?;
-    if matches!(kind, FileFormat::Jpeg | FileFormat::Webp) && !aovs.is_empty() {
+    if !kind.traits().has_layers && !aovs.is_empty() {
         return Err(refused(
             "layers need a PNG, with files beside it, or an EXR",
         ));
@@ -43,28 +43,33 @@ pub(crate) fn kind(output: &Path, bits: Option<BitDepth>) -> Result<FileFormat, 
     let extension = output
         .extension()
         .map(|extension| extension.to_string_lossy().to_lowercase());
-    let is_stdout = is_stdout(output);
-    match (extension.as_deref(), bits) {
-        (Some("exr"), Some(BitDepth::ThirtyTwo) | None) => Ok(FileFormat::Exr),
-        (Some("exr"), Some(BitDepth::Sixteen)) => Ok(FileFormat::ExrHalf),
-        (Some("exr"), Some(BitDepth::Eight)) => Err(Failure::Trouble(
-            "an EXR holds floats of 16 or 32 bits; leave out `--bits 8`".to_owned(),
-        )),
-        (Some("png"), Some(BitDepth::ThirtyTwo)) => Err(Failure::Trouble(
-            "a PNG has 8 or 16 bits a channel; name the picture .exr".to_owned(),
-        )),
-        (Some("png"), Some(BitDepth::Sixteen)) => Ok(FileFormat::Png16),
-        (Some("png"), Some(BitDepth::Eight) | None) => Ok(FileFormat::Png8),
-        (Some("jpg" | "jpeg"), None) => Ok(FileFormat::Jpeg),
-        (Some("webp"), None) => Ok(FileFormat::Webp),
-        (Some("jpg" | "jpeg" | "webp"), Some(_)) => Err(Failure::Trouble(
-            "`--bits` is for PNG and EXR; a JPEG or WebP has 8".to_owned(),
-        )),
-        (None, Some(BitDepth::Sixteen)) if is_stdout => Ok(FileFormat::Png16),
-        (None, Some(BitDepth::Eight) | None) if is_stdout => Ok(FileFormat::Png8),
-        _ => Err(Failure::Trouble(format!(
-            "unknown picture format `{}`; use .png, .jpg, .webp or .exr",
-            output.display()
-        ))),
-    }
+    let extension = extension.or_else(|| is_stdout(output).then(|| "png".to_owned()));
+    let has_name = |form: &FileFormat| {
+        let names = form.traits().extensions;
+        extension.as_deref().is_some_and(|own| names.contains(&own))
+    };
+    let forms = || FileFormat::ALL.into_iter().filter(has_name);
+    let Some(usual) = forms().next() else {
+        let mut names = FileFormat::ALL
+            .map(|form| form.traits().extensions[0])
+            .to_vec();
+        names.dedup();
+        let last = names.pop().unwrap_or_default();
+        return Err(Failure::Trouble(format!(
+            "unknown picture format `{}`; use .{} or .{last}",
+            output.display(),
+            names.join(", .")
+        )));
+    };
+    let wanted = bits.map_or(usual.traits().bits, BitDepth::bits);
+    forms()
+        .find(|form| form.traits().bits == wanted)
+        .ok_or_else(|| {
+            let known: Vec<_> = forms().map(|form| form.traits().bits.to_string()).collect();
+            let name = usual.traits().name;
+            let known = known.join(" or ");
+            Failure::Trouble(format!(
+                "the channels of {name} files have {known} bits, not {wanted}"
+            ))
+        })
 }
