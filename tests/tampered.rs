@@ -293,7 +293,9 @@ fn flipped(value: f64, form: FileFormat, random: &mut impl FnMut(u64) -> u64) ->
     match form {
         FileFormat::Png8 | FileFormat::Webp | FileFormat::Jpeg => whole(255.0, random(8)),
         FileFormat::Png16 => whole(65_535.0, random(16)),
-        FileFormat::Exr => f64::from(f32::from_bits((value as f32).to_bits() ^ 1 << random(22))),
+        FileFormat::Exr | FileFormat::Hdr => {
+            f64::from(f32::from_bits((value as f32).to_bits() ^ 1 << random(22)))
+        }
         // One of the ten bits of its fraction, if it is not among the smallest.
         FileFormat::ExrHalf => {
             let bits = (value.max(0.001) as f32).to_bits();

@@ -139,6 +139,8 @@ pub enum Format {
     Exr,
     /// Linear values, for an EXR of 16-bit floats; depth and position layers keep 32 bits.
     ExrHalf,
+    /// Linear values of at least 0, for a Radiance HDR: mantissas of 8 bits that share an exponent.
+    Hdr,
 }
 
 impl Format {
@@ -148,6 +150,7 @@ impl Format {
             Self::Png16 => FileFormat::Png16,
             Self::Exr => FileFormat::Exr,
             Self::ExrHalf => FileFormat::ExrHalf,
+            Self::Hdr => FileFormat::Hdr,
         }
     }
 

@@ -3,7 +3,7 @@
 
 use super::compressed::{self, CompressedForm};
 use super::{
-    EncodeError, FileFormat, Image, Layers, MerkleTree, Origin, Picture, TileHash, exr, png,
+    EncodeError, FileFormat, Image, Layers, MerkleTree, Origin, Picture, TileHash, exr, png, rgbe,
 };
 use ::png::BitDepth;
 use std::borrow::Cow;
@@ -106,6 +106,7 @@ impl PictureHead {
             FileFormat::Jpeg => compressed::write(self, CompressedForm::Jpeg, out, &mut strips),
             FileFormat::Webp => compressed::write(self, CompressedForm::Webp, out, &mut strips),
             FileFormat::Exr | FileFormat::ExrHalf => exr::write(self, out, &mut strips),
+            FileFormat::Hdr => rgbe::write(self, out, &mut strips),
         }
     }
 

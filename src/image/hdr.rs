@@ -7,7 +7,7 @@ use super::decode::{DecodeError, ImageSize};
 const FORMAT: &[u8] = b"32-bit_rle_rgbe";
 
 /// Red, green, blue, and the exponent that they share.
-type Rgbe = [u8; 4];
+pub(super) type Rgbe = [u8; 4];
 
 /// A file whose header was read.
 pub(super) struct Hdr<'a> {

@@ -10,8 +10,8 @@
 //! # Writing
 //!
 //! [`DisplayTransform`] turns a film of linear values into a [`Picture`]: exposure, tone map,
-//! background. [`Picture::encode`] writes PNG (8 or 16 bits), JPEG, lossless WebP, or OpenEXR (16
-//! or 32 bits). [`StripSource`] and `file` write the same bytes strip by strip, so a large picture
+//! background. [`Picture::encode`] writes PNG (8 or 16 bits), JPEG, lossless WebP, OpenEXR (16
+//! or 32 bits), or Radiance HDR. [`StripSource`] and `file` write the same bytes strip by strip, so a large picture
 //! need not be in memory. [`AnimatedPng`] and `AnimatedGif` write animations. The same picture
 //! gives the same bytes on each platform. [`RangeClipping`] counts the values that a format can't
 //! hold. A [`MerkleTree`] commits a file to the film that it shows; [`WrittenPicture`] reads a file
@@ -38,6 +38,7 @@ mod merkle;
 mod png;
 mod radiance;
 mod range;
+mod rgbe;
 #[cfg(feature = "cli")]
 mod sheet;
 mod shown;
@@ -118,6 +119,8 @@ pub enum FileFormat {
     /// EXR with 16-bit floats for colours, opacity, albedo, normals and texture coordinates, and
     /// 32-bit floats for distances, positions and numbers of surfaces; clamped alike.
     ExrHalf,
+    /// Radiance HDR: three mantissas of 8 bits that share an exponent, opaque, at least 0.
+    Hdr,
 }
 
 /// The properties of a file format.
@@ -143,13 +146,14 @@ pub struct FormatTraits {
 
 impl FileFormat {
     /// All formats. Of those with the same extension the first is the usual one.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Png8,
         Self::Png16,
         Self::Jpeg,
         Self::Webp,
         Self::Exr,
         Self::ExrHalf,
+        Self::Hdr,
     ];
 
     /// Its properties.
@@ -193,6 +197,14 @@ impl FileFormat {
             },
             Self::Exr => EXR,
             Self::ExrHalf => FormatTraits { bits: 16, ..EXR },
+            Self::Hdr => FormatTraits {
+                name: "Radiance HDR",
+                extensions: &["hdr"],
+                has_alpha: false,
+                has_metadata: false,
+                has_layers: false,
+                ..EXR
+            },
         }
     }
 

@@ -260,7 +260,7 @@ fn the_folder_appears_whole_or_not_at_all() {
     };
     refused(&["bad.json"], 1, "radius");
     refused(&["none.json"], 2, "none.json");
-    refused(&["ball.json", "--picture", "a.gif"], 2, ".webp or .exr");
+    refused(&["ball.json", "--picture", "a.gif"], 2, ".exr or .hdr");
     refused(&["ball.json", "--picture", "b/a.png"], 2, "letters, digits");
     refused(
         &["ball.json", "--picture", "$(a).png"],

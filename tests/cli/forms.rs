@@ -24,11 +24,38 @@ fn a_webp_holds_the_pixels_of_the_png_and_a_jpeg_nearly() {
 }
 
 #[test]
+fn a_radiance_hdr_holds_the_values_of_the_film() {
+    let folder = folder();
+    let made = |args: &[&str]| {
+        let fixed = ["render", "ball.json", "-q", "--exposure", "-1", "-o"];
+        let output = rtc(&folder, &[&fixed, args].concat());
+        assert_eq!(code(&output), 0, "{args:?}: {}", stderr(&output));
+        image::open(folder.path().join(args[0]))
+            .unwrap()
+            .to_rgb32f()
+    };
+    let (png, hdr) = (made(&["a.png", "--bits", "16"]), made(&["a.hdr"]));
+    for (exact, read) in png.pixels().zip(hdr.pixels()) {
+        let largest = exact.0.into_iter().fold(0.001, f32::max);
+        let is_near = |(a, b): (f32, f32)| (a - b.min(1.0)).abs() <= largest / 255.0;
+        assert!(
+            exact.0.into_iter().zip(read.0).all(is_near),
+            "{exact:?} {read:?}"
+        );
+    }
+    assert_eq!(hdr, made(&["b.hdr", "--strips=16", "--bits", "32"]));
+}
+
+#[test]
 fn what_a_form_does_not_hold_is_refused() {
     let folder = folder();
     let cases = [
         (
             &["-o", "a.jpg", "--background", "transparent"][..],
+            "has no opacity",
+        ),
+        (
+            &["-o", "a.hdr", "--background", "transparent"],
             "has no opacity",
         ),
         (
