@@ -66,11 +66,7 @@ fn earth() -> Scene {
             mode: ir::Mode::Phong,
             shadows: true,
             max_depth: 0,
-            supersampling: 1,
-            pattern: ir::Pattern::Grid,
-            light_samples: 1,
-            toon: false,
-            ambient: ir::Ambient::PerLight,
+            ..ir::Settings::default()
         },
         lights: vec![ir::Light::Point(ir::PointLight {
             position: [0.0; 3],

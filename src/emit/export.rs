@@ -2,7 +2,7 @@
 
 use super::reporter::ExportReporter;
 use rtc_diag::codes;
-use rtc_ir::{EntityKind, Field, Material, Scene, Shape, ShapeKind, Surface, ValuePath};
+use rtc_ir::{EntityKind, Field, Material, Scene, Settings, Shape, ShapeKind, Surface, ValuePath};
 use rtc_math::shortest;
 use rtc_source::{Budget, Resource};
 use std::collections::{BTreeMap, BTreeSet};
@@ -20,6 +20,18 @@ impl ExportReporter<'_> {
     /// Reports a feature that the other renderer does not support exactly.
     pub(super) fn unsupported(&mut self, message: &str, path: ValuePath) {
         self.report(&codes::NO_TWIN, message, path);
+    }
+
+    /// Reports settings that other programs lack.
+    pub(super) fn own_settings(&mut self, settings: &Settings) {
+        let mut left_out = |is_set, field, message| {
+            if is_set {
+                let path = ValuePath::new(EntityKind::Settings, 0, field);
+                self.unsupported(message, path);
+            }
+        };
+        let background = "the background is left out: mirrors would show it";
+        left_out(settings.background.is_some(), Field::Background, background);
     }
 
     /// Charges the bytes of a mesh file; `None` if they exceed the budget, which is reported.

@@ -63,6 +63,10 @@ pub enum Field {
     MaxDepth,
     Supersampling,
     LightSamples,
+    /// The colour of the ambient light.
+    AmbientLight,
+    /// The background.
+    Background,
     Position,
     Color,
     LightRadius,
@@ -176,6 +180,8 @@ fn pointer_tail(entity: EntityKind, field: Field) -> &'static str {
         Field::MaxDepth => "/maxDepth",
         Field::Supersampling => "/supersampling",
         Field::LightSamples => "/lightSamples",
+        Field::AmbientLight => "/ambientLight",
+        Field::Background => "/background",
         Field::Position => "/point/position",
         Field::LightRadius => "/point/radius",
         Field::Intensity => "/punctual/intensity",

@@ -32,6 +32,15 @@ pub struct Settings {
     /// How often the ambient term of the Phong model is added.
     #[serde(default, skip_serializing_if = "is_default")]
     pub ambient: Ambient,
+    /// The colour of the ambient light, which multiplies an ambient term that is added once.
+    #[serde(default = "white", skip_serializing_if = "is_white")]
+    #[schemars(inner(range(min = 0.0)))]
+    pub ambient_light: [f64; 3],
+    /// The colour of pixels where the camera sees nothing, in the values of the picture file; if
+    /// absent, the environment or black.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(inner(inner(range(min = 0.0))))]
+    pub background: Option<[f64; 3]>,
 }
 
 impl Default for Settings {
@@ -46,6 +55,8 @@ impl Default for Settings {
             light_samples: 1,
             toon: false,
             ambient: Ambient::PerLight,
+            ambient_light: white(),
+            background: None,
         }
     }
 }
@@ -88,6 +99,14 @@ pub enum Ambient {
     PerLight,
     /// Once, independent of the number of lights.
     Once,
+}
+
+fn white() -> [f64; 3] {
+    [1.0; 3]
+}
+
+fn is_white(color: &[f64; 3]) -> bool {
+    *color == white()
 }
 
 fn one() -> u32 {

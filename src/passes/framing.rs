@@ -317,7 +317,7 @@ fn is_ground_of([low, high]: [Vec3; 2], [from, to]: [Vec3; 2]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rtc_ir::{Ambient, Instance, MaterialId, MeshId, Mode, Pattern, Settings, Triangle};
+    use rtc_ir::{Instance, MaterialId, MeshId, Settings, Triangle};
     use std::f64::consts::PI;
 
     fn empty() -> Scene {
@@ -330,17 +330,7 @@ mod tests {
             lens: Lens::PINHOLE,
             projection: Projection::Perspective,
         };
-        let settings = Settings {
-            mode: Mode::Phong,
-            shadows: false,
-            max_depth: 0,
-            supersampling: 1,
-            pattern: Pattern::Grid,
-            light_samples: 1,
-            toon: false,
-            ambient: Ambient::PerLight,
-        };
-        Scene::new(camera, settings)
+        Scene::new(camera, Settings::default())
     }
 
     /// A scene of boxes, each with two opposite corners.

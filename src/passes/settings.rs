@@ -67,6 +67,8 @@ mod tests {
             light_samples: 2,
             toon: true,
             ambient: Ambient::Once,
+            ambient_light: [0.5; 3],
+            background: Some([1.0, 0.0, 0.0]),
         }
     }
 

@@ -7,7 +7,7 @@ use rtc_image::{
     self as image, Association, BackgroundFill, EncodeError, FileFormat, FormatTraits, Image,
     Layers, Origin, Picture, PictureHead, RangeClipping,
 };
-use rtc_ir::Display;
+use rtc_ir::{Display, Scene};
 use rtc_plan::Arithmetic;
 use rtc_render::{Aov, Background, Values};
 use rtc_valid::Mode;
@@ -92,9 +92,12 @@ impl OutputTransform {
         }
     }
 
-    /// Uses the display settings of a scene where nothing is requested.
-    pub fn show_as(&mut self, display: &Display) {
-        let Display { exposure, tone } = display;
+    /// Uses the display settings and the background of a scene where nothing is requested.
+    pub fn show_as(&mut self, scene: &Scene) {
+        let Display { exposure, tone } = &scene.display;
+        if let (BackgroundFill::Film, Some(color)) = (self.background, scene.settings.background) {
+            self.background = BackgroundFill::Color(color);
+        }
         if !self.kind.is_linear() {
             self.tone = self.tone.or(*tone);
             if self.requested.is_none() {
@@ -104,7 +107,7 @@ impl OutputTransform {
     }
 
     /// The transform of the same form by the display settings of a scene alone.
-    pub(super) fn unasked(&self, display: &Display) -> Self {
+    pub(super) fn unasked(&self, scene: &Scene) -> Self {
         let mut plain = Self {
             tone: None,
             requested: None,
@@ -112,7 +115,7 @@ impl OutputTransform {
             background: BackgroundFill::Film,
             ..self.clone()
         };
-        plain.show_as(display);
+        plain.show_as(scene);
         plain
     }
 

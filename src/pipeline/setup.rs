@@ -147,7 +147,7 @@ impl PictureSetup {
             if provenance.is_asset && is_traced && !provenance.is_unlit {
                 self.look.show_asset();
             }
-            self.look.show_as(&lowered.scene.display);
+            self.look.show_as(&lowered.scene);
             let before = self.unasked(&lowered.scene);
             fitted = resize(&mut lowered.scene, self.overrides.size, provenance);
             self.overrides.apply(&mut lowered.scene);
@@ -439,7 +439,7 @@ impl PictureSetup {
 
     /// The settings of the picture that the scene defines by itself.
     fn unasked(&self, scene: &Scene) -> Value {
-        let look = self.look.unasked(&scene.display);
+        let look = self.look.unasked(scene);
         Self::new(look).described(scene)
     }
 }

@@ -199,10 +199,10 @@ pub(super) fn truncated_depth(facts: &Facts<'_>, depth: u32, rules: Rules) -> u3
         .iter()
         .map(|light| light.color.max_element())
         .sum::<f64>();
-    // An ambient term that is added once counts as that of a light of colour 1.
+    // An ambient term that is added once counts as that of a light of its colour.
     let light = match facts.scene.settings().ambient {
         Ambient::PerLight => light,
-        Ambient::Once => light.max(1.0),
+        Ambient::Once(color) => light.max(color.max_element()),
     };
     let max_direct = facts
         .summaries

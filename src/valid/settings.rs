@@ -5,6 +5,7 @@ use rtc_color::Tone;
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
 use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
+use rtc_math::Vec3;
 use rtc_source::Resource;
 use std::num::NonZeroU32;
 
@@ -28,17 +29,17 @@ pub struct Settings {
     pub light_samples: NonZeroU32,
     /// Toon shading: the Phong terms of the first hit are quantised; true in Phong mode only.
     pub toon: bool,
-    /// How often the ambient term of the Phong model is added.
+    /// How the ambient term of the Phong model is added.
     pub ambient: Ambient,
 }
 
-/// How often the ambient term of the Phong model is added.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// How the ambient term of the Phong model is added.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ambient {
     /// Once per light, multiplied by the colour of the light.
     PerLight,
-    /// Once.
-    Once,
+    /// Once, multiplied by this colour.
+    Once(Vec3),
 }
 
 /// The position of each sub-sample in its cell of the pixel.
@@ -110,6 +111,8 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Checker<'_>) -> Opti
         light_samples,
         toon,
         ambient,
+        ambient_light,
+        background,
     } = settings;
     // Check each value.
     let mode = valid_mode(mode, check);
@@ -119,6 +122,9 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Checker<'_>) -> Opti
         at(Field::Supersampling),
     );
     let light_samples = check.count(*light_samples, "light samples", at(Field::LightSamples));
+    let ambient_light = check.color(*ambient_light, at(Field::AmbientLight));
+    let background = background.unwrap_or_default();
+    let background = check.color(background, at(Field::Background));
     if *max_depth > MAX_DEPTH {
         let diagnostic = Diagnostic::new(
             &codes::TOO_DEEP,
@@ -132,6 +138,8 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Checker<'_>) -> Opti
         return None;
     }
     // All values must be valid.
+    background?;
+    let ambient_light = ambient_light?;
     Some(Settings {
         mode: mode?,
         shadows: *shadows,
@@ -146,7 +154,7 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Checker<'_>) -> Opti
         toon: *toon && matches!(settings.mode, ir::Mode::Phong),
         ambient: match ambient {
             ir::Ambient::PerLight => Ambient::PerLight,
-            ir::Ambient::Once => Ambient::Once,
+            ir::Ambient::Once => Ambient::Once(ambient_light),
         },
     })
 }
@@ -278,14 +286,9 @@ struct SampleCounts {
 impl SampleCounts {
     fn of(scene: &ir::Scene) -> Self {
         let ir::Settings {
-            supersampling: _,
-            max_depth: _,
             ref mode,
-            shadows: _,
-            pattern: _,
             light_samples,
-            toon: _,
-            ambient: _,
+            ..
         } = scene.settings;
         let ir::Lens { radius, samples } = scene.camera.lens;
         let is_soft = scene

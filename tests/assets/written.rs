@@ -9,7 +9,7 @@ use rtc::internals::ir::{
     Material, MaterialId, Mesh, MeshId, Mode, PathSettings, Pixels, Projection, Punctual, Sampled,
     Scene, Settings, Shape, Standard, Surface, Texture, TextureId, Wrap,
 };
-use rtc::internals::ir::{Ambient, Camera, Lens, Pattern};
+use rtc::internals::ir::{Camera, Lens, Pattern};
 use serde_json::{Value, json};
 
 /// Three vertices with all that a vertex may have, no number of which is short.
@@ -134,7 +134,8 @@ fn settings() -> Settings {
         pattern: Pattern::Jitter,
         light_samples: 1,
         toon: false,
-        ambient: Ambient::PerLight,
+        background: Some([0.3, 0.2, 0.1]),
+        ..Settings::default()
     }
 }
 

@@ -180,18 +180,36 @@ fn settings() -> impl Strategy<Value = Settings> {
     ];
     let pattern = prop::sample::select(vec![Pattern::Grid, Pattern::Jitter, Pattern::Random]);
     let ambient = prop::sample::select(vec![Ambient::PerLight, Ambient::Once]);
-    (mode, any::<bool>(), any::<[u32; 3]>(), pattern, ambient).prop_map(
-        |(mode, shadows, [max_depth, supersampling, light_samples], pattern, ambient)| Settings {
-            mode,
-            shadows,
-            max_depth,
-            supersampling,
-            pattern,
-            light_samples,
-            toon: false,
-            ambient,
-        },
+    let colors = (triple(), prop::option::of(triple()));
+    (
+        mode,
+        any::<bool>(),
+        any::<[u32; 3]>(),
+        pattern,
+        ambient,
+        colors,
     )
+        .prop_map(
+            |(
+                mode,
+                shadows,
+                [max_depth, supersampling, light_samples],
+                pattern,
+                ambient,
+                (ambient_light, background),
+            )| Settings {
+                mode,
+                shadows,
+                max_depth,
+                supersampling,
+                pattern,
+                light_samples,
+                toon: false,
+                ambient,
+                ambient_light,
+                background,
+            },
+        )
 }
 
 fn light() -> impl Strategy<Value = Light> {

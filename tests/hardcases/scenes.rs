@@ -37,11 +37,7 @@ pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
             mode: ir::Mode::Phong,
             shadows: true,
             max_depth: 0,
-            supersampling: 1,
-            pattern: ir::Pattern::Grid,
-            light_samples: 1,
-            toon: false,
-            ambient: ir::Ambient::PerLight,
+            ..ir::Settings::default()
         },
         images: Vec::new(),
         textures: Vec::new(),

@@ -17,9 +17,9 @@ mod surfaces;
 
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{
-    Alpha, Ambient, Camera, Emitter, Environment, Lens, Light, Material, MaterialId, Mode,
-    PathSettings, Pattern, Phong, Projection, Punctual, Scene, Settings, Shape, SourceSpans,
-    Sphere, Standard, Surface, Triangle,
+    Alpha, Camera, Emitter, Environment, Lens, Light, Material, MaterialId, Mode, PathSettings,
+    Phong, Projection, Punctual, Scene, Settings, Shape, SourceSpans, Sphere, Standard, Surface,
+    Triangle,
 };
 use rtc::internals::math::Vec3;
 use rtc::internals::plan::{Plan, Rules};
@@ -36,11 +36,7 @@ fn scene(samples: u32) -> Scene {
         }),
         shadows: true,
         max_depth: 8,
-        supersampling: 1,
-        pattern: Pattern::Grid,
-        light_samples: 1,
-        toon: false,
-        ambient: Ambient::PerLight,
+        ..Settings::default()
     };
     let camera = Camera {
         eye: [0.0, 0.0, 4.0],

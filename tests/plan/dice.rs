@@ -164,8 +164,7 @@ impl Dice {
                 ir::Pattern::Random,
             ]),
             light_samples: self.pick(&[1, 1, 3]),
-            toon: false,
-            ambient: ir::Ambient::PerLight,
+            ..ir::Settings::default()
         }
     }
 

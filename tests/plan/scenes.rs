@@ -51,11 +51,7 @@ pub(super) fn base_scene() -> Scene {
             mode: ir::Mode::Phong,
             shadows: true,
             max_depth: 2,
-            supersampling: 1,
-            pattern: ir::Pattern::Grid,
-            light_samples: 1,
-            toon: false,
-            ambient: ir::Ambient::PerLight,
+            ..ir::Settings::default()
         },
         lights: vec![light([3.0, 4.0, 12.0])],
         images: Vec::new(),

@@ -20,6 +20,7 @@ use rtc_ir::{
     Ambient, Display, Gooch, Light, Mode, PathSettings, Pattern, Scene, Settings, Shape, Surface,
 };
 use rtc_math::shortest;
+use serde_json::Value as Json;
 use std::fmt::Write as _;
 
 /// A text and its sidecar files.
@@ -265,16 +266,20 @@ impl<'s> SceneWriter<'s> {
     fn other_settings(&mut self, settings: &Settings) {
         const WRITTEN: [&str; 5] = ["mode", "shadows", "maxDepth", "supersampling", "pattern"];
         let fields = serde_json::to_value(settings);
-        let Ok(serde_json::Value::Object(fields)) = fields else {
+        let Ok(Json::Object(fields)) = fields else {
             self.finite = false;
             return;
         };
         for (name, value) in fields {
             if !WRITTEN.contains(&name.as_str()) {
                 let (first, rest) = name.split_at(1);
-                let value = value
-                    .as_str()
-                    .map_or_else(|| value.to_string(), str::to_owned);
+                let value = match value {
+                    Json::String(word) => word,
+                    Json::Array(numbers) => self.list(numbers.iter().filter_map(Json::as_f64)),
+                    Json::Null | Json::Bool(_) | Json::Number(_) | Json::Object(_) => {
+                        value.to_string()
+                    }
+                };
                 self.line(0, &format!("{}{rest}: {value}", first.to_ascii_uppercase()));
             }
         }

@@ -117,6 +117,7 @@ impl MitsubaWriter<'_> {
         let edges = settings.max_depth.saturating_add(1).min(i32::MAX as u32);
         self.value(2, "integer", "max_depth", &edges.to_string());
         self.line(1, "</integrator>");
+        self.reporter.own_settings(settings);
         let Display { exposure, tone } = &self.scene.display;
         if *exposure != 0.0 || tone.is_some() {
             let message = "exposure and tone map are left out: Mitsuba writes linear values";

@@ -41,10 +41,11 @@ impl PovWriter<'_> {
         ));
     }
 
-    /// The factor of the ambient term: the sum of the colours of all lights, or 1.
+    /// The factor of the ambient term: the sum of the colours of all lights, or that of the ambient
+    /// light.
     fn ambient_light(&self) -> [f64; 3] {
         if self.scene.settings.ambient == Ambient::Once {
-            return [1.0; 3];
+            return self.scene.settings.ambient_light;
         }
         let points = self.scene.lights.iter().filter_map(Light::point);
         points.fold([0.0; 3], |sum, light| {

@@ -62,13 +62,11 @@ impl PovWriter<'_> {
         const MAX: [u32; 2] = [256, 9];
         let Settings {
             mode,
-            shadows: _,
             max_depth,
             supersampling,
             pattern,
-            light_samples: _,
             toon,
-            ambient: _,
+            ..
         } = &self.scene.settings;
         // Command line options.
         let [width, height] = self.scene.camera.size;
@@ -94,6 +92,7 @@ impl PovWriter<'_> {
             let message = "exposure and tone map are left out";
             self.reporter.unsupported(message, path);
         }
+        self.reporter.own_settings(&self.scene.settings);
         // Write the settings.
         self.line(&format!(
             "// povray +W{width} +H{height} +FN File_Gamma=1.0{samples}\n#version 3.7;"

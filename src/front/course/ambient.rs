@@ -6,7 +6,8 @@ use super::lower::Lowering;
 use super::record::FieldOutcome;
 use super::settings::Scene;
 use rtc_diag::{Severity, codes};
-use rtc_ir::{self as ir, Ambient};
+use rtc_ir::{self as ir, Ambient, EntityKind, Field};
+use rtc_source::Span;
 
 impl Keyword for Ambient {
     const KEYWORDS: &'static [(&'static str, Self)] =
@@ -18,8 +19,15 @@ impl Lowering {
     /// once and a YAML scene adds it per light, as the programs of these years did. Call it after
     /// the lights and the objects.
     pub(super) fn ambient(&mut self, scene: &Scene, context: &mut Context<'_>) {
+        let light = scene.ambient_light.read();
+        if let Some(Spanned { value, span }) = light {
+            self.scene.settings.ambient_light = value.0;
+            self.record_span(EntityKind::Settings, 0, Field::AmbientLight, *span);
+            self.report_ambient_light(scene, *span, context);
+        }
         self.scene.settings.ambient = match &scene.ambient {
             FieldOutcome::Read(Spanned { value, .. }) => *value,
+            FieldOutcome::Absent | FieldOutcome::Broken if light.is_some() => Ambient::Once,
             FieldOutcome::Absent | FieldOutcome::Broken
                 if is_json(context) && self.scene.settings.mode == ir::Mode::Phong =>
             {
@@ -27,7 +35,9 @@ impl Lowering {
             }
             FieldOutcome::Absent | FieldOutcome::Broken => Ambient::PerLight,
         };
-        let is_assumed = scene.ambient.is_absent() && self.scene.settings.ambient == Ambient::Once;
+        let is_assumed = light.is_none()
+            && scene.ambient.is_absent()
+            && self.scene.settings.ambient == Ambient::Once;
         if let (true, true, Some(span)) = (is_assumed, self.shows_ambient(), scene.lights.span) {
             let message = || "the ambient light of a JSON scene is added once".to_owned();
             context.report(&codes::TWO_READINGS, span, message, |d| {
@@ -39,6 +49,22 @@ impl Lowering {
                 .hint("`\"Ambient\": \"perLight\"` does so, `\"once\"` does as here")
             });
         }
+    }
+
+    /// Reports an ambient light that multiplies nothing.
+    fn report_ambient_light(&self, scene: &Scene, span: Option<Span>, context: &mut Context<'_>) {
+        let is_per_light = scene
+            .ambient
+            .read()
+            .is_some_and(|own| own.value == Ambient::PerLight);
+        let reason = match (&self.scene.settings.mode, is_per_light) {
+            (ir::Mode::Phong, false) => return,
+            (ir::Mode::Phong, true) => "with `Ambient: perLight` the lights are the ambient light",
+            _ => "only `RenderMode: phong` has ambient light",
+        };
+        let Some(span) = span else { return };
+        let message = || "`AmbientLight` has no effect".to_owned();
+        context.report(&codes::NO_EFFECT, span, message, |d| d.at(span, reason));
     }
 
     /// Whether the image depends on how often the ambient term is added.

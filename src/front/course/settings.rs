@@ -12,7 +12,7 @@ use super::path_settings::PathParameters;
 use super::record::{FieldOutcome, keys, record};
 use super::sampling::SuperSampling;
 use super::schema::Definitions;
-use super::value::{AnyScalar, Point, Switch};
+use super::value::{AnyScalar, Color, Point, Switch};
 use super::view_size::ViewSize;
 use rtc_color::Tone;
 use rtc_diag::{Severity, codes};
@@ -69,6 +69,12 @@ record! {
         /// colour; `once`, independent of the lights. The default is `once` for a JSON scene and
         /// `perLight` for YAML.
         ambient: Spanned<ir::Ambient>, optional, keys!["Ambient"], json "Ambient";
+        /// The colour of the ambient light of `phong`: with it the ambient term is added once,
+        /// times this colour.
+        ambient_light: Spanned<Color>, optional, keys!["AmbientLight"];
+        /// The colour where the camera sees nothing, in the values of the picture file; black or
+        /// the environment by default. Mirrors don't show it.
+        background: Spanned<Color>, optional, keys!["Background" "BackgroundColor"];
         /// The colours of `RenderMode: gooch`.
         gooch: Spanned<Gooch>, optional, keys!["GoochParameters"];
         /// The settings of path tracing.
@@ -206,9 +212,12 @@ impl Lowering {
             pattern: sampling.value.pattern,
             light_samples: light_samples.value.0,
             toon: scene.toon.value,
-            ambient: ir::Ambient::PerLight,
+            background: scene.background.read().map(|color| color.value.0),
+            ..ir::Settings::default()
         };
         self.record_span(EntityKind::Settings, 0, Field::Mode, mode.span);
+        let background = scene.background.read().and_then(|color| color.span);
+        self.record_span(EntityKind::Settings, 0, Field::Background, background);
         self.record_span(EntityKind::Settings, 0, Field::MaxDepth, depth.span);
         let factor = sampling.value.factor_span.or(sampling.span);
         self.record_span(EntityKind::Settings, 0, Field::Supersampling, factor);

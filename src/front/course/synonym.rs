@@ -211,14 +211,9 @@ const FOREIGN_KEYS: &[ForeignKeys] = &[
     },
     ForeignKeys {
         record: "scene",
-        keys: &[
-            "Background",
-            "BackgroundColor",
-            "Sky",
-            "SkyColor",
-            "AmbientLight",
-        ],
-        advice: "the background is black; an `Environment` is light from all directions",
+        keys: &["Sky", "SkyColor"],
+        advice: "`Background` is the colour where nothing is seen; an `Environment` is light from \
+            all directions",
     },
     ForeignKeys {
         record: "light",

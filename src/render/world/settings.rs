@@ -3,6 +3,7 @@
 use super::World;
 use crate::camera::grid::{Grid, Pattern};
 use crate::camera::{Camera, Projection};
+use rtc_math::Vec3;
 use rtc_plan::Plan;
 use rtc_valid::{self as valid, ValidScene};
 
@@ -15,8 +16,9 @@ pub(crate) struct Settings {
     pub(crate) shadows: bool,
     /// Whether Phong's terms of the first hit fall in steps.
     pub(crate) toon: bool,
-    /// Whether Phong's ambient term is added once, instead of once per light.
-    pub(crate) ambient_once: bool,
+    /// The colour of the light of Phong's ambient term, if it is added once instead of once per
+    /// light.
+    pub(crate) ambient_light: Option<Vec3>,
     /// Whether rough surfaces keep the light that bounces between their facets, where paths are
     /// traced.
     pub(crate) multiple_scattering: bool,
@@ -126,7 +128,10 @@ pub(super) fn settings(scene: &ValidScene) -> Settings {
         mode,
         shadows,
         toon,
-        ambient_once: ambient == valid::Ambient::Once,
+        ambient_light: match ambient {
+            valid::Ambient::PerLight => None,
+            valid::Ambient::Once(color) => Some(color),
+        },
         multiple_scattering,
         light_samples: light_samples.get(),
         grid: match mode {

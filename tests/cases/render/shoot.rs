@@ -27,8 +27,8 @@ pub(super) struct Shot {
 }
 
 pub(super) fn shoot(case: &Path) -> Result<Shot, Failed> {
-    let options = Options::read(case)?;
-    let scene = validate(case, &options)?;
+    let mut options = Options::read(case)?;
+    let scene = validate(case, &mut options)?;
     let plan = Plan::with_arithmetic(options.arithmetic, &scene, Rules::ALL);
     let renderer = Renderer::new(&scene, &plan, options.threads)?;
     let picture = match options.aov {
@@ -47,7 +47,7 @@ pub(super) fn shoot(case: &Path) -> Result<Shot, Failed> {
 }
 
 /// The proven scene of a case, in which no more is found than it says.
-fn validate(case: &Path, options: &Options) -> Result<ValidScene, Failed> {
+fn validate(case: &Path, options: &mut Options) -> Result<ValidScene, Failed> {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = Loader.file(case, &mut map).map_err(|e| format!("{e:?}"))?;
     let reading = pipeline::Options {
@@ -58,6 +58,9 @@ fn validate(case: &Path, options: &Options) -> Result<ValidScene, Failed> {
     let validated = lowered.map(|mut lowered| -> Result<_, Failed> {
         stage(&mut lowered, case, options, &map, &mut sink)?;
         options.overrides.apply(&mut lowered.scene);
+        if let Some(color) = lowered.scene.settings.background {
+            options.background = BackgroundFill::Color(color);
+        }
         Ok(pipeline::validate(&lowered, &reading, &mut sink))
     });
     let validated = validated.transpose()?.flatten();

@@ -114,7 +114,8 @@ impl ShadingPoint<'_> {
 
 impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     /// `Σ c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)ⁿ)]`, the mean over the points of a
-    /// soft light; an ambient term that is added once precedes the sum, as `ka·C`.
+    /// soft light; an ambient term that is added once precedes the sum, as `ka·C` times the
+    /// colour of the ambient light.
     ///
     /// Without shadows vis is 1, for the highlight too; with them it is 0 where the light is
     /// occluded, and where N·L ≤ 0, with the shading or the geometric normal: the surface shadows
@@ -125,9 +126,9 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         let samples = world.settings.light_samples;
         // Add the ambient term once, or once per light.
         let ambient = shading_point.color * shading_point.material.ka.get();
-        let (mut sum, ambient) = match world.settings.ambient_once {
-            true => (ambient, Vec3::ZERO),
-            false => (Vec3::ZERO, ambient),
+        let (mut sum, ambient) = match world.settings.ambient_light {
+            Some(light) => (light * ambient, Vec3::ZERO),
+            None => (Vec3::ZERO, ambient),
         };
         for (index, light) in world.lights.course.iter().enumerate() {
             let plan = &world.plan.lights[index];

@@ -20,9 +20,9 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         let world = self.world;
         let zero = Vectors::splat(simd, Vec3::ZERO);
         let ambient = points.color.times(points.ka);
-        let (mut sum, ambient) = match world.settings.ambient_once {
-            true => (ambient, zero),
-            false => (zero, ambient),
+        let (mut sum, ambient) = match world.settings.ambient_light {
+            Some(light) => (Vectors::splat(simd, light).times_each(ambient), zero),
+            None => (zero, ambient),
         };
         for (index, light) in world.lights.course.iter().enumerate() {
             let plan = &world.plan.lights[index];
