@@ -136,6 +136,7 @@ fn camera(eye: Vec3, center: Vec3, right: Vec3, up: Vec3) -> Camera {
         lens_radius: 0.0,
         lens_samples: 1,
         projection: Projection::Perspective,
+        eyes: None,
     }
 }
 

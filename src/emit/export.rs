@@ -32,6 +32,11 @@ impl ExportReporter<'_> {
         };
         let background = "the background is left out: mirrors would show it";
         left_out(settings.background.is_some(), Field::Background, background);
+        left_out(
+            settings.stereo > 0.0,
+            Field::Stereo,
+            "the camera is written with one eye",
+        );
     }
 
     /// Charges the bytes of a mesh file; `None` if they exceed the budget, which is reported.

@@ -67,6 +67,8 @@ pub enum Field {
     AmbientLight,
     /// The background.
     Background,
+    /// The distance between two eyes.
+    Stereo,
     Position,
     Color,
     LightRadius,
@@ -182,6 +184,7 @@ fn pointer_tail(entity: EntityKind, field: Field) -> &'static str {
         Field::LightSamples => "/lightSamples",
         Field::AmbientLight => "/ambientLight",
         Field::Background => "/background",
+        Field::Stereo => "/stereo",
         Field::Position => "/point/position",
         Field::LightRadius => "/point/radius",
         Field::Intensity => "/punctual/intensity",

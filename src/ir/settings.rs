@@ -41,6 +41,11 @@ pub struct Settings {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(inner(inner(range(min = 0.0))))]
     pub background: Option<[f64; 3]>,
+    /// The distance between two eyes, each of which sees the image of a perspective camera in one
+    /// half of the picture; 0 for one eye.
+    #[serde(default, skip_serializing_if = "is_default")]
+    #[schemars(range(min = 0.0))]
+    pub stereo: f64,
 }
 
 impl Default for Settings {
@@ -57,6 +62,7 @@ impl Default for Settings {
             ambient: Ambient::PerLight,
             ambient_light: white(),
             background: None,
+            stereo: 0.0,
         }
     }
 }

@@ -69,6 +69,7 @@ mod tests {
             ambient: Ambient::Once,
             ambient_light: [0.5; 3],
             background: Some([1.0, 0.0, 0.0]),
+            stereo: 0.1,
         }
     }
 

@@ -286,7 +286,7 @@ impl Plan {
 /// The rules that hold for a camera: most proofs assume that all camera rays start at the eye.
 fn rules_for_camera(scene: &ValidScene, rules: Rules) -> Rules {
     match scene.camera().projection {
-        Projection::Orthographic => rules.intersection(Rules::AT_HITS),
+        Projection::Orthographic | Projection::Stereo(_) => rules.intersection(Rules::AT_HITS),
         Projection::Perspective => rules,
     }
 }

@@ -42,16 +42,19 @@ pub struct Lens {
 }
 
 /// The projection of a camera.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
     /// Rays start at the eye.
     Perspective,
+    /// Rays start at two eyes, at this distance from each other. The left half of the picture is
+    /// what the left eye sees of the image, the right half what the right one sees.
+    Stereo(f64),
     /// Parallel rays: each passes through its point of the image in the direction from the eye to
     /// the image centre, and starts at the distance of the eye before the image.
     Orthographic,
 }
 
-pub(super) fn camera(camera: &ir::Camera, check: &mut Checker<'_>) -> Option<Camera> {
+pub(super) fn camera(camera: &ir::Camera, stereo: f64, check: &mut Checker<'_>) -> Option<Camera> {
     let ir::Camera {
         eye,
         center,
@@ -70,6 +73,7 @@ pub(super) fn camera(camera: &ir::Camera, check: &mut Checker<'_>) -> Option<Cam
     let size = image_size(*size, check);
     let radius = check.non_negative(*radius, "apertureRadius", at(Field::LensRadius));
     let samples = check.count(*samples, "apertureSamples", at(Field::LensSamples));
+    let projection = valid_projection(*projection, stereo, check);
     // Check the frustum.
     let (eye, center, right, up) = (eye?, center?, right?, up?);
     frustum(eye, center, right, up, check)?;
@@ -86,11 +90,22 @@ pub(super) fn camera(camera: &ir::Camera, check: &mut Checker<'_>) -> Option<Cam
         width,
         height,
         lens,
-        projection: match projection {
-            ir::Projection::Perspective => Projection::Perspective,
-            ir::Projection::Orthographic => Projection::Orthographic,
-        },
+        projection: projection?,
     })
+}
+
+fn valid_projection(
+    projection: ir::Projection,
+    stereo: f64,
+    check: &mut Checker<'_>,
+) -> Option<Projection> {
+    let path = ValuePath::new(EntityKind::Settings, 0, Field::Stereo);
+    let distance = check.non_negative(stereo, "stereo", path)?.get();
+    match projection {
+        ir::Projection::Perspective if distance == 0.0 => Some(Projection::Perspective),
+        ir::Projection::Perspective => Some(Projection::Stereo(distance)),
+        ir::Projection::Orthographic => Some(Projection::Orthographic),
+    }
 }
 
 fn at(field: Field) -> ValuePath {

@@ -138,7 +138,11 @@ impl ValidScene {
     pub fn seen_by(&self, camera: &ir::Camera) -> Option<Self> {
         let (source_spans, mut sink) = (SourceSpans::default(), Sink::default());
         let mut check = Checker::new(&source_spans, &mut sink);
-        let camera = camera::camera(camera, &mut check)?;
+        let stereo = match self.camera.projection {
+            Projection::Stereo(distance) => distance,
+            Projection::Perspective | Projection::Orthographic => 0.0,
+        };
+        let camera = camera::camera(camera, stereo, &mut check)?;
         let is_as_large = (camera.width, camera.height) == (self.camera.width, self.camera.height);
         (check.is_clean() && is_as_large).then(|| Self {
             camera,
@@ -190,7 +194,7 @@ pub fn validate(
     } = scene;
     // Validate each kind of entity; all errors are reported.
     let mut check = Checker::new(source_spans, sink);
-    let valid_camera = camera::camera(camera, &mut check);
+    let valid_camera = camera::camera(camera, settings.stereo, &mut check);
     let valid_settings = settings::settings(settings, &mut check);
     settings::display(display, &mut check);
     let valid_lights = check.all(lights, light::light);

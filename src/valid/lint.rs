@@ -4,7 +4,7 @@
 
 use super::check::Checker;
 use super::inside;
-use rtc_diag::{Diagnostic, codes};
+use rtc_diag::{Diagnostic, Severity, codes};
 use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 use rtc_math::{Vec3, shortest};
 
@@ -16,6 +16,7 @@ pub(super) fn lints(scene: &ir::Scene, check: &mut Checker<'_>) {
     no_light(scene, check);
     shadows_of_paths(scene, check);
     tiny_picture(scene, check);
+    one_eye(scene, check);
     inside::eye(scene, check);
     unsupported_features(scene, check);
     for (index, material) in scene.materials.iter().enumerate() {
@@ -176,6 +177,22 @@ fn shadows_of_paths(scene: &ir::Scene, check: &mut Checker<'_>) {
             ValuePath::new(EntityKind::Surface, index, Field::Whole),
             "this one too, in spite of its `shadow: false`",
             diagnostic,
+        );
+    }
+}
+
+/// Warns about two eyes of an orthographic camera.
+fn one_eye(scene: &ir::Scene, check: &mut Checker<'_>) {
+    let is_parallel = scene.camera.projection == ir::Projection::Orthographic;
+    if is_parallel && scene.settings.stereo > 0.0 {
+        let message = "`stereo` has no effect: the rays of an orthographic camera are parallel";
+        let diagnostic = Diagnostic::new(&codes::NO_EFFECT, message).severity(Severity::Warning);
+        let path = ValuePath::new(EntityKind::Settings, 0, Field::Stereo);
+        let hint = "only a `perspective` camera has two eyes";
+        check.report(
+            path,
+            "one eye sees the whole picture",
+            diagnostic.hint(hint),
         );
     }
 }

@@ -113,6 +113,7 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Checker<'_>) -> Opti
         ambient,
         ambient_light,
         background,
+        stereo: _,
     } = settings;
     // Check each value.
     let mode = valid_mode(mode, check);

@@ -208,6 +208,7 @@ fn settings() -> impl Strategy<Value = Settings> {
                 ambient,
                 ambient_light,
                 background,
+                stereo: f64::from(max_depth),
             },
         )
 }

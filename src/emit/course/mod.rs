@@ -78,6 +78,9 @@ fn write<'s>(scene: &'s Scene, names: FileNames<'s>) -> Result<WrittenScene<'s>,
         names,
     };
     text.camera(camera);
+    if settings.stereo != 0.0 {
+        text.number("stereo", settings.stereo, 2);
+    }
     text.settings(settings, lights);
     text.display(display);
     if let Some(environment) = environment {
@@ -264,7 +267,14 @@ impl<'s> SceneWriter<'s> {
 
     /// Writes all other settings that have not their defaults, by their names in the IR.
     fn other_settings(&mut self, settings: &Settings) {
-        const WRITTEN: [&str; 5] = ["mode", "shadows", "maxDepth", "supersampling", "pattern"];
+        const WRITTEN: [&str; 6] = [
+            "mode",
+            "shadows",
+            "maxDepth",
+            "supersampling",
+            "pattern",
+            "stereo",
+        ];
         let fields = serde_json::to_value(settings);
         let Ok(Json::Object(fields)) = fields else {
             self.finite = false;

@@ -43,6 +43,10 @@ record! {
         /// parallel rays in the direction from the eye to `center`, so that `fov` has no effect.
         projection: Spanned<ir::Projection>, default(ir::Projection::Perspective),
             keys!["projection"];
+        /// The distance between two eyes in scene units: the left half of the picture is what the
+        /// left eye sees of the image, the right half what the right eye sees. What lies in the
+        /// plane through `center` is at the same place in both.
+        stereo: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["stereo" "eyeDistance"];
         /// The radius of the lens in scene units; at 0 everything is in focus.
         aperture_radius: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["apertureRadius"];
         /// The number of lens samples per sub-sample.
@@ -88,6 +92,7 @@ impl Lowering {
             pixel_size: _,
             fov: _,
             projection,
+            stereo: _,
             aperture_radius,
             aperture_samples,
         } = &camera.value;
@@ -160,6 +165,7 @@ impl Lowering {
             pixel_size: FieldOutcome::Absent,
             fov: FieldOutcome::Absent,
             projection: Spanned::without_span(ir::Projection::Perspective),
+            stereo: Spanned::without_span(NonNegative(0.0)),
             aperture_radius: Spanned::without_span(NonNegative(0.0)),
             aperture_samples: Spanned::without_span(Count(1)),
         };

@@ -6,7 +6,7 @@ use super::environment::Environment;
 use super::keyword::{keyword, keyword_schema};
 use super::light::Light;
 use super::lower::Lowering;
-use super::number::{Count, Natural, Real, Stops, plain_number};
+use super::number::{Count, Natural, NonNegative, Real, Stops, plain_number};
 use super::object::Object;
 use super::path_settings::PathParameters;
 use super::record::{FieldOutcome, keys, record};
@@ -203,6 +203,11 @@ impl Lowering {
             .ok()
             .unwrap_or(Spanned::without_span(Count(1)));
         report_unused(scene, context);
+        let one_eye = Spanned::without_span(NonNegative(0.0));
+        let stereo = scene
+            .camera
+            .read()
+            .map_or(one_eye, |camera| camera.value.stereo);
         self.display(scene);
         self.scene.settings = ir::Settings {
             mode: self.mode(mode.value, gooch, context),
@@ -212,10 +217,12 @@ impl Lowering {
             pattern: sampling.value.pattern,
             light_samples: light_samples.value.0,
             toon: scene.toon.value,
+            stereo: stereo.value.0,
             background: scene.background.read().map(|color| color.value.0),
             ..ir::Settings::default()
         };
         self.record_span(EntityKind::Settings, 0, Field::Mode, mode.span);
+        self.record_span(EntityKind::Settings, 0, Field::Stereo, stereo.span);
         let background = scene.background.read().and_then(|color| color.span);
         self.record_span(EntityKind::Settings, 0, Field::Background, background);
         self.record_span(EntityKind::Settings, 0, Field::MaxDepth, depth.span);

@@ -95,7 +95,9 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Plan
                 .map(|bounds| projection.screen_rect(bounds))
                 .collect()
         }
-        Projection::Orthographic => vec![ScreenRect::Unknown; surface_bounds.len()],
+        Projection::Orthographic | Projection::Stereo(_) => {
+            vec![ScreenRect::Unknown; surface_bounds.len()]
+        }
     };
     // Start with everything that the scene requires.
     let requested = PlanBuilder {

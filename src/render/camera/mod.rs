@@ -33,6 +33,35 @@ pub struct Camera {
     pub lens_samples: u32,
     /// The projection of the rays.
     pub projection: Projection,
+    /// The left and the right eye, side by side in the picture, for a stereoscopic camera.
+    pub eyes: Option<Box<[Camera; 2]>>,
+}
+
+impl Camera {
+    /// The two eyes of a camera, each half of a distance to the side of its own. They see the same
+    /// square of the image plane, the left one in the left half of the picture: off-axis stereo
+    /// (Hodges & McAllister, "Computing Stereoscopic Views", Stereo Computer Graphics, 1993).
+    pub(crate) fn with_eyes(self, distance: f64) -> Self {
+        let side = self.right.normalize() * (distance / 2.0);
+        let middle = self.right * (f64::from(self.size[0]) / 4.0);
+        let eye = |sign: f64| Self {
+            eye: self.eye + side * sign,
+            center: self.center - middle * sign,
+            ..self.clone()
+        };
+        let eyes = Some(Box::new([eye(-1.0), eye(1.0)]));
+        Self { eyes, ..self }
+    }
+
+    /// The camera that sees a pixel.
+    #[inline(always)]
+    #[must_use]
+    pub(crate) fn of(&self, [x, _]: [u32; 2]) -> &Self {
+        match &self.eyes {
+            Some(eyes) => &eyes[usize::from(x >= self.size[0] / 2)],
+            None => self,
+        }
+    }
 }
 
 /// The projection of a camera.
@@ -184,4 +213,34 @@ pub(crate) fn lens_point(camera: &Camera, k: u32, rotated: CranleyPatterson) -> 
     }
     let [across, upward] = rotated.vogel(k, n, camera.lens_radius, camera.up.length());
     camera.eye + camera.right * across + camera.up * upward
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_eye_sees_the_image_in_its_half_of_the_picture() {
+        let camera = |width: u32| Camera {
+            eye: Vec3::new(1.0, 2.0, 9.0),
+            center: Vec3::new(1.0, 0.0, 0.0),
+            right: Vec3::new(0.5, 0.0, 0.0),
+            up: Vec3::new(0.0, 0.5, 0.0),
+            size: [width, 6],
+            lens_radius: 0.0,
+            lens_samples: 1,
+            projection: Projection::Perspective,
+            eyes: None,
+        };
+        let (one, two) = (camera(8), camera(16).with_eyes(3.0));
+        for (x, y) in (0..8).flat_map(|x| (0..6).map(move |y| (x, y))) {
+            let seen = image_point(&one, [x, y], [0.25, 0.5]);
+            for (left, eye) in [(0, -0.5), (8, 2.5)] {
+                let pixel = [left + x, y];
+                let half = two.of(pixel);
+                assert_eq!(half.eye, Vec3::new(eye, 2.0, 9.0));
+                assert_eq!(image_point(half, pixel, [0.25, 0.5]), seen);
+            }
+        }
+    }
 }

@@ -32,7 +32,7 @@ impl<'run, S: Intersect> Integrator<'run> for Depth<'run, S> {
     type Sample = Option<f64>;
 
     fn sample(&mut self, id: &SampleId) -> Option<f64> {
-        let camera = &self.world.camera;
+        let camera = self.world.camera.of(id.pixel);
         let middle = Grid::MIDDLE.cell(camera, id.pixel, [0; 2], Seeds::NONE);
         self.counts.camera += 1;
         self.counts.add(Effect::DepthBuffer);

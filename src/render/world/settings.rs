@@ -86,7 +86,7 @@ pub(super) fn camera(camera: &valid::Camera) -> Camera {
         projection,
     } = *camera;
     let lens_radius = lens.radius.get();
-    Camera {
+    let camera = Camera {
         eye,
         center,
         right,
@@ -99,9 +99,16 @@ pub(super) fn camera(camera: &valid::Camera) -> Camera {
             lens.samples.get()
         },
         projection: match projection {
-            valid::Projection::Perspective => Projection::Perspective,
+            valid::Projection::Perspective | valid::Projection::Stereo(_) => {
+                Projection::Perspective
+            }
             valid::Projection::Orthographic => Projection::Orthographic,
         },
+        eyes: None,
+    };
+    match projection {
+        valid::Projection::Stereo(distance) => camera.with_eyes(distance),
+        valid::Projection::Perspective | valid::Projection::Orthographic => camera,
     }
 }
 

@@ -123,7 +123,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
 
     /// The ray from the camera that a path of a pixel begins with.
     fn camera_ray(&mut self, pixel: [u32; 2], sobol: &Sobol) -> Ray {
-        let camera = &self.world.camera;
+        let camera = self.world.camera.of(pixel);
         let target = image_point(camera, pixel, sobol.pair(Pair::FILM));
         if camera.lens_radius == 0.0 {
             return ray_through(camera, camera.eye, target);

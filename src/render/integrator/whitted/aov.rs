@@ -10,7 +10,7 @@ use crate::shape::geometry::Intersect;
 
 impl<'run, S: Intersect, const F: u32> FirstHit<'run> for Tracer<'run, S, F> {
     fn first_hit(&mut self, id: &SampleId) -> CameraHit {
-        let camera = &self.world.camera;
+        let camera = self.world.camera.of(id.pixel);
         let [column, row, k] = self.grid.place_of(id.index);
         let cell = self.grid.cell(camera, id.pixel, [column, row], Seeds::NONE);
         let ray = cell.ray(camera, k);

@@ -97,7 +97,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     /// The ray of the next sample of the grid of cells and points of the lens.
     #[inline(always)]
     pub(super) fn ray_of_picture(&mut self, pixel: [u32; 2], seeds: Seeds) -> Ray {
-        let camera = &self.world.camera;
+        let camera = self.world.camera.of(pixel);
         if !Self::can(Features::CAMERA) {
             return Grid::MIDDLE
                 .cell(camera, pixel, [0; 2], seeds)
@@ -130,7 +130,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
 
     /// The ray of a sample of a sequence without end.
     fn ray_of_replicate(&self, id: &SampleId, number: u64) -> Ray {
-        let camera = &self.world.camera;
+        let camera = self.world.camera.of(id.pixel);
         let sequence = Sequence::new(Key::new(id.pixel, number).child(REPLICATE));
         camera_ray(
             lens_at(camera, || sequence.lens(id.index)),

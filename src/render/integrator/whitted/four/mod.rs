@@ -95,7 +95,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     /// The rays of the next four samples.
     #[inline(always)]
     fn rays_of_picture<V: Simd>(&mut self, simd: V, pixel: [u32; 2], seeds: Seeds) -> Ray4<V> {
-        let camera = &self.world.camera;
+        let camera = self.world.camera.of(pixel);
         if !self.grid.starts_at_eye(camera, seeds) {
             // Written out: `map` of an array is not inlined here.
             let mut next = || self.ray_of_picture(pixel, seeds);
