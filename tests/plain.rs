@@ -3,7 +3,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test stops at a surprise")]
 
-use rtc::internals::math::{Positive, Vec3};
+use rtc::internals::math::{Id, Positive, Vec3};
 use rtc::internals::render::{
     BaselineShape, Intersect, Prepare, Ray, Real, Shape, SimdLevel, WatertightRay,
 };
@@ -102,7 +102,7 @@ fn shapes() -> Vec<(&'static str, valid::Shape)> {
         (
             "instance",
             valid::Shape::Instance(Box::new(valid::Instance {
-                mesh: 0,
+                mesh: Id::new(0),
                 world_from_object,
             })),
         ),
@@ -124,7 +124,7 @@ fn mesh() -> valid::Mesh {
 fn prepare<S: Prepare>(shape: &valid::Shape) -> S {
     S::prepare(
         shape,
-        &[Arc::new(S::prepare_mesh(&mesh(), SimdLevel::best()))],
+        &vec![Arc::new(S::prepare_mesh(&mesh(), SimdLevel::best()))].into(),
     )
     .unwrap()
 }

@@ -263,7 +263,7 @@ fn unseen(scene: &ValidScene, lowered: &Lowered, sink: &mut Sink) {
 /// Warns about textures that a surface does not show, because it has no texture coordinates.
 fn untextured(scene: &ValidScene, lowered: &Lowered, sink: &mut Sink) {
     for map in plan::hidden_maps(scene) {
-        let texture = ValuePath::new(EntityKind::Material, map.material, map.field);
+        let texture = ValuePath::new(EntityKind::Material, map.material.index(), map.field);
         let surface = ValuePath::new(EntityKind::Surface, map.surface, Field::Whole);
         let message = "a surface has no texture coordinates, and is shown without its texture";
         let diagnostic = Diagnostic::new(&codes::UNTEXTURED, message)

@@ -7,25 +7,27 @@ use super::summary::{MaterialSummary, constants};
 use super::surface_bounds::{SurfaceBounds, surface_bounds};
 use super::visibility::Visibility;
 use super::{Features, facts, summary};
-use rtc_math::Vec3;
-use rtc_valid::{CourseLight, Mode, Pattern, Phong, Shape, Surface, ValidScene};
+use rtc_math::{Table, Vec3};
+use rtc_valid::{
+    CourseLight, Material, Mesh, Mode, Pattern, Phong, Shape, Surface, Texture, ValidScene,
+};
 
 /// Facts about a scene before any rule is applied.
 pub(super) struct Facts<'scene> {
     pub(super) scene: &'scene ValidScene,
     pub(super) rules: Rules,
     /// The lights of the integrator.
-    pub(super) sources: Vec<CourseLight>,
+    pub(super) sources: Table<CourseLight>,
     /// The materials of the integrator.
-    pub(super) materials: Vec<Phong>,
+    pub(super) materials: Table<Material, Phong>,
     /// The bounds of each surface.
     pub(super) surface_bounds: Vec<SurfaceBounds>,
     /// The summary of each surface's material.
     pub(super) summaries: Vec<MaterialSummary>,
     /// The value of each constant texture.
-    pub(super) constants: Vec<Option<Vec3>>,
+    pub(super) constants: Table<Texture, Option<Vec3>>,
     /// For each mesh, whether the three normals of every triangle are equal.
-    pub(super) has_flat_normals: Vec<bool>,
+    pub(super) has_flat_normals: Table<Mesh, bool>,
 }
 
 impl<'scene> Facts<'scene> {
@@ -33,13 +35,13 @@ impl<'scene> Facts<'scene> {
         let constants = if rules.contains(Rule::TextureConstant) {
             constants(scene)
         } else {
-            vec![None; scene.textures().len()]
+            vec![None; scene.textures().len()].into()
         };
         let materials = scene
             .materials()
             .iter()
             .map(facts::material::phong)
-            .collect::<Vec<_>>();
+            .collect::<Table<_, _>>();
         let summary = |surface: &Surface| {
             MaterialSummary::of(surface, &materials[surface.material], scene, &constants)
         };

@@ -2,7 +2,7 @@
 
 use crate::shape::shape_facts;
 use rtc_ir::Field;
-use rtc_valid::{Maps, Material, Shape, Texture, ValidScene};
+use rtc_valid::{Maps, Material, MaterialId, Shape, Texture, TextureId, ValidScene};
 use std::collections::BTreeSet;
 
 /// A map that a surface does not show.
@@ -11,7 +11,7 @@ pub struct HiddenMap {
     /// The first surface without texture coordinates, as an IR index.
     pub surface: usize,
     /// Its material.
-    pub material: usize,
+    pub material: MaterialId,
     /// The map.
     pub field: Field,
 }
@@ -46,7 +46,7 @@ pub fn hidden_maps(scene: &ValidScene) -> Vec<HiddenMap> {
 /// A map of a material that needs texture coordinates.
 fn map_of(material: &Material, is_mesh: bool, scene: &ValidScene) -> Option<Field> {
     // The texture of texture coordinates is no picture that could be missing.
-    let needs_uv = |texture: usize| {
+    let needs_uv = |texture: TextureId| {
         let texture = &scene.textures()[texture];
         texture.needs_uv() && !matches!(texture, Texture::Uv)
     };

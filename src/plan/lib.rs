@@ -72,8 +72,8 @@ use findings::{Facts, Findings};
 use light::LightFindings;
 use path::PlannedPaths;
 use projection::{ScreenProjection, ScreenRect};
-use rtc_math::Vec3;
-use rtc_valid::{Mode, PathSettings, Projection, Shape, ValidScene};
+use rtc_math::{Table, Vec3};
+use rtc_valid::{CourseLight, Mode, PathSettings, Projection, Shape, Texture, ValidScene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use summary::MaterialSummary;
@@ -145,11 +145,11 @@ pub struct Plan {
     /// The shapes that rays may hit.
     pub shapes: Shapes,
     /// The plan of each light of the scene.
-    pub lights: Vec<LightPlan>,
+    pub lights: Table<CourseLight, LightPlan>,
     /// For each surface of the scene, whether a ray may hit it.
     pub surfaces: Vec<bool>,
     /// The value of each constant texture of the scene.
-    pub constants: Vec<Option<Vec3>>,
+    pub constants: Table<Texture, Option<Vec3>>,
     /// The number of bounces after the first hit that may contribute.
     pub max_depth: u32,
     /// The classes of the pixels.
@@ -240,9 +240,9 @@ impl Plan {
             rules,
             features: Features::EVERYTHING,
             shapes: shapes(scene, &surfaces),
-            lights: Vec::new(),
+            lights: Table::default(),
             surfaces,
-            constants: vec![None; scene.textures().len()],
+            constants: vec![None; scene.textures().len()].into(),
             max_depth,
             pixel_classes: PixelClasses::default(),
             paths: Some(plan),

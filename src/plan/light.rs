@@ -5,15 +5,15 @@ use super::rules::Rule;
 use super::surface_bounds::{Extent, ShapeClass, SurfaceBounds};
 use super::visibility::Visibility;
 use super::{Facts, LightPlan, MAX_PAIRS};
-use rtc_math::{Bounds, Vec3};
-use rtc_valid::{Ambient, CourseLight, Mode};
+use rtc_math::{Bounds, Table, Vec3};
+use rtc_valid::{Ambient, CourseLight, CourseLightId, Mode};
 
 /// The results of the rules about lights and shadows.
 pub(super) struct LightFindings {
     /// Per light.
-    pub(super) plans: Vec<LightPlan>,
+    pub(super) plans: Table<CourseLight, LightPlan>,
     /// For each light, the rule that removed its direct terms.
-    pub(super) rules: Vec<Option<Rule>>,
+    pub(super) rules: Table<CourseLight, Option<Rule>>,
     /// For each surface, whether it may cast a shadow.
     pub(super) occludes: Vec<bool>,
     /// One possible shadow, as an example.
@@ -27,7 +27,7 @@ pub(super) struct LightFindings {
 /// A possible shadow.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shadow {
-    pub(super) light: usize,
+    pub(super) light: CourseLightId,
     pub(super) occluder: usize,
     pub(super) receiver: usize,
 }
@@ -35,14 +35,14 @@ pub(super) struct Shadow {
 impl LightFindings {
     pub(super) fn new(facts: &Facts<'_>, visibility: &Visibility) -> Self {
         let lights = &facts.sources;
-        let (plans, rules) = lights
+        let (plans, rules): (Vec<_>, Vec<_>) = lights
             .iter()
             .map(|light| facts.light(light, visibility))
             .unzip();
         let occludes = vec![false; facts.surface_bounds.len()];
         let mut all = Self {
-            plans,
-            rules,
+            plans: plans.into(),
+            rules: rules.into(),
             occludes,
             shadow: None,
             single_surface: true,
@@ -62,7 +62,7 @@ impl LightFindings {
             visibility.visible[*surface] && facts.summaries[*surface].is_illuminated()
         };
         let receivers = (0..count).filter(receives).collect::<Vec<_>>();
-        let lights = (0..self.plans.len())
+        let lights = (self.plans.ids())
             .filter(|light| self.plans[*light].direct)
             .collect::<Vec<_>>();
         let occluders = facts.occluders().collect::<Vec<_>>();
@@ -148,7 +148,7 @@ impl LightFindings {
 
 /// A light and a surface that it may illuminate.
 struct LightPair {
-    light: usize,
+    light: CourseLightId,
     source: Bounds,
     receiver: usize,
 }

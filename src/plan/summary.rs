@@ -1,8 +1,8 @@
 //! Summaries of Phong materials, with maps and constant textures taken into account.
 
 use super::shape::shape_facts;
-use rtc_math::{NonNegative, Vec3};
-use rtc_valid::{Mesh, Phong, Shape, Surface, Texture, ValidScene};
+use rtc_math::{NonNegative, Table, Vec3};
+use rtc_valid::{Mesh, Phong, Shape, Surface, Texture, TextureId, ValidScene};
 
 /// A summary of the material of a surface.
 #[derive(Clone, Copy, Debug)]
@@ -28,9 +28,9 @@ pub(super) struct MaterialSummary {
     /// A map changes its shading normals.
     pub(super) has_normal_map: bool,
     /// The texture that gives its colour.
-    pub(super) color_map: Option<usize>,
+    pub(super) color_map: Option<TextureId>,
     /// The texture that scales its ks.
-    pub(super) specular_map: Option<usize>,
+    pub(super) specular_map: Option<TextureId>,
 }
 
 impl MaterialSummary {
@@ -38,7 +38,7 @@ impl MaterialSummary {
         surface: &Surface,
         material: &Phong,
         scene: &ValidScene,
-        constants: &[Option<Vec3>],
+        constants: &Table<Texture, Option<Vec3>>,
     ) -> Self {
         // Find the maps that the surface can use.
         let Phong {
@@ -53,7 +53,7 @@ impl MaterialSummary {
             ..
         } = material;
         let has_uv = shape_facts(&surface.shape).has_uv(scene);
-        let is_seen = |map: &usize| has_uv || !scene.textures()[*map].needs_uv();
+        let is_seen = |map: &TextureId| has_uv || !scene.textures()[*map].needs_uv();
         let maps = material.maps.as_deref();
         let (color_map, specular_map) = (
             maps.and_then(|maps| maps.color).filter(is_seen),
@@ -108,7 +108,7 @@ impl MaterialSummary {
 }
 
 /// The maximum of each channel of a texture.
-fn largest(scene: &ValidScene, texture: Option<usize>) -> Vec3 {
+fn largest(scene: &ValidScene, texture: Option<TextureId>) -> Vec3 {
     match texture.map(|texture| &scene.textures()[texture]) {
         // Texels may be floats of any size.
         Some(Texture::Uv | Texture::Sampled(_)) => Vec3::INFINITY,
@@ -125,7 +125,7 @@ fn has_normals(shape: &Shape, scene: &ValidScene) -> bool {
 }
 
 /// The value of each constant texture.
-pub(super) fn constants(scene: &ValidScene) -> Vec<Option<Vec3>> {
+pub(super) fn constants(scene: &ValidScene) -> Table<Texture, Option<Vec3>> {
     let value = |texture: &Texture| match texture {
         Texture::Uv | Texture::Sampled(_) => None,
         Texture::Procedural(texture) => {

@@ -4,7 +4,7 @@
 use rtc_diag::codes::{self, Code};
 use rtc_diag::{Diagnostic, Severity, Sink};
 use rtc_ir::{EntityKind, Field, SourceSpans, ValuePath};
-use rtc_math::{NonNegative, Positive, Vec3, shortest, unit_scale};
+use rtc_math::{Id, NonNegative, Positive, Vec3, shortest, unit_scale};
 use std::num::NonZeroU32;
 
 /// The largest absolute value of a coordinate. The sphere test computes fourth powers of lengths,
@@ -105,20 +105,20 @@ impl<'run> Checker<'run> {
         }
     }
 
-    /// An index below `count`.
-    pub(super) fn handle(
+    /// The id of one of `count` entities.
+    pub(super) fn handle<K>(
         &mut self,
         id: u32,
         count: usize,
         entity: &str,
         path: ValuePath,
-    ) -> Option<usize> {
+    ) -> Option<Id<K>> {
         let found = usize::try_from(id).ok().filter(|id| *id < count);
         if found.is_none() {
             let message = format!("{entity} {id} does not exist: the scene has {count}");
             self.report(path, "", Diagnostic::new(&codes::BAD_HANDLE, message));
         }
-        found
+        found.map(Id::new)
     }
 
     /// A direction: a finite nonzero vector. Its length has no meaning. The result is scaled by a

@@ -1,5 +1,6 @@
 //! Validates the environment.
 
+use super::ImageId;
 use super::check::Checker;
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
@@ -10,8 +11,8 @@ use rtc_math::Vec3;
 pub struct Environment {
     /// The radiance, each channel at least 0; a factor of the image if there is one.
     pub radiance: Vec3,
-    /// An equirectangular image of all directions: an index into [`super::ValidScene::images`].
-    pub image: Option<usize>,
+    /// An equirectangular image of all directions.
+    pub image: Option<ImageId>,
     /// The rows of the rotation from world directions to image directions.
     pub image_from_world: [Vec3; 3],
 }

@@ -51,6 +51,7 @@ pub use texture::{Filter, Map, Sampled, Texture, UvSet, Wrap};
 use check::{Checker, EntityCounts};
 use rtc_diag::Sink;
 use rtc_ir::{self as ir, SourceSpans};
+use rtc_math::{Id, Table};
 use rtc_source::Limits;
 use std::sync::Arc;
 
@@ -61,6 +62,19 @@ pub struct ValidationOptions {
     pub limits: Limits,
 }
 
+/// The id of a light of the course among those of a [`ValidScene`].
+pub type CourseLightId = Id<CourseLight>;
+/// The id of a physical light, in the order of the scene.
+pub type PunctualId = Id<Punctual>;
+/// The id of an image of a [`ValidScene`].
+pub type ImageId = Id<Image>;
+/// The id of a material of a [`ValidScene`].
+pub type MaterialId = Id<Material>;
+/// The id of a mesh of a [`ValidScene`].
+pub type MeshId = Id<Mesh>;
+/// The id of a texture of a [`ValidScene`].
+pub type TextureId = Id<Texture>;
+
 /// A valid scene: indices in range, numbers finite and in range, camera axes perpendicular,
 /// triangles with an area.
 #[derive(Clone, Debug)]
@@ -69,10 +83,10 @@ pub struct ValidScene {
     settings: Settings,
     lights: Vec<Light>,
     environment: Environment,
-    images: Vec<Image>,
-    textures: Vec<Texture>,
-    meshes: Vec<Arc<Mesh>>,
-    materials: Vec<Material>,
+    images: Table<Image>,
+    textures: Table<Texture>,
+    meshes: Table<Mesh, Arc<Mesh>>,
+    materials: Table<Material>,
     surfaces: Vec<Surface>,
 }
 
@@ -103,25 +117,25 @@ impl ValidScene {
 
     /// The images.
     #[must_use]
-    pub fn images(&self) -> &[Image] {
+    pub fn images(&self) -> &Table<Image> {
         &self.images
     }
 
     /// The textures.
     #[must_use]
-    pub fn textures(&self) -> &[Texture] {
+    pub fn textures(&self) -> &Table<Texture> {
         &self.textures
     }
 
     /// The meshes.
     #[must_use]
-    pub fn meshes(&self) -> &[Arc<Mesh>] {
+    pub fn meshes(&self) -> &Table<Mesh, Arc<Mesh>> {
         &self.meshes
     }
 
     /// The materials.
     #[must_use]
-    pub fn materials(&self) -> &[Material] {
+    pub fn materials(&self) -> &Table<Material> {
         &self.materials
     }
 
@@ -224,10 +238,10 @@ pub fn validate(
         settings: valid_settings?,
         lights: valid_lights?,
         environment: valid_environment?,
-        images: valid_images?,
-        textures: valid_textures?,
+        images: valid_images?.into(),
+        textures: valid_textures?.into(),
         meshes: valid_meshes?.into_iter().map(Arc::new).collect(),
-        materials: valid_materials?,
+        materials: valid_materials?.into(),
         surfaces: valid_surfaces?.into_iter().flatten().collect(),
     };
     // Run the lints.

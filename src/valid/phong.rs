@@ -1,8 +1,9 @@
 //! Validates the Phong model.
 
+use super::TextureId;
 use super::check::{Checker, EntityCounts};
 use rtc_diag::codes;
-use rtc_ir::{self as ir, EntityKind, Field, TextureId, ValuePath};
+use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 use rtc_math::{NonNegative, Positive, Vec3};
 use std::num::NonZeroU32;
 
@@ -33,15 +34,15 @@ pub struct Phong {
     pub maps: Option<Box<Maps>>,
 }
 
-/// Textures of a material, as indices into [`super::ValidScene::textures`].
+/// Textures of a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Maps {
     /// The texture of the colour.
-    pub color: Option<usize>,
+    pub color: Option<TextureId>,
     /// The texture whose red channel multiplies ks.
-    pub specular: Option<usize>,
+    pub specular: Option<TextureId>,
     /// The normal map.
-    pub normal: Option<usize>,
+    pub normal: Option<TextureId>,
     /// The bump map.
     pub bump: Option<Bump>,
 }
@@ -49,8 +50,8 @@ pub struct Maps {
 /// A height field over a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bump {
-    /// The texture: an index into [`super::ValidScene::textures`].
-    pub texture: usize,
+    /// The texture.
+    pub texture: TextureId,
     /// The height of white above black, as a fraction of the width of a texel.
     pub height: f64,
 }
@@ -91,7 +92,7 @@ pub(super) fn phong(
     let ior = check.length(*ior, at(Field::Ior), &codes::ETA, "index of refraction");
     let glossy_samples = check.count(*glossy_samples, "glossySamples", at(Field::GlossySamples));
     // Texture maps.
-    let mut texture = |id: &Option<TextureId>, field| {
+    let mut texture = |id: &Option<ir::TextureId>, field| {
         check.optional(id.as_ref(), |check, id| {
             check.handle(id.0, counts.textures, "texture", at(field))
         })

@@ -1,6 +1,7 @@
 //! Validates the textures and texture maps: the images and textures they refer to exist.
 
 use super::check::{Checker, EntityCounts};
+use super::{ImageId, TextureId};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 use rtc_math::{GradientNoise, SolidTexture, TextureMapping, TexturePattern};
@@ -10,9 +11,8 @@ use rtc_math::{GradientNoise, SolidTexture, TextureMapping, TexturePattern};
 pub enum Texture {
     /// The colour (u, 0, v).
     Uv,
-    /// An image with the texture coordinates of the course, v = 1 at its top row: an index into
-    /// [`super::ValidScene::images`].
-    Image(usize),
+    /// An image with the texture coordinates of the course, v = 1 at its top row.
+    Image(ImageId),
     /// An image as glTF samples it, v = 0 at its top row.
     Sampled(Sampled),
     /// A pattern in closed form.
@@ -22,8 +22,8 @@ pub enum Texture {
 /// An image with its sampler.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampled {
-    /// An index into [`super::ValidScene::images`].
-    pub image: usize,
+    /// The image.
+    pub image: ImageId,
     /// The wrap modes along u and v.
     pub wrap: [Wrap; 2],
     /// The filter.
@@ -53,8 +53,8 @@ pub enum Filter {
 /// A texture with an affine map from surface to texture coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Map {
-    /// An index into [`super::ValidScene::textures`].
-    pub texture: usize,
+    /// The texture.
+    pub texture: TextureId,
     /// The set of texture coordinates of the surface.
     pub set: UvSet,
     /// The rows of the affine map from surface to texture coordinates, `(a, b, c)` for `a·u + b·v +

@@ -84,7 +84,7 @@ fn chains() {
             let passed = match next {
                 Some(next) if wanted => {
                     let slack = tolerance / number(&expect["n_dot_w"]).abs();
-                    next.surface as u64 == expect["shape"].as_u64().unwrap()
+                    next.surface.index() as u64 == expect["shape"].as_u64().unwrap()
                         && error(next.t, &expect["t"]) <= slack
                 }
                 Some(_) => false,

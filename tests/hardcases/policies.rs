@@ -235,7 +235,7 @@ fn triangles_with_one_centroid_are_all_found() {
             direction: Vec3::Z,
         };
         let hit = world.closest_hit(&ray).unwrap();
-        assert_eq!(hit.surface, k as usize);
+        assert_eq!(hit.surface.index(), k as usize);
     }
 }
 

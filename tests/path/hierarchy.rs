@@ -66,18 +66,14 @@ pub(super) fn place(
 /// surface.
 fn one_by_one(world: &World<Prepared>, ray: &Ray) -> Option<Hit> {
     let watertight = WatertightRay::new(ray);
-    let hits = world
-        .surfaces
-        .iter()
-        .enumerate()
-        .filter_map(|(surface, found)| {
-            let (t, prim_id) = found.shape.intersect(ray, &watertight, f64::INFINITY)?;
-            Some(Hit {
-                t,
-                surface,
-                prim_id,
-            })
-        });
+    let hits = world.surfaces.entries().filter_map(|(surface, found)| {
+        let (t, prim_id) = found.shape.intersect(ray, &watertight, f64::INFINITY)?;
+        Some(Hit {
+            t,
+            surface,
+            prim_id,
+        })
+    });
     hits.min_by(|a, b| a.t.total_cmp(&b.t))
 }
 
@@ -126,7 +122,7 @@ fn the_world_finds_what_its_surfaces_find() {
         let (found, expected) = (world.closest_hit(&ray), one_by_one(&world, &ray));
         assert_eq!(found, expected, "{ray:?}");
         hits += u32::from(found.is_some());
-        ties += u32::from(found.is_some_and(|hit| hit.surface == 1));
+        ties += u32::from(found.is_some_and(|hit| hit.surface.index() == 1));
         let t = found.map_or(f64::INFINITY, |hit| hit.t);
         if (t - 1.0).abs() > 1e-9 {
             assert_eq!(world.occluded(origin, target), t < 1.0, "{ray:?}");

@@ -104,7 +104,13 @@ fn maps_left_after(bounces: u32, change: impl Fn(&mut Standard, Option<Map>)) ->
     // The picture keeps its bits.
     fires(Rule::PathMapUnseen, &scene);
     let plan = Plan::new(&validated(&scene), Rules::ALL);
-    plan.paths.unwrap().materials[0].maps().count()
+    plan.paths
+        .unwrap()
+        .materials
+        .first()
+        .unwrap()
+        .maps()
+        .count()
 }
 
 #[test]

@@ -6,8 +6,9 @@ use super::scenes::{ball, diffuse, disc, shiny, with};
 use super::{file_name, files, scene, small, validated};
 use proptest::prelude::*;
 use rtc::internals::ir::Scene;
-use rtc::internals::plan::{Effect, Plan, Rule, Rules};
+use rtc::internals::plan::{Effect, LightPlan, Plan, Rule, Rules};
 use rtc::internals::render::{Job, Mismatch, verify};
+use rtc::internals::valid::CourseLightId;
 
 fn validate(scene: &Scene, change: impl FnOnce(&mut Plan)) -> Result<(), Mismatch> {
     let scene = validated(scene);
@@ -48,6 +49,11 @@ fn busy() -> Scene {
     ])
 }
 
+/// The plan of the first light.
+fn lamp(plan: &mut Plan) -> &mut LightPlan {
+    &mut plan.lights[CourseLightId::new(0)]
+}
+
 fn is_found(effect: Effect, change: impl FnOnce(&mut Plan)) {
     let mismatch = validate(&busy(), change).expect_err("it shows");
     assert_eq!(mismatch.effect, effect, "{mismatch:?}");
@@ -56,19 +62,19 @@ fn is_found(effect: Effect, change: impl FnOnce(&mut Plan)) {
 #[test]
 fn a_plan_that_leaves_out_too_much_is_found_out() {
     assert_eq!(validate(&busy(), |_| ()), Ok(()));
-    is_found(Effect::Shadows, |plan| plan.lights[0].shadowed[1] = false);
+    is_found(Effect::Shadows, |plan| lamp(plan).shadowed[1] = false);
     is_found(Effect::Surfaces, |plan| plan.surfaces[0] = false);
     is_found(Effect::Depth, |plan| plan.max_depth = 0);
 }
 
 #[test]
 fn a_light_left_out_is_found_at_the_first_pixel_it_shines_on() {
-    let mismatch = validate(&busy(), |plan| plan.lights[0].direct = false).unwrap_err();
+    let mismatch = validate(&busy(), |plan| lamp(plan).direct = false).unwrap_err();
     assert_eq!(
         (mismatch.effect, mismatch.what),
         (Effect::DirectLight, "a light left out shines")
     );
-    let dark = validate(&busy(), |plan| plan.lights[0].is_used = false).unwrap_err();
+    let dark = validate(&busy(), |plan| lamp(plan).is_used = false).unwrap_err();
     assert!(
         dark.pixel[1] <= mismatch.pixel[1],
         "its ambient term shows no later"

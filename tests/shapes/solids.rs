@@ -130,7 +130,7 @@ fn world<S: Prepare>(solid: &Solid, place: &ValuePath) -> World<S> {
 
 /// The first hit on a solid alone: t, and the point.
 fn hit<S: Intersect>(world: &World<S>, ray: &Ray) -> Option<(f64, Interaction)> {
-    let shape = &world.surfaces[0].shape;
+    let shape = &world.surfaces.first().unwrap().shape;
     let (t, prim_id) = shape.intersect(ray, &WatertightRay::new(ray), f64::INFINITY)?;
     Some((t, shape.interaction(ray, t, prim_id)))
 }

@@ -55,8 +55,12 @@ fn of_coplanar_surfaces_the_first_is_seen_in_any_order() {
                 |piece: &&str| format!("- {}, {MATERIAL}}}\n", piece.trim_end_matches('}'));
             let objects = pieces[..count].iter().map(object).collect::<String>();
             let world = world(&scene(&format!("Eye: [0, 0, 100]\nObjects:\n{objects}")));
-            let first =
-                |index: &u64| world.closest_hit(&aimed(*index)).map(|hit| hit.surface) == Some(0);
+            let first = |index: &u64| {
+                world
+                    .closest_hit(&aimed(*index))
+                    .map(|hit| hit.surface.index())
+                    == Some(0)
+            };
             let wrong = (0..20_000).filter(|index| !first(index)).count();
             assert_eq!(wrong, 0, "{:?}", &pieces[..count]);
         }
@@ -107,7 +111,7 @@ fn of_many_coplanar_quads_the_first_is_seen() {
             let ray = aimed(index);
             let mut hit = (0..60).filter(|index| single[*index].closest_hit(&ray).is_some());
             assert_eq!(
-                world.closest_hit(&ray).map(|hit| hit.surface),
+                world.closest_hit(&ray).map(|hit| hit.surface.index()),
                 hit.next(),
                 "ray {index}"
             );
@@ -137,13 +141,18 @@ fn a_decal_four_error_bounds_in_front_is_seen() {
         let Some(hit) = wall.closest_hit(&ray) else {
             continue;
         };
-        let at = wall.surfaces[0].shape.interaction(&ray, hit.t, hit.prim_id);
+        let at = wall
+            .surfaces
+            .first()
+            .unwrap()
+            .shape
+            .interaction(&ray, hit.t, hit.prim_id);
         // The error of the surface along its normal, and of the root along the ray.
         let bound = 0.5 * at.offset + 10.0 * U * hit.t * ray.direction.dot(at.normal).abs();
         let hit = world(&quads([quad(0.0), quad(4.0 * bound)]))
             .closest_hit(&ray)
             .unwrap();
-        assert_eq!(hit.surface, 1, "case {index}, bound {bound:e}");
+        assert_eq!(hit.surface.index(), 1, "case {index}, bound {bound:e}");
         tried += 1;
     }
     assert!(tried > 500, "{tried} decals");

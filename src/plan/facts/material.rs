@@ -3,7 +3,7 @@
 
 use rtc_math::{NonNegative, Positive, UnitInterval, Vec3};
 use rtc_tables::{PhongTerms, fit_phong};
-use rtc_valid::{Map, Material, Phong, Standard, UvSet};
+use rtc_valid::{Map, Material, Phong, Standard, TextureId, UvSet};
 use std::num::NonZeroU32;
 
 /// The material of the Whitted integrator. A glTF material is converted by its colour, without
@@ -76,7 +76,7 @@ fn standard_of_phong(phong: &Phong) -> Standard {
 }
 
 /// A map with untransformed texture coordinates.
-fn untransformed_map(texture: usize) -> Map {
+fn untransformed_map(texture: TextureId) -> Map {
     Map {
         texture,
         set: UvSet::First,
@@ -96,6 +96,7 @@ pub const WHITE: Standard = Standard {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rtc_math::Id;
     use rtc_valid::Maps;
 
     fn diffuse_material() -> Phong {
@@ -187,8 +188,8 @@ mod tests {
             kt: number(3.0),
             ior: Positive::new(0.7).unwrap(),
             maps: Some(Box::new(Maps {
-                color: Some(4),
-                specular: Some(5),
+                color: Some(Id::new(4)),
+                specular: Some(Id::new(5)),
                 normal: None,
                 bump: None,
             })),
@@ -202,6 +203,6 @@ mod tests {
             seen.base_color.map(UnitInterval::get),
             [0.5, 0.25, 0.0, 1.0]
         );
-        assert_eq!(seen.base_color_map.map(|map| map.texture), Some(4));
+        assert_eq!(seen.base_color_map.map(|map| map.texture), Some(Id::new(4)));
     }
 }

@@ -9,8 +9,11 @@ use crate::layer::Layer;
 use crate::projection::ScreenRect;
 use crate::surface_bounds::SurfaceBounds;
 use rtc_ir::{EntityKind, Field, ValuePath};
-use rtc_math::{UnitInterval, Vec3};
-use rtc_valid::{Alpha, Map, Mesh, PathSettings, Punctual, Shape, Standard, Surface, ValidScene};
+use rtc_math::{Table, UnitInterval, Vec3};
+use rtc_valid::{
+    Alpha, Map, Material, MaterialId, Mesh, PathSettings, Punctual, Shape, Standard, Surface,
+    Texture, ValidScene,
+};
 use std::ops::Range;
 
 /// The part of a scene that remains in the plan.
@@ -19,9 +22,9 @@ pub(super) struct PlanBuilder<'scene> {
     pub(super) scene: &'scene ValidScene,
     pub(super) path: PathSettings,
     /// The punctual lights.
-    pub(super) punctual: &'scene [Punctual],
+    pub(super) punctual: &'scene Table<Punctual>,
     /// The surfaces of each material.
-    pub(super) uses: &'scene [MaterialUses],
+    pub(super) uses: &'scene Table<Material, MaterialUses>,
     /// The values of the textures.
     pub(super) textures: &'scene TextureValues<'scene>,
     /// The bounds of each surface.
@@ -29,11 +32,11 @@ pub(super) struct PlanBuilder<'scene> {
     /// The screen rectangle of each surface.
     pub(super) screen_rects: &'scene [ScreenRect],
     /// The simplified material for each material of the scene.
-    pub(super) materials: Vec<Standard>,
+    pub(super) materials: Table<Material, Standard>,
     /// For each texture, whether its maps are folded into factors.
-    pub(super) folded: Vec<bool>,
+    pub(super) folded: Table<Texture, bool>,
     /// The use of each punctual light.
-    pub(super) lights: Vec<LightUse>,
+    pub(super) lights: Table<Punctual, LightUse>,
     pub(super) environment: EnvironmentUse,
     /// For each surface, whether it is in the world.
     pub(super) surfaces: Vec<bool>,
@@ -103,27 +106,28 @@ impl PlanBuilder<'_> {
     /// Simplifies the used materials; returns the paths of the changed ones.
     pub(super) fn simplify(
         &mut self,
-        simplified: impl Fn(&Self, usize, &Standard) -> Standard,
+        simplified: impl Fn(&Self, MaterialId, &Standard) -> Standard,
     ) -> Vec<ValuePath> {
         let new = |(index, material)| (index, simplified(self, index, material));
-        let is_new = |(index, new): &(usize, Standard)| *new != self.materials[*index];
+        let is_new = |(index, new): &(MaterialId, Standard)| *new != self.materials[*index];
         let changed: Vec<_> = self.used_materials().map(new).filter(is_new).collect();
-        let put = |(index, new): (usize, Standard)| {
+        let put = |(index, new): (MaterialId, Standard)| {
             self.materials[index] = new;
-            ValuePath::new(EntityKind::Material, index, Field::Whole)
+            ValuePath::new(EntityKind::Material, index.index(), Field::Whole)
         };
         changed.into_iter().map(put).collect()
     }
 
     /// The materials of surfaces in the world, each with its index.
-    pub(super) fn used_materials(&self) -> impl Iterator<Item = (usize, &Standard)> {
-        let is_used = |material: &usize| {
+    pub(super) fn used_materials(&self) -> impl Iterator<Item = (MaterialId, &Standard)> {
+        let is_used = |material: &MaterialId| {
             self.uses[*material]
                 .surfaces
                 .iter()
                 .any(|surface| self.surfaces[*surface])
         };
-        (0..self.materials.len())
+        self.materials
+            .ids()
             .filter(is_used)
             .map(|index| (index, &self.materials[index]))
     }
@@ -218,7 +222,7 @@ impl PlanBuilder<'_> {
                 .any(|normal| std::ptr::eq(normal, map))
         };
         // A constant normal map still changes the normals.
-        let is_looked_up = |index: usize, map: &Map| of_normals || !self.is_folded(index, map);
+        let is_looked_up = |index: MaterialId, map: &Map| of_normals || !self.is_folded(index, map);
         self.used_materials().any(|(index, material)| {
             let mut maps = material.maps();
             maps.any(|map| is_of_normals(material, map) == of_normals && is_looked_up(index, map))
@@ -226,33 +230,33 @@ impl PlanBuilder<'_> {
     }
 
     /// Whether a map of a material is folded into a constant.
-    pub(super) fn is_folded(&self, material: usize, map: &Map) -> bool {
+    pub(super) fn is_folded(&self, material: MaterialId, map: &Map) -> bool {
         self.is_everywhere(material, map) && self.folded[map.texture]
     }
 
     /// Whether a map is constant, so that it could be folded.
-    pub(super) fn is_constant(&self, material: usize, map: &Map) -> bool {
+    pub(super) fn is_constant(&self, material: MaterialId, map: &Map) -> bool {
         self.is_everywhere(material, map) && self.textures.is_constant(map)
     }
 
     /// Whether all surfaces of a material have the texture coordinates of a map.
-    fn is_everywhere(&self, material: usize, map: &Map) -> bool {
+    fn is_everywhere(&self, material: MaterialId, map: &Map) -> bool {
         self.presence(material, map) == UvPresence::Everywhere
     }
 
     /// Whether any surface of a material has the texture coordinates of a map.
-    pub(super) fn has_places(&self, material: usize, map: &Map) -> bool {
+    pub(super) fn has_places(&self, material: MaterialId, map: &Map) -> bool {
         self.presence(material, map) != UvPresence::Never
     }
 
-    fn presence(&self, material: usize, map: &Map) -> UvPresence {
+    fn presence(&self, material: MaterialId, map: &Map) -> UvPresence {
         self.uses[material].presence(map, self.textures)
     }
 
     /// Whether a map is 0 in some channels on all surfaces of a material; false without a map.
     pub(super) fn is_zero(
         &self,
-        material: usize,
+        material: MaterialId,
         map: Option<&Map>,
         channels: Range<usize>,
     ) -> bool {
@@ -287,7 +291,7 @@ impl PlanBuilder<'_> {
 
     /// Whether a surface that lights are sampled on has an emissive material.
     fn has_emissive_surface(&self) -> bool {
-        let shines = |material: usize| {
+        let shines = |material: MaterialId| {
             let material = &self.materials[material];
             !material.unlit && material.emissive != Vec3::ZERO
         };

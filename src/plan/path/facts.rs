@@ -4,8 +4,8 @@
 use super::texture::{TextureValues, UvRect};
 use crate::Layer;
 use crate::shape::shape_facts;
-use rtc_math::UnitInterval;
-use rtc_valid::{Map, Shape, Standard, ValidScene};
+use rtc_math::{Table, UnitInterval};
+use rtc_valid::{Map, Material, Mesh, Shape, Standard, ValidScene};
 
 /// Facts about all surfaces of one material.
 #[derive(Clone, Debug)]
@@ -42,16 +42,16 @@ impl UvPresence {
 
 impl MaterialUses {
     /// The facts for each material of a scene.
-    pub(super) fn of(scene: &ValidScene) -> Vec<Self> {
+    pub(super) fn of(scene: &ValidScene) -> Table<Material, Self> {
         let unused = Self {
             surfaces: Vec::new(),
             sets: [UvPresence::Never; 2],
             areas: [UvRect::NONE; 2],
             has_colors: false,
         };
-        let mut uses = vec![unused; scene.materials().len()];
+        let mut uses = Table::from(vec![unused; scene.materials().len()]);
         // Each mesh is scanned once, however many instances it has.
-        let mut of_meshes = vec![None; scene.meshes().len()];
+        let mut of_meshes = Table::<Mesh, _>::from(vec![None; scene.meshes().len()]);
         for (index, surface) in scene.surfaces().iter().enumerate() {
             let used_materials = &mut uses[surface.material];
             let areas = || shape_facts(&surface.shape).uv_areas(scene);

@@ -35,20 +35,22 @@ use super::rules::Rules;
 use super::surface_bounds::surface_bounds;
 use builder::{AppliedRule, PlanBuilder};
 use facts::MaterialUses;
-use rtc_math::Vec3;
-use rtc_valid::{Map, PathSettings, Projection, Standard, UvSet, ValidScene};
+use rtc_math::{Table, Vec3};
+use rtc_valid::{
+    Map, Material, MaterialId, PathSettings, Projection, Punctual, Standard, TextureId, UvSet,
+    ValidScene,
+};
 use texture::TextureValues;
 
 /// The work of the path integrator.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathPlan {
     /// The simplified material for each material of the scene.
-    pub materials: Vec<Standard>,
-    /// For each material, the maps that are folded into constants: the texture index and the set of
-    /// coordinates.
-    folded: Vec<Vec<(usize, UvSet)>>,
+    pub materials: Table<Material, Standard>,
+    /// For each material, the maps that are folded into constants: the texture and the set of coordinates.
+    folded: Table<Material, Vec<(TextureId, UvSet)>>,
     /// The use of each punctual light.
-    pub lights: Vec<LightUse>,
+    pub lights: Table<Punctual, LightUse>,
     /// The use of the environment.
     pub environment: EnvironmentUse,
     /// Whether the last ray of a path may hit an emitter.
@@ -61,7 +63,7 @@ impl PathPlan {
     /// Whether a map of a material is constant on all its surfaces, so that scene preparation folds
     /// it into a factor.
     #[must_use]
-    pub fn is_folded(&self, material: usize, map: &Map) -> bool {
+    pub fn is_folded(&self, material: MaterialId, map: &Map) -> bool {
         self.folded[material].contains(&(map.texture, map.set))
     }
 }
@@ -113,8 +115,8 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Plan
             .iter()
             .map(facts_seen::material::standard)
             .collect(),
-        folded: vec![false; scene.textures().len()],
-        lights: vec![LightUse::All; punctual.len()],
+        folded: vec![false; scene.textures().len()].into(),
+        lights: vec![LightUse::All; punctual.len()].into(),
         environment: if scene.environment().radiance == Vec3::ZERO {
             EnvironmentUse::Nothing
         } else {
@@ -131,12 +133,12 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Plan
     let applied = apply(&mut reduced, rules);
     let statuses = status::statuses(&requested, &reduced, &applied);
     // Take the plan from the remaining parts.
-    let folded = |(index, material): (usize, &Standard)| {
+    let folded = |(index, material): (MaterialId, &Standard)| {
         let maps = material.maps().filter(|map| reduced.is_folded(index, map));
         maps.map(|map| (map.texture, map.set)).collect()
     };
     let plan = PathPlan {
-        folded: reduced.materials.iter().enumerate().map(folded).collect(),
+        folded: reduced.materials.entries().map(folded).collect(),
         features: features(&reduced, rules),
         lights: reduced.lights,
         environment: reduced.environment,

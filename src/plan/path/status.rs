@@ -3,7 +3,7 @@
 use super::builder::{AppliedRule, PlanBuilder, material_requires};
 use crate::effect::{Effect, EffectState, EffectStatus};
 use rtc_ir::{EntityKind, Field, ValuePath};
-use rtc_valid::Standard;
+use rtc_valid::{MaterialId, Standard};
 
 /// The maximum number of facts of a status.
 const MAX_FACTS: usize = 3;
@@ -183,23 +183,23 @@ impl PlanBuilder<'_> {
 
     /// The materials with maps.
     fn with_maps(&self) -> Vec<ValuePath> {
-        let has_map = |(_, m): &(usize, &Standard)| m.maps().next().is_some();
+        let has_map = |(_, m): &(MaterialId, &Standard)| m.maps().next().is_some();
         let with_maps = self.used_materials().filter(has_map);
         with_maps.map(|(index, _)| material(index)).collect()
     }
 
     /// The materials that require an effect.
-    fn materials_with(&self, effect: Effect) -> impl Iterator<Item = usize> {
+    fn materials_with(&self, effect: Effect) -> impl Iterator<Item = MaterialId> {
         let requires =
-            move |(_, material): &(usize, &Standard)| material_requires(material, effect);
+            move |(_, material): &(MaterialId, &Standard)| material_requires(material, effect);
         self.used_materials()
             .filter(requires)
             .map(|(index, _)| index)
     }
 }
 
-fn material(index: usize) -> ValuePath {
-    ValuePath::new(EntityKind::Material, index, Field::Whole)
+fn material(id: MaterialId) -> ValuePath {
+    ValuePath::new(EntityKind::Material, id.index(), Field::Whole)
 }
 
 fn counted(count: usize, entity: &str) -> String {

@@ -1,7 +1,8 @@
 //! The values of a texture within a rectangle of texture coordinates.
 
 use rtc_image::Texel;
-use rtc_valid::{Image, Map, Texture, ValidScene, Wrap};
+use rtc_math::Table;
+use rtc_valid::{Image, ImageId, Map, Texture, ValidScene, Wrap};
 use std::cell::OnceCell;
 use std::ops::Range;
 
@@ -52,9 +53,9 @@ impl UvRect {
 pub(super) struct TextureValues<'scene> {
     scene: &'scene ValidScene,
     /// For each image, whether all texels are equal.
-    constant: Vec<OnceCell<bool>>,
+    constant: Table<Image, OnceCell<bool>>,
     /// For each image and channel, the value of all texels, if they are equal.
-    values: Vec<[OnceCell<Option<f64>>; 4]>,
+    values: Table<Image, [OnceCell<Option<f64>>; 4]>,
 }
 
 impl<'scene> TextureValues<'scene> {
@@ -62,8 +63,8 @@ impl<'scene> TextureValues<'scene> {
         let count = scene.images().len();
         Self {
             scene,
-            constant: vec![OnceCell::new(); count],
-            values: vec![std::array::from_fn(|_| OnceCell::new()); count],
+            constant: vec![OnceCell::new(); count].into(),
+            values: vec![std::array::from_fn(|_| OnceCell::new()); count].into(),
         }
     }
 
@@ -79,7 +80,7 @@ impl<'scene> TextureValues<'scene> {
     }
 
     /// Whether all texels of an image are equal.
-    pub(super) fn is_constant_image(&self, image: usize) -> bool {
+    pub(super) fn is_constant_image(&self, image: ImageId) -> bool {
         let is_constant = || self.scene.images()[image].texels.are_even();
         *self.constant[image].get_or_init(is_constant)
     }
@@ -122,7 +123,7 @@ impl<'scene> TextureValues<'scene> {
     fn region(
         &self,
         texture: &Texture,
-        image: usize,
+        image: ImageId,
         UvRect([us, vs]): UvRect,
     ) -> ImageRegion<'scene> {
         let image = &self.scene.images()[image];
@@ -155,7 +156,7 @@ fn constant_channel(texture: &Texture, channel: usize) -> Option<f64> {
 }
 
 /// The image of a texture, if it has one.
-fn image_of(texture: &Texture) -> Option<usize> {
+fn image_of(texture: &Texture) -> Option<ImageId> {
     match texture {
         Texture::Uv | Texture::Procedural(_) => None,
         Texture::Image(image) => Some(*image),

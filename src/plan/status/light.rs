@@ -1,12 +1,12 @@
 //! The status of direct light, shadows, area lights and highlights.
 
-use super::{MAX_DETAILS, first_n, light, settings};
+use super::{MAX_DETAILS, first_n, settings};
 use crate::effect::{Effect, EffectStatus};
 use crate::light::Shadow;
 use crate::rules::Rule;
 use crate::{Findings, MaterialSummary};
 use rtc_ir::{Field, ValuePath};
-use rtc_valid::Mode;
+use rtc_valid::{CourseLightId, Mode};
 
 pub(super) fn statuses(findings: &Findings<'_>) -> Vec<EffectStatus> {
     let mut all = vec![direct(findings)];
@@ -19,9 +19,13 @@ pub(super) fn statuses(findings: &Findings<'_>) -> Vec<EffectStatus> {
 }
 
 /// The reason why a rule removed the direct terms of a light, and the scene values that decided.
-fn reason(findings: &Findings<'_>, index: usize, rule: Rule) -> (&'static str, Vec<ValuePath>) {
+fn reason(
+    findings: &Findings<'_>,
+    index: CourseLightId,
+    rule: Rule,
+) -> (&'static str, Vec<ValuePath>) {
     if rule == Rule::LightBlack {
-        return ("its colour is 0", vec![light(index, Field::Color)]);
+        return ("its colour is 0", vec![findings.light(index, Field::Color)]);
     }
     if rule == Rule::Mode {
         return (
@@ -30,7 +34,7 @@ fn reason(findings: &Findings<'_>, index: usize, rule: Rule) -> (&'static str, V
         );
     }
     if rule == Rule::LightBehind {
-        let mut facts = vec![light(index, Field::Position)];
+        let mut facts = vec![findings.light(index, Field::Position)];
         facts.extend(first_n(
             findings
                 .visible()
@@ -63,11 +67,14 @@ fn direct(findings: &Findings<'_>) -> EffectStatus {
         return EffectStatus::needed(
             effect,
             "Gooch shading depends on the light direction",
-            vec![light(0, Field::Position)],
+            vec![findings.light(CourseLightId::new(0), Field::Position)],
         );
     }
     // Needed if any light illuminates a visible surface, otherwise pruned.
-    let needed = findings.lights.plans.iter().position(|light| light.direct);
+    let mut plans = findings.lights.plans.entries();
+    let needed = plans
+        .find(|(_, light)| light.direct)
+        .map(|(index, _)| index);
     match needed.zip(findings.first(MaterialSummary::is_illuminated)) {
         Some((index, surface)) => {
             let count = findings
@@ -77,7 +84,7 @@ fn direct(findings: &Findings<'_>) -> EffectStatus {
                 .filter(|light| light.direct)
                 .count();
             let facts = vec![
-                light(index, Field::Position),
+                findings.light(index, Field::Position),
                 findings.surface(surface, Field::Whole),
             ];
             EffectStatus::needed(
@@ -98,20 +105,20 @@ fn direct(findings: &Findings<'_>) -> EffectStatus {
                 .next()
                 .copied()
                 .unwrap_or(Rule::LightUnreached);
-            let (reason, facts) = reason(findings, 0, rule);
+            let (reason, facts) = reason(findings, CourseLightId::new(0), rule);
             EffectStatus::pruned(effect, rule, format!("each light: {reason}"), facts)
         }
     }
 }
 
 fn per_light(findings: &Findings<'_>) -> impl Iterator<Item = EffectStatus> {
-    let rules = findings.lights.rules.iter().enumerate();
+    let rules = findings.lights.rules.entries();
     let shaded = findings.is_shaded();
     rules.filter(move |_| shaded).filter_map(|(index, rule)| {
         let (reason, facts) = reason(findings, index, (*rule)?);
         Some(
             EffectStatus::pruned(Effect::DirectLight, (*rule)?, reason, facts)
-                .of(light(index, Field::Whole)),
+                .of(findings.light(index, Field::Whole)),
         )
     })
 }
@@ -135,7 +142,7 @@ fn shadows(findings: &Findings<'_>) -> EffectStatus {
     }) = findings.lights.shadow
     {
         let facts = vec![
-            light(index, Field::Position),
+            findings.light(index, Field::Position),
             findings.surface(occluder, Field::Whole),
             findings.surface(receiver, Field::Whole),
         ];
@@ -162,7 +169,7 @@ fn shadows(findings: &Findings<'_>) -> EffectStatus {
     };
     let facts = vec![
         findings.surface(surface, Field::Whole),
-        light(0, Field::Position),
+        findings.light(CourseLightId::new(0), Field::Position),
     ];
     if findings.lights.single_surface {
         return EffectStatus::pruned(
@@ -184,19 +191,15 @@ fn soft(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::SoftLight;
     // Absent if no light has a radius.
     let (scene, samples) = (findings.facts.scene, settings(Field::LightSamples));
-    let Some(first) = findings
-        .facts
-        .sources
-        .iter()
-        .position(|light| light.radius.get() > 0.0)
-    else {
+    let mut sources = findings.facts.sources.entries();
+    let Some((first, _)) = sources.find(|(_, light)| light.radius.get() > 0.0) else {
         return EffectStatus::absent(effect, "no light has a radius", vec![]).by(Rule::SoftPoint);
     };
     if let Some(status) = findings.by_mode(effect, true) {
         return status;
     }
     // Pruned with a single sample; needed if a sampled light contributes.
-    let facts = vec![samples, light(first, Field::LightRadius)];
+    let facts = vec![samples, findings.light(first, Field::LightRadius)];
     let count = scene.settings().light_samples.get();
     if count == 1 {
         return EffectStatus::pruned(

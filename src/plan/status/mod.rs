@@ -21,7 +21,8 @@ use super::pixel_classes::PixelClasses;
 use super::rules::Rule;
 use super::{Findings, MaterialSummary};
 use rtc_ir::{EntityKind, Field, ValuePath};
-use rtc_valid::Mode;
+use rtc_math::Table;
+use rtc_valid::{CourseLightId, Light, Material, Mode};
 
 /// The maximum number of statuses of single lights or materials for one effect.
 const MAX_DETAILS: usize = 24;
@@ -43,10 +44,6 @@ fn settings(field: Field) -> ValuePath {
 
 fn camera(field: Field) -> ValuePath {
     ValuePath::new(EntityKind::Camera, 0, field)
-}
-
-fn light(index: usize, field: Field) -> ValuePath {
-    ValuePath::new(EntityKind::Light, index, field)
 }
 
 impl EffectStatus {
@@ -105,6 +102,14 @@ impl EffectStatus {
 }
 
 impl Findings<'_> {
+    /// The path of a light of the course in the IR, which has lights of other kinds as well.
+    fn light(&self, id: CourseLightId, field: Field) -> ValuePath {
+        let lights = self.facts.scene.lights().iter().enumerate();
+        let mut course = lights.filter(|(_, light)| matches!(light, Light::Course(_)));
+        let index = course.nth(id.index()).map_or(0, |(index, _)| index);
+        ValuePath::new(EntityKind::Light, index, field)
+    }
+
     /// The path of a surface in the IR.
     fn surface(&self, surface: usize, field: Field) -> ValuePath {
         ValuePath::new(
@@ -118,7 +123,7 @@ impl Findings<'_> {
     fn material(&self, surface: usize, field: Field) -> ValuePath {
         ValuePath::new(
             EntityKind::Material,
-            self.facts.scene.surfaces()[surface].material,
+            self.facts.scene.surfaces()[surface].material.index(),
             field,
         )
     }
@@ -143,7 +148,7 @@ impl Findings<'_> {
         &self,
         shows: impl Fn(&MaterialSummary) -> bool,
     ) -> impl Iterator<Item = usize> {
-        let mut without = vec![None; self.facts.materials.len()];
+        let mut without = Table::<Material, _>::from(vec![None; self.facts.materials.len()]);
         for surface in self.visible() {
             let first =
                 without[self.facts.scene.surfaces()[surface].material].get_or_insert(Some(surface));

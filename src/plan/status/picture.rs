@@ -126,8 +126,9 @@ fn textures(findings: &Findings<'_>) -> EffectStatus {
     {
         return status;
     }
-    let is_constant =
-        |map: Option<usize>| map.is_some_and(|map| findings.facts.constants[map].is_some());
+    let is_constant = |map: Option<rtc_valid::TextureId>| {
+        map.is_some_and(|map| findings.facts.constants[map].is_some())
+    };
     let constant = |summary: &MaterialSummary| {
         is_constant(summary.color_map) || is_constant(summary.specular_map)
     };

@@ -31,9 +31,10 @@ use crate::sampler::discrete::DiscreteDistribution;
 use crate::shape::emitter::{Emitter, EmitterPoint};
 use crate::shape::geometry::AttributeRequest;
 use crate::shape::geometry::Intersect;
-use crate::world::World;
-use rtc_math::{Bounds, Vec3, to_u32};
+use crate::world::{Primitive, Surface, SurfaceId, World};
+use rtc_math::{Bounds, Id, Table, Vec3, to_u32};
 use rtc_plan::LightUse;
+use rtc_valid::PunctualId;
 use std::f64::consts::PI;
 
 /// Fewer local lights are chosen by power alone: with 8 a tree is slower (benches/sampling.md).
@@ -46,24 +47,28 @@ const MOST_LISTED: usize = 1 << 21;
 /// All lights of a world.
 pub(crate) struct Lights<'world, S> {
     world: &'world World<S>,
-    lights: Vec<Light>,
+    lights: Table<Light>,
     /// Over the lights, those of the tree with weight 0; the tree itself, if any, comes last.
     by_power: DiscreteDistribution,
     tree: Option<LightTree>,
     /// The one light that is ever chosen, if it is one.
-    only: Option<usize>,
+    only: Option<LightId>,
     /// The probabilities of `by_power`.
-    probabilities: Vec<f64>,
+    probabilities: Table<Light, f64>,
     /// The index of the first light of each surface that has some.
-    first_light_of_surface: Vec<Option<usize>>,
+    first_light_of_surface: Table<Surface, Option<LightId>>,
 }
 
+/// One of the lights that the path tracer chooses from.
 enum Light {
     Punctual(Punctual, LightUse),
     Triangle(TriangleLight),
     Shape(Box<ShapeLight>),
     Environment,
 }
+
+/// The id of a light of the path tracer.
+type LightId = Id<Light>;
 
 /// Light that a point receives from one direction.
 pub(crate) struct Incident {
@@ -99,37 +104,36 @@ fn mean(values: &[Vec3]) -> Vec3 {
 impl<'world, S: Intersect> Lights<'world, S> {
     /// The lights of a world.
     pub(crate) fn new(world: &'world World<S>, strategy: Strategy) -> Self {
-        let left = |index: usize| {
+        let left = |light: PunctualId| {
             let plan = world.plan.paths.as_ref();
-            plan.map_or(LightUse::All, |plan| plan.lights[index])
+            plan.map_or(LightUse::All, |plan| plan.lights[light])
         };
         // List the punctual lights that the plan keeps.
-        let punctual = world.lights.punctual.iter().enumerate();
+        let punctual = world.lights.punctual.entries();
         let mut lights = punctual
             .filter(|(index, _)| left(*index) != LightUse::Nothing)
             .map(|(index, light)| Light::Punctual(light.clone(), left(index)))
-            .collect::<Vec<_>>();
+            .collect::<Table<Light>>();
         // List the emissive surfaces: shapes as one light, meshes by triangle.
-        let mut first_light_of_surface = vec![None; world.surfaces.len()];
-        for (index, surface) in world.surfaces.iter().enumerate() {
+        let mut first_light_of_surface = Table::from(vec![None; world.surfaces.len()]);
+        for (index, surface) in world.surfaces.entries() {
             let material = &world.standards[surface.material];
             let shines = !material.is_unlit && material.emission.factor != Vec3::ZERO;
             if !shines {
                 continue;
             }
             if let Some(light) = ShapeLight::new(index, &surface.shape) {
-                first_light_of_surface[index] = Some(lights.len());
-                lights.push(Light::Shape(Box::new(light)));
+                first_light_of_surface[index] = Some(lights.push(Light::Shape(Box::new(light))));
             }
             let triangles = surface.shape.triangles();
             if triangles > 0 && is_room_for(triangles, lights.len()) {
-                first_light_of_surface[index] = Some(lights.len());
+                first_light_of_surface[index] = Some(LightId::new(lights.len()));
                 let parts = to_u32(triangles);
                 let corners = (0..parts)
                     .filter_map(|prim_id| Some((prim_id, surface.shape.corners(prim_id)?)));
-                lights.extend(corners.map(|(prim_id, corners)| {
-                    Light::Triangle(TriangleLight::new(index, prim_id, corners))
-                }));
+                for (prim_id, corners) in corners {
+                    lights.push(Light::Triangle(TriangleLight::new(index, prim_id, corners)));
+                }
             }
         }
         // The environment is the last light.
@@ -140,7 +144,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
             by_power: DiscreteDistribution::new(std::iter::empty()),
             tree: None,
             only: None,
-            probabilities: Vec::new(),
+            probabilities: Table::default(),
             first_light_of_surface,
         };
         all.build_distribution(strategy);
@@ -152,8 +156,8 @@ impl<'world, S: Intersect> Lights<'world, S> {
     fn build_distribution(&mut self, strategy: Strategy) {
         let disc = PI * self.radius_squared();
         let weight = |light| self.weight(light, disc, strategy);
-        let mut weights = self.lights.iter().map(weight).collect::<Vec<_>>();
-        let numbered = weights.iter().enumerate();
+        let mut weights = self.lights.iter().map(weight).collect::<Table<Light, _>>();
+        let numbered = weights.entries();
         let emitters = numbered.filter_map(|(light, power)| self.emitter(light, *power));
         let emitters = emitters.collect::<Vec<_>>();
         if emitters.len() >= LEAST_FOR_TREE {
@@ -164,14 +168,19 @@ impl<'world, S: Intersect> Lights<'world, S> {
             self.tree = Some(LightTree::new(emitters, self.lights.len()));
         }
         self.by_power = DiscreteDistribution::new(weights.iter().copied());
-        let is_light = |index: &usize| *index < self.lights.len();
-        self.only = self.by_power.only().filter(is_light);
+        let is_light = |light: &LightId| *light != self.tree_id();
+        self.only = self.by_power.only().map(LightId::new).filter(is_light);
         let probability = |index| self.by_power.probability(index);
         self.probabilities = (0..weights.len()).map(probability).collect();
     }
 
+    /// The id of the tree among the probabilities of the lights.
+    fn tree_id(&self) -> LightId {
+        LightId::new(self.lights.len())
+    }
+
     /// A light as a tree stores it; `None` for one without a position or power.
-    fn emitter(&self, light: usize, power: f64) -> Option<TreeLight> {
+    fn emitter(&self, light: LightId, power: f64) -> Option<TreeLight> {
         let (bounds, normal) = match &self.lights[light] {
             Light::Punctual(light, _) => (Bounds::around(light.place_of_falloff()?, 0.0), None),
             Light::Triangle(triangle) => (Bounds::of(triangle.corners), Some(triangle.normal())),
@@ -186,9 +195,9 @@ impl<'world, S: Intersect> Lights<'world, S> {
         })
     }
 
-    /// Chooses a light for a point: its index, its probability, and the sample values for a point
+    /// Chooses a light for a point: its id, its probability, and the sample values for a point
     /// on it.
-    fn choose(&self, from: Vec3, u: impl FnOnce() -> [f64; 2]) -> Option<(usize, f64, [f64; 2])> {
+    fn choose(&self, from: Vec3, u: impl FnOnce() -> [f64; 2]) -> Option<(LightId, f64, [f64; 2])> {
         if let Some(only) = self.only {
             // A light without size needs no numbers, if it is the only one.
             let u = match self.lights[only] {
@@ -199,9 +208,10 @@ impl<'world, S: Intersect> Lights<'world, S> {
         }
         let [u, v] = u();
         let (index, rest) = self.by_power.choose(u)?;
+        let index = LightId::new(index);
         let probability = self.probabilities[index];
         Some(match &self.tree {
-            Some(tree) if index == self.lights.len() => {
+            Some(tree) if index == self.tree_id() => {
                 let (light, share, rest) = tree.choose(from, rest);
                 (light, probability * share, [rest, v])
             }
@@ -210,10 +220,10 @@ impl<'world, S: Intersect> Lights<'world, S> {
     }
 
     /// The probability of choosing a light for a point.
-    fn probability(&self, light: usize, from: Vec3) -> f64 {
+    fn probability(&self, light: LightId, from: Vec3) -> f64 {
         let by_power = self.probabilities[light];
         self.tree.as_ref().map_or(by_power, |tree| {
-            by_power + self.probabilities[self.lights.len()] * tree.probability(light, from)
+            by_power + self.probabilities[self.tree_id()] * tree.probability(light, from)
         })
     }
 
@@ -288,7 +298,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
     }
 
     /// The material at a point of a surface.
-    fn point(&self, surface: usize, at: &EmitterPoint) -> MaterialPoint<'world> {
+    fn point(&self, surface: SurfaceId, at: &EmitterPoint) -> MaterialPoint<'world> {
         let ray = Ray {
             origin: at.point,
             direction: at.normal,
@@ -309,7 +319,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
     }
 
     /// The radiance that a point of a surface emits on average: alpha leaves out the rest.
-    fn emission(&self, surface: usize, at: &EmitterPoint) -> Vec3 {
+    fn emission(&self, surface: SurfaceId, at: &EmitterPoint) -> Vec3 {
         let material = self.material(surface);
         if material.emission.map.is_none() && material.alpha == Alpha::Opaque {
             return material.emission.factor;
@@ -318,7 +328,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
         point.emission() * point.opacity()
     }
 
-    fn material(&self, surface: usize) -> &'world StandardMaterial {
+    fn material(&self, surface: SurfaceId) -> &'world StandardMaterial {
         &self.world.standards[self.world.surfaces[surface].material]
     }
 
@@ -382,7 +392,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
     /// primitive of a surface, where the normal is given, from a point at the given distance.
     pub(crate) fn pdf_of_surface(
         &self,
-        (surface, prim_id): (usize, u32),
+        (surface, prim_id): Primitive,
         (place, normal): (Vec3, Vec3),
         wi: Vec3,
         distance: f64,
@@ -399,7 +409,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
             };
             return self.probability(first, from) * light.emitter.pdf(from, wi, &at, square);
         }
-        let index = first + prim_id as usize;
+        let index = LightId::new(first.index() + prim_id as usize);
         match &self.lights[index] {
             Light::Triangle(triangle) => self.probability(index, from) * triangle.pdf(wi, square),
             Light::Shape(_) | Light::Punctual(..) | Light::Environment => 0.0,
@@ -411,7 +421,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
     pub(crate) fn environment(&self, wi: Vec3) -> (Vec3, impl FnOnce() -> f64) {
         let environment = &self.world.lights.environment;
         let (radiance, place) = environment.seen(wi);
-        let probability = self.probabilities[self.lights.len() - 1];
+        let probability = self.probabilities[LightId::new(self.lights.len() - 1)];
         (radiance, move || probability * environment.pdf(wi, place))
     }
 }

@@ -2,20 +2,21 @@
 
 use crate::shape::emitter::Emitter;
 use crate::shape::geometry::Intersect;
+use crate::world::SurfaceId;
 use rtc_math::{Bounds, Vec3};
 use std::f64::consts::PI;
 
 /// A surface with an emissive material, sampled as its shape declares.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShapeLight {
-    pub(super) surface: usize,
+    pub(super) surface: SurfaceId,
     pub(super) emitter: Emitter,
     pub(super) bounds: Bounds,
 }
 
 impl ShapeLight {
     /// The light of a surface; `None` if its shape is not sampled as a whole.
-    pub(super) fn new<S: Intersect>(surface: usize, shape: &S) -> Option<Self> {
+    pub(super) fn new<S: Intersect>(surface: SurfaceId, shape: &S) -> Option<Self> {
         Some(Self {
             surface,
             emitter: shape.emitter()?,

@@ -6,8 +6,9 @@
 //! Every light has a probability above 0 at every point, so the tree changes the variance, not the
 //! mean. Probabilities below 2⁻³² are limited by the resolution of the random numbers.
 
+use super::{Light, LightId};
 use crate::sampler::remapped;
-use rtc_math::{Bounds, Vec3};
+use rtc_math::{Bounds, Table, Vec3};
 
 /// The least factor of orientation: the bound is never trusted to be 0.
 const LEAST_FACING: f64 = 1.0 / 16.0;
@@ -15,8 +16,8 @@ const LEAST_FACING: f64 = 1.0 / 16.0;
 /// A light that a tree can hold.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TreeLight {
-    /// Its index among all lights.
-    pub(super) light: usize,
+    /// Its id among all lights.
+    pub(super) light: LightId,
     pub(super) bounds: Bounds,
     /// Its approximate power, above 0.
     pub(super) power: f64,
@@ -29,7 +30,7 @@ pub(super) struct LightTree {
     /// The left child of an inner node follows it.
     nodes: Vec<LightNode>,
     /// The way from the root to each light, from the lowest bit on: 1 is right.
-    ways: Vec<Option<u64>>,
+    ways: Table<Light, Option<u64>>,
 }
 
 struct LightNode {
@@ -43,7 +44,7 @@ struct LightNode {
 }
 
 enum Below {
-    Light(usize),
+    Light(LightId),
     /// The index of the right child.
     Right(usize),
 }
@@ -61,7 +62,7 @@ impl LightTree {
     pub(super) fn new(mut emitters: Vec<TreeLight>, count: usize) -> Self {
         let mut tree = Self {
             nodes: Vec::with_capacity(2 * emitters.len()),
-            ways: vec![None; count],
+            ways: vec![None; count].into(),
         };
         tree.add(&mut emitters, 0, 0);
         tree
@@ -85,9 +86,9 @@ impl LightTree {
         self.add(right, direction | 1 << depth, depth + 1);
     }
 
-    /// Chooses a light for a point with a number in [0, 1): its index, its probability, and the
+    /// Chooses a light for a point with a number in [0, 1): its id, its probability, and the
     /// number remapped to [0, 1) for the next decision.
-    pub(super) fn choose(&self, from: Vec3, mut u: f64) -> (usize, f64, f64) {
+    pub(super) fn choose(&self, from: Vec3, mut u: f64) -> (LightId, f64, f64) {
         let (mut index, mut probability) = (0, 1.0);
         loop {
             let right = match self.nodes[index].below {
@@ -106,7 +107,7 @@ impl LightTree {
     }
 
     /// The probability with which [`Self::choose`] chooses a light for a point.
-    pub(super) fn probability(&self, light: usize, from: Vec3) -> f64 {
+    pub(super) fn probability(&self, light: LightId, from: Vec3) -> f64 {
         let Some(mut direction) = self.ways[light] else {
             return 0.0;
         };
@@ -246,7 +247,7 @@ mod tests {
             );
             let normal = Vec3::new(1.0, 0.3 * (light % 7) as f64, -2.0).normalize();
             TreeLight {
-                light: light + 3,
+                light: LightId::new(light + 3),
                 bounds: Bounds::around(at, 0.05 * (light % 3) as f64),
                 power: 1.0 + (light * light % 11) as f64,
                 normal: (all_have_normals || light.is_multiple_of(2)).then_some(normal),
@@ -274,11 +275,11 @@ mod tests {
             let mut counts = vec![0.0; 110];
             for k in 0..NUMBERS {
                 let (light, probability, _) = tree.choose(from, (k as f64 + 0.5) / NUMBERS as f64);
-                counts[light] += 1.0 / NUMBERS as f64;
+                counts[light.index()] += 1.0 / NUMBERS as f64;
                 assert!((tree.probability(light, from) - probability).abs() < 1e-15);
             }
             for (light, count) in counts.into_iter().enumerate() {
-                let probability = tree.probability(light, from);
+                let probability = tree.probability(LightId::new(light), from);
                 assert!(
                     (count - probability).abs() < 2.0 / NUMBERS as f64,
                     "{light}"
@@ -292,14 +293,15 @@ mod tests {
     fn what_is_near_is_chosen_more_often() {
         let tree = street(false);
         let from = Vec3::new(20.01, 0.0, 0.5);
-        assert!(tree.probability(23, from) > 20.0 * tree.probability(103, from));
+        let probability = |light| tree.probability(LightId::new(light), from);
+        assert!(probability(23) > 20.0 * probability(103));
     }
 
     #[test]
     fn the_bound_of_a_cone_is_at_least_every_cosine() {
         let normals = (0..7).map(|k| Vec3::new(1.0, 0.3 * f64::from(k), -2.0).normalize());
         let emitter = |(light, normal)| TreeLight {
-            light,
+            light: LightId::new(light),
             bounds: Bounds::around(Vec3::new(light as f64, 0.0, 0.0), 0.0),
             power: 1.0,
             normal: Some(if light % 2 == 0 { normal } else { -normal }),

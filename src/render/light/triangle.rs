@@ -1,12 +1,13 @@
 //! An emissive triangle.
 
 use crate::shape::emitter::EmitterPoint;
+use crate::world::SurfaceId;
 use rtc_math::Vec3;
 
 /// A triangle of a surface with an emissive material.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TriangleLight {
-    pub(super) surface: usize,
+    pub(super) surface: SurfaceId,
     pub(super) prim_id: u32,
     pub(super) corners: [Vec3; 3],
     /// The cross product of two edges, 2·A·n.
@@ -15,7 +16,7 @@ pub(crate) struct TriangleLight {
 
 impl TriangleLight {
     /// A triangle of a surface.
-    pub(super) fn new(surface: usize, prim_id: u32, corners: [Vec3; 3]) -> Self {
+    pub(super) fn new(surface: SurfaceId, prim_id: u32, corners: [Vec3; 3]) -> Self {
         let [a, b, c] = corners;
         Self {
             surface,

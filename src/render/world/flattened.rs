@@ -1,19 +1,19 @@
 //! Flattened instances: meshes whose triangles are in one world-space BVH.
 
-use super::Surface;
+use super::{Primitive, Surface, SurfaceId};
 use crate::accel::simd::SimdLevel;
 use crate::accel::wide::{Builders, Candidate, MOST, Wide};
 use crate::ray::Ray;
 use crate::shape::geometry::{Intersect, LocalRay};
 use crate::shape::mesh::MAX_PREPARED;
 use crate::shape::triangle::{self, WatertightRay};
-use rtc_math::to_u32;
+use rtc_math::{Table, to_u32};
 use rtc_valid::{self as valid, MAX_MESH_TRIANGLES, ValidScene};
 
 /// The triangles of all flattened instances, numbered surface by surface.
 pub(super) struct Flattened {
     /// The surfaces in their order, and the number of the first triangle of each.
-    starts: Vec<(u32, u32)>,
+    starts: Vec<(SurfaceId, u32)>,
     pub(super) hierarchy: Wide,
 }
 
@@ -26,15 +26,15 @@ const _: () = assert!(MAX_MESH_TRIANGLES == MOST, "a proven mesh has a hierarchy
 /// One ray against flattened triangles. The ray is brought to the coordinates of a surface once for
 /// a run of its triangles.
 pub(super) struct FlattenedRay<'traverse, S> {
-    surfaces: &'traverse [Surface<S>],
+    surfaces: &'traverse Table<Surface, Surface<S>>,
     flattened: &'traverse Flattened,
     ray: Ray,
     /// The primitive that the ray starts at.
-    from: (usize, u32),
+    from: Primitive,
     /// The watertight ray, computed on first use.
     watertight: Option<WatertightRay>,
     /// The surface of the triangle before, and the ray in its coordinates.
-    local: Option<(usize, LocalRay)>,
+    local: Option<(SurfaceId, LocalRay)>,
 }
 
 impl<'traverse, S: Intersect> FlattenedRay<'traverse, S> {
@@ -42,8 +42,8 @@ impl<'traverse, S: Intersect> FlattenedRay<'traverse, S> {
     #[inline]
     pub(super) fn new(
         ray: &Ray,
-        from: (usize, u32),
-        surfaces: &'traverse [Surface<S>],
+        from: Primitive,
+        surfaces: &'traverse Table<Surface, Surface<S>>,
         flattened: &'traverse Flattened,
     ) -> Self {
         Self {
@@ -59,7 +59,7 @@ impl<'traverse, S: Intersect> FlattenedRay<'traverse, S> {
     /// The root above 0 of a triangle of the BVH, and its surface and primitive; `None` for the
     /// triangle that the ray starts at.
     #[inline(always)]
-    pub(super) fn root(&mut self, candidate: &Candidate<'_>) -> Option<(f64, (usize, u32))> {
+    pub(super) fn root(&mut self, candidate: &Candidate<'_>) -> Option<(f64, Primitive)> {
         let key = self.flattened.key(candidate.item);
         if key == self.from {
             return None;
@@ -83,7 +83,7 @@ impl<'traverse, S: Intersect> FlattenedRay<'traverse, S> {
         &mut self,
         candidate: &Candidate<'_>,
         t_max: f64,
-    ) -> Option<(f64, (usize, u32))> {
+    ) -> Option<(f64, Primitive)> {
         if candidate.corners().is_some() {
             return self.root(candidate).filter(|(t, _)| *t < t_max);
         }
@@ -103,7 +103,7 @@ impl<'traverse, S: Intersect> FlattenedRay<'traverse, S> {
 
     /// The shape of a surface, and the ray in its coordinates.
     #[inline(always)]
-    fn brought_to(&mut self, surface: usize) -> (&'traverse S, &LocalRay) {
+    fn brought_to(&mut self, surface: SurfaceId) -> (&'traverse S, &LocalRay) {
         let shape = &self.surfaces[surface].shape;
         if self.local.as_ref().is_some_and(|(of, _)| *of != surface) {
             self.local = None;
@@ -116,21 +116,21 @@ impl<'traverse, S: Intersect> FlattenedRay<'traverse, S> {
 }
 
 impl Flattened {
-    /// Flattens the surfaces with these indices, which ascend.
+    /// Flattens these surfaces, in the order of the world.
     pub(super) fn new<S: Intersect>(
-        surfaces: &[Surface<S>],
-        indices: &[u32],
+        surfaces: &Table<Surface, Surface<S>>,
+        ids: &[SurfaceId],
         simd: SimdLevel,
     ) -> Option<Self> {
-        let shape = |surface: u32| &surfaces[surface as usize].shape;
+        let shape = |surface: SurfaceId| &surfaces[surface].shape;
         let mut count = 0;
-        let start = |surface: &u32| {
+        let start = |surface: &SurfaceId| {
             let start = (*surface, to_u32(count));
             count += shape(*surface).triangles();
             start
         };
-        let starts: Vec<_> = indices.iter().map(start).collect();
-        let error_bound = indices
+        let starts: Vec<_> = ids.iter().map(start).collect();
+        let error_bound = ids
             .iter()
             .map(|surface| shape(*surface).error_bound())
             .fold(0.0, f64::max);
@@ -140,7 +140,7 @@ impl Flattened {
         };
         let mut hierarchy = Wide::build(Builders::All, simd, count, error_bound, corners)?;
         // World-space corners are those of a mesh only if it is not transformed; few are prepared.
-        if count <= MAX_PREPARED || !indices.iter().all(|surface| shape(*surface).is_in_place()) {
+        if count <= MAX_PREPARED || !ids.iter().all(|surface| shape(*surface).is_in_place()) {
             hierarchy.forget_corners();
         }
         Some(Self { starts, hierarchy })
@@ -148,25 +148,25 @@ impl Flattened {
 
     /// The surface and the primitive of a triangle.
     #[inline(always)]
-    fn key(&self, item: u32) -> (usize, u32) {
+    fn key(&self, item: u32) -> Primitive {
         key(&self.starts, item)
     }
 }
 
 /// The surface and the primitive of a triangle, given where surfaces start.
 #[inline(always)]
-fn key(starts: &[(u32, u32)], item: u32) -> (usize, u32) {
+fn key(starts: &[(SurfaceId, u32)], item: u32) -> Primitive {
     let after = match starts.len() {
         1 => 1,
         _ => starts.partition_point(|(_, start)| *start <= item),
     };
     let (surface, start) = starts[after - 1];
-    (surface as usize, item - start)
+    (surface, item - start)
 }
 
 /// For each surface of a scene, whether it is an instance to be flattened.
 pub(super) fn flattened_surfaces(scene: &ValidScene) -> Vec<bool> {
-    let mut uses = vec![0_usize; scene.meshes().len()];
+    let mut uses = Table::<valid::Mesh, _>::from(vec![0_usize; scene.meshes().len()]);
     let mesh = |surface: &valid::Surface| {
         if let valid::Shape::Instance(instance) = &surface.shape {
             Some(instance.mesh)
@@ -179,9 +179,9 @@ pub(super) fn flattened_surfaces(scene: &ValidScene) -> Vec<bool> {
         .iter()
         .filter_map(mesh)
         .for_each(|mesh| uses[mesh] += 1);
-    let triangles = |mesh: usize| scene.meshes()[mesh].triangles.len();
+    let triangles = |mesh: valid::MeshId| scene.meshes()[mesh].triangles.len();
     let mut all = 0;
-    let mut flattens = |mesh: usize| {
+    let mut flattens = |mesh: valid::MeshId| {
         let is_worth = uses[mesh] == 1 || uses[mesh] * triangles(mesh) <= MAX_TRIANGLES;
         let fits = is_worth && all + triangles(mesh) <= MAX_MESH_TRIANGLES;
         all += usize::from(fits) * triangles(mesh);

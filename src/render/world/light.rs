@@ -5,6 +5,7 @@ use super::texture::Textures;
 use crate::light::course::CourseLight;
 use crate::light::environment::Environment;
 use crate::light::punctual::{DirectionalLight, Falloff, PointLight, Punctual};
+use rtc_math::Table;
 use rtc_plan::{EnvironmentUse, PathPlan, Plan, facts};
 use rtc_valid::{self as valid, ValidScene};
 
@@ -12,9 +13,9 @@ use rtc_valid::{self as valid, ValidScene};
 /// empty.
 pub(crate) struct LightList {
     /// The lights of Whitted's integrator, in the order in which their terms are summed.
-    pub(crate) course: Vec<CourseLight>,
+    pub(crate) course: Table<valid::CourseLight, CourseLight>,
     /// The lights without extent of paths.
-    pub(crate) punctual: Vec<Punctual>,
+    pub(crate) punctual: Table<valid::Punctual, Punctual>,
     /// The environment of paths.
     pub(crate) environment: Environment,
 }
@@ -27,7 +28,7 @@ impl<S> World<S> {
             return f64::INFINITY;
         }
         let surfaces = self.surfaces.iter();
-        let materials = surfaces.filter_map(|surface| self.standards.get(surface.material));
+        let materials = surfaces.filter_map(|surface| self.standards.get(surface.material.index()));
         let emitted = materials.map(|material| material.emission.factor.max_element());
         emitted.fold(self.lights.environment.brightest(), f64::max)
     }
@@ -39,7 +40,7 @@ pub(super) fn lights_for(scene: &ValidScene, plan: &Plan, textures: &Textures) -
             let is_constant = paths.environment == EnvironmentUse::Constant;
             let punctuals = facts::light::punctual(scene.lights()).into_iter();
             LightList {
-                course: Vec::new(),
+                course: Table::default(),
                 punctual: punctuals.map(punctual).collect(),
                 environment: environment(scene.environment(), is_constant, textures),
             }
@@ -48,7 +49,7 @@ pub(super) fn lights_for(scene: &ValidScene, plan: &Plan, textures: &Textures) -
             let lights = facts::light::course(scene.lights()).into_iter();
             LightList {
                 course: lights.map(course).collect(),
-                punctual: Vec::new(),
+                punctual: Table::default(),
                 environment: environment(&valid::Environment::DARK, false, textures),
             }
         }

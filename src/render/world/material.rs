@@ -2,32 +2,43 @@
 //! folded, maps resolved to their images.
 
 use super::texture::Textures;
+use super::{Material, MaterialId};
 use crate::bsdf::dispersed;
 use crate::material::phong::{PhongMaps, PhongMaterial};
 use crate::material::standard::*;
 use crate::shape::geometry::AttributeRequest;
 use crate::texture::bilinear::Bump;
 use crate::texture::sampled::{ColorSpace, UvSets};
-use rtc_math::{UnitInterval, Vec3, Weight, cos, ln, sin};
+use rtc_math::{Id, Table, UnitInterval, Vec3, Weight, cos, ln, sin};
 use rtc_plan::{Effect, Layer, PathPlan, Plan, Rule};
-use rtc_valid::{self as valid, Maps, Phong, Standard};
+use rtc_valid::{self as valid, Maps, Phong, Standard, TextureId};
+
+/// The material of a world that stands for one of the scene as it is: both begin with the same
+/// list.
+pub(super) fn unchanged(material: valid::MaterialId) -> MaterialId {
+    Id::new(material.index())
+}
 
 /// Materials of Phong's model, and after them the simplified ones: on surfaces with texture
 /// coordinates a constant map is replaced by its value.
 pub(super) struct PhongList<'plan> {
-    all: Vec<Phong>,
+    all: Table<Material, Phong>,
     plan: &'plan Plan,
     /// Per texture of the scene, whether it needs texture coordinates of the surface.
-    needs_uv: Vec<bool>,
+    needs_uv: Table<valid::Texture, bool>,
     /// Per material of the scene, the indices of its simplified forms for surfaces without and with
     /// texture coordinates.
-    simple: Vec<[Option<usize>; 2]>,
+    simple: Table<valid::Material, [Option<MaterialId>; 2]>,
 }
 
 impl<'plan> PhongList<'plan> {
-    pub(super) fn new(all: Vec<Phong>, textures: &[valid::Texture], plan: &'plan Plan) -> Self {
+    pub(super) fn new(
+        all: Table<Material, Phong>,
+        textures: &[valid::Texture],
+        plan: &'plan Plan,
+    ) -> Self {
         Self {
-            simple: vec![[None; 2]; all.len()],
+            simple: vec![[None; 2]; all.len()].into(),
             needs_uv: textures.iter().map(valid::Texture::needs_uv).collect(),
             all,
             plan,
@@ -35,16 +46,14 @@ impl<'plan> PhongList<'plan> {
     }
 
     /// The index of the prepared material for one of the scene.
-    pub(super) fn of(&mut self, material: usize, has_uv: bool) -> usize {
+    pub(super) fn of(&mut self, material: valid::MaterialId, has_uv: bool) -> MaterialId {
         if let Some(simple) = self.simple[material][usize::from(has_uv)] {
             return simple;
         }
-        match self.simplified(&self.all[material], has_uv) {
-            Some(phong) => {
-                self.all.push(phong);
-                *self.simple[material][usize::from(has_uv)].insert(self.all.len() - 1)
-            }
-            None => material,
+        let original = unchanged(material);
+        match self.simplified(&self.all[original], has_uv) {
+            Some(phong) => *self.simple[material][usize::from(has_uv)].insert(self.all.push(phong)),
+            None => original,
         }
     }
 
@@ -52,14 +61,14 @@ impl<'plan> PhongList<'plan> {
     /// no texture coordinates, if it has any of these.
     fn simplified(&self, material: &Phong, has_uv: bool) -> Option<Phong> {
         let maps = **material.maps.as_ref()?;
-        let is_seen = |map: &usize| has_uv || !self.needs_uv[*map];
+        let is_seen = |map: &TextureId| has_uv || !self.needs_uv[*map];
         let seen = Maps {
             color: maps.color.filter(is_seen),
             specular: maps.specular.filter(is_seen),
             normal: maps.normal.filter(is_seen),
             bump: maps.bump.filter(|bump| is_seen(&bump.texture)),
         };
-        let value = |map: Option<usize>| map.and_then(|map| self.plan.constants[map]);
+        let value = |map: Option<TextureId>| map.and_then(|map| self.plan.constants[map]);
         let (new_color, scale) = (value(seen.color), value(seen.specular));
         let (shows, bends) = (
             self.shows(Effect::Textures),
@@ -87,7 +96,7 @@ impl<'plan> PhongList<'plan> {
         self.plan.needs(effect) || !self.plan.rules.contains(Rule::TextureUnseen)
     }
 
-    pub(super) fn prepared(self, textures: &Textures) -> Vec<PhongMaterial> {
+    pub(super) fn prepared(self, textures: &Textures) -> Table<Material, PhongMaterial> {
         self.all
             .into_iter()
             .map(|material| phong(material, textures))
@@ -131,7 +140,7 @@ fn phong_maps(maps: &Maps, textures: &Textures) -> PhongMaps {
         normal,
         bump,
     } = *maps;
-    let texture = |index: Option<usize>| index.map(|index| textures.texture(index));
+    let texture = |index: Option<TextureId>| index.map(|index| textures.texture(index));
     PhongMaps {
         color: texture(color),
         specular: texture(specular),
@@ -145,7 +154,7 @@ fn phong_maps(maps: &Maps, textures: &Textures) -> PhongMaps {
 
 /// Material `index` of a scene, as the plan of paths left it, prepared.
 pub(super) fn standard(
-    index: usize,
+    index: valid::MaterialId,
     material: &Standard,
     textures: &Textures,
     plan: &PathPlan,
@@ -217,7 +226,7 @@ fn absorption(m: &Standard) -> Vec3 {
 /// Makes the parameters of a material that may have maps.
 struct Slots<'world> {
     /// Which material of the scene.
-    index: usize,
+    index: valid::MaterialId,
     textures: &'world Textures,
     plan: &'world PathPlan,
 }

@@ -40,20 +40,32 @@ use crate::shape::triangle::WatertightRay;
 use alpha::AlphaTested;
 use flattened::{Flattened, FlattenedRay};
 use light::LightList;
-use rtc_math::Vec3;
+use rtc_math::{Id, Table, Vec3};
 use rtc_plan::Plan;
 use rtc_valid::ValidScene;
 use search::{AnySearch, ClosestSearch};
 use settings::Settings;
 use small_scene::SmallScene;
 
+/// A material of a world, of either model.
+#[derive(Debug)]
+pub(crate) enum Material {}
+
+/// The id of a material of a world.
+pub(crate) type MaterialId = Id<Material>;
+/// The id of a surface in [`World::surfaces`], of whichever shapes.
+pub(crate) type SurfaceId = Id<Surface>;
+
+/// A surface, and a primitive of it.
+pub(crate) type Primitive = (SurfaceId, u32);
+
 /// The closest hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// The ray parameter, in units of the direction's length, > 0.
     pub t: f64,
-    /// The surface: an index into [`World::surfaces`].
-    pub surface: usize,
+    /// The surface.
+    pub surface: SurfaceId,
     /// The primitive of the surface, for shapes with several.
     pub prim_id: u32,
 }
@@ -63,8 +75,8 @@ pub struct Hit {
 pub struct Surface<S = Shape> {
     /// Its shape.
     pub shape: S,
-    /// The index of its material among those of the world.
-    pub material: usize,
+    /// Its material.
+    pub(crate) material: MaterialId,
     /// Its index in the scene.
     pub index: usize,
 }
@@ -80,13 +92,13 @@ pub struct World<S = Shape> {
     /// The features that the picture needs.
     pub plan: Plan,
     /// The materials of the Whitted integrator; constant maps are folded into the factors.
-    pub(crate) phongs: Vec<PhongMaterial>,
+    pub(crate) phongs: Table<Material, PhongMaterial>,
     /// The materials of the path tracer.
-    pub(crate) standards: Vec<StandardMaterial>,
+    pub(crate) standards: Table<Material, StandardMaterial>,
     /// The lights.
     pub(crate) lights: LightList,
     /// The surfaces that the plan keeps, in the order of the scene.
-    pub surfaces: Vec<Surface<S>>,
+    pub surfaces: Table<Surface, Surface<S>>,
     /// The plan to validate by a render without pruning.
     pub(crate) verify: Option<Verify>,
     /// The surfaces that shadow rays of paths test for alpha.
@@ -103,8 +115,8 @@ pub struct World<S = Shape> {
 
 /// The surfaces that are not flattened.
 struct ObjectBvh {
-    unbounded: Vec<u32>,
-    bounded: Vec<u32>,
+    unbounded: Vec<SurfaceId>,
+    bounded: Vec<SurfaceId>,
     /// The BVH of `bounded`.
     bvh: Bvh,
 }
@@ -121,7 +133,7 @@ impl ObjectBvh {
 const STOP: f64 = -1.0;
 
 /// The primitive of a ray that starts at no surface.
-pub(crate) const NO_PRIMITIVE: (usize, u32) = (usize::MAX, u32::MAX);
+pub(crate) const NO_PRIMITIVE: Primitive = (SurfaceId::NONE, u32::MAX);
 
 impl<S: Intersect> World<S> {
     /// The closest hit with t > 0. Ties within rounding go to the first surface and its first
@@ -133,7 +145,7 @@ impl<S: Intersect> World<S> {
 
     /// As [`World::closest_hit`], for a ray that starts at a primitive of a surface. A flattened
     /// triangle is flat, so the ray cannot hit it again.
-    pub(crate) fn closest_hit_from(&self, ray: &Ray, from: (usize, u32)) -> Option<Hit> {
+    pub(crate) fn closest_hit_from(&self, ray: &Ray, from: Primitive) -> Option<Hit> {
         // A NaN passes every slab test, so such a ray would visit every node.
         if !(ray.origin.is_finite() && ray.direction.is_finite()) {
             return None;
@@ -157,11 +169,11 @@ impl<S: Intersect> World<S> {
         &self,
         ray: &Ray,
         unit: f64,
-        from: (usize, u32),
-        nearest: &Nearest<(usize, u32)>,
+        from: Primitive,
+        nearest: &Nearest<Primitive>,
     ) -> Option<Hit> {
         let (t, (surface, prim_id)) = match nearest.key {
-            NO_PRIMITIVE => return None,
+            _ if nearest.key == NO_PRIMITIVE => return None,
             _ if nearest.is_tied() => self.resolve(ray, from, nearest.t)?,
             key => (nearest.t, key),
         };
@@ -174,15 +186,14 @@ impl<S: Intersect> World<S> {
 
     /// The closest hit on surfaces that are not flattened; infinite if there is none.
     #[inline]
-    fn closest_hit_in_objects(&self, ray: &Ray) -> Nearest<(usize, u32)> {
+    fn closest_hit_in_objects(&self, ray: &Ray) -> Nearest<Primitive> {
         let mut nearest = Nearest::up_to(f64::INFINITY, NO_PRIMITIVE);
         let objects = &self.objects;
         if objects.is_empty() {
             return nearest;
         }
         let watertight = WatertightRay::new(ray);
-        let mut visit = |surface: u32| {
-            let surface = surface as usize;
+        let mut visit = |surface: SurfaceId| {
             if let Some((t, prim_id)) =
                 self.surfaces[surface]
                     .shape
@@ -214,17 +225,16 @@ impl<S: Intersect> World<S> {
     /// Breaks the tie between the hits as close as the one at `t`.
     #[cold]
     #[inline(never)]
-    fn resolve(&self, ray: &Ray, from: (usize, u32), t: f64) -> Option<(f64, (usize, u32))> {
+    fn resolve(&self, ray: &Ray, from: Primitive, t: f64) -> Option<(f64, Primitive)> {
         let (mut tie, watertight) = (Tie::new(), WatertightRay::new(ray));
-        let mut add = |t: f64, surface: usize, prim_id: u32| {
+        let mut add = |t: f64, surface: SurfaceId, prim_id: u32| {
             tie.add(
                 t,
                 self.surfaces[surface].shape.error(ray, t, prim_id),
                 (surface, prim_id),
             );
         };
-        let mut visit = |surface: u32| {
-            let surface = surface as usize;
+        let mut visit = |surface: SurfaceId| {
             let shape = &self.surfaces[surface].shape;
             shape.visit_roots(ray, &watertight, t * CLOSE, &mut |t, prim_id| {
                 add(t, surface, prim_id)
@@ -266,7 +276,7 @@ impl<S: Intersect> World<S> {
     }
 
     /// As [`World::any_hit`], for a ray that starts at the primitive `from`.
-    pub(crate) fn any_hit_from(&self, ray: &Ray, t_max: f64, from: (usize, u32)) -> bool {
+    pub(crate) fn any_hit_from(&self, ray: &Ray, t_max: f64, from: Primitive) -> bool {
         let (ray, unit) = ray.rescaled();
         let t_max = t_max / unit;
         if self.any_hit_in_objects(&ray, t_max) {
@@ -289,7 +299,7 @@ impl<S: Intersect> World<S> {
         &self,
         ray: &Ray,
         t_max: f64,
-        from: (usize, u32),
+        from: Primitive,
         pass: &mut dyn FnMut(Hit) -> f64,
     ) -> f64 {
         let (ray, unit) = ray.rescaled();
@@ -324,8 +334,8 @@ impl<S: Intersect> World<S> {
             return false;
         }
         let watertight = WatertightRay::new(ray);
-        let hits = |surface: u32| {
-            let hit = self.surfaces[surface as usize]
+        let hits = |surface: SurfaceId| {
+            let hit = self.surfaces[surface]
                 .shape
                 .intersect(ray, &watertight, t_max);
             hit.is_some_and(|(t, _)| t < t_max)

@@ -3,15 +3,16 @@
 
 use super::alpha::AlphaTested;
 use super::flattened::{Flattened, flattened_surfaces};
-use super::material::{PhongList, standard};
+use super::material::{PhongList, standard, unchanged};
 use super::settings::{camera, settings};
 use super::shape::Prepare;
 use super::small_scene::SmallScene;
 use super::texture::Textures;
-use super::{ObjectBvh, Surface, World, light};
+use super::{MaterialId, ObjectBvh, Surface, SurfaceId, World, light};
 use crate::accel::bvh::Bvh;
 use crate::accel::simd::SimdLevel;
 use crate::shape::geometry::Intersect;
+use rtc_math::Table;
 use rtc_plan::facts::material;
 use rtc_plan::{Plan, Rules};
 use rtc_valid::{self as valid, ValidScene};
@@ -38,14 +39,14 @@ impl<S: Prepare> World<S> {
                 let surfaces = surfaces(scene, plan, simd, |material, has_uv| {
                     list.of(material, has_uv)
                 });
-                (surfaces, list.prepared(&textures), Vec::new())
+                (surfaces, list.prepared(&textures), Table::default())
             }
             Some(paths) => {
-                let materials = paths.materials.iter().enumerate();
+                let materials = paths.materials.entries();
                 let prepared =
                     materials.map(|(index, material)| standard(index, material, &textures, paths));
-                let surfaces = surfaces(scene, plan, simd, |material, _| material);
-                (surfaces, Vec::new(), prepared.collect())
+                let surfaces = surfaces(scene, plan, simd, |material, _| unchanged(material));
+                (surfaces, Table::default(), prepared.collect())
             }
         };
         let Lookup {
@@ -83,13 +84,13 @@ fn surfaces<S: Prepare>(
     scene: &ValidScene,
     plan: &Plan,
     simd: SimdLevel,
-    mut material_of: impl FnMut(usize, bool) -> usize,
-) -> Vec<Surface<S>> {
+    mut material_of: impl FnMut(valid::MaterialId, bool) -> MaterialId,
+) -> Table<Surface, Surface<S>> {
     let meshes = scene
         .meshes()
         .iter()
         .map(|mesh| Arc::new(S::prepare_mesh(mesh, simd)))
-        .collect::<Vec<_>>();
+        .collect::<Table<_, _>>();
     let prepared = |(index, surface): (usize, &valid::Surface)| {
         let shape = S::prepare(&surface.shape, &meshes)?;
         Some(Surface {
@@ -118,7 +119,7 @@ impl Lookup {
     fn of<S: Intersect>(
         scene: &ValidScene,
         plan: &Plan,
-        surfaces: &[Surface<S>],
+        surfaces: &Table<Surface, Surface<S>>,
         simd: SimdLevel,
     ) -> Self {
         let flattens = flattened_surfaces(scene);
@@ -131,13 +132,10 @@ impl Lookup {
             let is_mesh = S::FLATTENS && surface.shape.triangles() > 0;
             is_mesh && flattens[surface.index] && casts(surface)
         };
-        let (flattened, objects): (Vec<u32>, Vec<u32>) = (0_u32..)
-            .take(surfaces.len())
-            .partition(|index| is_flattened(&surfaces[*index as usize]));
+        let (flattened, objects): (Vec<SurfaceId>, Vec<SurfaceId>) =
+            surfaces.ids().partition(|id| is_flattened(&surfaces[*id]));
         let casters = objects.iter().copied();
-        let casters: Vec<u32> = casters
-            .filter(|index| casts(&surfaces[*index as usize]))
-            .collect();
+        let casters: Vec<SurfaceId> = casters.filter(|id| casts(&surfaces[*id])).collect();
         // A world without pruning tests all surfaces, so validation finds a hit that a cone missed.
         let bundled = !is_path && plan.rules != Rules::NONE;
         let small_scene = || {
@@ -155,15 +153,15 @@ impl Lookup {
 }
 
 impl ObjectBvh {
-    fn of<S: Intersect>(surfaces: &[Surface<S>], indices: &[u32]) -> Self {
+    fn of<S: Intersect>(surfaces: &Table<Surface, Surface<S>>, ids: &[SurfaceId]) -> Self {
         let (mut unbounded, mut bounded, mut boxes) = (Vec::new(), Vec::new(), Vec::new());
-        for index in indices {
-            match surfaces[*index as usize].shape.bounds() {
+        for id in ids {
+            match surfaces[*id].shape.bounds() {
                 Some(bounds) => {
-                    bounded.push(*index);
+                    bounded.push(*id);
                     boxes.push(bounds);
                 }
-                None => unbounded.push(*index),
+                None => unbounded.push(*id),
             }
         }
         Self {

@@ -1,7 +1,7 @@
 //! The BVH visitors for flattened triangles: closest hit and any hit.
 
-use super::STOP;
 use super::flattened::FlattenedRay;
+use super::{Primitive, STOP};
 use crate::accel::wide::{Candidate, Visitor};
 use crate::shape::geometry::Intersect;
 use crate::shape::tie::Nearest;
@@ -9,7 +9,7 @@ use crate::shape::tie::Nearest;
 /// Looks for the nearest hit.
 pub(super) struct ClosestSearch<'traverse, S> {
     pub(super) triangles: FlattenedRay<'traverse, S>,
-    pub(super) nearest: Nearest<(usize, u32)>,
+    pub(super) nearest: Nearest<Primitive>,
 }
 
 impl<S: Intersect> Visitor for ClosestSearch<'_, S> {

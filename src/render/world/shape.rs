@@ -10,7 +10,7 @@ use crate::shape::kinds::*;
 use crate::shape::mesh::{Attributes, BaselineMesh, PreparedMesh};
 use crate::shape::sphere::{self, TexturedSphere};
 use crate::shape::triangle::{self, TexturedTriangle};
-use rtc_math::Vec3;
+use rtc_math::{Table, Vec3};
 use rtc_valid as valid;
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ pub trait Prepare: Intersect {
 
     /// Prepares a shape; `None` for one that no ray hits.
     #[must_use]
-    fn prepare(shape: &valid::Shape, meshes: &[Arc<Self::Mesh>]) -> Option<Self>;
+    fn prepare(shape: &valid::Shape, meshes: &Table<valid::Mesh, Arc<Self::Mesh>>) -> Option<Self>;
 }
 
 impl Prepare for Shape {
@@ -51,10 +51,13 @@ impl Prepare for Shape {
         PreparedMesh::new(positions, triangles, attributes, simd)
     }
 
-    fn prepare(shape: &valid::Shape, meshes: &[Arc<PreparedMesh>]) -> Option<Self> {
+    fn prepare(shape: &valid::Shape, meshes: &PreparedMeshes) -> Option<Self> {
         prepared(shape, meshes)
     }
 }
+
+/// The meshes of a scene, prepared.
+type PreparedMeshes = Table<valid::Mesh, Arc<PreparedMesh>>;
 
 /// A validated shape of one kind.
 trait PrepareShape {
@@ -62,13 +65,13 @@ trait PrepareShape {
     type Prepared;
 
     /// Prepares it; `None` if no ray hits it.
-    fn prepared(&self, meshes: &[Arc<PreparedMesh>]) -> Option<Self::Prepared>;
+    fn prepared(&self, meshes: &PreparedMeshes) -> Option<Self::Prepared>;
 }
 
 /// Prepares each shape in its own way, or by the values of its row.
 macro_rules! prepare {
     ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
-        fn prepared(shape: &valid::Shape, meshes: &[Arc<PreparedMesh>]) -> Option<Shape> {
+        fn prepared(shape: &valid::Shape, meshes: &PreparedMeshes) -> Option<Shape> {
             Some(match shape {
                 $(valid::Shape::$Name(shape) => Shape::$Name(shape.prepared(meshes)?.into()),)*
             })
@@ -87,7 +90,7 @@ macro_rules! by_values {
         impl PrepareShape for valid::$Name {
             type Prepared = $Name;
 
-            fn prepared(&self, _: &[Arc<PreparedMesh>]) -> Option<$Name> {
+            fn prepared(&self, _: &PreparedMeshes) -> Option<$Name> {
                 Some($Name::new($(number!($rule self.$value)),*))
             }
         }
@@ -109,7 +112,7 @@ rtc_tables::shapes!(prepare);
 impl PrepareShape for valid::Sphere {
     type Prepared = TexturedSphere;
 
-    fn prepared(&self, _: &[Arc<PreparedMesh>]) -> Option<TexturedSphere> {
+    fn prepared(&self, _: &PreparedMeshes) -> Option<TexturedSphere> {
         let rows = self.texture_from_world.as_deref().copied();
         Some(TexturedSphere {
             sphere: sphere::Sphere {
@@ -125,7 +128,7 @@ impl PrepareShape for valid::Triangle {
     type Prepared = TexturedTriangle;
 
     /// `None` for a triangle whose area the arithmetic cannot distinguish from 0: no ray hits it.
-    fn prepared(&self, _: &[Arc<PreparedMesh>]) -> Option<TexturedTriangle> {
+    fn prepared(&self, _: &PreparedMeshes) -> Option<TexturedTriangle> {
         Some(TexturedTriangle {
             triangle: triangle::Triangle::new(self.vertices)?,
             uvs: self.uvs.as_deref().copied(),
@@ -136,7 +139,7 @@ impl PrepareShape for valid::Triangle {
 impl PrepareShape for valid::Quad {
     type Prepared = Quad;
 
-    fn prepared(&self, _: &[Arc<PreparedMesh>]) -> Option<Quad> {
+    fn prepared(&self, _: &PreparedMeshes) -> Option<Quad> {
         Some(Quad::new(self.vertices))
     }
 }
@@ -144,7 +147,7 @@ impl PrepareShape for valid::Quad {
 impl PrepareShape for valid::Ellipsoid {
     type Prepared = Ellipsoid;
 
-    fn prepared(&self, _: &[Arc<PreparedMesh>]) -> Option<Ellipsoid> {
+    fn prepared(&self, _: &PreparedMeshes) -> Option<Ellipsoid> {
         Some(Ellipsoid::new(self.center, self.axes))
     }
 }
@@ -152,7 +155,7 @@ impl PrepareShape for valid::Ellipsoid {
 impl PrepareShape for valid::Csg {
     type Prepared = Csg;
 
-    fn prepared(&self, meshes: &[Arc<PreparedMesh>]) -> Option<Csg> {
+    fn prepared(&self, meshes: &PreparedMeshes) -> Option<Csg> {
         let operands = self.operands.iter();
         let operands = operands.map(|operand| prepared(operand, meshes));
         let operands = operands.collect::<Option<_>>()?;
@@ -163,7 +166,7 @@ impl PrepareShape for valid::Csg {
 impl PrepareShape for valid::Instance {
     type Prepared = Instance;
 
-    fn prepared(&self, meshes: &[Arc<PreparedMesh>]) -> Option<Instance> {
+    fn prepared(&self, meshes: &PreparedMeshes) -> Option<Instance> {
         Some(Instance::new(&meshes[self.mesh], self.world_from_object))
     }
 }
@@ -175,7 +178,7 @@ impl Prepare for Basic {
         Shape::prepare_mesh(mesh, simd)
     }
 
-    fn prepare(shape: &valid::Shape, meshes: &[Arc<PreparedMesh>]) -> Option<Self> {
+    fn prepare(shape: &valid::Shape, meshes: &PreparedMeshes) -> Option<Self> {
         let prepared = Shape::prepare(shape, meshes)?;
         if let Shape::Sphere(sphere) = prepared {
             Some(Self::Sphere(sphere))
@@ -196,9 +199,12 @@ impl<R: Real> Prepare for BaselineShape<R> {
         BaselineMesh::new(Shape::prepare_mesh(mesh, simd))
     }
 
-    fn prepare(shape: &valid::Shape, meshes: &[Arc<BaselineMesh<R>>]) -> Option<Self> {
+    fn prepare(
+        shape: &valid::Shape,
+        meshes: &Table<valid::Mesh, Arc<BaselineMesh<R>>>,
+    ) -> Option<Self> {
         let robust = |mesh: &Arc<BaselineMesh<R>>| Arc::clone(&mesh.robust);
-        let robust = Shape::prepare(shape, &meshes.iter().map(robust).collect::<Vec<_>>())?;
+        let robust = Shape::prepare(shape, &meshes.iter().map(robust).collect())?;
         let mesh = if let valid::Shape::Instance(instance) = shape {
             Some(&meshes[instance.mesh])
         } else {

@@ -1,14 +1,15 @@
 //! A world of at most 64 surfaces, none of them flattened, as bit sets. A ray tests only the
 //! candidates of its cone.
 
-use super::{Hit, NO_PRIMITIVE, Surface, World, segment};
+use super::{Hit, NO_PRIMITIVE, Surface, SurfaceId, World, segment};
 use crate::accel::ray_cone_cache::{BoundingSpheres, MAX_ITEMS};
 use crate::ray::Ray;
 use crate::shape::geometry::Intersect;
 use crate::shape::tie::Nearest;
 use crate::shape::triangle::WatertightRay;
-use rtc_math::Vec3;
+use rtc_math::{Table, Vec3};
 use rtc_plan::{LightPlan, Plan};
+use rtc_valid::{CourseLight, CourseLightId};
 
 /// Surfaces with bits: that of a surface is its index in the world.
 pub(crate) struct SmallScene {
@@ -18,36 +19,37 @@ pub(crate) struct SmallScene {
     /// The surfaces that cast shadows.
     casters: u64,
     /// For each light of the plan and surface of the scene, the possible occluders between them.
-    hiding: Vec<Vec<u64>>,
+    hiding: Table<CourseLight, Vec<u64>>,
 }
 
 impl SmallScene {
     /// The surfaces given of a world, and of those the ones that cast shadows; `None` if there are
     /// too many.
     pub(super) fn new<S: Intersect>(
-        surfaces: &[Surface<S>],
-        all: &[u32],
-        casters: &[u32],
+        surfaces: &Table<Surface, Surface<S>>,
+        all: &[SurfaceId],
+        casters: &[SurfaceId],
     ) -> Option<Self> {
         if surfaces.len() != all.len() || surfaces.len() > MAX_ITEMS {
             return None;
         }
         let balls = surfaces.iter().map(|surface| surface.shape.ball());
-        let sheared =
-            (0..surfaces.len()).filter(|index| surfaces[*index].shape.uses_watertight_ray());
+        let sheared = surfaces
+            .entries()
+            .filter(|(_, surface)| surface.shape.uses_watertight_ray());
         Some(Self {
             balls: BoundingSpheres::new(balls.enumerate()),
-            sheared: bits(sheared),
-            casters: bits(casters.iter().map(|caster| *caster as usize)),
-            hiding: Vec::new(),
+            sheared: bits(sheared.map(|(id, _)| id)),
+            casters: bits(casters.iter().copied()),
+            hiding: Table::default(),
         })
     }
 
     /// Takes over from a plan which surfaces may hide a light from which.
-    pub(super) fn follow<S>(&mut self, surfaces: &[Surface<S>], plan: &Plan) {
+    pub(super) fn follow<S>(&mut self, surfaces: &Table<Surface, Surface<S>>, plan: &Plan) {
         let hiding = |light: &LightPlan, receiver: usize| {
-            let may_occlude = |bit: &usize| light.may_occlude(surfaces[*bit].index, receiver);
-            self.casters & bits((0..surfaces.len()).filter(may_occlude))
+            let may_occlude = |id: &SurfaceId| light.may_occlude(surfaces[*id].index, receiver);
+            self.casters & bits(surfaces.ids().filter(may_occlude))
         };
         let of_light = |light: &LightPlan| {
             let receivers = 0..light.occluders.len();
@@ -58,7 +60,7 @@ impl SmallScene {
 
     /// The surfaces that may hide a light from a surface of the scene.
     #[inline]
-    pub(crate) fn hiding(&self, light: usize, receiver: usize) -> u64 {
+    pub(crate) fn hiding(&self, light: CourseLightId, receiver: usize) -> u64 {
         let of_light = &self.hiding[light];
         of_light.get(receiver).copied().unwrap_or(self.casters)
     }
@@ -83,21 +85,21 @@ impl SmallScene {
         }
     }
 
-    /// The index of the first surface of some, and the others.
+    /// The first surface of some, which is left out of them.
     #[inline(always)]
-    pub(crate) fn pop(items: &mut u64) -> Option<usize> {
+    pub(crate) fn pop(items: &mut u64) -> Option<SurfaceId> {
         if *items == 0 {
             return None;
         }
-        let surface = items.trailing_zeros() as usize;
+        let surface = SurfaceId::new(items.trailing_zeros() as usize);
         *items &= *items - 1;
         Some(surface)
     }
 }
 
 /// A number with some bits.
-fn bits(indices: impl Iterator<Item = usize>) -> u64 {
-    indices.fold(0, |bits, index| bits | 1 << index)
+fn bits(ids: impl Iterator<Item = SurfaceId>) -> u64 {
+    ids.fold(0, |bits, id| bits | 1 << id.index())
 }
 
 impl<S: Intersect> World<S> {

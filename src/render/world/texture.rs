@@ -2,18 +2,19 @@
 
 use crate::texture::sampled::{ColorSpace, Map};
 use crate::texture::{Filter, Image, Texture, Wrap};
+use rtc_math::Table;
 use rtc_valid::{self as valid, ValidScene};
 use std::sync::Arc;
 
 /// The images and the textures of a scene, in its order.
 pub(super) struct Textures {
-    images: Vec<Arc<Image>>,
-    textures: Vec<Texture>,
+    images: Table<valid::Image, Arc<Image>>,
+    textures: Table<valid::Texture, Texture>,
 }
 
 impl Textures {
     pub(super) fn new(scene: &ValidScene) -> Self {
-        let images = scene.images().iter().map(image).collect::<Vec<_>>();
+        let images = scene.images().iter().map(image).collect::<Table<_, _>>();
         let textures = scene
             .textures()
             .iter()
@@ -22,11 +23,11 @@ impl Textures {
         Self { images, textures }
     }
 
-    pub(super) fn image(&self, index: usize) -> Arc<Image> {
+    pub(super) fn image(&self, index: valid::ImageId) -> Arc<Image> {
         Arc::clone(&self.images[index])
     }
 
-    pub(super) fn texture(&self, index: usize) -> Texture {
+    pub(super) fn texture(&self, index: valid::TextureId) -> Texture {
         self.textures[index].clone()
     }
 
@@ -60,7 +61,7 @@ fn image(image: &valid::Image) -> Arc<Image> {
     })
 }
 
-fn prepared(texture: &valid::Texture, images: &[Arc<Image>]) -> Texture {
+fn prepared(texture: &valid::Texture, images: &Table<valid::Image, Arc<Image>>) -> Texture {
     match *texture {
         valid::Texture::Uv => Texture::Uv,
         valid::Texture::Procedural(texture) => Texture::Procedural(Box::new(texture)),

@@ -6,6 +6,7 @@ mod check;
 pub(super) use area::has_area;
 pub(super) use check::surface;
 
+use crate::{MaterialId, MeshId};
 use rtc_math::{Positive, SetStep, Vec3, is_flat};
 
 /// A shape and the index of its material.
@@ -13,8 +14,8 @@ use rtc_math::{Positive, SetStep, Vec3, is_flat};
 pub struct Surface {
     /// The shape.
     pub shape: Shape,
-    /// An index into [`super::ValidScene::materials`], in range.
-    pub material: usize,
+    /// Its material.
+    pub material: MaterialId,
     /// Whether it casts shadows on other surfaces and on itself, if shadows are on.
     pub casts_shadow: bool,
     /// Its index in the IR, which also has the faces without an area.
@@ -129,8 +130,8 @@ pub struct Csg {
 /// A mesh placed in the world.
 #[derive(Clone, Copy, Debug)]
 pub struct Instance {
-    /// An index into [`super::ValidScene::meshes`], in range.
-    pub mesh: usize,
+    /// The mesh.
+    pub mesh: MeshId,
     /// The images of the three axes, linearly independent, and of the origin.
     pub world_from_object: [Vec3; 4],
 }

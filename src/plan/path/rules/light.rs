@@ -9,10 +9,10 @@ use crate::surface_bounds::{ShapeClass, SurfaceBounds};
 use rtc_image::Texels;
 use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_math::{Bounds, Vec3};
-use rtc_valid::{Alpha, Falloff, Punctual};
+use rtc_valid::{Alpha, Falloff, ImageId, Punctual, PunctualId};
 
-fn light_path(light: usize) -> ValuePath {
-    ValuePath::new(EntityKind::Light, light, Field::Whole)
+fn light_path(light: PunctualId) -> ValuePath {
+    ValuePath::new(EntityKind::Light, light.index(), Field::Whole)
 }
 
 pub(super) const ZERO_INTENSITY: PathRule = PathRule {
@@ -23,7 +23,7 @@ pub(super) const ZERO_INTENSITY: PathRule = PathRule {
     reason: "all lights have intensity 0",
     apply: |builder| {
         let lights = builder.punctual;
-        let is_black = |light: &usize| has_zero_intensity(&lights[*light]);
+        let is_black = |light: &PunctualId| has_zero_intensity(&lights[*light]);
         reduce_lights(builder, LightUse::Nothing, is_black)
     },
 };
@@ -60,7 +60,7 @@ pub(super) const CONSTANT_ENVIRONMENT: PathRule = PathRule {
 fn reduce_environment(
     builder: &mut PlanBuilder<'_>,
     rest: EnvironmentUse,
-    has: impl Fn(&PlanBuilder<'_>, usize) -> bool,
+    has: impl Fn(&PlanBuilder<'_>, ImageId) -> bool,
 ) -> Vec<ValuePath> {
     let image = builder.scene.environment().image;
     let is_all = builder.environment == EnvironmentUse::All;
@@ -81,7 +81,7 @@ pub(super) const OUT_OF_RANGE: PathRule = PathRule {
     apply: |builder| {
         let lights = builder.punctual;
         let (surface_bounds, left) = (builder.surface_bounds, builder.surfaces.clone());
-        let is_out = |light: &usize| {
+        let is_out = |light: &PunctualId| {
             let mut surface_bounds = surface_bounds
                 .iter()
                 .zip(&left)
@@ -107,7 +107,9 @@ pub(super) const DELTA_ONLY: PathRule = PathRule {
         builder.nee = false;
         builder
             .used_materials()
-            .map(|(material, _)| ValuePath::new(EntityKind::Material, material, Field::Whole))
+            .map(|(material, _)| {
+                ValuePath::new(EntityKind::Material, material.index(), Field::Whole)
+            })
             .collect()
     },
 };
@@ -138,13 +140,10 @@ pub(super) const SINGLE_CONVEX: PathRule = PathRule {
 fn reduce_lights(
     builder: &mut PlanBuilder<'_>,
     rest: LightUse,
-    which: impl Fn(&usize) -> bool,
+    which: impl Fn(&PunctualId) -> bool,
 ) -> Vec<ValuePath> {
-    let left = |light: &usize| builder.lights[*light] == LightUse::All;
-    let out: Vec<_> = (0..builder.lights.len())
-        .filter(left)
-        .filter(which)
-        .collect();
+    let left = |light: &PunctualId| builder.lights[*light] == LightUse::All;
+    let out: Vec<_> = (builder.lights.ids()).filter(left).filter(which).collect();
     out.iter().for_each(|light| builder.lights[*light] = rest);
     out.into_iter().map(light_path).collect()
 }

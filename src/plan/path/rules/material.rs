@@ -6,7 +6,7 @@ use crate::facts;
 use crate::path::builder::PlanBuilder;
 use crate::rules::Rule;
 use rtc_math::{NonNegative, UnitInterval, Vec3};
-use rtc_valid::{Alpha, Map, Standard};
+use rtc_valid::{Alpha, Map, MaterialId, Standard};
 
 pub(super) const ZERO: PathRule = PathRule {
     rule: Rule::PathZero,
@@ -18,7 +18,7 @@ pub(super) const ZERO: PathRule = PathRule {
     apply: |builder| builder.simplify(without_zeros),
 };
 
-fn without_zeros(builder: &PlanBuilder<'_>, index: usize, m: &Standard) -> Standard {
+fn without_zeros(builder: &PlanBuilder<'_>, index: MaterialId, m: &Standard) -> Standard {
     let mut new = m.clone();
     let is_nonzero = |weight: UnitInterval| weight > UnitInterval::ZERO;
     let is_zero =
@@ -94,7 +94,7 @@ pub(super) const OPAQUE: PathRule = PathRule {
 };
 
 /// Whether a material is opaque. Its texture is read only where the factor does not decide it.
-fn covers(builder: &PlanBuilder<'_>, index: usize, material: &Standard) -> bool {
+fn covers(builder: &PlanBuilder<'_>, index: MaterialId, material: &Standard) -> bool {
     /// A bound above the rounding error of filtered values.
     const MARGIN: f64 = 1e-6;
     let uses = &builder.uses[index];

@@ -6,7 +6,7 @@ use crate::path::builder::PlanBuilder;
 use crate::rules::Rule;
 use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_math::{UnitInterval, Vec3};
-use rtc_valid::{Map, Standard};
+use rtc_valid::{Map, MaterialId, Standard};
 
 pub(super) const UNSEEN: PathRule = PathRule {
     rule: Rule::PathMapUnseen,
@@ -18,7 +18,7 @@ pub(super) const UNSEEN: PathRule = PathRule {
     apply: |builder| builder.simplify(without_unused_maps),
 };
 
-fn without_unused_maps(builder: &PlanBuilder<'_>, index: usize, m: &Standard) -> Standard {
+fn without_unused_maps(builder: &PlanBuilder<'_>, index: MaterialId, m: &Standard) -> Standard {
     let mut new = m.clone();
     let is_nonzero = |weight: UnitInterval| weight > UnitInterval::ZERO;
     let is_shaded = builder.max_depth > 0 && !m.unlit;
@@ -77,7 +77,11 @@ pub(super) const CONSTANT: PathRule = PathRule {
                 |map: &&Map| !builder.is_folded(index, map) && builder.is_constant(index, map);
             for map in material.maps().filter(is_new) {
                 folded[map.texture] = true;
-                changed.push(ValuePath::new(EntityKind::Material, index, Field::Whole));
+                changed.push(ValuePath::new(
+                    EntityKind::Material,
+                    index.index(),
+                    Field::Whole,
+                ));
             }
         }
         changed.dedup();

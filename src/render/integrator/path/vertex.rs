@@ -7,7 +7,7 @@ use crate::material::standard::{Alpha, StandardMaterial};
 use crate::ray::Interaction;
 use crate::shape::geometry::Intersect;
 use crate::shape::geometry::{AttributeRequest, ShadingAttributes};
-use crate::world::Hit;
+use crate::world::{Hit, MaterialId};
 use rtc_math::Vec3;
 use rtc_plan::{Effect, PathFeatures};
 
@@ -75,7 +75,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     }
 
     /// The surface details that a material needs.
-    pub(super) fn request(&self, material: usize) -> AttributeRequest {
+    pub(super) fn request(&self, material: MaterialId) -> AttributeRequest {
         if self.knows_all {
             AttributeRequest::ALL
         } else {
@@ -86,7 +86,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     /// A material at a point of a surface, in world coordinates.
     pub(super) fn point(
         &mut self,
-        material: usize,
+        material: MaterialId,
         shading_attributes: &ShadingAttributes,
         point: Vec3,
     ) -> MaterialPoint<'world> {

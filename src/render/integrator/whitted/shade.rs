@@ -12,6 +12,7 @@ use crate::world::settings::Gooch;
 use crate::world::small_scene::SmallScene;
 use rtc_math::{Basis, NonNegative, Vec3};
 use rtc_plan::{Effect, Features, Rule};
+use rtc_valid::CourseLightId;
 
 /// A point seen from one side.
 pub(crate) struct ShadingPoint<'world> {
@@ -43,8 +44,8 @@ impl ShadingPoint<'_> {
 /// Whether something may hide a light from a point.
 #[derive(Clone, Copy)]
 struct Hidden {
-    /// The index of the light.
-    light: usize,
+    /// The light.
+    light: CourseLightId,
     maybe: bool,
 }
 
@@ -130,7 +131,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
             Some(light) => (light * ambient, Vec3::ZERO),
             None => (Vec3::ZERO, ambient),
         };
-        for (index, light) in world.lights.course.iter().enumerate() {
+        for (index, light) in world.lights.course.entries() {
             let plan = &world.plan.lights[index];
             if !plan.is_used {
                 continue;
@@ -148,7 +149,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
                 if !Self::can(Features::SAMPLED) || light.radius.get() == 0.0 || samples == 1 {
                     term += self.direct(shading_point, light.position, shadowed);
                 } else {
-                    let key = shading_point.key.child(index as u64);
+                    let key = shading_point.key.child(index.index() as u64);
                     let points = DiscPoints::new(samples, key, self.spread);
                     let points =
                         on_soft_light(light, shading_point.interaction.point, samples, points);
@@ -252,9 +253,9 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
 
     /// The surfaces that may occlude a light from a point, by a cone of such segments.
     #[inline(always)]
-    pub(super) fn towards(&mut self, small_scene: &SmallScene, light: usize, from: Vec3) -> u64 {
+    pub(super) fn towards(&mut self, small_scene: &SmallScene, light: CourseLightId, from: Vec3) -> u64 {
         let lights = &self.world.lights.course;
-        let place = [self.bounces as usize, light, lights.len()];
+        let place = [self.bounces as usize, light.index(), lights.len()];
         let target = || lights[light].ball();
         self.bundles
             .towards(&small_scene.balls, place, from, target)

@@ -19,7 +19,7 @@ use crate::shape::geometry::Intersect;
 use crate::shape::tie::CLOSE;
 use crate::world::settings::Mode;
 use crate::world::small_scene::SmallScene;
-use crate::world::{Hit, World};
+use crate::world::{Hit, SurfaceId, World};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
 use rtc_math::Vec3;
@@ -29,7 +29,7 @@ use rtc_plan::Features;
 struct Hits<V: Simd> {
     /// Infinite for none.
     t: f64x4<V>,
-    surfaces: [usize; LANES],
+    surfaces: [SurfaceId; LANES],
     prims: [u32; LANES],
     /// The lanes that hit something.
     hit_lanes: u64,
@@ -169,7 +169,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         let none = f64x4::splat(simd, f64::INFINITY);
         let mut hits = Hits {
             t: none,
-            surfaces: [0; LANES],
+            surfaces: [SurfaceId::NONE; LANES],
             prims: [0; LANES],
             hit_lanes: 0,
         };

@@ -12,6 +12,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
 use rtc_math::Vec3;
 use rtc_plan::{Effect, Features};
+use rtc_valid::CourseLightId;
 
 impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     /// As [`Tracer::phong`].
@@ -24,7 +25,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
             Some(light) => (Vectors::splat(simd, light).times_each(ambient), zero),
             None => (zero, ambient),
         };
-        for (index, light) in world.lights.course.iter().enumerate() {
+        for (index, light) in world.lights.course.entries() {
             let plan = &world.plan.lights[index];
             if !plan.is_used {
                 continue;
@@ -45,7 +46,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         simd: V,
         points: &Points<V>,
         term: Vectors<V>,
-        light: usize,
+        light: CourseLightId,
     ) -> Vectors<V> {
         let number = |x: f64| f64x4::splat(simd, x);
         let zero = number(0.0);
@@ -105,12 +106,12 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     fn towards_each<V: Simd>(
         &mut self,
         small_scene: &SmallScene,
-        light: usize,
+        light: CourseLightId,
         from: Vectors<V>,
         active: u64,
     ) -> [u64; LANES] {
         let lights = &self.world.lights.course;
-        let place = [self.bounces as usize, light, lights.len()];
+        let place = [self.bounces as usize, light.index(), lights.len()];
         let target = || lights[light].ball();
         self.bundles
             .towards_each(&small_scene.balls, place, from, active, target)
@@ -122,7 +123,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         &mut self,
         simd: V,
         points: &Points<V>,
-        light: usize,
+        light: CourseLightId,
         active: u64,
     ) -> u64 {
         let world = self.world;
@@ -171,7 +172,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         // Test each occluder against the lanes that need it.
         let end = ends(simd, &rays, to);
         while let Some(surface) = SmallScene::pop(&mut all) {
-            let of_surface = |lane: &usize| hiding[*lane] >> surface & 1 == 1;
+            let of_surface = |lane: &usize| hiding[*lane] >> surface.index() & 1 == 1;
             let lanes = lanes_of(doubted & !hidden).filter(of_surface);
             let lanes = lanes.fold(0, |bits, lane| bits | 1 << lane);
             if lanes == 0 {
