@@ -1,10 +1,10 @@
-//! Rays through one asset, in batches: `rays ASSET SET… [COUNT]` builds its hierarchy, then traces
+//! Rays through one asset, one after another: `rays ASSET SET… [COUNT]` builds its hierarchy, then traces
 //! the first COUNT rays of each SET, all without; a set is a file of little-endian f32, six a ray:
 //! origin and direction.
 //!
 //! One line of JSON comes out of the build and of each kind of work: CPU-seconds, rays, hits, and the
 //! sum of the first distances, so that others can be checked against it. All of one thread. For
-//! callgrind, `closest_hits` and `any_hits` are the work.
+//! callgrind, `closest_hits` and `any_hits` are the work, a batch a call.
 
 #![expect(
     clippy::unwrap_used,
@@ -23,7 +23,7 @@ use rtc::internals::source::{Loader, SourceMap};
 use serde_json::json;
 use std::path::Path;
 
-/// Rays that are given to the world at a time.
+/// Rays between two looks at the clock.
 const BATCH: usize = 1 << 14;
 
 fn main() {
@@ -114,12 +114,13 @@ fn occlusion(world: &World, set: &str, rays: &[Ray]) {
 /// The closest hit of each ray.
 #[inline(never)]
 fn closest_hits(world: &World, batch: &[Ray], hits: &mut Vec<Option<Hit>>) {
-    *hits = world.closest_hits(batch);
+    hits.clear();
+    hits.extend(batch.iter().map(|ray| world.closest_hit(ray)));
 }
 
 /// Whether each ray hits anything.
 #[inline(never)]
 fn any_hits(world: &World, batch: &[Ray], hits: &mut Vec<bool>) {
-    let endless: Vec<_> = batch.iter().map(|ray| (*ray, f64::INFINITY)).collect();
-    *hits = world.any_hits(&endless);
+    hits.clear();
+    hits.extend(batch.iter().map(|ray| world.any_hit(ray, f64::INFINITY)));
 }

@@ -14,7 +14,7 @@
 //!
 //! # Modules
 //!
-//! - `accel`: bounding volume hierarchies, SIMD ray packets, the ray-cone cache. It knows no
+//! - `accel`: bounding volume hierarchies, the ray-cone cache. It knows no
 //!   shapes.
 //! - `shape`: the robust ray–shape intersections, and the [`BaselineShape`] variants.
 //! - `material`, `texture`, `bsdf`: material parameters at a hit, and the BSDF of the glTF

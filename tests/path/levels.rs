@@ -1,4 +1,4 @@
-//! Whatever vector instructions rays are traced with, alone or together: they find the same.
+//! Whatever vector instructions rays are traced with, they find the same.
 
 use super::hierarchy::{numbers, place, waves};
 use super::{JOB, lambert, scene, sky, validate};
@@ -56,27 +56,24 @@ fn levels() -> impl Iterator<Item = SimdLevel> {
 /// What each ray meets, and whether anything lies before its target.
 type Found = (Vec<Option<Hit>>, Vec<bool>);
 
-fn alone(world: &World<Shape>, rays: &[Ray]) -> Found {
+fn found(world: &World<Shape>, rays: &[Ray]) -> Found {
     let hits = rays.iter().map(|ray| world.closest_hit(ray)).collect();
-    let occluded = |ray: &Ray| world.any_hits(&[(*ray, 1.0)])[0];
+    let occluded = |ray: &Ray| world.any_hit(ray, 1.0);
     (hits, rays.iter().map(occluded).collect())
 }
 
 #[test]
-fn rays_find_the_same_at_all_levels_alone_and_together() {
+fn rays_find_the_same_at_all_levels() {
     for is_moved in [false, true] {
         let proof = validate(&sea(is_moved));
         let plan = Plan::new(&proof, Rules::NONE);
         let rays = rays();
-        let expected = alone(&World::prepare_at(&proof, &plan, SimdLevel::best()), &rays);
+        let expected = found(&World::prepare_at(&proof, &plan, SimdLevel::best()), &rays);
         let hits = expected.0.iter().flatten().count();
         assert!(hits > 600, "{hits}");
         for level in levels() {
             let world = World::<Shape>::prepare_at(&proof, &plan, level);
-            assert!(alone(&world, &rays) == expected, "{} alone", level.name());
-            let segments: Vec<_> = rays.iter().map(|ray| (*ray, 1.0)).collect();
-            let together = (world.closest_hits(&rays), world.any_hits(&segments));
-            assert!(together == expected, "{} together", level.name());
+            assert!(found(&world, &rays) == expected, "{}", level.name());
         }
         // The nearest hit decides whether anything lies before the target.
         for (hit, occluded) in expected.0.iter().zip(&expected.1) {

@@ -1,5 +1,4 @@
-//! SIMD tests in f32: eight boxes or four triangles against one ray, or one triangle against eight
-//! rays.
+//! SIMD tests in f32: eight boxes or four triangles against one ray.
 //!
 //! Each level of [`super::simd`] does the same operations in the same order, without fused
 //! multiply-add, so all levels give the same bits.
@@ -7,7 +6,6 @@
 use crate::accel::conservative_ray::ConservativeRay;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x4, f32x8};
-use std::hint::black_box;
 
 /// Children of a node.
 pub(in crate::accel) const WIDTH: usize = 8;
@@ -74,12 +72,6 @@ impl<'rows> WideLeaf<'rows> {
         let at = (place * self.count) & (SEEN - 1);
         f32x4::from_slice(simd, &self.numbers[at..at + TRIANGLES])
     }
-
-    /// Prefetches it.
-    #[inline(always)]
-    pub(in crate::accel) fn prefetch(&self) {
-        black_box([self.numbers[0], self.numbers[16], self.numbers[32]]);
-    }
 }
 
 /// The factor on the far ends of boxes: more than the relative errors of both ends.
@@ -114,7 +106,7 @@ fn splat4<S: Simd>(simd: S, [x, y, z]: [f32; 3]) -> [f32x4<S>; 3] {
 
 /// The offsets of the nearer ends of boxes, per axis.
 #[inline(always)]
-pub(in crate::accel) fn nearer_ends([x, y, z]: [bool; 3]) -> [usize; 3] {
+fn nearer_ends([x, y, z]: [bool; 3]) -> [usize; 3] {
     let nearer = |down: bool| if down { WIDTH } else { 0 };
     [nearer(x), nearer(y), nearer(z)]
 }
@@ -184,23 +176,21 @@ impl<S: Simd> BoxLanes<S> {
 /// The bits of at most 32 lanes.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "there are 8 lanes at most")]
-pub(in crate::accel) fn bits(mask: u64) -> u32 {
+fn bits(mask: u64) -> u32 {
     mask as u32
 }
 
-/// A corner in each lane, after the shear that turns the lane's conservative ray into its main
-/// axis.
-type Sheared<V> = [V; 3];
+/// A corner in each lane, after the shear that turns the conservative ray into its main axis.
+type Sheared<S> = [f32x4<S>; 3];
 
-/// The data of conservative rays for tests of triangles: one conservative ray in all lanes, or one
-/// in each. All have the same main axis.
+/// The data of a conservative ray for tests of triangles.
 #[derive(Clone, Copy)]
-pub(in crate::accel) struct TriangleLanes<V> {
-    pub(in crate::accel) axes: [usize; 3],
-    pub(in crate::accel) origin: [V; 3],
-    pub(in crate::accel) main: V,
-    pub(in crate::accel) slopes: [V; 2],
-    pub(in crate::accel) error: V,
+pub(in crate::accel) struct TriangleLanes<S: Simd> {
+    axes: [usize; 3],
+    origin: [f32x4<S>; 3],
+    main: f32x4<S>,
+    slopes: [f32x4<S>; 2],
+    error: f32x4<S>,
 }
 
 /// Which lanes may be hits, and which of them are certain hits, as bits.
@@ -210,7 +200,7 @@ pub(in crate::accel) struct HitMask {
     pub(in crate::accel) certain: u32,
 }
 
-impl<S: Simd> TriangleLanes<f32x4<S>> {
+impl<S: Simd> TriangleLanes<S> {
     /// One conservative ray.
     #[inline(always)]
     pub(in crate::accel) fn new(simd: S, conservative_ray: &ConservativeRay) -> Self {
@@ -224,65 +214,35 @@ impl<S: Simd> TriangleLanes<f32x4<S>> {
         }
     }
 
-    /// Which triangles of a leaf the conservative ray may hit before `t_far`; if `CERTAIN`, also
-    /// which it certainly hits before `t_certain`.
+    /// A corner of each triangle, sheared.
     #[inline(always)]
-    pub(in crate::accel) fn intersect4<const CERTAIN: bool>(
-        &self,
-        simd: S,
-        leaf: WideLeaf<'_>,
-        limits: [f32; 2],
-    ) -> HitMask {
-        self.hit_mask::<CERTAIN, S>(
-            #[inline(always)]
-            |place: usize| leaf.numbers(simd, place),
-            [f32x4::splat(simd, limits[0]), f32x4::splat(simd, limits[1])],
-        )
-    }
-}
-
-impl<V> TriangleLanes<V> {
-    /// A corner as seen from the origin, along the k-th axis of the conservative ray.
-    #[inline(always)]
-    fn seen<S: Simd>(&self, corner: usize, k: usize, coordinate: &impl Fn(usize) -> V) -> V
-    where
-        V: SimdFloat<S, Element = f32>,
-    {
-        coordinate(place(corner, self.axes[k])) - self.origin[k]
-    }
-
-    #[inline(always)]
-    fn sheared<S: Simd>(&self, corner: usize, coordinate: &impl Fn(usize) -> V) -> Sheared<V>
-    where
-        V: SimdFloat<S, Element = f32>,
-    {
-        let along = self.seen(corner, 2, coordinate) * self.main;
+    fn sheared(&self, simd: S, leaf: WideLeaf<'_>, corner: usize) -> Sheared<S> {
+        let seen = |k: usize| leaf.numbers(simd, place(corner, self.axes[k])) - self.origin[k];
+        let along = seen(2) * self.main;
         [
-            self.seen(corner, 0, coordinate) - along * self.slopes[0],
-            self.seen(corner, 1, coordinate) - along * self.slopes[1],
+            seen(0) - along * self.slopes[0],
+            seen(1) - along * self.slopes[1],
             along,
         ]
     }
 
-    /// The lanes that may be hits before their `t_far`; if `CERTAIN`, also those that certainly are
-    /// before their `t_certain`. `coordinate` gives the coordinates of the triangles at an index.
+    /// Which triangles of a leaf the conservative ray may hit before `t_far`; if `CERTAIN`, also
+    /// which it certainly hits before `t_certain`.
     ///
     /// The signs of the edge functions are those of exact arithmetic where they exceed a bound on
     /// their error: a triangle with two sure signs that differ is missed, one with three that agree
     /// is hit.
     #[inline(always)]
-    pub(in crate::accel) fn hit_mask<const CERTAIN: bool, S: Simd>(
+    pub(in crate::accel) fn intersect4<const CERTAIN: bool>(
         &self,
-        coordinate: impl Fn(usize) -> V,
-        [t_far, t_certain]: [V; 2],
-    ) -> HitMask
-    where
-        V: SimdFloat<S, Element = f32>,
-    {
+        simd: S,
+        leaf: WideLeaf<'_>,
+        [t_far, t_certain]: [f32; 2],
+    ) -> HitMask {
         let error = self.error;
-        let a = self.sheared(0, &coordinate);
-        let b = self.sheared(1, &coordinate);
-        let c = self.sheared(2, &coordinate);
+        let a = self.sheared(simd, leaf, 0);
+        let b = self.sheared(simd, leaf, 1);
+        let c = self.sheared(simd, leaf, 2);
         let (u, v, w) = (edge(&c, &b), edge(&a, &c), edge(&b, &a));
         // Products of coordinates of size m with errors e: 4·m·e + 2·e², and 3 roundings of each
         // product.
@@ -306,12 +266,12 @@ impl<V> TriangleLanes<V> {
 
 /// The larger of the sizes of both coordinates across the conservative ray.
 #[inline(always)]
-fn size_of<S: Simd, V: SimdFloat<S, Element = f32>>(corner: &Sheared<V>) -> V {
+fn size_of<S: Simd>(corner: &Sheared<S>) -> f32x4<S> {
     corner[0].abs().max(corner[1].abs())
 }
 
 /// The edge function of the edge between two corners.
 #[inline(always)]
-fn edge<S: Simd, V: SimdFloat<S, Element = f32>>(p: &Sheared<V>, q: &Sheared<V>) -> V {
+fn edge<S: Simd>(p: &Sheared<S>, q: &Sheared<S>) -> f32x4<S> {
     p[0] * q[1] - p[1] * q[0]
 }

@@ -3,11 +3,10 @@
 //! They know no shapes. A query takes a ray and calls a visitor with the index of each item that
 //! the ray may hit; the visitor computes the hit itself.
 //!
-//! - [`wide`]: an 8-wide BVH over triangles in f32, with traversal of one ray, of several
-//!   interleaved rays, and of packets of eight coherent rays.
+//! - [`wide`]: an 8-wide BVH over triangles in f32, with traversal of one ray.
 //! - [`bvh`]: a binary BVH over boxes in f64, for all other surfaces.
 //! - [`ray_cone_cache`]: for small scenes, the items that a cone of similar rays may hit.
-//! - [`conservative_ray`], [`lanes`], `packet`: the f32 ray of a BVH, and its SIMD tests against
+//! - [`conservative_ray`], [`lanes`]: the f32 ray of a BVH, and its SIMD tests against
 //!   eight boxes or four triangles.
 //! - [`bounds`]: the slab test in f64, and bounding spheres.
 //! - [`simd`]: the SIMD instruction sets, chosen at run time. All give the same bits.
@@ -19,7 +18,6 @@ pub(crate) mod bounds;
 pub(crate) mod bvh;
 pub(crate) mod conservative_ray;
 pub(crate) mod lanes;
-mod packet;
 mod pages;
 pub(crate) mod ray_cone_cache;
 pub(crate) mod simd;

@@ -6,14 +6,13 @@
 //! - Triangles of meshes that may be flattened are in one 8-wide BVH (`flattened`); all other
 //!   surfaces are in the `ObjectBvh`. A scene with few surfaces has a [`SmallScene`] as well, which
 //!   tests the candidates of the ray-cone cache only.
-//! - `search` has the BVH visitors, `batch` the queries of many rays, `alpha` the alpha test.
+//! - `search` has the BVH visitors, `alpha` the alpha test.
 //! - `any` chooses the shape set and the arithmetic; `verify` renders without pruning.
 //!
 //! Queries accept directions of any length. `t` is in units of the direction's length.
 
 pub(crate) mod alpha;
 pub(crate) mod any;
-mod batch;
 mod flattened;
 mod light;
 mod material;
@@ -271,7 +270,8 @@ impl<S: Intersect> World<S> {
     }
 
     /// Whether anything that casts shadows is hit with 0 < t < `t_max`.
-    pub(crate) fn any_hit(&self, ray: &Ray, t_max: f64) -> bool {
+    #[must_use]
+    pub fn any_hit(&self, ray: &Ray, t_max: f64) -> bool {
         self.any_hit_from(ray, t_max, NO_PRIMITIVE)
     }
 

@@ -4,7 +4,6 @@
 //! in f32 in a cube around the geometry. One SIMD operation tests all of them against a ray.
 
 mod build;
-mod packet_traversal;
 mod split;
 mod traverse;
 

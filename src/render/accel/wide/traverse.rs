@@ -1,15 +1,11 @@
-//! BVH traversal, for a single ray or for several interleaved rays, which hides memory latency.
+//! BVH traversal of a ray.
 
 use super::{Candidate, LEAF, NONE, TraversalStack, Wide, leaf_at};
-use crate::accel::conservative_ray::ConservativeRay;
+use crate::accel::conservative_ray::{ConservativeRay, RayRejection};
 use crate::accel::lanes::{BoxLanes, HitMask, LINKS, TriangleLanes, TriangleRow, WIDTH, WideNode};
 use crate::accel::simd::at_level;
 use crate::ray::Ray;
-use fearless_simd::{Simd, f32x4};
-use std::hint::black_box;
-
-/// The number of interleaved rays.
-const TURNS: usize = 4;
+use fearless_simd::Simd;
 
 /// Where a ray is in the BVH.
 struct Traversal<'traverse, S: Simd> {
@@ -18,7 +14,7 @@ struct Traversal<'traverse, S: Simd> {
     unit: Option<f64>,
     conservative_ray: ConservativeRay,
     boxes: BoxLanes<S>,
-    triangles: TriangleLanes<f32x4<S>>,
+    triangles: TriangleLanes<S>,
     t_far: f32,
     t_certain: f32,
     link: u32,
@@ -64,59 +60,33 @@ impl Wide {
         at_level!(self.simd, simd => self.traverse_one(simd, ray, t_max, visitor));
     }
 
-    /// As [`Wide::traverse`] for each of some rays, with the `t_max` and the visitor of each.
-    pub(crate) fn traverse_all<V: Visitor>(&self, rays: &mut [(Ray, f64, V)]) {
-        at_level!(self.simd, simd => self.traverse_interleaved(simd, rays));
-    }
-
     #[inline(always)]
-    pub(super) fn traverse_one<S: Simd, V: Visitor>(
-        &self,
-        simd: S,
-        ray: &Ray,
-        t_max: f64,
-        visitor: &mut V,
-    ) {
+    fn traverse_one<S: Simd, V: Visitor>(&self, simd: S, ray: &Ray, t_max: f64, visitor: &mut V) {
         if let Some(conservative_ray) = self.conservative_ray(ray, t_max, visitor) {
-            self.traverse_from(simd, conservative_ray, t_max, visitor);
+            let mut traversal = self.start::<S, V>(simd, conservative_ray, t_max);
+            while traversal.step(simd, visitor) == TraversalStep::GoesOn {}
         }
     }
 
+    /// The conservative ray of a ray; `None` if it meets nothing, or where arithmetic cannot decide
+    /// and all triangles have been visited.
     #[inline(always)]
-    pub(super) fn traverse_from<S: Simd, V: Visitor>(
+    fn conservative_ray<V: Visitor>(
         &self,
-        simd: S,
-        conservative_ray: ConservativeRay,
+        ray: &Ray,
         t_max: f64,
         visitor: &mut V,
-    ) {
-        let mut traversal = self.start::<S, V>(simd, conservative_ray, t_max);
-        while traversal.step(simd, visitor) == TraversalStep::GoesOn {}
-    }
-
-    #[inline(always)]
-    fn traverse_interleaved<S: Simd, V: Visitor>(&self, simd: S, rays: &mut [(Ray, f64, V)]) {
-        let mut waiting = rays.iter_mut();
-        let mut under_way = Vec::with_capacity(TURNS);
-        loop {
-            while under_way.len() < TURNS
-                && let Some((ray, t_max, visitor)) = waiting.next()
-            {
-                if let Some(conservative_ray) = self.conservative_ray(ray, *t_max, visitor) {
-                    under_way.push((self.start::<S, V>(simd, conservative_ray, *t_max), visitor));
-                }
-            }
-            if under_way.is_empty() {
-                return;
-            }
-            let mut turn = 0;
-            while let Some((traversal, visitor)) = under_way.get_mut(turn) {
-                if traversal.step(simd, *visitor) == TraversalStep::GoesOn {
-                    traversal.prefetch();
-                    turn += 1;
-                } else {
-                    under_way.swap_remove(turn);
-                }
+    ) -> Option<ConservativeRay> {
+        // A ray that ends before it starts.
+        if t_max < 0.0 {
+            return None;
+        }
+        match ConservativeRay::new(&self.frame, ray) {
+            Ok(conservative_ray) => Some(conservative_ray),
+            Err(RayRejection::Missed) => None,
+            Err(RayRejection::Indeterminate) => {
+                self.visit_all(visitor);
+                None
             }
         }
     }
@@ -150,7 +120,7 @@ impl Wide {
     /// Has all triangles visited, while they may count.
     #[cold]
     #[inline(never)]
-    pub(super) fn visit_all(&self, visitor: &mut impl Visitor) {
+    fn visit_all(&self, visitor: &mut impl Visitor) {
         let unit = self.unit;
         let nodes = self.nodes.rows().iter();
         let links = nodes.flat_map(|node| node[LINKS..].iter().map(|link| link.to_bits()));
@@ -243,22 +213,11 @@ impl<S: Simd> Traversal<'_, S> {
         }
         TraversalStep::GoesOn
     }
-
-    /// Asks for the memory of the next step, which is there when its turn comes.
-    #[inline(always)]
-    fn prefetch(&self) {
-        if self.link & LEAF == 0 {
-            let node = &self.nodes[self.link as usize];
-            black_box([node[0], node[16], node[32], node[48]]);
-        } else {
-            leaf_at(self.rows, self.link).prefetch();
-        }
-    }
 }
 
 /// The lanes of some bits.
 #[inline(always)]
-pub(super) fn lanes_of(mut bits: u32) -> impl Iterator<Item = usize> {
+fn lanes_of(mut bits: u32) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let lane = bits.trailing_zeros() as usize;
         let is_there = bits != 0;
