@@ -63,7 +63,7 @@ fn by_next(planned: &Plan) -> Plan {
         }
         None => {
             let own = KERNELS[choose(plan.features)].features;
-            let larger = KERNELS.map(|kernel| kernel.features).into_iter();
+            let larger = KERNELS.iter().map(|kernel| kernel.features);
             let mut larger = larger.filter(|it| it.contains(own) && *it != own);
             plan.features = larger.next().unwrap_or(own);
         }

@@ -12,15 +12,51 @@ use std::ops::Range;
 
 /// An integrator compiled for a set of features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Kernel {
+pub struct Kernel<F = Features> {
     /// Its name.
     pub name: &'static str,
-    /// Its features.
-    pub features: Features,
+    /// What it can do.
+    pub features: F,
 }
 
-const fn kernel(name: &'static str, features: Features) -> Kernel {
-    Kernel { name, features }
+/// Work that is compiled for each kernel of a table.
+pub(crate) trait KernelTask: Sized {
+    /// Whether there is a kernel for each row, or only the last one, which can do everything.
+    const HAS_KERNELS: bool;
+
+    /// What the work gives.
+    type Output;
+
+    /// Does the work by an integrator with the features `F`.
+    fn run<const F: u32>(self) -> Self::Output;
+}
+
+/// Declares a table of kernels and the function that runs one of them, from the same rows. The last
+/// kernel can do everything.
+macro_rules! kernels {
+    (
+        $(#[$doc:meta])*
+        $table:ident: $Features:ident, $run:ident;
+        $($name:literal: $features:expr,)*
+    ) => {
+        $(#[$doc])*
+        pub const $table: &[Kernel<$Features>] = &[
+            $(Kernel { name: $name, features: $features },)*
+        ];
+
+        /// Does some work by the kernel with an index.
+        pub(crate) fn $run<T: KernelTask>(index: usize, task: T) -> T::Output {
+            if T::HAS_KERNELS {
+                let mut rows = 0..;
+                $(if rows.next() == Some(index) {
+                    return task.run::<{ $features.0 }>();
+                })*
+            }
+            task.run::<{ $Features::EVERYTHING.0 }>()
+        }
+
+        const _: () = assert!($table[$table.len() - 1].features.contains($Features::EVERYTHING));
+    };
 }
 
 const PHONG: Features = Features::LIGHT.with(Features::HIGHLIGHT);
@@ -29,19 +65,17 @@ const WHITTED: Features = PHONG
     .with(Features::BOUNCE)
     .with(Features::CAMERA);
 
-/// The compiled integrators: `benches/kernels.md` has the measurements behind the selection.
-pub const KERNELS: [Kernel; 7] = [
-    kernel("phong", PHONG),
-    kernel("phong, camera", PHONG.with(Features::CAMERA)),
-    kernel("phong, shadows", PHONG.with(Features::SHADOW)),
-    kernel(
-        "diffuse, maps, camera",
-        Features::LIGHT.with(Features::MAPS).with(Features::CAMERA),
-    ),
-    kernel("whitted, camera", WHITTED),
-    kernel("whitted, maps, camera", WHITTED.with(Features::MAPS)),
-    kernel("everything", Features::EVERYTHING),
-];
+kernels! {
+    /// All integrators: those that `benches/kernels.md` shows to be worth their code.
+    KERNELS: Features, run;
+    "phong": PHONG,
+    "phong, camera": PHONG.with(Features::CAMERA),
+    "phong, shadows": PHONG.with(Features::SHADOW),
+    "diffuse, maps, camera": Features::LIGHT.with(Features::MAPS).with(Features::CAMERA),
+    "whitted, camera": WHITTED,
+    "whitted, maps, camera": WHITTED.with(Features::MAPS),
+    "everything": Features::EVERYTHING,
+}
 
 /// The index of the integrator with the fewest features among those that have all of `needed`; the
 /// first of equals.
@@ -52,85 +86,27 @@ pub fn choose(needed: Features) -> usize {
         .unwrap_or(KERNELS.len() - 1)
 }
 
-/// Calls a method of a world with the features of one kernel of a table: the kernel chosen, or the
-/// last one, which can do everything, if the shapes have no kernels of their own. The list of
-/// indices must name all kernels of the table.
-macro_rules! call_kernel {
-    ($table:ident [$($index:literal)* / $last:literal], $chosen:expr, $world:ident.$method:ident $arguments:tt) => {{
-        const { assert!([$($index,)* $last].len() == $table.len() && $last + 1 == $table.len()) };
-        if S::HAS_KERNELS {
-            match $chosen {
-                $($index => $crate::kernel::call_kernel!(@ $table $index $world.$method $arguments),)*
-                _ => $crate::kernel::call_kernel!(@ $table $last $world.$method $arguments),
-            }
-        } else {
-            $crate::kernel::call_kernel!(@ $table $last $world.$method $arguments)
-        }
-    }};
-    (@ $table:ident $index:literal $world:ident.$method:ident ($($argument:expr),*)) => {
-        $world.$method::<{ $table[$index].features.0 }>($($argument),*)
-    };
-}
-pub(crate) use call_kernel;
-
-/// Calls a method of a world with the features of the integrator chosen.
-macro_rules! dispatch {
-    ($world:ident.$method:ident $arguments:tt) => {{
-        use $crate::kernel::{KERNELS, choose};
-        let chosen = choose($world.plan.features);
-        $crate::kernel::call_kernel!(KERNELS[0 1 2 3 4 5 / 6], chosen, $world.$method $arguments)
-    }};
-}
-pub(crate) use dispatch;
-
-/// The sets of features that the path integrator is compiled for: diffuse surfaces, reflecting ones
-/// without layers, and all.
-pub const PATH_KERNELS: [PathKernel; 3] = [
-    path_kernel("paths, diffuse", LIGHT_SAMPLING),
-    path_kernel("paths, reflecting", REFLECTING),
-    path_kernel("paths", PathFeatures::EVERYTHING),
-];
-
-/// A path integrator compiled for a set of features.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PathKernel {
-    /// Its name.
-    pub name: &'static str,
-    /// Its features.
-    pub features: PathFeatures,
-}
-
 const LIGHT_SAMPLING: PathFeatures = PathFeatures::NEE.with(PathFeatures::SHADOWS);
 
-const REFLECTING: PathFeatures = LIGHT_SAMPLING
-    .with(PathFeatures::MICROFACETS)
-    .with(PathFeatures::ALPHA);
-
-const fn path_kernel(name: &'static str, features: PathFeatures) -> PathKernel {
-    PathKernel { name, features }
+kernels! {
+    /// The path integrators: for diffuse surfaces, for reflecting ones without layers, and for all.
+    PATH_KERNELS: PathFeatures, run_paths;
+    "paths, diffuse": LIGHT_SAMPLING,
+    "paths, reflecting": LIGHT_SAMPLING
+        .with(PathFeatures::MICROFACETS)
+        .with(PathFeatures::ALPHA),
+    "paths": PathFeatures::EVERYTHING,
 }
 
 /// The index of the path integrator with the fewest features that has all of `needed`.
 #[must_use]
 pub fn choose_for_paths(needed: PathFeatures) -> usize {
-    let able = |kernel: &PathKernel| kernel.features.contains(needed);
+    let able = |kernel: &Kernel<PathFeatures>| kernel.features.contains(needed);
     PATH_KERNELS
         .iter()
         .position(able)
         .unwrap_or(PATH_KERNELS.len() - 1)
 }
-
-/// Calls a method of a world with the features of the path integrator chosen.
-macro_rules! dispatch_paths {
-    ($world:ident.$method:ident $arguments:tt) => {{
-        use $crate::kernel::{PATH_KERNELS, choose_for_paths};
-        let everything = rtc_plan::PathFeatures::EVERYTHING;
-        let needed = $world.plan.paths.as_ref().map_or(everything, |plan| plan.features);
-        let chosen = choose_for_paths(needed);
-        $crate::kernel::call_kernel!(PATH_KERNELS[0 1 / 2], chosen, $world.$method $arguments)
-    }};
-}
-pub(super) use dispatch_paths;
 
 impl<S: Intersect> World<S> {
     /// Renders on the threads of the current pool; see [`super::AnyWorld::render`].
@@ -163,7 +139,19 @@ impl<S: Intersect> World<S> {
         if let Mode::Path(_) = self.settings.mode {
             return self.sum_paths(Strategy::Mis, samples, job, on_pixel);
         }
-        dispatch!(self.sum_with(job, on_pixel))
+        self.run(Sum(self, job, on_pixel))
+    }
+
+    /// Does some work by the kernel for the plan.
+    pub(crate) fn run<T: KernelTask>(&self, task: T) -> T::Output {
+        run(choose(self.plan.features), task)
+    }
+
+    /// Does some work by the path kernel for the plan.
+    pub(crate) fn run_paths<T: KernelTask>(&self, task: T) -> T::Output {
+        let plan = self.plan.paths.as_ref();
+        let needed = plan.map_or(PathFeatures::EVERYTHING, |plan| plan.features);
+        run_paths(choose_for_paths(needed), task)
     }
 
     fn sum_paths(
@@ -173,7 +161,39 @@ impl<S: Intersect> World<S> {
         job: &Job,
         on_pixel: &OnPixel<'_>,
     ) -> Option<Sums> {
-        dispatch_paths!(self.sum_paths_with(strategy, samples, job, on_pixel))
+        self.run_paths(SumPaths(self, strategy, samples, job, on_pixel))
+    }
+}
+
+/// Sums the samples of the pixels.
+struct Sum<'run, S>(&'run World<S>, &'run Job, &'run OnPixel<'run>);
+
+impl<S: Intersect> KernelTask for Sum<'_, S> {
+    const HAS_KERNELS: bool = S::HAS_KERNELS;
+    type Output = Option<Sums>;
+
+    fn run<const F: u32>(self) -> Option<Sums> {
+        let Self(world, job, on_pixel) = self;
+        world.sum_with::<F>(job, on_pixel)
+    }
+}
+
+/// Sums samples of the pixels by paths.
+struct SumPaths<'run, S>(
+    &'run World<S>,
+    Strategy,
+    &'run Range<u32>,
+    &'run Job,
+    &'run OnPixel<'run>,
+);
+
+impl<S: Intersect> KernelTask for SumPaths<'_, S> {
+    const HAS_KERNELS: bool = S::HAS_KERNELS;
+    type Output = Option<Sums>;
+
+    fn run<const F: u32>(self) -> Option<Sums> {
+        let Self(world, strategy, samples, job, on_pixel) = self;
+        world.sum_paths_with::<F>(strategy, samples, job, on_pixel)
     }
 }
 

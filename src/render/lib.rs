@@ -64,7 +64,7 @@ pub use frame::halves::DenoisedFilm;
 pub use frame::verify::Mismatch;
 pub use integrator::aov::Aov;
 pub use integrator::path::Strategy;
-pub use kernel::{KERNELS, Kernel, PATH_KERNELS, PathKernel, choose, choose_for_paths};
+pub use kernel::{KERNELS, Kernel, PATH_KERNELS, choose, choose_for_paths};
 pub use ray::{Interaction, Ray};
 pub use rtc_math::Bounds;
 pub use shape::Shape;

@@ -7,6 +7,7 @@ use super::texture::TextureValues;
 use crate::effect::Effect;
 use crate::layer::Layer;
 use crate::projection::ScreenRect;
+use crate::rules::Rule;
 use crate::surface_bounds::SurfaceBounds;
 use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_math::{Table, UnitInterval, Vec3};
@@ -74,7 +75,8 @@ pub enum EnvironmentUse {
 
 /// A rule that was applied.
 pub(super) struct AppliedRule {
-    pub(super) rule: &'static PathRule,
+    pub(super) rule: Rule,
+    pub(super) item: &'static PathRule,
     /// The effects that are no longer required after this rule.
     pub(super) removed_effects: Vec<Effect>,
     /// The scene values that decide it.
@@ -83,9 +85,9 @@ pub(super) struct AppliedRule {
 
 impl PlanBuilder<'_> {
     /// Applies a rule; `None` if it changes nothing.
-    pub(super) fn apply(&mut self, rule: &'static PathRule) -> Option<AppliedRule> {
+    pub(super) fn apply(&mut self, rule: Rule, item: &'static PathRule) -> Option<AppliedRule> {
         let before = Effect::OF_PATHS.map(|effect| self.requires(effect));
-        let places = (rule.apply)(self);
+        let places = (item.apply)(self);
         if places.is_empty() {
             return None;
         }
@@ -98,6 +100,7 @@ impl PlanBuilder<'_> {
             .collect();
         Some(AppliedRule {
             rule,
+            item,
             removed_effects,
             places,
         })

@@ -31,7 +31,7 @@ use super::facts as facts_seen;
 use super::features::PathFeatures;
 use super::layer::Layer;
 use super::projection::{ScreenProjection, ScreenRect};
-use super::rules::Rules;
+use super::rules::{PATH_RULES, Rules};
 use super::surface_bounds::surface_bounds;
 use builder::{AppliedRule, PlanBuilder};
 use facts::MaterialUses;
@@ -159,9 +159,9 @@ fn apply(builder: &mut PlanBuilder<'_>, rules: Rules) -> Vec<AppliedRule> {
     let mut applied = Vec::new();
     loop {
         let before = applied.len();
-        for item in rules::ALL {
-            if rules.contains(item.rule) {
-                applied.extend(builder.apply(item));
+        for (rule, item) in PATH_RULES {
+            if rules.contains(*rule) {
+                applied.extend(builder.apply(*rule, item));
             }
         }
         if applied.len() == before {

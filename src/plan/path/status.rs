@@ -35,13 +35,14 @@ fn status(
     let (state, rule, reason, mut facts) = if reduced.requires(effect) {
         let (reason, places) = reduced.need(effect);
         (EffectState::Needed, None, reason, places)
-    } else if let Some(AppliedRule { rule, places, .. }) =
-        removed_effects().filter(|_| requested.requires(effect))
+    } else if let Some(AppliedRule {
+        rule, item, places, ..
+    }) = removed_effects().filter(|_| requested.requires(effect))
     {
         (
             EffectState::Pruned,
-            Some(rule.rule),
-            rule.reason.to_owned(),
+            Some(*rule),
+            item.reason.to_owned(),
             places.clone(),
         )
     } else {

@@ -2,117 +2,137 @@
 //!
 //! A [`Rule`] names a rule of either integrator; [`Rules`] is a set of them as bits. The names
 //! (`E-…` for the Whitted integrator, `P-…` for path tracing, `B-…` for bounded errors) and the
-//! texts are what `rtc explain` prints. The path rules keep their names and texts beside their
-//! proofs, in [`path::rules`].
+//! texts are what `rtc explain` prints. A rule is one row of the table below; the row of a rule for
+//! path tracing is its item in [`path::rules`].
 
-use super::path;
+use super::path::rules::{PathRule, light, material, paths, texture};
 
-/// A rule.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[repr(u64)]
-#[expect(missing_docs, reason = "each is described by its text")]
-pub enum Rule {
-    Mode,
-    LightBlack,
-    LightUnreached,
-    LightBehind,
-    ShadowOff,
-    ShadowFacing,
-    ShadowUnlit,
-    ShadowConvex,
-    ShadowPair,
-    SoftPoint,
-    HighlightKs,
-    MirrorKs,
-    MirrorDepth,
-    MirrorUnreached,
-    MirrorConvex,
-    Opaque,
-    GlossyMirror,
-    Cut,
-    TextureConstant,
-    TextureUnseen,
-    NormalFlat,
-    Pinhole,
-    OneSample,
-    PixelMiss,
-    PixelFlat,
-    Cull,
-    PathLightBlack,
-    PathDarkSky,
-    PathZero,
-    PathUnlitMaterial,
-    PathMapUnseen,
-    PathMapConstant,
-    PathOpaque,
-    PathLightReach,
-    PathDark,
-    PathUnlit,
-    PathLast,
-    PathDelta,
-    PathShadowAlone,
-    PathCull,
-    PathEvenSky,
-    PathCullShadow,
+/// Declares the rules: those of the Whitted integrator with name and text (the statement and its
+/// proof), then those for path tracing with their items, in the order in which they run.
+macro_rules! rules {
+    ($($name:ident: $label:literal, $text:literal;)* --- $($of_paths:ident: $item:path;)*) => {
+        /// A rule.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        #[repr(u64)]
+        #[expect(missing_docs, reason = "each is described by its text")]
+        pub enum Rule {
+            $($name,)*
+            $($of_paths,)*
+        }
+
+        /// The names and texts of all rules.
+        const ROWS: &[(&str, &str)] = &[$(($label, $text),)* $(($item.name, $item.text),)*];
+
+        /// The rules for path tracing, in the order in which they run.
+        pub(crate) const PATH_RULES: &[(Rule, &PathRule)] = &[$((Rule::$of_paths, &$item),)*];
+
+        impl Rule {
+            /// All rules, those of the Whitted integrator first.
+            pub const ALL: [Self; ROWS.len()] = [$(Self::$name,)* $(Self::$of_paths,)*];
+        }
+    };
+}
+
+rules! {
+    Mode: "E-MODE",
+        "A depth or normal buffer is a function of the first hit only: it does not depend on \
+         lights, colours and bounces.";
+    LightBlack: "E-LIGHT-BLACK",
+        "The terms of a light of colour 0 are finite values times 0. The rule does not apply to \
+         Gooch shading, whose tones do not depend on the colour of the light.";
+    LightUnreached: "E-LIGHT-UNREACH",
+        "If kd·C and ks are 0 on all visible surfaces, each direct term has a factor of 0.";
+    LightBehind: "E-LIGHT-BEHIND",
+        "If a flat surface is visible from one side only and the light is on the other side, \
+         then N·L < 0: the diffuse term max(0, N·L) is 0, and the highlight is 0 as well, with \
+         shadows by its definition, without shadows because ks is 0.";
+    ShadowOff: "E-SHADOW-OFF", "Shadows are off in the scene.";
+    ShadowFacing: "E-SHADOW-NL",
+        "If N·L ≤ 0 for the shading or the geometric normal, the surface shadows itself at this \
+         point: no shadow ray is needed.";
+    ShadowUnlit: "E-SHADOW-KM",
+        "At a hit with kd·C = 0 and ks = 0 a light contributes nothing, occluded or not: no \
+         shadow ray is needed.";
+    ShadowConvex: "E-SHADOW-CONVEX",
+        "A convex solid lies behind its tangent plane at any point with N·L > 0, and the light \
+         lies in front of that plane: the solid does not shadow itself. The same holds for a \
+         flat surface if the light is not in its plane.";
+    ShadowPair: "E-SHADOW-PAIR",
+        "All segments from a surface to a light lie in the convex hull of both: a surface \
+         outside this hull casts no shadow there.";
+    SoftPoint: "E-SOFT",
+        "A light of radius 0 is a point light, and a single sample of a light is its centre: no \
+         sampling is needed.";
+    HighlightKs: "E-SPEC",
+        "If ks is 0, the highlight is 0 times a power of at most 1: the power is not computed.";
+    MirrorKs: "E-REFL-KS",
+        "The radiance along a reflected or refracted ray is multiplied by kr (ks by default) or \
+         kt. If this factor is 0, the ray is not traced.";
+    MirrorDepth: "E-REFL-DEPTH", "The scene allows no bounce.";
+    MirrorUnreached: "E-REFL-UNREACH",
+        "A flat reflective surface that is visible from one side reflects only the half-space \
+         on that side, and the background is black. So the longest chain of reflective surfaces \
+         that are visible from one another bounds the number of bounces.";
+    MirrorConvex: "E-REFL-CONVEX",
+        "A ray that is reflected off a convex solid from outside stays in the half-space in \
+         front of its tangent plane: it can't hit the solid again.";
+    Opaque: "E-REFR", "No visible material has kt > 0: there is no refraction.";
+    GlossyMirror: "E-GLOSSY",
+        "A glossy lobe of one sample is a perfect reflection, and a lobe of weight 0 contributes \
+         nothing.";
+    Cut: "B-CUT",
+        "Bounces are cut off once their weight bounds the remaining contribution below half a \
+         level of 8 bits. Only with --approx: the picture may differ by that much.";
+    TextureConstant: "E-TEX-CONST",
+        "A texture whose texels are all equal has this value everywhere.";
+    TextureUnseen: "E-TEX-UNSEEN",
+        "A map is not used on a surface without texture coordinates, on an invisible surface, or \
+         for a term of weight 0.";
+    NormalFlat: "E-NORMAL",
+        "Shading normals are not used without light and reflections. If the vertex normals of \
+         each triangle are equal, there is nothing to interpolate.";
+    Pinhole: "E-DOF",
+        "A lens of radius 0, or a lens with one sample, is its centre: one camera ray is enough.";
+    OneSample: "E-SS", "A factor of 1 is one sample per pixel.";
+    PixelMiss: "E-SS-MISS",
+        "No ray of a pixel outside the projected bounding boxes of all surfaces can hit \
+         anything: the pixel is black and is not traced.";
+    PixelFlat: "E-SS-FLAT",
+        "If all rays of a pixel hit one flat surface of one value, one ray is traced and stands \
+         for all.";
+    Cull: "E-CULL",
+        "A surface that no camera, shadow, reflected or refracted ray can hit is removed from \
+         the world.";
+    ---
+    PathLightBlack: light::ZERO_INTENSITY;
+    PathDarkSky: light::BLACK_ENVIRONMENT;
+    PathEvenSky: light::CONSTANT_ENVIRONMENT;
+    PathZero: material::ZERO;
+    PathUnlitMaterial: material::UNLIT;
+    PathMapUnseen: texture::UNSEEN;
+    PathMapConstant: texture::CONSTANT;
+    PathOpaque: material::OPAQUE;
+    PathLightReach: light::OUT_OF_RANGE;
+    PathDark: paths::NO_EMISSION;
+    PathUnlit: paths::UNLIT_ONLY;
+    PathLast: paths::LAST_RAY;
+    PathDelta: light::DELTA_ONLY;
+    PathShadowAlone: light::SINGLE_CONVEX;
+    PathCull: paths::CULL;
+    PathCullShadow: paths::CULL_SHADOW;
 }
 
 impl Rule {
-    /// All rules, those of the Whitted integrator first.
-    pub const ALL: [Self; 42] = [
-        Self::Mode,
-        Self::LightBlack,
-        Self::LightUnreached,
-        Self::LightBehind,
-        Self::ShadowOff,
-        Self::ShadowFacing,
-        Self::ShadowUnlit,
-        Self::ShadowConvex,
-        Self::ShadowPair,
-        Self::SoftPoint,
-        Self::HighlightKs,
-        Self::MirrorKs,
-        Self::MirrorDepth,
-        Self::MirrorUnreached,
-        Self::MirrorConvex,
-        Self::Opaque,
-        Self::GlossyMirror,
-        Self::Cut,
-        Self::TextureConstant,
-        Self::TextureUnseen,
-        Self::NormalFlat,
-        Self::Pinhole,
-        Self::OneSample,
-        Self::PixelMiss,
-        Self::PixelFlat,
-        Self::Cull,
-        Self::PathLightBlack,
-        Self::PathDarkSky,
-        Self::PathZero,
-        Self::PathUnlitMaterial,
-        Self::PathMapUnseen,
-        Self::PathMapConstant,
-        Self::PathOpaque,
-        Self::PathLightReach,
-        Self::PathDark,
-        Self::PathUnlit,
-        Self::PathLast,
-        Self::PathDelta,
-        Self::PathShadowAlone,
-        Self::PathCull,
-        Self::PathEvenSky,
-        Self::PathCullShadow,
-    ];
-
     /// The name, as `E-SPEC`.
     #[must_use]
     pub fn name(self) -> &'static str {
-        self.row().0
+        ROWS[self as usize].0
     }
 
     /// The statement and its proof.
     #[must_use]
     pub fn text(self) -> &'static str {
-        self.row().1
+        ROWS[self as usize].1
     }
 
     /// The rule with this name.
@@ -121,153 +141,6 @@ impl Rule {
         Self::ALL
             .into_iter()
             .find(|rule| rule.name().eq_ignore_ascii_case(name))
-    }
-
-    #[expect(clippy::too_many_lines, reason = "a table, one row a rule")]
-    fn row(self) -> (&'static str, &'static str) {
-        if let Some(item) = path::rules::find(self) {
-            return (item.name, item.text);
-        }
-        match self {
-            Self::Mode => (
-                "E-MODE",
-                "A depth or normal buffer is a function of the first hit only: it does not depend \
-                 on lights, colours and bounces.",
-            ),
-            Self::LightBlack => (
-                "E-LIGHT-BLACK",
-                "The terms of a light of colour 0 are finite values times 0. The rule does not \
-                 apply to Gooch shading, whose tones do not depend on the colour of the light.",
-            ),
-            Self::LightUnreached => (
-                "E-LIGHT-UNREACH",
-                "If kd·C and ks are 0 on all visible surfaces, each direct term has a factor of \
-                 0.",
-            ),
-            Self::LightBehind => (
-                "E-LIGHT-BEHIND",
-                "If a flat surface is visible from one side only and the light is on the other \
-                 side, then N·L < 0: the diffuse term max(0, N·L) is 0, and the highlight is 0 as \
-                 well, with shadows by its definition, without shadows because ks is 0.",
-            ),
-            Self::ShadowOff => ("E-SHADOW-OFF", "Shadows are off in the scene."),
-            Self::ShadowFacing => (
-                "E-SHADOW-NL",
-                "If N·L ≤ 0 for the shading or the geometric normal, the surface shadows itself \
-                 at this point: no shadow ray is needed.",
-            ),
-            Self::ShadowUnlit => (
-                "E-SHADOW-KM",
-                "At a hit with kd·C = 0 and ks = 0 a light contributes nothing, occluded or not: \
-                 no shadow ray is needed.",
-            ),
-            Self::ShadowConvex => (
-                "E-SHADOW-CONVEX",
-                "A convex solid lies behind its tangent plane at any point with N·L > 0, and the \
-                 light lies in front of that plane: the solid does not shadow itself. The same \
-                 holds for a flat surface if the light is not in its plane.",
-            ),
-            Self::ShadowPair => (
-                "E-SHADOW-PAIR",
-                "All segments from a surface to a light lie in the convex hull of both: a surface \
-                 outside this hull casts no shadow there.",
-            ),
-            Self::SoftPoint => (
-                "E-SOFT",
-                "A light of radius 0 is a point light, and a single sample of a light is its \
-                 centre: no sampling is needed.",
-            ),
-            Self::HighlightKs => (
-                "E-SPEC",
-                "If ks is 0, the highlight is 0 times a power of at most 1: the power is not \
-                 computed.",
-            ),
-            Self::MirrorKs => (
-                "E-REFL-KS",
-                "The radiance along a reflected or refracted ray is multiplied by kr (ks by \
-                 default) or kt. If this factor is 0, the ray is not traced.",
-            ),
-            Self::MirrorDepth => ("E-REFL-DEPTH", "The scene allows no bounce."),
-            Self::MirrorUnreached => (
-                "E-REFL-UNREACH",
-                "A flat reflective surface that is visible from one side reflects only the half- \
-                 space on that side, and the background is black. So the longest chain of \
-                 reflective surfaces that are visible from one another bounds the number of \
-                 bounces.",
-            ),
-            Self::MirrorConvex => (
-                "E-REFL-CONVEX",
-                "A ray that is reflected off a convex solid from outside stays in the half-space \
-                 in front of its tangent plane: it can't hit the solid again.",
-            ),
-            Self::Opaque => (
-                "E-REFR",
-                "No visible material has kt > 0: there is no refraction.",
-            ),
-            Self::GlossyMirror => (
-                "E-GLOSSY",
-                "A glossy lobe of one sample is a perfect reflection, and a lobe of weight 0 \
-                 contributes nothing.",
-            ),
-            Self::Cut => (
-                "B-CUT",
-                "Bounces are cut off once their weight bounds the remaining contribution below \
-                 half a level of 8 bits. Only with --approx: the picture may differ by that much.",
-            ),
-            Self::TextureConstant => (
-                "E-TEX-CONST",
-                "A texture whose texels are all equal has this value everywhere.",
-            ),
-            Self::TextureUnseen => (
-                "E-TEX-UNSEEN",
-                "A map is not used on a surface without texture coordinates, on an invisible \
-                 surface, or for a term of weight 0.",
-            ),
-            Self::NormalFlat => (
-                "E-NORMAL",
-                "Shading normals are not used without light and reflections. If the vertex \
-                 normals of each triangle are equal, there is nothing to interpolate.",
-            ),
-            Self::Pinhole => (
-                "E-DOF",
-                "A lens of radius 0, or a lens with one sample, is its centre: one camera ray is \
-                 enough.",
-            ),
-            Self::OneSample => ("E-SS", "A factor of 1 is one sample per pixel."),
-            Self::PixelMiss => (
-                "E-SS-MISS",
-                "No ray of a pixel outside the projected bounding boxes of all surfaces can hit \
-                 anything: the pixel is black and is not traced.",
-            ),
-            Self::PixelFlat => (
-                "E-SS-FLAT",
-                "If all rays of a pixel hit one flat surface of one value, one ray is traced for \
-                all.",
-            ),
-            Self::Cull => (
-                "E-CULL",
-                "A surface that no camera, shadow, reflected or refracted ray can hit is removed \
-                 from the world.",
-            ),
-            Self::PathLightBlack
-            | Self::PathDarkSky
-            | Self::PathZero
-            | Self::PathUnlitMaterial
-            | Self::PathMapUnseen
-            | Self::PathMapConstant
-            | Self::PathOpaque
-            | Self::PathLightReach
-            | Self::PathDark
-            | Self::PathUnlit
-            | Self::PathLast
-            | Self::PathDelta
-            | Self::PathShadowAlone
-            | Self::PathCull
-            | Self::PathEvenSky
-            | Self::PathCullShadow => {
-                unreachable!("rules for paths are items of `plan::path::rules`")
-            }
-        }
     }
 }
 

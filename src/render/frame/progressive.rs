@@ -6,7 +6,7 @@ use crate::film::pixel::Sample;
 use crate::film::progressive::{ProgressiveFilm, Replicates};
 use crate::integrator::path::{PathTracer, Strategy};
 use crate::integrator::whitted::Tracer;
-use crate::kernel::{dispatch, dispatch_paths};
+use crate::kernel::KernelTask;
 use crate::light::Lights;
 use crate::shape::geometry::Intersect;
 use crate::world::World;
@@ -25,35 +25,51 @@ impl<S: Intersect> World<S> {
         on_pixel: &OnPixel<'_>,
     ) -> bool {
         if let Mode::Path(_) = self.settings.mode {
-            return dispatch_paths!(self.grow_paths(film, wanted, on_pixel));
+            return self.run_paths(GrowPaths(self, film, wanted, on_pixel));
         }
-        dispatch!(self.grow_with(film, wanted, on_pixel))
+        self.run(Grow(self, film, wanted, on_pixel))
     }
+}
 
-    /// Grows by tracing paths with the features `F`.
-    fn grow_paths<const F: u32>(
-        &self,
-        film: &mut ProgressiveFilm,
-        wanted: &SampleRange<'_>,
-        on_pixel: &OnPixel<'_>,
-    ) -> bool {
-        let (lights, background) = (Lights::new(self, Strategy::Mis), film.background);
-        let tracer = || PathTracer::<S, F>::new(self, &lights, Strategy::Mis, on_pixel);
+/// Grows a film.
+struct Grow<'run, S>(
+    &'run World<S>,
+    &'run mut ProgressiveFilm,
+    &'run SampleRange<'run>,
+    &'run OnPixel<'run>,
+);
+
+impl<S: Intersect> KernelTask for Grow<'_, S> {
+    const HAS_KERNELS: bool = S::HAS_KERNELS;
+    type Output = bool;
+
+    fn run<const F: u32>(self) -> bool {
+        let Self(world, film, wanted, on_pixel) = self;
+        add_samples(film, wanted, None, &|| {
+            Box::new(Tracer::<S, F>::new(world, on_pixel).spread())
+        })
+    }
+}
+
+/// Grows a film by tracing paths.
+struct GrowPaths<'run, S>(
+    &'run World<S>,
+    &'run mut ProgressiveFilm,
+    &'run SampleRange<'run>,
+    &'run OnPixel<'run>,
+);
+
+impl<S: Intersect> KernelTask for GrowPaths<'_, S> {
+    const HAS_KERNELS: bool = S::HAS_KERNELS;
+    type Output = bool;
+
+    fn run<const F: u32>(self) -> bool {
+        let Self(world, film, wanted, on_pixel) = self;
+        let (lights, background) = (Lights::new(world, Strategy::Mis), film.background);
+        let tracer = || PathTracer::<S, F>::new(world, &lights, Strategy::Mis, on_pixel);
         let tone = Some(film.display);
         add_samples(film, wanted, tone, &|| {
             Box::new(tracer().before(background))
-        })
-    }
-
-    /// Grows with the features `F`.
-    fn grow_with<const F: u32>(
-        &self,
-        film: &mut ProgressiveFilm,
-        wanted: &SampleRange<'_>,
-        on_pixel: &OnPixel<'_>,
-    ) -> bool {
-        add_samples(film, wanted, None, &|| {
-            Box::new(Tracer::<S, F>::new(self, on_pixel).spread())
         })
     }
 }

@@ -4,7 +4,6 @@ use super::PathRule;
 use crate::margin::{MARGIN, OrientedPlane, Sides};
 use crate::path::builder::{EnvironmentUse, LightUse, PlanBuilder, is_transmissive};
 use crate::path::facts::is_delta;
-use crate::rules::Rule;
 use crate::surface_bounds::{ShapeClass, SurfaceBounds};
 use rtc_image::Texels;
 use rtc_ir::{EntityKind, Field, ValuePath};
@@ -15,8 +14,7 @@ fn light_path(light: PunctualId) -> ValuePath {
     ValuePath::new(EntityKind::Light, light.index(), Field::Whole)
 }
 
-pub(super) const ZERO_INTENSITY: PathRule = PathRule {
-    rule: Rule::PathLightBlack,
+pub(crate) const ZERO_INTENSITY: PathRule = PathRule {
     name: "P-LIGHT-ZERO",
     text: "A light of intensity 0 has the sampling probability 0: it is removed from the light \
            distribution.",
@@ -28,8 +26,7 @@ pub(super) const ZERO_INTENSITY: PathRule = PathRule {
     },
 };
 
-pub(super) const BLACK_ENVIRONMENT: PathRule = PathRule {
-    rule: Rule::PathDarkSky,
+pub(crate) const BLACK_ENVIRONMENT: PathRule = PathRule {
     name: "P-ENV-ZERO",
     text: "An environment with radiance 0 in all directions contributes 0 to a path that leaves \
            the scene.",
@@ -41,8 +38,7 @@ pub(super) const BLACK_ENVIRONMENT: PathRule = PathRule {
     },
 };
 
-pub(super) const CONSTANT_ENVIRONMENT: PathRule = PathRule {
-    rule: Rule::PathEvenSky,
+pub(crate) const CONSTANT_ENVIRONMENT: PathRule = PathRule {
     name: "P-ENV-CONST",
     text: "If all texels of the environment image are equal, it has this value in all directions: \
            filtering equal texels gives the same value. The value is read once, when the scene is \
@@ -71,8 +67,7 @@ fn reduce_environment(
     vec![ValuePath::new(EntityKind::Environment, 0, Field::Whole)]
 }
 
-pub(super) const OUT_OF_RANGE: PathRule = PathRule {
-    rule: Rule::PathLightReach,
+pub(crate) const OUT_OF_RANGE: PathRule = PathRule {
     name: "P-LIGHT-REACH",
     text: "A light whose range or cone ends before the bounding boxes of all surfaces does not \
            illuminate them. It keeps its index in the light distribution, so that the use of \
@@ -92,8 +87,7 @@ pub(super) const OUT_OF_RANGE: PathRule = PathRule {
     },
 };
 
-pub(super) const DELTA_ONLY: PathRule = PathRule {
-    rule: Rule::PathDelta,
+pub(crate) const DELTA_ONLY: PathRule = PathRule {
     name: "P-DELTA",
     text: "If all lobes of all materials are delta lobes, the BSDF has the value 0 in a direction \
            sampled from a light: no light is sampled, and no MIS weights are needed.",
@@ -114,8 +108,7 @@ pub(super) const DELTA_ONLY: PathRule = PathRule {
     },
 };
 
-pub(super) const SINGLE_CONVEX: PathRule = PathRule {
-    rule: Rule::PathShadowAlone,
+pub(crate) const SINGLE_CONVEX: PathRule = PathRule {
     name: "P-SHADOW-ALONE",
     text: "If the only surface is a convex opaque solid seen from outside, it lies behind its \
            tangent plane at any point and does not occlude a light in front of that plane. If the \

@@ -4,12 +4,10 @@ use super::PathRule;
 use crate::Layer;
 use crate::facts;
 use crate::path::builder::PlanBuilder;
-use crate::rules::Rule;
 use rtc_math::{NonNegative, UnitInterval, Vec3};
 use rtc_valid::{Alpha, Map, MaterialId, Standard};
 
-pub(super) const ZERO: PathRule = PathRule {
-    rule: Rule::PathZero,
+pub(crate) const ZERO: PathRule = PathRule {
     name: "P-WEIGHT-ZERO",
     text: "Transmission, specular reflection, emission and layers of weight 0 contribute nothing. \
            The weight is 0 if the factor is 0, or if the texture is 0 in the used channel \
@@ -47,8 +45,7 @@ fn without_zeros(builder: &PlanBuilder<'_>, index: MaterialId, m: &Standard) -> 
     new
 }
 
-pub(super) const UNLIT: PathRule = PathRule {
-    rule: Rule::PathUnlitMaterial,
+pub(crate) const UNLIT: PathRule = PathRule {
     name: "P-UNLIT-MATERIAL",
     text: "An unlit material has its base colour as radiance and ends the path: its other \
            parameters are not used.",
@@ -70,8 +67,7 @@ pub(super) const UNLIT: PathRule = PathRule {
     },
 };
 
-pub(super) const OPAQUE: PathRule = PathRule {
-    rule: Rule::PathOpaque,
+pub(crate) const OPAQUE: PathRule = PathRule {
     name: "P-ALPHA",
     text: "A material is opaque if its alpha is 1 everywhere on its surfaces, or if it has an \
            alpha mask and its alpha is above the cutoff everywhere. The rule does not apply to \

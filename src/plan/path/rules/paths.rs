@@ -6,7 +6,6 @@ use crate::effect::Effect;
 use crate::margin::Margins;
 use crate::path::builder::{LightUse, PlanBuilder};
 use crate::projection::ScreenRect;
-use crate::rules::Rule;
 use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_math::{Bounds, Vec3};
 use rtc_valid::{Falloff, Punctual, Standard};
@@ -24,8 +23,7 @@ fn may_hit_emitter(builder: &PlanBuilder<'_>) -> bool {
             .any(|(_, material)| is_emissive(material))
 }
 
-pub(super) const NO_EMISSION: PathRule = PathRule {
-    rule: Rule::PathDark,
+pub(crate) const NO_EMISSION: PathRule = PathRule {
     name: "P-DARK",
     text: "If no light, no surface and no environment emits light, every path is black after its \
            first hit: none is continued.",
@@ -36,8 +34,7 @@ pub(super) const NO_EMISSION: PathRule = PathRule {
     },
 };
 
-pub(super) const UNLIT_ONLY: PathRule = PathRule {
-    rule: Rule::PathUnlit,
+pub(crate) const UNLIT_ONLY: PathRule = PathRule {
     name: "P-UNLIT",
     text: "A path ends on an unlit surface. If all surfaces are unlit, a path is one ray.",
     reason: "all surfaces are unlit",
@@ -47,8 +44,7 @@ pub(super) const UNLIT_ONLY: PathRule = PathRule {
     },
 };
 
-pub(super) const LAST_RAY: PathRule = PathRule {
-    rule: Rule::PathLast,
+pub(crate) const LAST_RAY: PathRule = PathRule {
     name: "P-LAST",
     text: "After its last bounce a path adds only the emission at the next hit. If neither a \
            surface nor the environment emits light, the last ray is not traced.",
@@ -62,8 +58,7 @@ pub(super) const LAST_RAY: PathRule = PathRule {
     },
 };
 
-pub(super) const CULL: PathRule = PathRule {
-    rule: Rule::PathCull,
+pub(crate) const CULL: PathRule = PathRule {
     name: "P-CULL",
     text: "If no path continues and there are no shadow rays, no ray hits a surface outside the \
            view of the camera.",
@@ -77,8 +72,7 @@ pub(super) const CULL: PathRule = PathRule {
     },
 };
 
-pub(super) const CULL_SHADOW: PathRule = PathRule {
-    rule: Rule::PathCullShadow,
+pub(crate) const CULL_SHADOW: PathRule = PathRule {
     name: "P-CULL-SHADOW",
     text: "If no path continues and no light has an extent, rays go from the camera to the \
            visible surfaces, and from these to the lights. No ray hits a surface that is outside \

@@ -3,13 +3,11 @@
 use super::PathRule;
 use crate::Layer;
 use crate::path::builder::PlanBuilder;
-use crate::rules::Rule;
 use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_math::{UnitInterval, Vec3};
 use rtc_valid::{Map, MaterialId, Standard};
 
-pub(super) const UNSEEN: PathRule = PathRule {
-    rule: Rule::PathMapUnseen,
+pub(crate) const UNSEEN: PathRule = PathRule {
     name: "P-TEX-UNSEEN",
     text: "A map has the value 1 on surfaces without its texture coordinates, and a map that \
            scales a factor of 0 has no effect: neither is looked up. If no path continues, maps \
@@ -63,8 +61,7 @@ fn without_unused_maps(builder: &PlanBuilder<'_>, index: MaterialId, m: &Standar
     new
 }
 
-pub(super) const CONSTANT: PathRule = PathRule {
-    rule: Rule::PathMapConstant,
+pub(crate) const CONSTANT: PathRule = PathRule {
     name: "P-TEX-CONST",
     text: "A texture whose texels are all equal has this value everywhere: its maps become \
            factors, and a normal map becomes one normal, when the scene is prepared.",
