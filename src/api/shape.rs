@@ -27,32 +27,21 @@ macro_rules! argument {
     };
 }
 
-/// The constructor of a shape; those of shapes with values of their own follow by hand.
-macro_rules! constructor {
-    (derived $(#[$doc:meta])* InfiniteCylinder $key:ident $values:tt) => {
-        constructor!(@function $(#[$doc])* InfiniteCylinder infinite_cylinder $values);
-    };
-    (derived $(#[$doc:meta])* $Name:ident $key:ident $values:tt) => {
-        constructor!(@function $(#[$doc])* $Name $key $values);
-    };
-    (custom $($rest:tt)*) => {};
-    (@function $(#[$doc:meta])* $Name:ident $function:ident {
-        $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
-    }) => {
-        $(#[$doc])*
-        #[must_use]
-        pub fn $function($($value: argument!($rule)),*) -> Self {
-            Self(ir::Shape::$Name(ir::$Name { $($value),* }))
-        }
-    };
-}
-
-/// Declares the constructors of the rows of the table.
+/// Declares the constructors of the shapes whose rows name their values; those of others follow by
+/// hand.
 macro_rules! constructors {
-    ($($(#[$doc:meta])* $Name:ident $key:ident $Store:ident $how:ident $values:tt)*) => {
+    (all $all:tt derived { $($(#[$doc:meta])* $Name:ident $name:ident {
+        $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
+    })* }) => {
         /// Constructors. An `axis`, `up` or `normal` is a direction; `up` has the height as length.
         impl Shape {
-            $(constructor!($how $(#[$doc])* $Name $key $values);)*
+            $(
+                $(#[$doc])*
+                #[must_use]
+                pub fn $name($($value: argument!($rule)),*) -> Self {
+                    Self(ir::Shape::$Name(ir::$Name { $($value),* }))
+                }
+            )*
         }
     };
 }

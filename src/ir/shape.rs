@@ -11,12 +11,16 @@ use super::{MaterialId, MeshId};
 use arbitrary::Arbitrary;
 use glam::DAffine3;
 use rtc_math::{Bounds, Vec3, unit};
+use rtc_tables::camel_case;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Declares the shapes of the IR.
 macro_rules! declare {
-    ($($(#[$doc:meta])* $Name:ident $key:ident $Store:ident $how:ident $values:tt)*) => {
+    (
+        all { $($(#[$doc:meta])* $Name:ident $name:ident $Store:ident [$($path:expr),*];)* }
+        derived $derived:tt
+    ) => {
         /// A shape of any kind, in world coordinates.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
         #[serde(rename_all = "camelCase", deny_unknown_fields)]
@@ -34,14 +38,14 @@ macro_rules! declare {
             /// Its key in the IR.
             pub fn name(self) -> &'static str {
                 match self {
-                    $(Self::$Name => stringify!($key),)*
+                    $(Self::$Name => camel_case!($name),)*
                 }
             }
 
             /// The paths of its values in the IR, relative to the shape.
             pub(super) fn values(self) -> &'static [&'static str] {
                 match self {
-                    $(Self::$Name => values!($how $values),)*
+                    $(Self::$Name => &[$($path),*],)*
                 }
             }
         }
@@ -62,14 +66,6 @@ macro_rules! declare {
                 }
             }
         }
-    };
-}
-
-/// The paths to the values of a row.
-macro_rules! values {
-    (custom { $($value:literal)* }) => { &[$($value),*] };
-    (derived { $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)* }) => {
-        &[$(stringify!($value)),*]
     };
 }
 

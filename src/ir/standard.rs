@@ -2,9 +2,10 @@
 
 use super::TextureId;
 use arbitrary::Arbitrary;
-use rtc_tables::{camel_case, map_of, parameters};
+use rtc_tables::{camel_case, parameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::any::Any;
 
 /// A texture with an affine map from surface to texture coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
@@ -114,24 +115,6 @@ macro_rules! setter {
     };
 }
 
-/// The texture map of a parameter, mutably; `None` for other kinds.
-macro_rules! map_mut_of {
-    (map, $map:expr) => {
-        $map.as_mut()
-    };
-    ($kind:ident, $value:expr) => {
-        None
-    };
-}
-
-/// Removes the texture map of a parameter if its texture is missing.
-macro_rules! forget_map {
-    (map, $map:expr, $is_missing:ident) => {
-        $map.take_if(|map| $is_missing(&map.texture))
-    };
-    ($kind:ident, $value:expr, $is_missing:ident) => {};
-}
-
 /// Declares the material from the table of its parameters.
 macro_rules! material {
     ($(
@@ -165,17 +148,15 @@ macro_rules! material {
 
             /// All texture maps.
             pub fn maps(&self) -> impl Iterator<Item = &Map> {
-                [$(map_of!($kind, &self.$field)),*].into_iter().flatten()
+                let fields: [&dyn Any; Self::PARAMETERS.len()] = [$(&self.$field),*];
+                let maps = fields.into_iter().filter_map(<dyn Any>::downcast_ref::<Option<Map>>);
+                maps.flatten()
             }
 
-            /// All texture maps, mutably.
-            pub fn maps_mut(&mut self) -> impl Iterator<Item = &mut Map> {
-                [$(map_mut_of!($kind, self.$field)),*].into_iter().flatten()
-            }
-
-            /// Removes the maps whose textures are missing.
-            pub fn forget_maps(&mut self, is_missing: impl Fn(&TextureId) -> bool) {
-                $(forget_map!($kind, self.$field, is_missing);)*
+            /// The parameters that hold a texture map or none.
+            fn map_fields(&mut self) -> impl Iterator<Item = &mut Option<Map>> {
+                let fields: [&mut dyn Any; Self::PARAMETERS.len()] = [$(&mut self.$field),*];
+                fields.into_iter().filter_map(<dyn Any>::downcast_mut)
             }
         }
 
@@ -189,6 +170,20 @@ macro_rules! material {
 }
 
 parameters!(material);
+
+impl Standard {
+    /// All texture maps, mutably.
+    pub fn maps_mut(&mut self) -> impl Iterator<Item = &mut Map> {
+        self.map_fields().flatten()
+    }
+
+    /// Removes the maps that are not to be kept.
+    pub fn retain_maps(&mut self, is_kept: impl Fn(&Map) -> bool) {
+        for map in self.map_fields() {
+            map.take_if(|map| !is_kept(map));
+        }
+    }
+}
 
 /// The `skip_serializing_if` of fields that are always written.
 fn never<T>(_: &T) -> bool {

@@ -6,7 +6,7 @@ use std::fmt::{self, Debug, Formatter};
 use std::marker::PhantomData;
 use std::ops::{Deref, DerefMut, Index, IndexMut};
 
-/// The index of an entity of kind `K` in a [`Table`] of such entities.
+/// The index of an entity of kind `K` in a [`IdTable`] of such entities.
 pub struct Id<K>(u32, PhantomData<fn() -> K>);
 
 impl<K> Id<K> {
@@ -66,10 +66,10 @@ impl<K> Debug for Id<K> {
 
 /// A list of values, one for each entity of kind `K`, indexed by [`Id<K>`]; it is a slice
 /// otherwise.
-#[derive(Clone, Debug)]
-pub struct Table<K, V = K>(Vec<V>, PhantomData<fn() -> K>);
+#[derive(Clone)]
+pub struct IdTable<K, V = K>(Vec<V>, PhantomData<fn() -> K>);
 
-impl<K, V> Table<K, V> {
+impl<K, V> IdTable<K, V> {
     /// The id of each entity, in order.
     pub fn ids(&self) -> impl DoubleEndedIterator<Item = Id<K>> + use<K, V> {
         (0..self.0.len()).map(Id::new)
@@ -87,31 +87,37 @@ impl<K, V> Table<K, V> {
     }
 }
 
-impl<K, V> Default for Table<K, V> {
+impl<K, V: Debug> Debug for IdTable<K, V> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl<K, V> Default for IdTable<K, V> {
     fn default() -> Self {
         Self::from(Vec::new())
     }
 }
 
-impl<K, V: PartialEq> PartialEq for Table<K, V> {
+impl<K, V: PartialEq> PartialEq for IdTable<K, V> {
     fn eq(&self, other: &Self) -> bool {
         self.0 == other.0
     }
 }
 
-impl<K, V> From<Vec<V>> for Table<K, V> {
+impl<K, V> From<Vec<V>> for IdTable<K, V> {
     fn from(values: Vec<V>) -> Self {
         Self(values, PhantomData)
     }
 }
 
-impl<K, V> FromIterator<V> for Table<K, V> {
+impl<K, V> FromIterator<V> for IdTable<K, V> {
     fn from_iter<I: IntoIterator<Item = V>>(values: I) -> Self {
         Self::from(Vec::from_iter(values))
     }
 }
 
-impl<K, V> IntoIterator for Table<K, V> {
+impl<K, V> IntoIterator for IdTable<K, V> {
     type Item = V;
     type IntoIter = std::vec::IntoIter<V>;
 
@@ -120,7 +126,7 @@ impl<K, V> IntoIterator for Table<K, V> {
     }
 }
 
-impl<'table, K, V> IntoIterator for &'table Table<K, V> {
+impl<'table, K, V> IntoIterator for &'table IdTable<K, V> {
     type Item = &'table V;
     type IntoIter = std::slice::Iter<'table, V>;
 
@@ -129,7 +135,7 @@ impl<'table, K, V> IntoIterator for &'table Table<K, V> {
     }
 }
 
-impl<K, V> Deref for Table<K, V> {
+impl<K, V> Deref for IdTable<K, V> {
     type Target = [V];
 
     #[inline(always)]
@@ -138,13 +144,13 @@ impl<K, V> Deref for Table<K, V> {
     }
 }
 
-impl<K, V> DerefMut for Table<K, V> {
+impl<K, V> DerefMut for IdTable<K, V> {
     fn deref_mut(&mut self) -> &mut [V] {
         &mut self.0
     }
 }
 
-impl<K, V> Index<Id<K>> for Table<K, V> {
+impl<K, V> Index<Id<K>> for IdTable<K, V> {
     type Output = V;
 
     #[inline(always)]
@@ -153,7 +159,7 @@ impl<K, V> Index<Id<K>> for Table<K, V> {
     }
 }
 
-impl<K, V> IndexMut<Id<K>> for Table<K, V> {
+impl<K, V> IndexMut<Id<K>> for IdTable<K, V> {
     #[inline(always)]
     fn index_mut(&mut self, id: Id<K>) -> &mut V {
         &mut self.0[id.index()]

@@ -63,7 +63,7 @@ pub use func::{acos, atan2, cos, exp, ldexp, ln, pow, sin, sin_cos};
 pub use glam::DVec3 as Vec3;
 pub use glam::Vec4 as Lanes;
 pub use hash::{GAMMA, fraction, mix};
-pub use id::{Id, Table};
+pub use id::{Id, IdTable};
 pub use number::{NonNegative, Positive, UnitInterval, shortest};
 pub use onb::Basis;
 pub use rotation::{axis_and_angle, rotated_about, rotated_to_z};

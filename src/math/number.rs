@@ -84,6 +84,12 @@ impl From<UnitInterval> for NonNegative {
     }
 }
 
+impl From<Positive> for f64 {
+    fn from(number: Positive) -> Self {
+        number.get()
+    }
+}
+
 impl From<Positive> for NonNegative {
     fn from(number: Positive) -> Self {
         Self(number.0)

@@ -89,40 +89,54 @@ impl Effect {
     ];
 }
 
-/// The effects of path tracing, with the layers of the table.
-macro_rules! of_paths {
-    ($($(#[doc = $about:literal])* $layer:ident = $slot:ident { $($row:tt)* })*) => {
-        impl Effect {
-            /// The effects that path tracing may have.
-            pub const OF_PATHS: [Self; 21 + Layer::ALL.len()] = [
-                Self::Surfaces,
-                Self::Environment,
-                Self::EnvironmentMap,
-                Self::Emission,
-                Self::Unlit,
-                Self::Alpha,
-                Self::DirectLight,
-                Self::Shadows,
-                Self::Mis,
-                Self::Depth,
-                Self::Microfacets,
-                Self::Compensation,
-                $(Self::Layer(Layer::$layer),)*
-                Self::Refraction,
-                Self::Volume,
-                Self::Dispersion,
-                Self::Textures,
-                Self::VertexColors,
-                Self::NormalInterpolation,
-                Self::NormalMapping,
-                Self::Lens,
-                Self::Supersampling,
-            ];
+/// The effects of path tracing before the layers of the glTF material, and after them.
+const OF_PATHS: ([Effect; 12], [Effect; 9]) = (
+    [
+        Effect::Surfaces,
+        Effect::Environment,
+        Effect::EnvironmentMap,
+        Effect::Emission,
+        Effect::Unlit,
+        Effect::Alpha,
+        Effect::DirectLight,
+        Effect::Shadows,
+        Effect::Mis,
+        Effect::Depth,
+        Effect::Microfacets,
+        Effect::Compensation,
+    ],
+    [
+        Effect::Refraction,
+        Effect::Volume,
+        Effect::Dispersion,
+        Effect::Textures,
+        Effect::VertexColors,
+        Effect::NormalInterpolation,
+        Effect::NormalMapping,
+        Effect::Lens,
+        Effect::Supersampling,
+    ],
+);
+
+impl Effect {
+    /// The effects that path tracing may have.
+    pub const OF_PATHS: [Self; 21 + Layer::ALL.len()] = {
+        let ((before, after), layers) = (OF_PATHS, Layer::ALL);
+        let mut all = [Self::Surfaces; 21 + Layer::ALL.len()];
+        let mut at = 0;
+        while at < all.len() {
+            all[at] = if at < before.len() {
+                before[at]
+            } else if at < before.len() + layers.len() {
+                Self::Layer(layers[at - before.len()])
+            } else {
+                after[at - before.len() - layers.len()]
+            };
+            at += 1;
         }
+        all
     };
 }
-
-rtc_tables::layers!(of_paths);
 
 impl EffectState {
     /// The name of the state.

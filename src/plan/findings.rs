@@ -7,7 +7,7 @@ use super::summary::{MaterialSummary, constants};
 use super::surface_bounds::{SurfaceBounds, surface_bounds};
 use super::visibility::Visibility;
 use super::{Features, facts, summary};
-use rtc_math::{Table, Vec3};
+use rtc_math::{IdTable, Vec3};
 use rtc_valid::{
     CourseLight, Material, Mesh, Mode, Pattern, Phong, Shape, Surface, Texture, ValidScene,
 };
@@ -17,17 +17,17 @@ pub(super) struct Facts<'scene> {
     pub(super) scene: &'scene ValidScene,
     pub(super) rules: Rules,
     /// The lights of the integrator.
-    pub(super) sources: Table<CourseLight>,
+    pub(super) sources: IdTable<CourseLight>,
     /// The materials of the integrator.
-    pub(super) materials: Table<Material, Phong>,
+    pub(super) materials: IdTable<Material, Phong>,
     /// The bounds of each surface.
     pub(super) surface_bounds: Vec<SurfaceBounds>,
     /// The summary of each surface's material.
     pub(super) summaries: Vec<MaterialSummary>,
     /// The value of each constant texture.
-    pub(super) constants: Table<Texture, Option<Vec3>>,
+    pub(super) constants: IdTable<Texture, Option<Vec3>>,
     /// For each mesh, whether the three normals of every triangle are equal.
-    pub(super) has_flat_normals: Table<Mesh, bool>,
+    pub(super) has_flat_normals: IdTable<Mesh, bool>,
 }
 
 impl<'scene> Facts<'scene> {
@@ -41,7 +41,7 @@ impl<'scene> Facts<'scene> {
             .materials()
             .iter()
             .map(facts::material::phong)
-            .collect::<Table<_, _>>();
+            .collect::<IdTable<_, _>>();
         let summary = |surface: &Surface| {
             MaterialSummary::of(surface, &materials[surface.material], scene, &constants)
         };

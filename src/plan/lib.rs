@@ -72,7 +72,7 @@ use findings::{Facts, Findings};
 use light::LightFindings;
 use path::PlannedPaths;
 use projection::{ScreenProjection, ScreenRect};
-use rtc_math::{Table, Vec3};
+use rtc_math::{IdTable, Vec3};
 use rtc_valid::{CourseLight, Mode, PathSettings, Projection, Shape, Texture, ValidScene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -145,11 +145,11 @@ pub struct Plan {
     /// The shapes that rays may hit.
     pub shapes: Shapes,
     /// The plan of each light of the scene.
-    pub lights: Table<CourseLight, LightPlan>,
+    pub lights: IdTable<CourseLight, LightPlan>,
     /// For each surface of the scene, whether a ray may hit it.
     pub surfaces: Vec<bool>,
     /// The value of each constant texture of the scene.
-    pub constants: Table<Texture, Option<Vec3>>,
+    pub constants: IdTable<Texture, Option<Vec3>>,
     /// The number of bounces after the first hit that may contribute.
     pub max_depth: u32,
     /// The classes of the pixels.
@@ -240,7 +240,7 @@ impl Plan {
             rules,
             features: Features::EVERYTHING,
             shapes: shapes(scene, &surfaces),
-            lights: Table::default(),
+            lights: IdTable::default(),
             surfaces,
             constants: vec![None; scene.textures().len()].into(),
             max_depth,

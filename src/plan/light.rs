@@ -5,15 +5,15 @@ use super::rules::Rule;
 use super::surface_bounds::{Extent, ShapeClass, SurfaceBounds};
 use super::visibility::Visibility;
 use super::{Facts, LightPlan, MAX_PAIRS};
-use rtc_math::{Bounds, Table, Vec3};
+use rtc_math::{Bounds, IdTable, Vec3};
 use rtc_valid::{Ambient, CourseLight, CourseLightId, Mode};
 
 /// The results of the rules about lights and shadows.
 pub(super) struct LightFindings {
     /// Per light.
-    pub(super) plans: Table<CourseLight, LightPlan>,
+    pub(super) plans: IdTable<CourseLight, LightPlan>,
     /// For each light, the rule that removed its direct terms.
-    pub(super) rules: Table<CourseLight, Option<Rule>>,
+    pub(super) rules: IdTable<CourseLight, Option<Rule>>,
     /// For each surface, whether it may cast a shadow.
     pub(super) occludes: Vec<bool>,
     /// One possible shadow, as an example.

@@ -7,7 +7,7 @@ use super::precision::EquationKind;
 use super::surface_bounds::{
     Extent, ShapeClass, SurfaceBounds, circle_bounds, instance_bounds, triangle_plane,
 };
-use rtc_math::{Basis, Bounds, Table, Vec3, cos_sin_revolutions, unit};
+use rtc_math::{Basis, Bounds, IdTable, Vec3, cos_sin_revolutions, unit};
 use rtc_valid::{
     Cone, Csg, Cylinder, Disc, Ellipsoid, InfiniteCylinder, Instance, Mesh, Paraboloid, Plane,
     Quad, Shape, Sphere, Torus, Triangle, ValidScene,
@@ -16,7 +16,7 @@ use rtc_valid::{
 /// The facts that rules need about a shape.
 pub(super) trait ShapeFacts {
     /// The bounds; `meshes` has the bounding boxes of the meshes.
-    fn bounds(&self, meshes: &Table<Mesh, Bounds>) -> SurfaceBounds;
+    fn bounds(&self, meshes: &IdTable<Mesh, Bounds>) -> SurfaceBounds;
 
     /// The thickness of a solid, or the length of the shortest side of a polygon; infinite where no
     /// rule depends on it.
@@ -43,7 +43,10 @@ pub(super) trait ShapeFacts {
 
 /// Generates the dispatch over all shapes.
 macro_rules! facts {
-    ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
+    (
+        all { $($(#[$doc:meta])* $Name:ident $name:ident $Store:ident $paths:tt;)* }
+        derived $derived:tt
+    ) => {
         pub(super) fn shape_facts(shape: &Shape) -> &dyn ShapeFacts {
             match shape {
                 $(Shape::$Name(shape) => {
@@ -58,7 +61,7 @@ macro_rules! facts {
 rtc_tables::shapes!(facts);
 
 impl ShapeFacts for Sphere {
-    fn bounds(&self, _: &Table<Mesh, Bounds>) -> SurfaceBounds {
+    fn bounds(&self, _: &IdTable<Mesh, Bounds>) -> SurfaceBounds {
         let radius = self.radius.get();
         let aabb = Bounds::about(self.center, Vec3::splat(radius));
         SurfaceBounds::within(aabb, ShapeClass::Sphere(self.center, radius))
@@ -78,7 +81,7 @@ impl ShapeFacts for Sphere {
 }
 
 impl ShapeFacts for Plane {
-    fn bounds(&self, _: &Table<Mesh, Bounds>) -> SurfaceBounds {
+    fn bounds(&self, _: &IdTable<Mesh, Bounds>) -> SurfaceBounds {
         let plane = unit(self.normal).map(|normal| OrientedPlane {
             point: self.center,
             normal,
@@ -101,7 +104,7 @@ impl ShapeFacts for Plane {
 }
 
 impl ShapeFacts for Triangle {
-    fn bounds(&self, _: &Table<Mesh, Bounds>) -> SurfaceBounds {
+    fn bounds(&self, _: &IdTable<Mesh, Bounds>) -> SurfaceBounds {
         SurfaceBounds::within(Bounds::of(self.vertices), triangle_plane(self.vertices))
     }
 
@@ -129,7 +132,7 @@ impl ShapeFacts for Triangle {
 
 impl ShapeFacts for Quad {
     /// The intersection of a bilinear patch has no known error bound, so its extent is unbounded.
-    fn bounds(&self, _: &Table<Mesh, Bounds>) -> SurfaceBounds {
+    fn bounds(&self, _: &IdTable<Mesh, Bounds>) -> SurfaceBounds {
         let [a, b, c, d] = self.vertices;
         if !self.is_flat() {
             return SurfaceBounds {
@@ -164,7 +167,7 @@ impl ShapeFacts for Quad {
 }
 
 impl ShapeFacts for Disc {
-    fn bounds(&self, _: &Table<Mesh, Bounds>) -> SurfaceBounds {
+    fn bounds(&self, _: &IdTable<Mesh, Bounds>) -> SurfaceBounds {
         let point = self.center;
         let plane =
             unit(self.normal).map(|normal| ShapeClass::Planar(OrientedPlane { point, normal }));
@@ -193,7 +196,7 @@ impl ShapeFacts for Disc {
 }
 
 impl ShapeFacts for Cylinder {
-    fn bounds(&self, _: &Table<Mesh, Bounds>) -> SurfaceBounds {
+    fn bounds(&self, _: &IdTable<Mesh, Bounds>) -> SurfaceBounds {
         let top = self.base + unit(self.axis).unwrap_or(Vec3::ZERO) * self.height.get();
         let rim = |center| circle_bounds(center, self.axis, self.radius.get(), 0.0);
         SurfaceBounds::within(rim(self.base).union(rim(top)), ShapeClass::Convex)
@@ -209,7 +212,7 @@ impl ShapeFacts for Cylinder {
 }
 
 impl ShapeFacts for Cone {
-    fn bounds(&self, _: &Table<Mesh, Bounds>) -> SurfaceBounds {
+    fn bounds(&self, _: &IdTable<Mesh, Bounds>) -> SurfaceBounds {
         let rim = circle_bounds(self.base, self.up, self.radius.get(), 0.0);
         let apex = Bounds::of([self.base + self.up]);
         SurfaceBounds::within(rim.union(apex), ShapeClass::Convex)
@@ -225,7 +228,7 @@ impl ShapeFacts for Cone {
 }
 
 impl ShapeFacts for Paraboloid {
-    fn bounds(&self, _: &Table<Mesh, Bounds>) -> SurfaceBounds {
+    fn bounds(&self, _: &IdTable<Mesh, Bounds>) -> SurfaceBounds {
         let radius = self.radius.get();
         let rim = circle_bounds(self.base, self.up, radius, 0.0);
         // The profile is within the hull of the rim and a circle of half the radius at the apex.
@@ -247,7 +250,7 @@ impl ShapeFacts for Paraboloid {
 }
 
 impl ShapeFacts for Torus {
-    fn bounds(&self, _: &Table<Mesh, Bounds>) -> SurfaceBounds {
+    fn bounds(&self, _: &IdTable<Mesh, Bounds>) -> SurfaceBounds {
         let aabb = circle_bounds(self.center, self.axis, self.major.get(), self.minor.get());
         SurfaceBounds::within(aabb, ShapeClass::Other)
     }
@@ -263,7 +266,7 @@ impl ShapeFacts for Torus {
 }
 
 impl ShapeFacts for Ellipsoid {
-    fn bounds(&self, _: &Table<Mesh, Bounds>) -> SurfaceBounds {
+    fn bounds(&self, _: &IdTable<Mesh, Bounds>) -> SurfaceBounds {
         let bounds = Bounds::around_ellipsoid(self.center, self.axes);
         SurfaceBounds::within(bounds, ShapeClass::Convex)
     }
@@ -285,7 +288,7 @@ impl ShapeFacts for Ellipsoid {
 }
 
 impl ShapeFacts for InfiniteCylinder {
-    fn bounds(&self, _: &Table<Mesh, Bounds>) -> SurfaceBounds {
+    fn bounds(&self, _: &IdTable<Mesh, Bounds>) -> SurfaceBounds {
         SurfaceBounds {
             extent: Extent::Anywhere,
             class: ShapeClass::Other,
@@ -305,7 +308,7 @@ impl ShapeFacts for InfiniteCylinder {
 
 impl ShapeFacts for Csg {
     /// The boxes of the operands, through the operations.
-    fn bounds(&self, meshes: &Table<Mesh, Bounds>) -> SurfaceBounds {
+    fn bounds(&self, meshes: &IdTable<Mesh, Bounds>) -> SurfaceBounds {
         let operands = self.operands.iter().map(|operand| {
             if let Shape::Plane(plane) = operand {
                 return Bounds::of_half_space(plane.center, plane.normal);
@@ -337,7 +340,7 @@ impl ShapeFacts for Csg {
 }
 
 impl ShapeFacts for Instance {
-    fn bounds(&self, meshes: &Table<Mesh, Bounds>) -> SurfaceBounds {
+    fn bounds(&self, meshes: &IdTable<Mesh, Bounds>) -> SurfaceBounds {
         SurfaceBounds::within(instance_bounds(self, &meshes[self.mesh]), ShapeClass::Other)
     }
 

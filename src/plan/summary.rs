@@ -1,7 +1,7 @@
 //! Summaries of Phong materials, with maps and constant textures taken into account.
 
 use super::shape::shape_facts;
-use rtc_math::{NonNegative, Table, Vec3};
+use rtc_math::{IdTable, NonNegative, Vec3};
 use rtc_valid::{Mesh, Phong, Shape, Surface, Texture, TextureId, ValidScene};
 
 /// A summary of the material of a surface.
@@ -38,7 +38,7 @@ impl MaterialSummary {
         surface: &Surface,
         material: &Phong,
         scene: &ValidScene,
-        constants: &Table<Texture, Option<Vec3>>,
+        constants: &IdTable<Texture, Option<Vec3>>,
     ) -> Self {
         // Find the maps that the surface can use.
         let Phong {
@@ -125,7 +125,7 @@ fn has_normals(shape: &Shape, scene: &ValidScene) -> bool {
 }
 
 /// The value of each constant texture.
-pub(super) fn constants(scene: &ValidScene) -> Table<Texture, Option<Vec3>> {
+pub(super) fn constants(scene: &ValidScene) -> IdTable<Texture, Option<Vec3>> {
     let value = |texture: &Texture| match texture {
         Texture::Uv | Texture::Sampled(_) => None,
         Texture::Procedural(texture) => {

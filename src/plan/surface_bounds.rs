@@ -3,7 +3,7 @@
 
 use super::margin::{MARGIN, Margins, OrientedPlane, Sides};
 use super::shape::shape_facts;
-use rtc_math::{Bounds, Table, Vec3, cross, unit};
+use rtc_math::{Bounds, IdTable, Vec3, cross, unit};
 use rtc_valid::{Instance, Mesh, ValidScene};
 use std::sync::Arc;
 
@@ -98,7 +98,7 @@ impl SurfaceBounds {
 /// on another surface, and its error is proportional to those coordinates.
 pub(crate) fn surface_bounds(scene: &ValidScene) -> Vec<SurfaceBounds> {
     let extent = |mesh: &Arc<Mesh>| Bounds::of(mesh.positions.iter().map(Vec3::from_array));
-    let meshes = scene.meshes().iter().map(extent).collect::<Table<_, _>>();
+    let meshes = scene.meshes().iter().map(extent).collect::<IdTable<_, _>>();
     let surfaces = || scene.surfaces().iter().map(|surface| &surface.shape);
     let mut surface_bounds = surfaces()
         .map(|shape| shape_facts(shape).bounds(&meshes))

@@ -15,7 +15,7 @@ use std::ops::Range;
 pub struct Kernel<F = Features> {
     /// Its name.
     pub name: &'static str,
-    /// What it can do.
+    /// Its features.
     pub features: F,
 }
 
@@ -66,7 +66,7 @@ const WHITTED: Features = PHONG
     .with(Features::CAMERA);
 
 kernels! {
-    /// All integrators: those that `benches/kernels.md` shows to be worth their code.
+    /// The compiled integrators: `benches/kernels.md` has the measurements behind the selection.
     KERNELS: Features, run;
     "phong": PHONG,
     "phong, camera": PHONG.with(Features::CAMERA),

@@ -3,17 +3,46 @@
 
 /// Calls a macro with the table of shapes; all stages list them in its order.
 ///
-/// A row holds the type, its key in the IR, how enums store it, and its values in one of two ways:
+/// A row holds the type, its name in snake case (the key in the IR is that in camel case), how
+/// enums store it, and its values in one of two ways:
 /// - `derived { "type" value: rule "key" "words"; … }`: a rule defines how each value is validated,
 ///   prepared and written. The rules are `point`; `direction`, of any length but 0; `step`, a
 ///   direction with a length; `length`, above 0. The type and the keys are those of the scene
 ///   format, the words name the value in a diagnostic.
 /// - `custom { "value" … }`: the paths to the values in the IR; each stage has an `impl` for the
 ///   shape.
+///
+/// The macro is given all rows, with the paths to their values, and once more the `derived` ones:
+/// `all { Type name Store ["value", …]; … } derived { Type name { "type" value: …; … } … }`.
 #[macro_export]
 macro_rules! shapes {
+    (@sorted $stage:ident [$($all:tt)*] [$($derived:tt)*]) => {
+        $stage! { all { $($all)* } derived { $($derived)* } }
+    };
+    (@sorted $stage:ident [$($all:tt)*] [$($derived:tt)*]
+        $(#[$doc:meta])* $Name:ident $name:ident $Store:ident custom { $($value:literal)* }
+        $($rows:tt)*
+    ) => {
+        $crate::shapes! { @sorted $stage
+            [$($all)* $(#[$doc])* $Name $name $Store [$($value),*];] [$($derived)*] $($rows)*
+        }
+    };
+    (@sorted $stage:ident [$($all:tt)*] [$($derived:tt)*]
+        $(#[$doc:meta])* $Name:ident $name:ident $Store:ident derived {
+            $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
+        }
+        $($rows:tt)*
+    ) => {
+        $crate::shapes! { @sorted $stage
+            [$($all)* $(#[$doc])* $Name $name $Store [$(stringify!($value)),*];]
+            [$($derived)* $(#[$doc])* $Name $name {
+                $type $($value: $rule $key $($words)?;)*
+            }]
+            $($rows)*
+        }
+    };
     ($stage:ident) => {
-        $stage! {
+        $crate::shapes! { @sorted $stage [] []
             /// A sphere.
             Sphere sphere Inline custom { "center" "radius" }
             /// An infinite plane.
@@ -68,7 +97,7 @@ macro_rules! shapes {
             /// An ellipsoid.
             Ellipsoid ellipsoid Box custom { "center" "axes" }
             /// A cylinder without ends.
-            InfiniteCylinder infiniteCylinder Inline derived {
+            InfiniteCylinder infinite_cylinder Inline derived {
                 "infiniteCylinder"
                 center: point "position";
                 axis: direction "direction" "axis of a cylinder";

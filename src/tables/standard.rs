@@ -236,17 +236,6 @@ macro_rules! plain_layers {
     };
 }
 
-/// The map of a parameter of this kind.
-#[macro_export]
-macro_rules! map_of {
-    (map, $map:expr) => {
-        $map
-    };
-    ($kind:ident, $value:expr) => {
-        &None
-    };
-}
-
 /// The bytes of a name in camel case, and how many of them count: `base_color` is `baseColor`.
 pub const fn camel_bytes<const N: usize>(name: &str) -> ([u8; N], usize) {
     let bytes = name.as_bytes();

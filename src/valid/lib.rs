@@ -51,7 +51,7 @@ pub use texture::{Filter, Map, Sampled, Texture, UvSet, Wrap};
 use check::{Checker, EntityCounts};
 use rtc_diag::Sink;
 use rtc_ir::{self as ir, SourceSpans};
-use rtc_math::{Id, Table};
+use rtc_math::{Id, IdTable};
 use rtc_source::Limits;
 use std::sync::Arc;
 
@@ -83,10 +83,10 @@ pub struct ValidScene {
     settings: Settings,
     lights: Vec<Light>,
     environment: Environment,
-    images: Table<Image>,
-    textures: Table<Texture>,
-    meshes: Table<Mesh, Arc<Mesh>>,
-    materials: Table<Material>,
+    images: IdTable<Image>,
+    textures: IdTable<Texture>,
+    meshes: IdTable<Mesh, Arc<Mesh>>,
+    materials: IdTable<Material>,
     surfaces: Vec<Surface>,
 }
 
@@ -117,25 +117,25 @@ impl ValidScene {
 
     /// The images.
     #[must_use]
-    pub fn images(&self) -> &Table<Image> {
+    pub fn images(&self) -> &IdTable<Image> {
         &self.images
     }
 
     /// The textures.
     #[must_use]
-    pub fn textures(&self) -> &Table<Texture> {
+    pub fn textures(&self) -> &IdTable<Texture> {
         &self.textures
     }
 
     /// The meshes.
     #[must_use]
-    pub fn meshes(&self) -> &Table<Mesh, Arc<Mesh>> {
+    pub fn meshes(&self) -> &IdTable<Mesh, Arc<Mesh>> {
         &self.meshes
     }
 
     /// The materials.
     #[must_use]
-    pub fn materials(&self) -> &Table<Material> {
+    pub fn materials(&self) -> &IdTable<Material> {
         &self.materials
     }
 

@@ -5,7 +5,8 @@ use super::texture::{self, Map};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 use rtc_math::{NonNegative, Positive, UnitInterval, Vec3, shortest};
-use rtc_tables::{camel_case, map_of, parameters};
+use rtc_tables::{camel_case, parameters};
+use std::any::Any;
 
 /// The type of a valid parameter of each kind of the table.
 macro_rules! validated {
@@ -88,7 +89,9 @@ macro_rules! material {
 
             /// All texture maps.
             pub fn maps(&self) -> impl Iterator<Item = &Map> {
-                [$(map_of!($kind, &self.$field)),*].into_iter().flatten()
+                let fields: [&dyn Any; ir::Standard::PARAMETERS.len()] = [$(&self.$field),*];
+                let maps = fields.into_iter().filter_map(<dyn Any>::downcast_ref::<Option<Map>>);
+                maps.flatten()
             }
         }
 

@@ -18,8 +18,6 @@ mod part;
 mod rendering;
 mod sheet;
 mod show;
-mod strips;
-mod turning;
 
 use super::Failure;
 use super::args::{self, BackgroundArg};

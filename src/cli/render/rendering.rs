@@ -1,18 +1,21 @@
-//! One render: in the setting of the scene or to a target, up to the ray limit; with a bar
-//! that shows how far it is.
+//! One render: in the setting of the scene or to a target, up to the ray limit, as a
+//! whole or strip by strip; with a bar that shows how far it is.
 
-use super::super::interrupt::Interrupt;
 use super::super::progress::RenderProgress;
-use super::RenderSetup;
+use super::super::{Failure, input, interrupt::Interrupt, output::Output, reporter::Reporter};
 use super::budget::PictureClock;
 use super::made::{KnownBy, Quality, error};
+use super::{MadePicture, RenderSetup, halted};
 use rtc_image::Image;
-use rtc_pipeline::{Observer, RayCounter, RenderError, RenderSubject, Traced};
+use rtc_pipeline::{Input, Observer, PictureSetup, RayCounter, RenderError, RenderSubject, Traced};
 use rtc_render::{Counts, Crop, Film};
 use rtc_study::{
     CheckpointSink, CoarsePicture, Goal, PixelQuality, ProgressiveRender, RenderOrder, Stopped,
     TargetResult, Watch,
 };
+use std::fs::File;
+use std::io::ErrorKind;
+use std::path::Path;
 use std::time::Duration;
 
 /// A render, and its messages.
@@ -192,5 +195,49 @@ impl RenderSetup {
             (Err(Stopped), None) => return Err(RenderError::Stopped),
         };
         Ok(Rendered::reached(reached, order.goal, elapsed, has_run_out))
+    }
+}
+
+impl RenderSetup {
+    /// Renders one picture in strips of the given rows, and writes it.
+    pub(super) fn shoot_strips(
+        &self,
+        rows: Option<u32>,
+        (subject, path): (&mut RenderSubject, &Path),
+        input: &mut Input,
+        reporter: &mut Reporter,
+        interrupt: &Interrupt,
+    ) -> Result<(), Failure> {
+        let setup = &self.picture;
+        setup.check_strips(subject)?;
+        let window = setup.window(&subject.validated.lowered.scene)?;
+        let strip = PictureSetup::first_strip(window, rows);
+        setup.check_memory(subject, strip)?;
+        let output = Output::open(path, input)?;
+        let progress = RenderProgress::start(window.pixels() as u64, reporter.is_quiet());
+        let observer = Observer {
+            on_step: &|step| progress.step(step),
+            is_stopped: &|| interrupt.is_raised(),
+        };
+        let order = (window, strip, input.rays());
+        let mut rendered = None;
+        let mut write = |file: &mut File| {
+            let done = setup.render_strips(subject, order, input, &observer, file)?;
+            let is_done = done.is_ok();
+            rendered = Some(done);
+            is_done.then_some(()).ok_or(ErrorKind::Other.into())
+        };
+        let written = output.commit_slowly(&mut write, interrupt);
+        let elapsed = progress.finish();
+        let counts = match rendered {
+            Some(Ok(counts)) => counts,
+            Some(Err(error)) => return halted(error, input, reporter),
+            None => return written,
+        };
+        written?;
+        input::report_diagnostics(input, reporter)?;
+        let size = [window.width, window.height];
+        reporter.made(&MadePicture::new(path, setup, size, (counts, elapsed)));
+        Ok(())
     }
 }

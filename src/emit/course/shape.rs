@@ -13,7 +13,12 @@ trait WriteShape {
 
 /// Writes each shape by its own `impl`, or by the keys of its row.
 macro_rules! emit {
-    ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
+    (
+        all { $($(#[$doc:meta])* $Name:ident $name:ident $Store:ident $paths:tt;)* }
+        derived { $($(#[$about:meta])* $Derived:ident $word:ident {
+            $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
+        })* }
+    ) => {
         impl<'s> SceneWriter<'s> {
             pub(super) fn shape(&mut self, shape: &Shape, scene: &'s Scene) -> Result<(), String> {
                 match shape {
@@ -22,24 +27,14 @@ macro_rules! emit {
             }
         }
 
-        $(by_keys!($Name $how $values);)*
-    };
-}
-
-/// Writes a shape by the keys of its row.
-macro_rules! by_keys {
-    ($Name:ident custom $values:tt) => {};
-    ($Name:ident derived {
-        $type:literal $($value:ident: $rule:ident $key:literal $($name:literal)?;)*
-    }) => {
-        impl WriteShape for ir::$Name {
+        $(impl WriteShape for ir::$Derived {
             fn emit<'s>(&self, text: &mut SceneWriter<'s>, _: &'s Scene) -> Result<(), String> {
                 let Self { $($value),* } = self;
                 text.kind($type);
                 $(text.$rule($key, $value);)*
                 Ok(())
             }
-        }
+        })*
     };
 }
 

@@ -8,7 +8,7 @@ use rtc_diag::codes;
 use rtc_ir::{
     Alpha, Bump, EntityKind, Field, Map, Material, MaterialId, MeshId, Phong, Standard, ValuePath,
 };
-use rtc_tables::{self as standard, parameters};
+use rtc_tables as standard;
 use serde_json::{Map as Block, Value, json};
 
 /// A material of the scene, on meshes with or without each set of texture coordinates. Maps of a
@@ -31,7 +31,7 @@ impl GltfWriter<'_> {
                 (approximate_phong(phong), rtc_extras)
             }
         };
-        drop_maps(&mut standard, key.1);
+        standard.retain_maps(|map| key.1[map.set.min(1) as usize]);
         let material = self.standard(&standard, path);
         let material = document::Material {
             extras: extras(rtc_extras),
@@ -217,33 +217,6 @@ macro_rules! extensions {
 }
 
 standard::extensions!(extensions);
-
-/// Drops a map whose set of texture coordinates the mesh lacks.
-macro_rules! drop_map {
-    (map, $map:expr, $sets:ident) => {
-        if $map
-            .as_ref()
-            .is_some_and(|map| !$sets[map.set.min(1) as usize])
-        {
-            $map = None;
-        }
-    };
-    ($kind:ident, $value:expr, $sets:ident) => {};
-}
-
-/// Drops such maps of all parameters.
-macro_rules! drop_all {
-    ($(
-        $(#[doc = $about:literal])*
-        $field:ident: $kind:ident = $default:expr, $omitted:literal;
-    )*) => {
-        fn drop_maps(standard: &mut Standard, sets: [bool; 2]) {
-            $(drop_map!($kind, standard.$field, sets);)*
-        }
-    };
-}
-
-parameters!(drop_all);
 
 /// The power of two by which a colour is divided so that no channel exceeds 1, as glTF requires.
 pub(super) fn strength(color: [f64; 3]) -> f64 {

@@ -182,6 +182,6 @@ fn missing_features(material: &Standard) -> Vec<&'static str> {
 /// Whether a material has features apart from its base and its maps.
 fn has_layers(material: &Standard, base: &Standard) -> bool {
     let mut bare = material.clone();
-    bare.forget_maps(|_| true);
+    bare.retain_maps(|_| false);
     bare != *base
 }

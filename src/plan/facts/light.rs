@@ -1,14 +1,14 @@
 //! Lights as each integrator uses them: the Whitted integrator uses the course's point lights, the
 //! path integrator uses physical lights.
 
-use rtc_math::Table;
+use rtc_math::IdTable;
 use rtc_profile::Profile;
 use rtc_valid::{CourseLight, Falloff, Light, PointLight, Punctual};
 use std::f64::consts::PI;
 
 /// The lights of the Whitted integrator: the course's point lights, in scene order.
 #[must_use]
-pub fn course(lights: &[Light]) -> Table<CourseLight> {
+pub fn course(lights: &[Light]) -> IdTable<CourseLight> {
     let course = |light: &Light| match light {
         Light::Course(light) => Some(*light),
         Light::Punctual(_) => None,
@@ -19,7 +19,7 @@ pub fn course(lights: &[Light]) -> Table<CourseLight> {
 /// The lights of the path integrator: all lights. A course light gets the intensity with which a
 /// facing white Lambertian surface has the light's colour as radiance.
 #[must_use]
-pub fn punctual(lights: &[Light]) -> Table<Punctual> {
+pub fn punctual(lights: &[Light]) -> IdTable<Punctual> {
     let physical = |light: &Light| match light {
         Light::Punctual(light) => light.clone(),
         Light::Course(light) => Punctual::Point(PointLight {

@@ -10,7 +10,7 @@ use crate::projection::ScreenRect;
 use crate::rules::Rule;
 use crate::surface_bounds::SurfaceBounds;
 use rtc_ir::{EntityKind, Field, ValuePath};
-use rtc_math::{Table, UnitInterval, Vec3};
+use rtc_math::{IdTable, UnitInterval, Vec3};
 use rtc_valid::{
     Alpha, Map, Material, MaterialId, Mesh, PathSettings, Punctual, Shape, Standard, Surface,
     Texture, ValidScene,
@@ -23,9 +23,9 @@ pub(super) struct PlanBuilder<'scene> {
     pub(super) scene: &'scene ValidScene,
     pub(super) path: PathSettings,
     /// The punctual lights.
-    pub(super) punctual: &'scene Table<Punctual>,
+    pub(super) punctual: &'scene IdTable<Punctual>,
     /// The surfaces of each material.
-    pub(super) uses: &'scene Table<Material, MaterialUses>,
+    pub(super) uses: &'scene IdTable<Material, MaterialUses>,
     /// The values of the textures.
     pub(super) textures: &'scene TextureValues<'scene>,
     /// The bounds of each surface.
@@ -33,11 +33,11 @@ pub(super) struct PlanBuilder<'scene> {
     /// The screen rectangle of each surface.
     pub(super) screen_rects: &'scene [ScreenRect],
     /// The simplified material for each material of the scene.
-    pub(super) materials: Table<Material, Standard>,
+    pub(super) materials: IdTable<Material, Standard>,
     /// For each texture, whether its maps are folded into factors.
-    pub(super) folded: Table<Texture, bool>,
+    pub(super) folded: IdTable<Texture, bool>,
     /// The use of each punctual light.
-    pub(super) lights: Table<Punctual, LightUse>,
+    pub(super) lights: IdTable<Punctual, LightUse>,
     pub(super) environment: EnvironmentUse,
     /// For each surface, whether it is in the world.
     pub(super) surfaces: Vec<bool>,

@@ -4,7 +4,7 @@
 use super::texture::{TextureValues, UvRect};
 use crate::Layer;
 use crate::shape::shape_facts;
-use rtc_math::{Table, UnitInterval};
+use rtc_math::{IdTable, UnitInterval};
 use rtc_valid::{Map, Material, Mesh, Shape, Standard, ValidScene};
 
 /// Facts about all surfaces of one material.
@@ -42,16 +42,16 @@ impl UvPresence {
 
 impl MaterialUses {
     /// The facts for each material of a scene.
-    pub(super) fn of(scene: &ValidScene) -> Table<Material, Self> {
+    pub(super) fn of(scene: &ValidScene) -> IdTable<Material, Self> {
         let unused = Self {
             surfaces: Vec::new(),
             sets: [UvPresence::Never; 2],
             areas: [UvRect::NONE; 2],
             has_colors: false,
         };
-        let mut uses = Table::from(vec![unused; scene.materials().len()]);
+        let mut uses = IdTable::from(vec![unused; scene.materials().len()]);
         // Each mesh is scanned once, however many instances it has.
-        let mut of_meshes = Table::<Mesh, _>::from(vec![None; scene.meshes().len()]);
+        let mut of_meshes = IdTable::<Mesh, _>::from(vec![None; scene.meshes().len()]);
         for (index, surface) in scene.surfaces().iter().enumerate() {
             let used_materials = &mut uses[surface.material];
             let areas = || shape_facts(&surface.shape).uv_areas(scene);

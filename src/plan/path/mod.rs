@@ -35,7 +35,7 @@ use super::rules::{PATH_RULES, Rules};
 use super::surface_bounds::surface_bounds;
 use builder::{AppliedRule, PlanBuilder};
 use facts::MaterialUses;
-use rtc_math::{Table, Vec3};
+use rtc_math::{IdTable, Vec3};
 use rtc_valid::{
     Map, Material, MaterialId, PathSettings, Projection, Punctual, Standard, TextureId, UvSet,
     ValidScene,
@@ -46,11 +46,11 @@ use texture::TextureValues;
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathPlan {
     /// The simplified material for each material of the scene.
-    pub materials: Table<Material, Standard>,
-    /// For each material, the maps that are folded into constants: the texture and the set of coordinates.
-    folded: Table<Material, Vec<(TextureId, UvSet)>>,
+    pub materials: IdTable<Material, Standard>,
+    /// For each material, the maps that are folded into constants: the texture and the set.
+    folded: IdTable<Material, Vec<(TextureId, UvSet)>>,
     /// The use of each punctual light.
-    pub lights: Table<Punctual, LightUse>,
+    pub lights: IdTable<Punctual, LightUse>,
     /// The use of the environment.
     pub environment: EnvironmentUse,
     /// Whether the last ray of a path may hit an emitter.

@@ -1,7 +1,7 @@
 //! The values of a texture within a rectangle of texture coordinates.
 
 use rtc_image::Texel;
-use rtc_math::Table;
+use rtc_math::IdTable;
 use rtc_valid::{Image, ImageId, Map, Texture, ValidScene, Wrap};
 use std::cell::OnceCell;
 use std::ops::Range;
@@ -53,9 +53,9 @@ impl UvRect {
 pub(super) struct TextureValues<'scene> {
     scene: &'scene ValidScene,
     /// For each image, whether all texels are equal.
-    constant: Table<Image, OnceCell<bool>>,
+    constant: IdTable<Image, OnceCell<bool>>,
     /// For each image and channel, the value of all texels, if they are equal.
-    values: Table<Image, [OnceCell<Option<f64>>; 4]>,
+    values: IdTable<Image, [OnceCell<Option<f64>>; 4]>,
 }
 
 impl<'scene> TextureValues<'scene> {

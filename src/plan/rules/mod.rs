@@ -98,8 +98,7 @@ rules! {
         "No ray of a pixel outside the projected bounding boxes of all surfaces can hit \
          anything: the pixel is black and is not traced.";
     PixelFlat: "E-SS-FLAT",
-        "If all rays of a pixel hit one flat surface of one value, one ray is traced and stands \
-         for all.";
+        "If all rays of a pixel hit one flat surface of one value, one ray is traced for all.";
     Cull: "E-CULL",
         "A surface that no camera, shadow, reflected or refracted ray can hit is removed from \
          the world.";

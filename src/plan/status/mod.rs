@@ -21,7 +21,7 @@ use super::pixel_classes::PixelClasses;
 use super::rules::Rule;
 use super::{Findings, MaterialSummary};
 use rtc_ir::{EntityKind, Field, ValuePath};
-use rtc_math::Table;
+use rtc_math::IdTable;
 use rtc_valid::{CourseLightId, Light, Material, Mode};
 
 /// The maximum number of statuses of single lights or materials for one effect.
@@ -148,7 +148,7 @@ impl Findings<'_> {
         &self,
         shows: impl Fn(&MaterialSummary) -> bool,
     ) -> impl Iterator<Item = usize> {
-        let mut without = Table::<Material, _>::from(vec![None; self.facts.materials.len()]);
+        let mut without = IdTable::<Material, _>::from(vec![None; self.facts.materials.len()]);
         for surface in self.visible() {
             let first =
                 without[self.facts.scene.surfaces()[surface].material].get_or_insert(Some(surface));

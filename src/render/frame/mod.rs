@@ -14,7 +14,6 @@
 //! after each pixel and may stop the loop; then unfinished tiles are unchanged.
 
 pub(crate) mod halves;
-pub(crate) mod layers;
 pub(crate) mod picture;
 pub(crate) mod progressive;
 pub(crate) mod verify;

@@ -31,10 +31,9 @@ use crate::sampler::discrete::DiscreteDistribution;
 use crate::shape::emitter::{Emitter, EmitterPoint};
 use crate::shape::geometry::AttributeRequest;
 use crate::shape::geometry::Intersect;
-use crate::world::{Primitive, Surface, SurfaceId, World};
-use rtc_math::{Bounds, Id, Table, Vec3, to_u32};
+use crate::world::{PunctualId, Surface, SurfaceId, SurfacePrimitive, World};
+use rtc_math::{Bounds, Id, IdTable, Vec3, to_u32};
 use rtc_plan::LightUse;
-use rtc_valid::PunctualId;
 use std::f64::consts::PI;
 
 /// Fewer local lights are chosen by power alone: with 8 a tree is slower (benches/sampling.md).
@@ -47,16 +46,16 @@ const MOST_LISTED: usize = 1 << 21;
 /// All lights of a world.
 pub(crate) struct Lights<'world, S> {
     world: &'world World<S>,
-    lights: Table<Light>,
+    lights: IdTable<Light>,
     /// Over the lights, those of the tree with weight 0; the tree itself, if any, comes last.
     by_power: DiscreteDistribution,
     tree: Option<LightTree>,
     /// The one light that is ever chosen, if it is one.
     only: Option<LightId>,
     /// The probabilities of `by_power`.
-    probabilities: Table<Light, f64>,
+    probabilities: IdTable<Light, f64>,
     /// The index of the first light of each surface that has some.
-    first_light_of_surface: Table<Surface, Option<LightId>>,
+    first_light_of_surface: IdTable<Surface, Option<LightId>>,
 }
 
 /// One of the lights that the path tracer chooses from.
@@ -113,9 +112,9 @@ impl<'world, S: Intersect> Lights<'world, S> {
         let mut lights = punctual
             .filter(|(index, _)| left(*index) != LightUse::Nothing)
             .map(|(index, light)| Light::Punctual(light.clone(), left(index)))
-            .collect::<Table<Light>>();
+            .collect::<IdTable<Light>>();
         // List the emissive surfaces: shapes as one light, meshes by triangle.
-        let mut first_light_of_surface = Table::from(vec![None; world.surfaces.len()]);
+        let mut first_light_of_surface = IdTable::from(vec![None; world.surfaces.len()]);
         for (index, surface) in world.surfaces.entries() {
             let material = &world.standards[surface.material];
             let shines = !material.is_unlit && material.emission.factor != Vec3::ZERO;
@@ -144,7 +143,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
             by_power: DiscreteDistribution::new(std::iter::empty()),
             tree: None,
             only: None,
-            probabilities: Table::default(),
+            probabilities: IdTable::default(),
             first_light_of_surface,
         };
         all.build_distribution(strategy);
@@ -156,7 +155,11 @@ impl<'world, S: Intersect> Lights<'world, S> {
     fn build_distribution(&mut self, strategy: Strategy) {
         let disc = PI * self.radius_squared();
         let weight = |light| self.weight(light, disc, strategy);
-        let mut weights = self.lights.iter().map(weight).collect::<Table<Light, _>>();
+        let mut weights = self
+            .lights
+            .iter()
+            .map(weight)
+            .collect::<IdTable<Light, _>>();
         let numbered = weights.entries();
         let emitters = numbered.filter_map(|(light, power)| self.emitter(light, *power));
         let emitters = emitters.collect::<Vec<_>>();
@@ -392,7 +395,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
     /// primitive of a surface, where the normal is given, from a point at the given distance.
     pub(crate) fn pdf_of_surface(
         &self,
-        (surface, prim_id): Primitive,
+        (surface, prim_id): SurfacePrimitive,
         (place, normal): (Vec3, Vec3),
         wi: Vec3,
         distance: f64,

@@ -8,7 +8,7 @@
 
 use super::{Light, LightId};
 use crate::sampler::remapped;
-use rtc_math::{Bounds, Table, Vec3};
+use rtc_math::{Bounds, IdTable, Vec3};
 
 /// The least factor of orientation: the bound is never trusted to be 0.
 const LEAST_FACING: f64 = 1.0 / 16.0;
@@ -30,7 +30,7 @@ pub(super) struct LightTree {
     /// The left child of an inner node follows it.
     nodes: Vec<LightNode>,
     /// The way from the root to each light, from the lowest bit on: 1 is right.
-    ways: Table<Light, Option<u64>>,
+    ways: IdTable<Light, Option<u64>>,
 }
 
 struct LightNode {

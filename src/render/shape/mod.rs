@@ -243,7 +243,10 @@ type Inline<T> = T;
 
 /// Declares the shapes.
 macro_rules! declare {
-    ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
+    (
+        all { $($(#[$doc:meta])* $Name:ident $name:ident $Store:ident $paths:tt;)* }
+        derived $derived:tt
+    ) => {
         /// A shape ready to be hit.
         #[derive(Clone, Debug)]
         pub enum Shape {

@@ -3,7 +3,7 @@
 
 use super::flattened::flattened_surfaces;
 use crate::shape::geometry::Intersect;
-use rtc_math::Table;
+use rtc_math::IdTable;
 use rtc_plan::facts::material;
 use rtc_valid::{Alpha, Material, ValidScene};
 
@@ -24,7 +24,7 @@ impl AlphaTested {
     pub(super) fn of<S: Intersect>(scene: &ValidScene) -> Self {
         let alpha = |of: &Material| material::standard(of).alpha;
         let tested = scene.materials().iter().map(|m| alpha(m) != Alpha::Opaque);
-        let tested: Table<Material, bool> = tested.collect();
+        let tested: IdTable<Material, bool> = tested.collect();
         let surfaces = scene.surfaces().iter().zip(flattened_surfaces(scene));
         let surfaces = surfaces.filter(|(surface, _)| tested[surface.material]);
         surfaces.fold(Self::None, |all, (_, is_flattened)| match all {

@@ -1,13 +1,13 @@
 //! Flattened instances: meshes whose triangles are in one world-space BVH.
 
-use super::{Primitive, Surface, SurfaceId};
+use super::{Surface, SurfaceId, SurfacePrimitive};
 use crate::accel::simd::SimdLevel;
 use crate::accel::wide::{Builders, Candidate, MOST, Wide};
 use crate::ray::Ray;
 use crate::shape::geometry::{Intersect, LocalRay};
 use crate::shape::mesh::MAX_PREPARED;
 use crate::shape::triangle::{self, WatertightRay};
-use rtc_math::{Table, to_u32};
+use rtc_math::{IdTable, to_u32};
 use rtc_valid::{self as valid, MAX_MESH_TRIANGLES, ValidScene};
 
 /// The triangles of all flattened instances, numbered surface by surface.
@@ -26,11 +26,11 @@ const _: () = assert!(MAX_MESH_TRIANGLES == MOST, "a proven mesh has a hierarchy
 /// One ray against flattened triangles. The ray is brought to the coordinates of a surface once for
 /// a run of its triangles.
 pub(super) struct FlattenedRay<'traverse, S> {
-    surfaces: &'traverse Table<Surface, Surface<S>>,
+    surfaces: &'traverse IdTable<Surface, Surface<S>>,
     flattened: &'traverse Flattened,
     ray: Ray,
     /// The primitive that the ray starts at.
-    from: Primitive,
+    from: SurfacePrimitive,
     /// The watertight ray, computed on first use.
     watertight: Option<WatertightRay>,
     /// The surface of the triangle before, and the ray in its coordinates.
@@ -42,8 +42,8 @@ impl<'traverse, S: Intersect> FlattenedRay<'traverse, S> {
     #[inline]
     pub(super) fn new(
         ray: &Ray,
-        from: Primitive,
-        surfaces: &'traverse Table<Surface, Surface<S>>,
+        from: SurfacePrimitive,
+        surfaces: &'traverse IdTable<Surface, Surface<S>>,
         flattened: &'traverse Flattened,
     ) -> Self {
         Self {
@@ -59,7 +59,7 @@ impl<'traverse, S: Intersect> FlattenedRay<'traverse, S> {
     /// The root above 0 of a triangle of the BVH, and its surface and primitive; `None` for the
     /// triangle that the ray starts at.
     #[inline(always)]
-    pub(super) fn root(&mut self, candidate: &Candidate<'_>) -> Option<(f64, Primitive)> {
+    pub(super) fn root(&mut self, candidate: &Candidate<'_>) -> Option<(f64, SurfacePrimitive)> {
         let key = self.flattened.key(candidate.item);
         if key == self.from {
             return None;
@@ -83,7 +83,7 @@ impl<'traverse, S: Intersect> FlattenedRay<'traverse, S> {
         &mut self,
         candidate: &Candidate<'_>,
         t_max: f64,
-    ) -> Option<(f64, Primitive)> {
+    ) -> Option<(f64, SurfacePrimitive)> {
         if candidate.corners().is_some() {
             return self.root(candidate).filter(|(t, _)| *t < t_max);
         }
@@ -118,7 +118,7 @@ impl<'traverse, S: Intersect> FlattenedRay<'traverse, S> {
 impl Flattened {
     /// Flattens these surfaces, in the order of the world.
     pub(super) fn new<S: Intersect>(
-        surfaces: &Table<Surface, Surface<S>>,
+        surfaces: &IdTable<Surface, Surface<S>>,
         ids: &[SurfaceId],
         simd: SimdLevel,
     ) -> Option<Self> {
@@ -148,14 +148,14 @@ impl Flattened {
 
     /// The surface and the primitive of a triangle.
     #[inline(always)]
-    fn key(&self, item: u32) -> Primitive {
+    fn key(&self, item: u32) -> SurfacePrimitive {
         key(&self.starts, item)
     }
 }
 
 /// The surface and the primitive of a triangle, given where surfaces start.
 #[inline(always)]
-fn key(starts: &[(SurfaceId, u32)], item: u32) -> Primitive {
+fn key(starts: &[(SurfaceId, u32)], item: u32) -> SurfacePrimitive {
     let after = match starts.len() {
         1 => 1,
         _ => starts.partition_point(|(_, start)| *start <= item),
@@ -166,7 +166,7 @@ fn key(starts: &[(SurfaceId, u32)], item: u32) -> Primitive {
 
 /// For each surface of a scene, whether it is an instance to be flattened.
 pub(super) fn flattened_surfaces(scene: &ValidScene) -> Vec<bool> {
-    let mut uses = Table::<valid::Mesh, _>::from(vec![0_usize; scene.meshes().len()]);
+    let mut uses = IdTable::<valid::Mesh, _>::from(vec![0_usize; scene.meshes().len()]);
     let mesh = |surface: &valid::Surface| {
         if let valid::Shape::Instance(instance) = &surface.shape {
             Some(instance.mesh)

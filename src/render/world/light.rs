@@ -5,7 +5,7 @@ use super::texture::Textures;
 use crate::light::course::CourseLight;
 use crate::light::environment::Environment;
 use crate::light::punctual::{DirectionalLight, Falloff, PointLight, Punctual};
-use rtc_math::Table;
+use rtc_math::IdTable;
 use rtc_plan::{EnvironmentUse, PathPlan, Plan, facts};
 use rtc_valid::{self as valid, ValidScene};
 
@@ -13,9 +13,9 @@ use rtc_valid::{self as valid, ValidScene};
 /// empty.
 pub(crate) struct LightList {
     /// The lights of Whitted's integrator, in the order in which their terms are summed.
-    pub(crate) course: Table<valid::CourseLight, CourseLight>,
+    pub(crate) course: IdTable<valid::CourseLight, CourseLight>,
     /// The lights without extent of paths.
-    pub(crate) punctual: Table<valid::Punctual, Punctual>,
+    pub(crate) punctual: IdTable<valid::Punctual, Punctual>,
     /// The environment of paths.
     pub(crate) environment: Environment,
 }
@@ -40,7 +40,7 @@ pub(super) fn lights_for(scene: &ValidScene, plan: &Plan, textures: &Textures) -
             let is_constant = paths.environment == EnvironmentUse::Constant;
             let punctuals = facts::light::punctual(scene.lights()).into_iter();
             LightList {
-                course: Table::default(),
+                course: IdTable::default(),
                 punctual: punctuals.map(punctual).collect(),
                 environment: environment(scene.environment(), is_constant, textures),
             }
@@ -49,7 +49,7 @@ pub(super) fn lights_for(scene: &ValidScene, plan: &Plan, textures: &Textures) -
             let lights = facts::light::course(scene.lights()).into_iter();
             LightList {
                 course: lights.map(course).collect(),
-                punctual: Table::default(),
+                punctual: IdTable::default(),
                 environment: environment(&valid::Environment::DARK, false, textures),
             }
         }

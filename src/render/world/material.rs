@@ -9,7 +9,7 @@ use crate::material::standard::*;
 use crate::shape::geometry::AttributeRequest;
 use crate::texture::bilinear::Bump;
 use crate::texture::sampled::{ColorSpace, UvSets};
-use rtc_math::{Id, Table, UnitInterval, Vec3, Weight, cos, ln, sin};
+use rtc_math::{Id, IdTable, UnitInterval, Vec3, Weight, cos, ln, sin};
 use rtc_plan::{Effect, Layer, PathPlan, Plan, Rule};
 use rtc_valid::{self as valid, Maps, Phong, Standard, TextureId};
 
@@ -22,18 +22,18 @@ pub(super) fn unchanged(material: valid::MaterialId) -> MaterialId {
 /// Materials of Phong's model, and after them the simplified ones: on surfaces with texture
 /// coordinates a constant map is replaced by its value.
 pub(super) struct PhongList<'plan> {
-    all: Table<Material, Phong>,
+    all: IdTable<Material, Phong>,
     plan: &'plan Plan,
     /// Per texture of the scene, whether it needs texture coordinates of the surface.
-    needs_uv: Table<valid::Texture, bool>,
+    needs_uv: IdTable<valid::Texture, bool>,
     /// Per material of the scene, the indices of its simplified forms for surfaces without and with
     /// texture coordinates.
-    simple: Table<valid::Material, [Option<MaterialId>; 2]>,
+    simple: IdTable<valid::Material, [Option<MaterialId>; 2]>,
 }
 
 impl<'plan> PhongList<'plan> {
     pub(super) fn new(
-        all: Table<Material, Phong>,
+        all: IdTable<Material, Phong>,
         textures: &[valid::Texture],
         plan: &'plan Plan,
     ) -> Self {
@@ -96,7 +96,7 @@ impl<'plan> PhongList<'plan> {
         self.plan.needs(effect) || !self.plan.rules.contains(Rule::TextureUnseen)
     }
 
-    pub(super) fn prepared(self, textures: &Textures) -> Table<Material, PhongMaterial> {
+    pub(super) fn prepared(self, textures: &Textures) -> IdTable<Material, PhongMaterial> {
         self.all
             .into_iter()
             .map(|material| phong(material, textures))

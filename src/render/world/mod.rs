@@ -39,9 +39,10 @@ use crate::shape::triangle::WatertightRay;
 use alpha::AlphaTested;
 use flattened::{Flattened, FlattenedRay};
 use light::LightList;
-use rtc_math::{Id, Table, Vec3};
+use rtc_math::{Id, IdTable, Vec3};
 use rtc_plan::Plan;
 use rtc_valid::ValidScene;
+pub(crate) use rtc_valid::{CourseLightId, PunctualId};
 use search::{AnySearch, ClosestSearch};
 use settings::Settings;
 use small_scene::SmallScene;
@@ -56,7 +57,7 @@ pub(crate) type MaterialId = Id<Material>;
 pub(crate) type SurfaceId = Id<Surface>;
 
 /// A surface, and a primitive of it.
-pub(crate) type Primitive = (SurfaceId, u32);
+pub(crate) type SurfacePrimitive = (SurfaceId, u32);
 
 /// The closest hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,13 +92,13 @@ pub struct World<S = Shape> {
     /// The features that the picture needs.
     pub plan: Plan,
     /// The materials of the Whitted integrator; constant maps are folded into the factors.
-    pub(crate) phongs: Table<Material, PhongMaterial>,
+    pub(crate) phongs: IdTable<Material, PhongMaterial>,
     /// The materials of the path tracer.
-    pub(crate) standards: Table<Material, StandardMaterial>,
+    pub(crate) standards: IdTable<Material, StandardMaterial>,
     /// The lights.
     pub(crate) lights: LightList,
     /// The surfaces that the plan keeps, in the order of the scene.
-    pub surfaces: Table<Surface, Surface<S>>,
+    pub surfaces: IdTable<Surface, Surface<S>>,
     /// The plan to validate by a render without pruning.
     pub(crate) verify: Option<Verify>,
     /// The surfaces that shadow rays of paths test for alpha.
@@ -132,7 +133,7 @@ impl ObjectBvh {
 const STOP: f64 = -1.0;
 
 /// The primitive of a ray that starts at no surface.
-pub(crate) const NO_PRIMITIVE: Primitive = (SurfaceId::NONE, u32::MAX);
+pub(crate) const NO_PRIMITIVE: SurfacePrimitive = (SurfaceId::NONE, u32::MAX);
 
 impl<S: Intersect> World<S> {
     /// The closest hit with t > 0. Ties within rounding go to the first surface and its first
@@ -144,7 +145,7 @@ impl<S: Intersect> World<S> {
 
     /// As [`World::closest_hit`], for a ray that starts at a primitive of a surface. A flattened
     /// triangle is flat, so the ray cannot hit it again.
-    pub(crate) fn closest_hit_from(&self, ray: &Ray, from: Primitive) -> Option<Hit> {
+    pub(crate) fn closest_hit_from(&self, ray: &Ray, from: SurfacePrimitive) -> Option<Hit> {
         // A NaN passes every slab test, so such a ray would visit every node.
         if !(ray.origin.is_finite() && ray.direction.is_finite()) {
             return None;
@@ -168,8 +169,8 @@ impl<S: Intersect> World<S> {
         &self,
         ray: &Ray,
         unit: f64,
-        from: Primitive,
-        nearest: &Nearest<Primitive>,
+        from: SurfacePrimitive,
+        nearest: &Nearest<SurfacePrimitive>,
     ) -> Option<Hit> {
         let (t, (surface, prim_id)) = match nearest.key {
             _ if nearest.key == NO_PRIMITIVE => return None,
@@ -185,7 +186,7 @@ impl<S: Intersect> World<S> {
 
     /// The closest hit on surfaces that are not flattened; infinite if there is none.
     #[inline]
-    fn closest_hit_in_objects(&self, ray: &Ray) -> Nearest<Primitive> {
+    fn closest_hit_in_objects(&self, ray: &Ray) -> Nearest<SurfacePrimitive> {
         let mut nearest = Nearest::up_to(f64::INFINITY, NO_PRIMITIVE);
         let objects = &self.objects;
         if objects.is_empty() {
@@ -224,7 +225,12 @@ impl<S: Intersect> World<S> {
     /// Breaks the tie between the hits as close as the one at `t`.
     #[cold]
     #[inline(never)]
-    fn resolve(&self, ray: &Ray, from: Primitive, t: f64) -> Option<(f64, Primitive)> {
+    fn resolve(
+        &self,
+        ray: &Ray,
+        from: SurfacePrimitive,
+        t: f64,
+    ) -> Option<(f64, SurfacePrimitive)> {
         let (mut tie, watertight) = (Tie::new(), WatertightRay::new(ray));
         let mut add = |t: f64, surface: SurfaceId, prim_id: u32| {
             tie.add(
@@ -276,7 +282,7 @@ impl<S: Intersect> World<S> {
     }
 
     /// As [`World::any_hit`], for a ray that starts at the primitive `from`.
-    pub(crate) fn any_hit_from(&self, ray: &Ray, t_max: f64, from: Primitive) -> bool {
+    pub(crate) fn any_hit_from(&self, ray: &Ray, t_max: f64, from: SurfacePrimitive) -> bool {
         let (ray, unit) = ray.rescaled();
         let t_max = t_max / unit;
         if self.any_hit_in_objects(&ray, t_max) {
@@ -299,7 +305,7 @@ impl<S: Intersect> World<S> {
         &self,
         ray: &Ray,
         t_max: f64,
-        from: Primitive,
+        from: SurfacePrimitive,
         pass: &mut dyn FnMut(Hit) -> f64,
     ) -> f64 {
         let (ray, unit) = ray.rescaled();

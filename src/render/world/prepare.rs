@@ -12,7 +12,7 @@ use super::{MaterialId, ObjectBvh, Surface, SurfaceId, World, light};
 use crate::accel::bvh::Bvh;
 use crate::accel::simd::SimdLevel;
 use crate::shape::geometry::Intersect;
-use rtc_math::Table;
+use rtc_math::IdTable;
 use rtc_plan::facts::material;
 use rtc_plan::{Plan, Rules};
 use rtc_valid::{self as valid, ValidScene};
@@ -39,14 +39,14 @@ impl<S: Prepare> World<S> {
                 let surfaces = surfaces(scene, plan, simd, |material, has_uv| {
                     list.of(material, has_uv)
                 });
-                (surfaces, list.prepared(&textures), Table::default())
+                (surfaces, list.prepared(&textures), IdTable::default())
             }
             Some(paths) => {
                 let materials = paths.materials.entries();
                 let prepared =
                     materials.map(|(index, material)| standard(index, material, &textures, paths));
                 let surfaces = surfaces(scene, plan, simd, |material, _| unchanged(material));
-                (surfaces, Table::default(), prepared.collect())
+                (surfaces, IdTable::default(), prepared.collect())
             }
         };
         let Lookup {
@@ -85,12 +85,12 @@ fn surfaces<S: Prepare>(
     plan: &Plan,
     simd: SimdLevel,
     mut material_of: impl FnMut(valid::MaterialId, bool) -> MaterialId,
-) -> Table<Surface, Surface<S>> {
+) -> IdTable<Surface, Surface<S>> {
     let meshes = scene
         .meshes()
         .iter()
         .map(|mesh| Arc::new(S::prepare_mesh(mesh, simd)))
-        .collect::<Table<_, _>>();
+        .collect::<IdTable<_, _>>();
     let prepared = |(index, surface): (usize, &valid::Surface)| {
         let shape = S::prepare(&surface.shape, &meshes)?;
         Some(Surface {
@@ -119,7 +119,7 @@ impl Lookup {
     fn of<S: Intersect>(
         scene: &ValidScene,
         plan: &Plan,
-        surfaces: &Table<Surface, Surface<S>>,
+        surfaces: &IdTable<Surface, Surface<S>>,
         simd: SimdLevel,
     ) -> Self {
         let flattens = flattened_surfaces(scene);
@@ -153,7 +153,7 @@ impl Lookup {
 }
 
 impl ObjectBvh {
-    fn of<S: Intersect>(surfaces: &Table<Surface, Surface<S>>, ids: &[SurfaceId]) -> Self {
+    fn of<S: Intersect>(surfaces: &IdTable<Surface, Surface<S>>, ids: &[SurfaceId]) -> Self {
         let (mut unbounded, mut bounded, mut boxes) = (Vec::new(), Vec::new(), Vec::new());
         for id in ids {
             match surfaces[*id].shape.bounds() {

@@ -1,7 +1,7 @@
 //! The BVH visitors for flattened triangles: closest hit and any hit.
 
 use super::flattened::FlattenedRay;
-use super::{Primitive, STOP};
+use super::{STOP, SurfacePrimitive};
 use crate::accel::wide::{Candidate, Visitor};
 use crate::shape::geometry::Intersect;
 use crate::shape::tie::Nearest;
@@ -9,7 +9,7 @@ use crate::shape::tie::Nearest;
 /// Looks for the nearest hit.
 pub(super) struct ClosestSearch<'traverse, S> {
     pub(super) triangles: FlattenedRay<'traverse, S>,
-    pub(super) nearest: Nearest<Primitive>,
+    pub(super) nearest: Nearest<SurfacePrimitive>,
 }
 
 impl<S: Intersect> Visitor for ClosestSearch<'_, S> {

@@ -10,7 +10,7 @@ use crate::shape::kinds::*;
 use crate::shape::mesh::{Attributes, BaselineMesh, PreparedMesh};
 use crate::shape::sphere::{self, TexturedSphere};
 use crate::shape::triangle::{self, TexturedTriangle};
-use rtc_math::{Table, Vec3};
+use rtc_math::{IdTable, Vec3};
 use rtc_valid as valid;
 use std::sync::Arc;
 
@@ -25,7 +25,10 @@ pub trait Prepare: Intersect {
 
     /// Prepares a shape; `None` for one that no ray hits.
     #[must_use]
-    fn prepare(shape: &valid::Shape, meshes: &Table<valid::Mesh, Arc<Self::Mesh>>) -> Option<Self>;
+    fn prepare(
+        shape: &valid::Shape,
+        meshes: &IdTable<valid::Mesh, Arc<Self::Mesh>>,
+    ) -> Option<Self>;
 }
 
 impl Prepare for Shape {
@@ -57,7 +60,7 @@ impl Prepare for Shape {
 }
 
 /// The meshes of a scene, prepared.
-type PreparedMeshes = Table<valid::Mesh, Arc<PreparedMesh>>;
+type PreparedMeshes = IdTable<valid::Mesh, Arc<PreparedMesh>>;
 
 /// A validated shape of one kind.
 trait PrepareShape {
@@ -68,42 +71,27 @@ trait PrepareShape {
     fn prepared(&self, meshes: &PreparedMeshes) -> Option<Self::Prepared>;
 }
 
-/// Prepares each shape in its own way, or by the values of its row.
+/// Prepares each shape in its own way, or by the values of its row, in their order.
 macro_rules! prepare {
-    ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
+    (
+        all { $($(#[$doc:meta])* $Name:ident $name:ident $Store:ident $paths:tt;)* }
+        derived { $($(#[$about:meta])* $Derived:ident $word:ident {
+            $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
+        })* }
+    ) => {
         fn prepared(shape: &valid::Shape, meshes: &PreparedMeshes) -> Option<Shape> {
             Some(match shape {
                 $(valid::Shape::$Name(shape) => Shape::$Name(shape.prepared(meshes)?.into()),)*
             })
         }
 
-        $(by_values!($Name $how $values);)*
-    };
-}
+        $(impl PrepareShape for valid::$Derived {
+            type Prepared = $Derived;
 
-/// Prepares a shape of the values of its row, in their order.
-macro_rules! by_values {
-    ($Name:ident custom $values:tt) => {};
-    ($Name:ident derived {
-        $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
-    }) => {
-        impl PrepareShape for valid::$Name {
-            type Prepared = $Name;
-
-            fn prepared(&self, _: &PreparedMeshes) -> Option<$Name> {
-                Some($Name::new($(number!($rule self.$value)),*))
+            fn prepared(&self, _: &PreparedMeshes) -> Option<$Derived> {
+                Some($Derived::new($(self.$value.into()),*))
             }
-        }
-    };
-}
-
-/// A validated value as a number or a vector of them.
-macro_rules! number {
-    (length $value:expr) => {
-        $value.get()
-    };
-    ($rule:ident $value:expr) => {
-        $value
+        })*
     };
 }
 
@@ -201,7 +189,7 @@ impl<R: Real> Prepare for BaselineShape<R> {
 
     fn prepare(
         shape: &valid::Shape,
-        meshes: &Table<valid::Mesh, Arc<BaselineMesh<R>>>,
+        meshes: &IdTable<valid::Mesh, Arc<BaselineMesh<R>>>,
     ) -> Option<Self> {
         let robust = |mesh: &Arc<BaselineMesh<R>>| Arc::clone(&mesh.robust);
         let robust = Shape::prepare(shape, &meshes.iter().map(robust).collect())?;

@@ -7,7 +7,7 @@ use crate::ray::Ray;
 use crate::shape::geometry::Intersect;
 use crate::shape::tie::Nearest;
 use crate::shape::triangle::WatertightRay;
-use rtc_math::{Table, Vec3};
+use rtc_math::{IdTable, Vec3};
 use rtc_plan::{LightPlan, Plan};
 use rtc_valid::{CourseLight, CourseLightId};
 
@@ -19,14 +19,14 @@ pub(crate) struct SmallScene {
     /// The surfaces that cast shadows.
     casters: u64,
     /// For each light of the plan and surface of the scene, the possible occluders between them.
-    hiding: Table<CourseLight, Vec<u64>>,
+    hiding: IdTable<CourseLight, Vec<u64>>,
 }
 
 impl SmallScene {
     /// The surfaces given of a world, and of those the ones that cast shadows; `None` if there are
     /// too many.
     pub(super) fn new<S: Intersect>(
-        surfaces: &Table<Surface, Surface<S>>,
+        surfaces: &IdTable<Surface, Surface<S>>,
         all: &[SurfaceId],
         casters: &[SurfaceId],
     ) -> Option<Self> {
@@ -41,12 +41,12 @@ impl SmallScene {
             balls: BoundingSpheres::new(balls.enumerate()),
             sheared: bits(sheared.map(|(id, _)| id)),
             casters: bits(casters.iter().copied()),
-            hiding: Table::default(),
+            hiding: IdTable::default(),
         })
     }
 
     /// Takes over from a plan which surfaces may hide a light from which.
-    pub(super) fn follow<S>(&mut self, surfaces: &Table<Surface, Surface<S>>, plan: &Plan) {
+    pub(super) fn follow<S>(&mut self, surfaces: &IdTable<Surface, Surface<S>>, plan: &Plan) {
         let hiding = |light: &LightPlan, receiver: usize| {
             let may_occlude = |id: &SurfaceId| light.may_occlude(surfaces[*id].index, receiver);
             self.casters & bits(surfaces.ids().filter(may_occlude))

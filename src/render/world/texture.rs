@@ -2,19 +2,19 @@
 
 use crate::texture::sampled::{ColorSpace, Map};
 use crate::texture::{Filter, Image, Texture, Wrap};
-use rtc_math::Table;
+use rtc_math::IdTable;
 use rtc_valid::{self as valid, ValidScene};
 use std::sync::Arc;
 
 /// The images and the textures of a scene, in its order.
 pub(super) struct Textures {
-    images: Table<valid::Image, Arc<Image>>,
-    textures: Table<valid::Texture, Texture>,
+    images: IdTable<valid::Image, Arc<Image>>,
+    textures: IdTable<valid::Texture, Texture>,
 }
 
 impl Textures {
     pub(super) fn new(scene: &ValidScene) -> Self {
-        let images = scene.images().iter().map(image).collect::<Table<_, _>>();
+        let images = scene.images().iter().map(image).collect::<IdTable<_, _>>();
         let textures = scene
             .textures()
             .iter()
@@ -61,7 +61,7 @@ fn image(image: &valid::Image) -> Arc<Image> {
     })
 }
 
-fn prepared(texture: &valid::Texture, images: &Table<valid::Image, Arc<Image>>) -> Texture {
+fn prepared(texture: &valid::Texture, images: &IdTable<valid::Image, Arc<Image>>) -> Texture {
     match *texture {
         valid::Texture::Uv => Texture::Uv,
         valid::Texture::Procedural(texture) => Texture::Procedural(Box::new(texture)),

@@ -109,9 +109,15 @@ trait Validate {
     fn validate(&self, surface_check: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>>;
 }
 
-/// Validates each shape by its own `impl`, or by the rules of its row.
+/// Validates each shape by its own `impl`, or by the rules of its row. All values are checked, even
+/// after an error.
 macro_rules! validate {
-    ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
+    (
+        all { $($(#[$doc:meta])* $Name:ident $name:ident $Store:ident $paths:tt;)* }
+        derived { $($(#[$about:meta])* $Derived:ident $word:ident {
+            $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
+        })* }
+    ) => {
         impl Validate for ir::Shape {
             fn validate(&self, surface_check: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
                 match self {
@@ -120,23 +126,14 @@ macro_rules! validate {
             }
         }
 
-        $(by_rule!($Name $how $values);)*
-    };
-}
-
-/// Validates a shape by the rules of its row. All values are checked, even after an error.
-macro_rules! by_rule {
-    ($Name:ident custom $values:tt) => {};
-    ($Name:ident derived {
-        $type:literal $($value:ident: $rule:ident $key:literal $($name:literal)?;)*
-    }) => {
-        impl Validate for ir::$Name {
+        $(impl Validate for ir::$Derived {
             fn validate(&self, surface_check: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
                 let Self { $($value),* } = *self;
-                $(let $value = surface_check.$rule($value, stringify!($value), concat!($($name)?));)*
-                Some(Some(Shape::$Name(super::$Name { $($value: $value?),* })))
+                $(let $value =
+                    surface_check.$rule($value, stringify!($value), concat!($($words)?));)*
+                Some(Some(Shape::$Derived(super::$Derived { $($value: $value?),* })))
             }
-        }
+        })*
     };
 }
 

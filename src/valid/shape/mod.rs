@@ -27,31 +27,28 @@ type Inline<T> = T;
 
 /// Declares the valid shapes: the struct of those with `derived` values, and the enum of all.
 macro_rules! declare {
-    ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
+    (
+        all { $($(#[$doc:meta])* $Name:ident $name:ident $Store:ident $paths:tt;)* }
+        derived { $($(#[$about:meta])* $Derived:ident $word:ident {
+            $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
+        })* }
+    ) => {
         /// A shape of any kind.
         #[derive(Clone, Debug)]
         pub enum Shape {
             $($(#[$doc])* $Name($Store<$Name>),)*
         }
 
-        $(validated!($(#[$doc])* $Name $how $values);)*
-    };
-}
-
-/// Declares the struct of a valid shape.
-macro_rules! validated {
-    ($(#[$doc:meta])* $Name:ident custom $values:tt) => {};
-    ($(#[$doc:meta])* $Name:ident derived {
-        $type:literal $($value:ident: $rule:ident $key:literal $($name:literal)?;)*
-    }) => {
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug)]
-        pub struct $Name {
-            $(
-                #[doc = validated_type!(doc $rule $Name $value)]
-                pub $value: validated_type!($rule),
-            )*
-        }
+        $(
+            $(#[$about])*
+            #[derive(Clone, Copy, Debug)]
+            pub struct $Derived {
+                $(
+                    #[doc = validated_type!(doc $rule $Derived $value)]
+                    pub $value: validated_type!($rule),
+                )*
+            }
+        )*
     };
 }
 

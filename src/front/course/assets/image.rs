@@ -62,7 +62,7 @@ pub(super) fn resolve_images(image_of: &BTreeMap<u32, Option<ImageId>>, scene: &
         let phong = match material {
             Material::Phong(phong) => phong,
             Material::Standard(standard) => {
-                standard.forget_maps(is_missing);
+                standard.retain_maps(|map| !is_missing(&map.texture));
                 continue;
             }
         };

@@ -2,7 +2,7 @@
 
 use crate::ray::Ray;
 use crate::sampler::sobol::{Pair, Sobol};
-use crate::world::{NO_PRIMITIVE, Primitive};
+use crate::world::{NO_PRIMITIVE, SurfacePrimitive};
 use rtc_math::Vec3;
 
 /// Bounces before Russian roulette may end a path.
@@ -15,7 +15,7 @@ const RR_SURVIVAL: f64 = 2.0;
 pub(super) struct PathState {
     pub(super) ray: Ray,
     /// The primitive where the ray starts.
-    pub(super) from: Primitive,
+    pub(super) from: SurfacePrimitive,
     /// The throughput `beta`: the factor on the radiance along the ray.
     pub(super) beta: Vec3,
     /// The radiance found so far.

@@ -6,7 +6,7 @@ use crate::material::standard::Alpha;
 use crate::ray::{Interaction, Ray};
 use crate::shape::geometry::Intersect;
 use crate::world::alpha::AlphaTested;
-use crate::world::{Hit, Primitive, segment};
+use crate::world::{Hit, SurfacePrimitive, segment};
 use rtc_math::Vec3;
 use rtc_plan::PathFeatures;
 
@@ -61,7 +61,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     fn transmittance_one_by_one(
         &mut self,
         mut ray: Ray,
-        mut from: Primitive,
+        mut from: SurfacePrimitive,
         wi: Vec3,
         place: Option<Vec3>,
     ) -> f64 {

@@ -8,11 +8,11 @@ use crate::material::phong::PhongMaterial;
 use crate::ray::Interaction;
 use crate::sampler::{DiscPoints, Key};
 use crate::shape::geometry::Intersect;
+use crate::world::CourseLightId;
 use crate::world::settings::Gooch;
 use crate::world::small_scene::SmallScene;
 use rtc_math::{Basis, NonNegative, Vec3};
 use rtc_plan::{Effect, Features, Rule};
-use rtc_valid::CourseLightId;
 
 /// A point seen from one side.
 pub(crate) struct ShadingPoint<'world> {
@@ -253,7 +253,12 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
 
     /// The surfaces that may occlude a light from a point, by a cone of such segments.
     #[inline(always)]
-    pub(super) fn towards(&mut self, small_scene: &SmallScene, light: CourseLightId, from: Vec3) -> u64 {
+    pub(super) fn towards(
+        &mut self,
+        small_scene: &SmallScene,
+        light: CourseLightId,
+        from: Vec3,
+    ) -> u64 {
         let lights = &self.world.lights.course;
         let place = [self.bounces as usize, light.index(), lights.len()];
         let target = || lights[light].ball();

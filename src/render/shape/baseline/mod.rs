@@ -64,7 +64,10 @@ pub struct BaselineShape<R: Real> {
 
 /// Declares the baselines of all shapes.
 macro_rules! declare {
-    ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
+    (
+        all { $($(#[$doc:meta])* $Name:ident $name:ident $Store:ident $paths:tt;)* }
+        derived $derived:tt
+    ) => {
         /// Its intersection.
         #[derive(Clone, Debug)]
         enum BaselineKind<R: Real> {

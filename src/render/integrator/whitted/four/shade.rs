@@ -6,13 +6,13 @@ use crate::integrator::whitted::Tracer;
 use crate::lanes::pow::powers;
 use crate::lanes::{LANES, Ray4, Vectors, lanes_of};
 use crate::shape::geometry::Intersect;
+use crate::world::CourseLightId;
 use crate::world::END;
 use crate::world::small_scene::SmallScene;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
 use rtc_math::Vec3;
 use rtc_plan::{Effect, Features};
-use rtc_valid::CourseLightId;
 
 impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     /// As [`Tracer::phong`].
