@@ -1,7 +1,7 @@
 //! Denoises pictures with other seeds, and prints as Markdown how far they are from converged ones,
-//! what is told of that, and how often the bound holds. Arguments are the folder of assets, the side
-//! of a picture in pixels, the paths a pixel of each of two references, and how many seeds.
-//! `benches/denoise.sh` runs it.
+//! what is told of that, how often the bound holds, and how often a picture is worse than the plain
+//! one. Arguments are the side of a picture in pixels, the paths a pixel of each of two references,
+//! how many seeds, and files of scenes. `benches/denoise.sh` runs it.
 
 #![expect(
     clippy::unwrap_used,
@@ -17,36 +17,28 @@
 mod limits;
 
 use rtc::internals::image::{BackgroundFill, FileFormat, Image};
-use rtc::internals::passes::ViewAndLight;
+use rtc::internals::passes::{IntegratorChoice, ViewAndLight};
 use rtc::internals::pipeline::{Input, Observer, Options, OutputTransform, PictureSetup};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{AnyWorld, Job, Seeds};
 use rtc::internals::study::{Errors, LEVELS, RenderOrder, probe};
-use std::num::NonZeroU32;
-use std::path::{Path, PathBuf};
-
-/// The scenes: the name, and the file in the folder of assets.
-const ASSETS: [[&str; 2]; 7] = [
-    ["FlightHelmet", "FlightHelmet/FlightHelmet.gltf"],
-    ["MetalRoughGrid", "own_MetalRoughGrid.glb"],
-    ["TransmissionRoughnessTest", "TransmissionRoughnessTest.glb"],
-    ["CornellLambert", "own_CornellLambert.glb"],
-    ["GlassSphere", "own_GlassSphere.glb"],
-    ["ClearCoatTest", "ClearCoatTest.glb"],
-    ["SheenCloth", "SheenCloth.glb"],
-];
+use std::path::Path;
 
 /// The paths a pixel of a picture, and of the plain one it is to be as good as.
 const SAMPLES: [u32; 2] = [16, 64];
 
-/// A scene, ready to be rendered.
+/// A denoised picture may have this much of the error of the plain one.
+const ALLOWED: f64 = 1.02;
+
+/// A scene, ready to be rendered with so many paths a pixel.
 struct Case {
     world: AnyWorld,
     order: RenderOrder,
+    paths: u32,
 }
 
 impl Case {
-    /// As `rtc render` shows it, with so many paths a pixel at most.
+    /// As `rtc render --integrator path` shows it.
     fn new(path: &Path, side: u32, paths: u32) -> Self {
         let kind = FileFormat::Png8;
         let look = OutputTransform::new(kind, None, None, BackgroundFill::Film, &[]).unwrap();
@@ -54,7 +46,10 @@ impl Case {
         setup.overrides.size = Some([side; 2]);
         setup.overrides.spp = Some(paths);
         let mut input = Input::file(path, Options::default());
-        input.stage(ViewAndLight::default());
+        input.stage(ViewAndLight {
+            integrator: Some(IntegratorChoice::Path),
+            ..ViewAndLight::default()
+        });
         let loaded = input.load().unwrap();
         let mut subject = setup.validate(loaded, &mut input).unwrap().unwrap();
         let observer = Observer {
@@ -66,15 +61,18 @@ impl Case {
         let order = setup.order(&subject, window, None);
         let proof = &subject.validated.scene;
         let world = AnyWorld::prepare(proof, &Plan::new(proof, Rules::ALL));
-        Self { world, order }
+        Self {
+            world,
+            order,
+            paths,
+        }
     }
 
-    fn job(&self, seed: u64, samples: u32) -> Job {
+    fn job(&self, seed: u64) -> Job {
         Job {
             crop: Some(self.order.crop),
             values: self.order.values,
             background: self.order.background,
-            samples: NonZeroU32::new(samples),
             seeds: Seeds {
                 pixel: seed,
                 lens: seed,
@@ -85,8 +83,8 @@ impl Case {
     }
 
     /// A plain picture, linear.
-    fn plain(&self, seed: u64, samples: u32) -> Image {
-        let film = self.world.render(&self.job(seed, samples), &|_| true);
+    fn plain(&self, seed: u64) -> Image {
+        let film = self.world.render(&self.job(seed), &|_| true);
         film.unwrap().image
     }
 
@@ -108,9 +106,13 @@ struct Tally {
     /// Of plain pictures of few and of many paths, and of denoised ones.
     relative: [f64; 3],
     flip: [f64; 3],
-    /// The mean square errors of a denoised picture, in squares of grey levels: the true one, what is told,
-    /// the bound, and what halves of the samples would tell.
+    /// The mean square errors in squares of grey levels: those of a plain and of a denoised picture, what
+    /// is told of that, and the bound.
     squares: [f64; 4],
+    /// So many are worse than the plain picture.
+    worse: u64,
+    /// The most of the error of the plain picture.
+    most: f64,
     held: u64,
     /// So many say that there is no bound; what they say of what samples met counts for the others.
     unbounded: u64,
@@ -122,6 +124,8 @@ impl Tally {
         self.pictures += other.pictures;
         self.held += other.held;
         self.unbounded += other.unbounded;
+        self.worse += other.worse;
+        self.most = self.most.max(other.most);
         let sums = [
             (&mut self.relative[..], &other.relative[..]),
             (&mut self.flip[..], &other.flip[..]),
@@ -135,44 +139,46 @@ impl Tally {
         }
     }
 
-    /// One picture of a seed.
-    fn of(case: &Case, seed: u64, [a, b]: &[Image; 2]) -> Self {
+    /// One picture of a seed, of few paths, beside one of many.
+    fn of([few, many]: &[Case; 2], seed: u64, [a, b]: &[Image; 2]) -> Self {
         let middle = Image {
             pixels: zip(a, b, |a, b| 0.5 * (a + b)),
             ..*a
         };
-        let errors =
-            |image: &Image| Errors::of(&[case.shown(image)], std::slice::from_ref(&middle), 1.0);
-        let [few, many] = SAMPLES.map(|samples| case.plain(seed, samples));
-        let job = case.job(seed, SAMPLES[0]);
-        let picture = case
+        let errors = |image: &Image| {
+            Errors::of(
+                std::slice::from_ref(image),
+                std::slice::from_ref(&middle),
+                1.0,
+            )
+        };
+        let picture = few
             .world
-            .denoised(SAMPLES[0], &job, &|_| true, &|| ())
+            .denoised(few.paths, &few.job(seed), &|_| true, &|| ())
             .unwrap();
-        let order = RenderOrder { seed, ..case.order };
-        let probed = probe(&case.world, &order, &picture, SAMPLES[0], &|_| true).unwrap();
-        let shown = case.shown(&picture.film.image);
-        let truth = mean(&shown, a, b);
-        let all = [errors(&few), errors(&many), errors(&picture.film.image)];
-        let levels = |square: f64| square * LEVELS * LEVELS;
+        let order = RenderOrder { seed, ..few.order };
+        let rays = picture.film.counts.rays();
+        let (film, probed) = probe(&few.world, &order, picture, few.paths, &|_| true).unwrap();
+        let [plain, more] = [few, many].map(|case| case.shown(&case.plain(seed)));
+        let shown = few.shown(&film.image);
+        let [before, truth] = [&plain, &shown].map(|image| mean(image, a, b) * LEVELS * LEVELS);
+        let all = [&plain, &more, &shown].map(errors);
+        let most = (truth / before).max(0.0).sqrt();
         Self {
             pictures: 1,
             relative: all.map(|errors| errors.relative_mse),
             flip: all.map(|errors| errors.flip),
             squares: [
-                levels(truth),
+                before,
+                truth,
                 probed.estimate * probed.estimate,
                 probed.error * probed.error,
-                levels(case.by_halves(seed, &few)),
             ],
-            held: u64::from(
-                probed.undersampled.is_none() && levels(truth) <= probed.error * probed.error,
-            ),
+            worse: u64::from(most > ALLOWED),
+            most,
+            held: u64::from(probed.undersampled.is_none() && truth <= probed.error * probed.error),
             unbounded: u64::from(probed.undersampled.is_some()),
-            rays: [
-                picture.film.counts.rays() as f64,
-                probed.counts.rays() as f64,
-            ],
+            rays: [rays as f64, (film.counts.rays() - rays) as f64],
         }
     }
 
@@ -185,34 +191,19 @@ impl Tally {
         let n = self.pictures as f64;
         let [plain, more, denoised] = self.relative.map(|sum| sum / n);
         let flip = self.flip.map(|sum| sum / n);
-        let [truth, probed, bound, halves] = self.squares.map(|sum| (sum / n).max(0.0).sqrt());
+        let [before, truth, probed, bound] = self.squares.map(|sum| (sum / n).max(0.0).sqrt());
         println!(
-            "| {name} | {plain:.5} | {more:.5} | {denoised:.5} | {:.3} | {:.3} | {:.3} | {truth:.2} | {probed:.2} | {bound:.2} | {} of {} | {} | {halves:.2} | {:.0} % |",
+            "| {name} | {plain:.5} | {more:.5} | {denoised:.5} | {:.3} | {:.3} | {:.3} | {before:.2} | {truth:.2} | {:.2} | {} | {probed:.2} | {bound:.2} | {} of {} | {} | {:.0} % |",
             flip[0],
             flip[1],
             flip[2],
+            self.most,
+            self.worse,
             self.held,
             self.bounded(),
             self.unbounded,
             100.0 * self.rays[1] / self.rays[0]
         );
-    }
-}
-
-impl Case {
-    /// What halves of the samples tell of the mean square error: one half, denoised, against the other,
-    /// whose variance is taken off, and half of that for twice as many samples.
-    fn by_halves(&self, seed: u64, whole: &Image) -> f64 {
-        let half = SAMPLES[0] / 2;
-        let first = self.plain(seed, half);
-        let second = Image {
-            pixels: zip(whole, &first, |whole, first| 2.0 * whole - first),
-            ..*whole
-        };
-        let job = self.job(seed, half);
-        let denoised = self.world.denoised(half, &job, &|_| true, &|| ()).unwrap();
-        let [a, b, d] = [&first, &second, &denoised.film.image].map(|image| self.shown(image));
-        0.5 * (mean(&d, &b, &b) - 0.5 * mean(&a, &b, &b))
     }
 }
 
@@ -239,32 +230,34 @@ fn main() {
         .skip(1)
         .filter(|word| word != "--bench")
         .collect();
-    let [assets, side, paths, seeds] = &words[..] else {
-        panic!("usage: denoise ASSETS SIDE PATHS SEEDS");
+    let [side, paths, seeds, files @ ..] = &words[..] else {
+        panic!("usage: denoise SIDE PATHS SEEDS FILES...");
     };
-    let numbers = [side, paths, seeds].map(|word| word.parse::<u32>().unwrap());
-    let [side, paths, seeds] = numbers;
-    let vases = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/vases.yaml");
-    let assets = ASSETS.map(|[name, file]| (name, Path::new(assets).join(file)));
-    let scenes: Vec<(&str, PathBuf)> = assets.into_iter().chain([("`vases`", vases)]).collect();
+    let [side, paths, seeds] = [side, paths, seeds].map(|word| word.parse::<u32>().unwrap());
     println!(
-        "| scene | relMSE 16 | relMSE 64 | denoised | FLIP 16 | FLIP 64 | denoised | true error | told | bound | held | no bound | by halves | rays of probes |"
+        "| scene | relMSE 16 | relMSE 64 | denoised | FLIP 16 | FLIP 64 | denoised | error 16 | denoised | most | worse | told | bound | held | no bound | rays of probes |"
     );
-    println!("| --- |{}", " --: |".repeat(13));
+    println!("| --- |{}", " --: |".repeat(15));
     let mut sum = Tally::default();
-    for (name, path) in scenes {
-        let case = Case::new(&path, side, paths);
-        let references = [90_001, 90_002].map(|seed| case.shown(&case.plain(seed, paths)));
+    for file in files {
+        let path = Path::new(file);
+        let case = |paths| Case::new(path, side, paths);
+        let (reference, cases) = (case(paths), SAMPLES.map(case));
+        let references = [90_001, 90_002].map(|seed| reference.shown(&reference.plain(seed)));
         let mut tally = Tally::default();
         for seed in 0..u64::from(seeds) {
-            tally.add(&Tally::of(&case, 10_000 + seed, &references));
+            tally.add(&Tally::of(&cases, 10_000 + seed, &references));
         }
-        tally.print(name);
+        tally.print(&path.file_stem().unwrap().to_string_lossy());
         sum.add(&tally);
     }
+    println!(
+        "\nWorse than {ALLOWED} × plain: {} of {}; the most is {:.2} ×.",
+        sum.worse, sum.pictures, sum.most
+    );
     let limit = limits::lower(sum.held, sum.bounded());
     println!(
-        "\nHeld: {} of {}; with 95 % confidence at least {limit:.3} of all.",
+        "Held: {} of {}; with 95 % confidence at least {limit:.3} of all.",
         sum.held,
         sum.bounded()
     );

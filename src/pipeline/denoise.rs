@@ -1,7 +1,7 @@
 //! Denoised pictures and their errors; path tracing only, with at least two samples per pixel.
 
 use super::{PictureSetup, RayCounter, RenderError, RenderSubject, Renderer};
-use rtc_render::{DenoisedFilm, Film, Job, OnPixel};
+use rtc_render::{Film, Job, OnPixel};
 use rtc_study::{ProbedError, RenderOrder, probe};
 use rtc_valid::{Mode, ValidScene};
 
@@ -44,10 +44,10 @@ impl PictureSetup {
 
     /// The memory of the denoiser in bytes per pixel, in addition to the film.
     pub(super) fn denoiser_memory(&self) -> usize {
-        /// A second film, three sets of guide buffers with their accumulators, variance, and the
-        /// result. The film of the error estimate is smaller and is allocated after the guide
-        /// buffers are freed.
-        const DENOISED: usize = 40 + 3 * 64 * 2 + 2 * 24;
+        /// A second film, three sets of guides, their planes and those of colours in single
+        /// precision, the values of models, and the result. The film of the probes is smaller, and
+        /// is made after the guides are freed.
+        const DENOISED: usize = 40 + 3 * 64 + 4 * (3 * 8 + 16) + 2 * 12 + 2 * 24;
         if self.denoise { DENOISED } else { 0 }
     }
 }
@@ -65,9 +65,7 @@ impl Renderer {
             let between = || counter.begin_round();
             let picture = self.world.denoised(samples, job, on_pixel, &between)?;
             between();
-            let probed = probe(&self.world, order, &picture, samples, on_pixel)?;
-            let DenoisedFilm { mut film, .. } = picture;
-            film.counts = film.counts.plus(probed.counts);
+            let (film, probed) = probe(&self.world, order, picture, samples, on_pixel)?;
             let probed = Some(probed);
             Some(Traced { film, probed })
         })

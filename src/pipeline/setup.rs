@@ -419,7 +419,7 @@ impl PictureSetup {
             settings["timeBudget"] = time.as_secs_f64().into();
         }
         if self.denoise {
-            settings["denoiser"] = "regression-1".into();
+            settings["denoiser"] = "regression-2".into();
         }
         if let Some(limit) = self.clamp {
             settings["clamp"] = limit.into();

@@ -4,7 +4,7 @@
 use super::probe::probe;
 use super::target::{Goal, RenderOrder};
 use rtc_color::Tone;
-use rtc_render::{AnyWorld, Crop, DenoisedFilm, Film, Job, OnPixel, Values};
+use rtc_render::{AnyWorld, Crop, Film, Job, OnPixel, Values};
 use rtc_valid::Mode;
 
 /// The tone curve and exposure of [`Values::Display`] for path tracing.
@@ -49,10 +49,8 @@ pub(super) fn film(
     };
     // Estimate its error, which is part of the cost.
     let picture = world.denoised(paths, &whole, on_pixel, &|| ())?;
-    let probed = probe(world, &order, &picture, paths, on_pixel)?;
+    let (mut film, _) = probe(world, &order, picture, paths, on_pixel)?;
     // Convert to display values.
-    let DenoisedFilm { mut film, .. } = picture;
-    film.counts = film.counts.plus(probed.counts);
     let (tone, _) = DISPLAY;
     for pixel in &mut film.image.pixels {
         *pixel = tone.display(*pixel);

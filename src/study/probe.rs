@@ -10,7 +10,7 @@ use super::statistics::fisher_quantile;
 use super::target::{RenderOrder, TAIL};
 use rtc_image::around;
 use rtc_math::{GAMMA, fraction, mix};
-use rtc_render::{AnyWorld, Counts, DenoisedFilm, Film, OnPixel, ProgressiveFilm};
+use rtc_render::{AnyWorld, DenoisedFilm, Film, OnPixel, ProgressiveFilm};
 
 /// The estimated error of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,12 +22,12 @@ pub struct ProbedError {
     /// If there is no bound: the possible brightness, in multiples of white, of light that no
     /// sample has hit.
     pub undersampled: Option<f64>,
+    /// The bound of the plain picture, of the sampled part.
+    pub plain: f64,
     /// The number of probes; a pixel that was chosen twice counts twice.
     pub probes: usize,
     /// The samples of each probe.
     pub samples: u32,
-    /// The rays of the probes.
-    pub counts: Counts,
 }
 
 /// The number of pixels per probe. A probe takes two means of as many samples as a pixel has,
@@ -46,20 +46,28 @@ const MAX_LENGTH: u32 = 1 << 20;
 /// The fraction of probes with uniform density; the others are placed where denoising changed much.
 const UNIFORM_FRACTION: f64 = 0.5;
 
+/// The steps between the plain picture and the denoised one that are compared.
+const STEPS: u32 = 4;
+
+/// A step towards the plain picture has to reduce the square error by so many of the standard
+/// errors of that.
+const CAUTION: f64 = 0.5;
+
 /// The minimum number of degrees of freedom: with fewer, the quantile is infinite.
 const MIN_FREEDOM: f64 = 8.0;
 
-/// Estimates the error of a denoised picture with `samples` samples per pixel; `None` if `on_pixel`
-/// stopped it. The seed of the order is that of the probes.
+/// Blends a denoised picture with `samples` samples per pixel and the plain one, as brings it
+/// nearest to independent samples of some pixels, and estimates its error from them; `None` if
+/// `on_pixel` stopped it. The seed of the order is that of the probes.
 #[must_use]
 pub fn probe(
     world: &AnyWorld,
     order: &RenderOrder,
-    picture: &DenoisedFilm,
+    mut picture: DenoisedFilm,
     samples: u32,
     on_pixel: &OnPixel<'_>,
-) -> Option<ProbedError> {
-    let probabilities = probabilities(picture, order);
+) -> Option<(Film, ProbedError)> {
+    let probabilities = probabilities(&picture, order);
     let probes = Probes::spread(&probabilities, order.seed);
     // Replicates of a power of two are stratified.
     let length = samples.min(MAX_LENGTH).next_power_of_two();
@@ -69,19 +77,60 @@ pub fn probe(
     if !world.grow(&mut film, &requested, on_pixel) {
         return None;
     }
-    let found = probes.found(&film, picture, &probabilities);
-    let (square, most) = mean_and_bound(&found);
+    let found = |step: u32| probes.found(&film, &picture, step, &probabilities);
+    let (step, best) = best(STEPS, found);
+    let ([square, most], plain) = (mean_and_bound(&best), mean_and_bound(&found(0))[1]);
     let undersampled = order.undersampled(world).within(samples / 2);
     let is_whole = undersampled.is_included(most, None);
-    let all = most + if is_whole { undersampled.square } else { 0.0 };
-    Some(ProbedError {
+    let all = |most: f64| most + if is_whole { undersampled.square } else { 0.0 };
+    for index in 0..picture.plain.pixels.len() {
+        picture.film.image.pixels[index] = blended(&picture, index, step);
+    }
+    picture.film.counts = picture.film.counts.plus(film.counts);
+    let probed = ProbedError {
         estimate: square.max(0.0).sqrt() * LEVELS,
-        error: all.sqrt() * LEVELS,
+        error: all(most).sqrt() * LEVELS,
         undersampled: (!is_whole).then_some(undersampled.source.brightest),
+        plain: all(plain).sqrt() * LEVELS,
         probes: probes.count,
         samples: 2 * length,
-        counts: film.counts,
-    })
+    };
+    Some((picture.film, probed))
+}
+
+/// A pixel so many steps from the plain picture to the denoised one.
+fn blended(picture: &DenoisedFilm, index: usize, step: u32) -> [f64; 3] {
+    let [plain, denoised] = [&picture.plain, &picture.film.image].map(|image| image.pixels[index]);
+    match step {
+        STEPS => denoised,
+        0 => plain,
+        _ => {
+            let share = f64::from(step) / f64::from(STEPS);
+            [0, 1, 2].map(|c: usize| plain[c] + share * (denoised[c] - plain[c]))
+        }
+    }
+}
+
+/// The step of least error, the last if in doubt, and the results of its probes.
+fn best(last: u32, found: impl Fn(u32) -> Vec<ProbeResult>) -> (u32, Vec<ProbeResult>) {
+    let whole = found(last);
+    let mut best = (last, 0.0);
+    for step in (0..last).rev() {
+        let pairs = whole.iter().zip(found(step));
+        let less = pairs.map(|(whole, other)| ProbeResult {
+            square: whole.square - other.square,
+            ..other
+        });
+        let (mean, variance) = mean_and_variance(&less.collect::<Vec<_>>());
+        let gain = mean - CAUTION * variance.sqrt();
+        if gain > best.1 {
+            best = (step, gain);
+        }
+    }
+    match best.0 == last {
+        true => (last, whole),
+        false => (best.0, found(best.0)),
+    }
 }
 
 /// The probability of each pixel to be probed: a mixture of uniform and of the squared change of
@@ -144,17 +193,18 @@ impl Probes {
         Self { hits, count }
     }
 
-    /// The result of the probes of each pixel.
+    /// The results of the probes of pixels, each so many steps to the denoised picture.
     fn found(
         &self,
         film: &ProgressiveFilm,
         picture: &DenoisedFilm,
+        step: u32,
         probabilities: &[f64],
     ) -> Vec<ProbeResult> {
         let pixels = self.hits.len() as f64;
         let hit = self.hits.iter().enumerate().filter(|(_, hits)| **hits > 0);
         hit.map(|(index, hits)| {
-            let value = picture.film.image.pixels[index];
+            let value = blended(picture, index, step);
             ProbeResult {
                 square: film.pixel(index).square_error(value) / (pixels * probabilities[index]),
                 hits: f64::from(*hits),
@@ -171,10 +221,8 @@ struct ProbeResult {
     hits: f64,
 }
 
-/// The mean of the results, and its upper bound with confidence 1 − [`TAIL`]. The mean is treated
-/// as a χ² variable whose degrees of freedom match its variance: squared errors are closer to that
-/// than to a normal variable.
-fn mean_and_bound(found: &[ProbeResult]) -> (f64, f64) {
+/// The mean of the results, and its variance.
+fn mean_and_variance(found: &[ProbeResult]) -> (f64, f64) {
     let probes: f64 = found.iter().map(|one| one.hits).sum();
     let mean = found.iter().map(|one| one.square * one.hits).sum::<f64>() / probes;
     let squares = found.iter().map(|one| {
@@ -184,6 +232,14 @@ fn mean_and_bound(found: &[ProbeResult]) -> (f64, f64) {
     // Pixels are independent, but probes of the same pixel are not.
     let pixels = found.len() as f64;
     let variance = squares.sum::<f64>() / (probes * probes) * pixels / (pixels - 1.0).max(1.0);
+    (mean, variance)
+}
+
+/// The mean of the results, and its upper bound with confidence 1 − [`TAIL`]. The mean is treated
+/// as a χ² variable whose degrees of freedom match its variance: squared errors are closer to that
+/// than to a normal variable.
+fn mean_and_bound(found: &[ProbeResult]) -> [f64; 2] {
+    let (mean, variance) = mean_and_variance(found);
     // Probes of a single pixel have no variance.
     let variance = if variance > 0.0 {
         variance
@@ -193,7 +249,7 @@ fn mean_and_bound(found: &[ProbeResult]) -> (f64, f64) {
     let freedom = (2.0 * mean * mean / variance.max(f64::MIN_POSITIVE)).max(MIN_FREEDOM);
     let factor = fisher_quantile(TAIL, 1e12, freedom);
     let deviations = (factor - 1.0) * (freedom / 2.0).sqrt();
-    (mean, mean.max(0.0) + deviations * variance.sqrt())
+    [mean, mean.max(0.0) + deviations * variance.sqrt()]
 }
 
 #[cfg(test)]
@@ -220,7 +276,7 @@ mod tests {
         let (one, two) = ([1.0, 4.0].map(once), [1.0, 1.0, 4.0, 4.0].map(once));
         let twice = [1.0, 4.0].map(|square| ProbeResult { square, hits: 2.0 });
         assert_eq!(mean_and_bound(&one), mean_and_bound(&twice));
-        assert!(mean_and_bound(&two).1 < mean_and_bound(&twice).1);
+        assert!(mean_and_bound(&two)[1] < mean_and_bound(&twice)[1]);
     }
 
     #[test]
@@ -230,7 +286,7 @@ mod tests {
             let mut rng = Rng::new(count as u64);
             let held = (0..400).filter(|_| {
                 let found: Vec<_> = (0..count).map(|_| once(square(&mut rng))).collect();
-                mean_and_bound(&found).1 >= reference
+                mean_and_bound(&found)[1] >= reference
             });
             let held = held.count();
             // The bound promises 0.9; one that always holds would be useless.
@@ -240,12 +296,33 @@ mod tests {
 
     #[test]
     fn a_negative_estimate_has_a_positive_bound() {
-        let (mean, most) = mean_and_bound(&[-1.0, 0.5, -0.5, 0.0].map(once));
+        let [mean, most] = mean_and_bound(&[-1.0, 0.5, -0.5, 0.0].map(once));
         assert!(
             mean < 0.0 && most > 0.0 && most.is_finite(),
             "{mean} {most}"
         );
-        assert_eq!(mean_and_bound(&[0.0; 9].map(once)), (0.0, 0.0));
+        assert_eq!(mean_and_bound(&[0.0; 9].map(once)), [0.0, 0.0]);
+    }
+
+    #[test]
+    fn the_step_of_least_error_is_taken_and_the_last_if_in_doubt() {
+        let mut rng = Rng::new(1);
+        let noise: Vec<_> = (0..256).map(|_| uniform(&mut rng) - 0.5).collect();
+        let of = |errors: [f64; 3]| {
+            let found = |step: u32| {
+                let square = |(k, common): (usize, &f64)| {
+                    // Half of the noise is common to all steps.
+                    let own = noise[(k * 7 + step as usize * 31) % 256];
+                    once(errors[step as usize] + common + own)
+                };
+                noise.iter().enumerate().map(square).collect()
+            };
+            best(2, found).0
+        };
+        assert_eq!(of([3.0, 2.0, 1.0]), 2);
+        assert_eq!(of([1.0, 2.0, 3.0]), 0);
+        assert_eq!(of([2.0, 1.0, 3.0]), 1);
+        assert_eq!(of([1.0, 1.0, 1.0]), 2);
     }
 
     #[test]

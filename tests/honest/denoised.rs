@@ -26,8 +26,8 @@ fn denoised(world: &AnyWorld, order: &RenderOrder, seed: u64) -> (Image, ProbedE
         seed: 1000 * seed,
         ..*order
     };
-    let probed = probe(world, &order, &picture, SAMPLES, &|_| true).unwrap();
-    (picture.film.image, probed)
+    let (film, probed) = probe(world, &order, picture, SAMPLES, &|_| true).unwrap();
+    (film.image, probed)
 }
 
 /// The mean square error of a picture, as displayed: the noise of two references cancels.

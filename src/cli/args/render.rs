@@ -70,8 +70,9 @@ pub(crate) struct Render {
     pub(crate) time_budget: Option<Duration>,
     /// Denoise path-traced pictures
     ///
-    /// The denoiser uses albedo, normal and depth of the first hits, from four times as many
-    /// camera rays. Some pixels are sampled again to estimate the error.
+    /// The denoiser uses albedo, normal and depth of the first hits, from more camera rays where
+    /// these differ. Some pixels are sampled again: they tell the error, and how much of the plain
+    /// picture to keep.
     #[arg(
         long,
         conflicts_with_all = ["target_error", "time_budget", "part", "checkpoint", "strips", "verify_effects"],

@@ -52,6 +52,8 @@ pub(super) enum KnownBy {
     Probing {
         /// The likely error, in grey levels.
         estimate: f64,
+        /// The bound of the plain picture, in grey levels.
+        plain: f64,
         /// The number of pixels.
         probes: usize,
         /// Each so often.
@@ -151,6 +153,7 @@ impl Quality {
             undersampled: probed.undersampled,
             known: KnownBy::Probing {
                 estimate: probed.estimate,
+                plain: probed.plain,
                 probes: probed.probes,
                 samples: probed.samples,
             },
@@ -191,9 +194,17 @@ impl Quality {
             }
             KnownBy::Probing {
                 estimate,
+                plain,
                 probes,
                 samples,
             } => {
+                let bound = match self.undersampled {
+                    None => format!(
+                        "error {plain:.2} → {:.2} grey levels (90 %)",
+                        up(self.error)
+                    ),
+                    Some(_) => format!("{bound}, without denoising {plain:.2}"),
+                };
                 format!(
                     "{bound}, likely {estimate:.2}, by {samples} more samples of {probes} pixels"
                 )
@@ -225,10 +236,12 @@ impl Quality {
             }
             KnownBy::Probing {
                 estimate,
+                plain,
                 probes,
                 samples,
             } => {
                 object["toldError"] = json!(estimate);
+                object["plainError"] = json!(plain);
                 object["probes"] = json!({ "pixels": probes, "samples": samples });
             }
         }
@@ -260,8 +273,12 @@ fn bound(levels: f64, undersampled: Option<f64>) -> String {
 
 /// An error in grey levels, as text.
 pub(super) fn error(levels: f64) -> String {
-    // Rounded up, so that the text promises no more than the measurement.
-    format!("error ≤ {:.2} grey levels", (levels * 100.0).ceil() / 100.0)
+    format!("error ≤ {:.2} grey levels", up(levels))
+}
+
+/// Rounded up, so that words promise no more than was measured.
+fn up(levels: f64) -> f64 {
+    (levels * 100.0).ceil() / 100.0
 }
 
 /// The bytes on huge pages, as text.

@@ -1,64 +1,113 @@
-//! Weighted least squares of three channels with a few terms, by Cholesky decomposition.
+//! Weighted least squares of three channels over a few terms, by Cholesky's decomposition, for
+//! several pixels at once.
+
+#![expect(
+    clippy::needless_range_loop,
+    reason = "the indices are those of the equations"
+)]
+
+use std::array::from_fn;
+
+/// The pixels that are solved together.
+pub(super) const LANES: usize = 8;
+
+/// A number of each of them.
+pub(super) type Lane = [f32; LANES];
 
 /// The constant term and the slopes.
 pub(super) const TERMS: usize = 9;
 
 /// The normal equations.
-#[derive(Default)]
 pub(super) struct Terms {
     /// The lower triangle.
-    matrix: [[f64; TERMS]; TERMS],
-    right: [[f64; 3]; TERMS],
+    matrix: [[Lane; TERMS]; TERMS],
+    right: [[Lane; 3]; TERMS],
+}
+
+impl Default for Terms {
+    fn default() -> Self {
+        Self {
+            matrix: [[[0.0; LANES]; TERMS]; TERMS],
+            right: [[[0.0; LANES]; 3]; TERMS],
+        }
+    }
+}
+
+/// Adds a product to a sum.
+#[inline(always)]
+fn add(sum: &mut Lane, a: &Lane, b: &Lane) {
+    for l in 0..LANES {
+        sum[l] += a[l] * b[l];
+    }
+}
+
+/// Takes a product off a sum.
+#[inline(always)]
+fn subtract(sum: &mut Lane, a: &Lane, b: &Lane) {
+    for l in 0..LANES {
+        sum[l] -= a[l] * b[l];
+    }
 }
 
 impl Terms {
-    /// Adds a value with a weight at a position.
-    pub(super) fn add(&mut self, weight: f64, guide: &[f64; TERMS - 1], value: [f64; 3]) {
-        let mut terms = [1.0; TERMS];
-        terms[1..].copy_from_slice(guide);
-        for (i, term) in terms.iter().enumerate() {
-            let weighted = weight * term;
-            for (sum, other) in self.matrix[i][..=i].iter_mut().zip(&terms) {
-                *sum += weighted * other;
-            }
-            for (sum, value) in self.right[i].iter_mut().zip(value) {
-                *sum += weighted * value;
-            }
-        }
-    }
-}
-
-/// The constant term of each channel, with a ridge on the slopes.
-pub(super) fn solve(terms: Terms, ridge: f64) -> [f64; 3] {
-    let Terms { matrix, mut right } = terms;
-    let mut lower = [[0.0; TERMS]; TERMS];
-    for i in 0..TERMS {
-        for j in 0..=i {
-            let damping = if i == j && i > 0 { ridge } else { 0.0 };
-            let mut rest = matrix[i][j] + damping;
-            for (a, b) in lower[i][..j].iter().zip(&lower[j][..j]) {
-                rest -= a * b;
-            }
-            lower[i][j] = if i == j {
-                rest.max(1e-12).sqrt()
-            } else {
-                rest / lower[j][j]
-            };
-        }
-    }
-    [0, 1, 2].map(|c| {
+    /// Adds values with weights at places.
+    #[inline]
+    pub(super) fn add(&mut self, weight: &Lane, place: &[Lane; TERMS - 1], value: &[Lane; 3]) {
         for i in 0..TERMS {
-            for k in 0..i {
-                right[i][c] -= lower[i][k] * right[k][c];
+            let weighted: Lane = match i {
+                0 => *weight,
+                _ => from_fn(|l| weight[l] * place[i - 1][l]),
+            };
+            for l in 0..LANES {
+                self.matrix[i][0][l] += weighted[l];
             }
-            right[i][c] /= lower[i][i];
+            for j in 1..=i {
+                add(&mut self.matrix[i][j], &weighted, &place[j - 1]);
+            }
+            for c in 0..3 {
+                add(&mut self.right[i][c], &weighted, &value[c]);
+            }
+        }
+    }
+
+    /// The constant term of each channel, with a ridge on the slopes.
+    pub(super) fn solve(mut self, ridge: f32) -> [Lane; 3] {
+        // Decompose; `inverse` are the inverses of the diagonal.
+        let mut inverse = [[0.0; LANES]; TERMS];
+        for i in 0..TERMS {
+            for j in 0..=i {
+                let mut rest = self.matrix[i][j];
+                for k in 0..j {
+                    let (a, b) = (self.matrix[i][k], self.matrix[j][k]);
+                    subtract(&mut rest, &a, &b);
+                }
+                if i == j {
+                    let damping = if i > 0 { ridge } else { 0.0 };
+                    inverse[i] = rest.map(|rest| 1.0 / (rest + damping).max(1e-6).sqrt());
+                } else {
+                    self.matrix[i][j] = from_fn(|l| rest[l] * inverse[j][l]);
+                }
+            }
+        }
+        // Substitute forwards; of the way back only the constant term is wanted, which is last.
+        for i in 0..TERMS {
+            for c in 0..3 {
+                let mut rest = self.right[i][c];
+                for k in 0..i {
+                    subtract(&mut rest, &self.matrix[i][k], &self.right[k][c]);
+                }
+                self.right[i][c] = from_fn(|l| rest[l] * inverse[i][l]);
+            }
         }
         for i in (0..TERMS).rev() {
-            for k in i + 1..TERMS {
-                right[i][c] -= lower[k][i] * right[k][c];
+            for c in 0..3 {
+                let mut rest = self.right[i][c];
+                for k in i + 1..TERMS {
+                    subtract(&mut rest, &self.matrix[k][i], &self.right[k][c]);
+                }
+                self.right[i][c] = from_fn(|l| rest[l] * inverse[i][l]);
             }
-            right[i][c] /= lower[i][i];
         }
-        right[0][c]
-    })
+        self.right[0]
+    }
 }

@@ -16,7 +16,10 @@ use rtc_image::{Guide, Image, NoisyHalf, denoise};
 use std::ops::Range;
 
 /// Camera rays of the exact guides for each sample, and the most that so are taken.
-const GUIDE_RAYS: (u32, u32) = (4, 256);
+const GUIDE_RAYS: (u32, u32) = (8, 256);
+
+/// Guides of halves that differ by less than the root of this are exact enough.
+const EXACT: f64 = 1e-4;
 
 /// A denoised picture as rendered.
 #[derive(Clone, Debug)]
@@ -28,19 +31,19 @@ pub struct DenoisedFilm {
 }
 
 impl<S: Intersect> World<S> {
-    /// The guides of pixels by a range of the samples of traced paths, and the rays they take.
+    /// The guides of pixels by ranges of the samples of traced paths, and the rays they take.
     pub(crate) fn guides(
         &self,
-        samples: &Range<u32>,
+        samples: &(dyn Fn(usize) -> Range<u32> + Sync),
         job: &Job,
         on_pixel: &OnPixel<'_>,
     ) -> Option<(Vec<Guide>, Counts)> {
         let lights = Lights::new(self, Strategy::Mis);
         let make_integrator = || Box::new(FirstHitsOfPaths::new(self, &lights, on_pixel)) as _;
-        let open = |_: [u32; 2], _: usize, _: &Guide| {
+        let open = |_: [u32; 2], index: usize, _: &Guide| {
             (
                 GuideSums::new(&self.camera),
-                sample_ranges(job, samples.clone()),
+                sample_ranges(job, samples(index)),
             )
         };
         let mut film = Tiled::new(self.crop(job), job.tiles, Guide::default());
@@ -67,20 +70,13 @@ impl AnyWorld {
         between();
         let b = self.range(&ranges[1], job, on_pixel)?;
         between();
-        // Render the guides of both halves, and those of more camera rays.
-        let (rays, most) = GUIDE_RAYS;
-        let rays = samples.saturating_mul(rays).min(most).max(samples);
-        let [first, second] = ranges;
-        let guides = self.guides(&[first, second, 0..rays], job, on_pixel, between)?;
-        let (mut guides, of_guides) = guides;
-        scale_distances(&mut guides);
+        let (guides, of_guides) = self.bare().guides_of(&ranges, job, on_pixel, between)?;
         let [first, second, exact] = &guides;
         // Denoise, with each half weighting the other.
         let half = |image, guides| NoisyHalf { image, guides };
         let halves = [half(&a.image, first), half(&b.image, second)];
         let image = denoise(halves, exact);
-        // Average the halves for the noisy picture and the coverage.
-        let [first, second] = [middle, samples - middle].map(f64::from);
+        let [first, second] = ranges.map(|range| range.len() as f64);
         let mean = |a: f64, b: f64| (a * first + b * second) / (first + second);
         let pairs = a.image.pixels.iter().zip(&b.image.pixels);
         let pixels = pairs.map(|(a, b)| [0, 1, 2].map(|c| mean(a[c], b[c])));
@@ -97,20 +93,56 @@ impl AnyWorld {
         };
         Some(DenoisedFilm { film, plain })
     }
+
+    /// The guides of two ranges of samples, and exact ones: where those differ, by more rays.
+    fn guides_of(
+        &self,
+        ranges: &[Range<u32>; 2],
+        job: &Job,
+        on_pixel: &OnPixel<'_>,
+        between: &dyn Fn(),
+    ) -> Option<([Vec<Guide>; 3], Counts)> {
+        let (first, a) = self.guides(&|_| ranges[0].clone(), job, on_pixel)?;
+        between();
+        let (second, b) = self.guides(&|_| ranges[1].clone(), job, on_pixel)?;
+        between();
+        // More rays where halves differ.
+        let (rays, most) = GUIDE_RAYS;
+        let samples = ranges[1].end;
+        let rays = samples.saturating_mul(rays).min(most).max(samples);
+        let is_exact = |index: usize| {
+            let pairs = first[index][..DISTANCE].iter().zip(&second[index]);
+            pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>() < EXACT
+        };
+        let wanted = |index| samples..if is_exact(index) { samples } else { rays };
+        let (mut exact, c) = self.guides(&wanted, job, on_pixel)?;
+        // The mean of all rays of a pixel.
+        for (index, guide) in exact.iter_mut().enumerate() {
+            let sources = [&first[index], &second[index], &*guide];
+            let counts = [&ranges[0], &ranges[1], &wanted(index)].map(|range| range.len() as f64);
+            let sum = |k: usize| (0..3).map(|i| counts[i] * sources[i][k]).sum::<f64>();
+            *guide = std::array::from_fn(|k| sum(k) / counts.iter().sum::<f64>());
+        }
+        let mut guides = [first, second, exact];
+        scale_distances(&mut guides);
+        Some((guides, a.plus(b).plus(c)))
+    }
 }
 
-/// Scales the distances of guides to [0, 1], by those of the last guides.
+/// The place of the distance in a guide.
+const DISTANCE: usize = rtc_image::GUIDES - 1;
+
+/// Scales the distances of guides to [0, 1], by those that the last meet.
 fn scale_distances(guides: &mut [Vec<Guide>; 3]) {
-    const LAST: usize = rtc_image::GUIDES - 1;
     let with_hit = guides[2].iter().filter(|guide| guide[0] > 0.0);
-    let distances = with_hit.map(|guide| guide[LAST] / guide[0]);
+    let distances = with_hit.map(|guide| guide[DISTANCE] / guide[0]);
     let (near, far) = distances.fold((f64::INFINITY, f64::NEG_INFINITY), |(near, far), d| {
         (near.min(d), far.max(d))
     });
     let scale = if far > near { 1.0 / (far - near) } else { 0.0 };
     for guide in guides.iter_mut().flatten() {
-        guide[LAST] = if guide[0] > 0.0 {
-            (guide[LAST] - near * guide[0]) * scale
+        guide[DISTANCE] = if guide[0] > 0.0 {
+            (guide[DISTANCE] - near * guide[0]) * scale
         } else {
             0.0
         };

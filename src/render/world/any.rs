@@ -129,10 +129,8 @@ impl AnyWorld {
     /// without them keeps everything that a layer may show.
     #[must_use]
     pub fn unpruned(&self) -> Option<Self> {
-        let (scene, plan) = each!(self, world => (world.scene(), &world.plan));
-        let simd = each!(self, world => world.simd);
-        let bare = || Plan::with_arithmetic(plan.arithmetic, scene, Rules::NONE);
-        (plan.rules != Rules::NONE).then(|| Self::prepare_at(scene, &bare(), simd))
+        let rules = each!(self, world => world.plan.rules);
+        (rules != Rules::NONE).then(|| self.bare())
     }
 
     /// Sums a range of the samples of traced paths.
@@ -145,30 +143,23 @@ impl AnyWorld {
         each!(self, world => world.whole(job, |_, job| world.sum(samples, job, on_pixel)))
     }
 
-    /// The guides of a denoiser, by three ranges of the samples of traced paths, and the rays they
-    /// take; `between` is called between two of them.
+    /// The world by no rule.
+    pub(crate) fn bare(&self) -> Self {
+        let (scene, plan) = each!(self, world => (world.scene(), &world.plan));
+        let simd = each!(self, world => world.simd);
+        let bare = Plan::with_arithmetic(plan.arithmetic, scene, Rules::NONE);
+        Self::prepare_at(scene, &bare, simd)
+    }
+
+    /// The guides of a denoiser, by the samples of traced paths that each pixel is to take, and the
+    /// rays they take.
     pub(crate) fn guides(
         &self,
-        samples: &[Range<u32>; 3],
+        samples: &(dyn Fn(usize) -> Range<u32> + Sync),
         job: &Job,
         on_pixel: &OnPixel<'_>,
-        between: &dyn Fn(),
-    ) -> Option<([Vec<Guide>; 3], Counts)> {
-        let (scene, plan) = each!(self, world => (world.scene(), &world.plan));
-        // As of layers.
-        let simd = each!(self, world => world.simd);
-        let whole = Self::prepare_at(
-            scene,
-            &Plan::with_arithmetic(plan.arithmetic, scene, Rules::NONE),
-            simd,
-        );
-        let of = |range| each!(&whole, world => world.guides(range, job, on_pixel));
-        let (first, a) = of(&samples[0])?;
-        between();
-        let (second, b) = of(&samples[1])?;
-        between();
-        let (exact, c) = of(&samples[2])?;
-        Some(([first, second, exact], a.plus(b).plus(c)))
+    ) -> Option<(Vec<Guide>, Counts)> {
+        each!(self, world => world.guides(samples, job, on_pixel))
     }
 
     /// Takes samples until each pixel has the requested number: `wanted(i)` is the minimum for each
