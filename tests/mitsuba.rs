@@ -13,9 +13,13 @@ use std::process::Command;
 
 /// The scene of a file, which has no error, and the codes of its diagnostics.
 fn read(path: &Path) -> (Scene, Vec<&'static str>) {
+    read_with(path, &Options::default())
+}
+
+fn read_with(path: &Path, options: &Options) -> (Scene, Vec<&'static str>) {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = Loader.file(path, &mut map).unwrap();
-    let lowered = load(file, &mut map, &Options::default(), &mut sink);
+    let lowered = load(file, &mut map, options, &mut sink);
     assert!(!sink.has_errors(), "{:?}", sink.kept());
     let codes = sink.kept().iter().map(|diagnostic| diagnostic.code.id);
     (lowered.unwrap().scene, codes.collect())
@@ -35,6 +39,22 @@ fn version_0_5_with_parameters_and_an_included_file_is_read() {
     assert!((yfov - 40.0).abs() < 1e-9, "{yfov}");
     // The picture is not mirrored: its right is the +x of the world.
     assert!(scene.camera.right[0] > 0.0 && scene.camera.up[1] > 0.0);
+}
+
+#[test]
+fn a_definition_comes_before_the_default_and_one_without_effect_is_told() {
+    let mut options = Options::default();
+    let mut define = |name: &str, value: &str| {
+        let defined = &mut options.front.define;
+        defined.insert(name.to_owned(), value.to_owned());
+    };
+    define("samples", "5");
+    define("nothing", "1");
+    let (scene, codes) = read_with(&root("tests/mitsuba/room.xml"), &options);
+    let Mode::Path(path) = &scene.settings.mode else {
+        panic!("{:?}", scene.settings.mode)
+    };
+    assert_eq!((path.samples, codes), (5, vec!["MI005"]));
 }
 
 /// Writes a scene with a sensor of 8 × 8 pixels in front of it, and renders it.

@@ -13,7 +13,7 @@ use rtc_codec::{self as codec, Encoding};
 use rtc_emit as emit;
 use rtc_emit::course::WrittenScene;
 use rtc_image::{BackgroundFill, FileFormat};
-use rtc_pipeline::{Input, OutputTransform, PictureSetup, Validated};
+use rtc_pipeline::{ExportFormat, Input, OutputTransform, PictureSetup, Validated};
 use std::path::Path;
 
 /// Compiles the scene and writes it.
@@ -82,7 +82,7 @@ fn write_gltf(
 /// Why a text with files beside it is not written to standard output.
 const NO_FOLDER: &str = "its vertices and images are files beside the text: give `-o FILE`";
 
-/// Writes the scene for another renderer, with meshes in files beside it or inline.
+/// Writes the scene for another renderer, with its files beside it.
 fn write_exported(
     emit: Emit,
     target: &Path,
@@ -90,8 +90,13 @@ fn write_exported(
     (mut input, reporter): (Input, &mut Reporter),
 ) -> Result<(), Failure> {
     let output = Output::open(target, &input)?;
-    let folder = folder_of((emit == Emit::Mitsuba).then_some(target), &output, &input)?;
-    let exported = input.export(&validated.lowered, folder.as_deref());
+    let (format, folder) = if emit == Emit::Pov {
+        (ExportFormat::Pov, output.sidecar_folder(target))
+    } else {
+        let folder = folder_of(Some(target), &output, &input)?;
+        (ExportFormat::Mitsuba, folder)
+    };
+    let exported = input.export(&validated.lowered, format, folder.as_deref());
     let exported = input::unless_refused(exported, &mut input, reporter)?;
     let interrupt = Interrupt::listen()?;
     let files = exported.files.iter();

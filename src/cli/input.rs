@@ -49,6 +49,7 @@ pub(super) fn options(reading: &Reading, project: Option<&Project>) -> Result<Op
         animation,
         variant,
         camera,
+        define,
         allow: _,
         warn: _,
         deny: _,
@@ -69,6 +70,7 @@ pub(super) fn options(reading: &Reading, project: Option<&Project>) -> Result<Op
             animation: animation.clone(),
             variant: variant.clone(),
             camera: camera.clone(),
+            define: define.iter().cloned().collect(),
             up_axis: up_axis
                 .map(Into::into)
                 .or_else(|| project.and_then(Project::up_axis)),

@@ -1,7 +1,7 @@
 //! Helpers for exporting to other renderers.
 
 use super::reporter::ExportReporter;
-use rtc_diag::codes;
+use rtc_diag::{clip, codes};
 use rtc_ir::{EntityKind, Field, Material, Scene, Settings, Shape, ShapeKind, Surface, ValuePath};
 use rtc_math::shortest;
 use rtc_source::{Budget, Resource};
@@ -39,12 +39,23 @@ impl ExportReporter<'_> {
         );
     }
 
-    /// Charges the bytes of a mesh file; `None` if they exceed the budget, which is reported.
+    /// Reports an error if nothing that is written emits light.
+    pub(super) fn shines(&mut self, shines: bool) -> Option<()> {
+        if !shines {
+            let message = "nothing that the file would hold shines: its picture would be black";
+            let path = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
+            self.report_error(&codes::NO_TWIN, message, path);
+        }
+        shines.then_some(())
+    }
+
+    /// Charges the bytes of a mesh file or of a picture; `None` if they exceed the budget, which is
+    /// reported.
     pub(super) fn charge(&mut self, bytes: u64, budget: &Budget, path: ValuePath) -> Option<()> {
         let charged = budget.charge(Resource::Memory, bytes);
         charged
             .map_err(|error| {
-                let message = format!("the mesh takes too much as a file: {error}");
+                let message = format!("it takes too much as a file: {error}");
                 self.report_error(&codes::OVER_LIMIT, &message, path);
             })
             .ok()
@@ -108,6 +119,24 @@ pub(super) fn shape_name(shape: &Shape) -> &'static str {
         return "union, intersection or difference";
     }
     shape.kind().name()
+}
+
+/// A value as a byte, 1 as 255.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped"
+)]
+pub(super) fn to_byte(value: f64) -> u8 {
+    (value.clamp(0.0, 1.0) * 255.0).round() as u8
+}
+
+/// How a finding calls a material: by its name, if it has one.
+pub(super) fn called(name: &str) -> String {
+    match name {
+        "" => "a material".to_owned(),
+        name => format!("the material `{}`", clip(name)),
+    }
 }
 
 /// Phrases as an enumeration.

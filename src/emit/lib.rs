@@ -12,8 +12,8 @@
 //! spans (`reporter`). `None` means that the scene can't be exported, and the sink has the error.
 //!
 //! Shared parts: `approximation` (the Phong model as a glTF material), `flat` (planes as squares),
-//! `tessellate` (meshes instead of shapes), `ply` (meshes as PLY files), `sidecar` (names of
-//! sidecar files), `export` (helpers for other renderers).
+//! `tessellate` (meshes instead of shapes), `ply` (meshes as PLY files), `picture` (textures as
+//! image files), `sidecar` (names of sidecar files), `export` (helpers for other renderers).
 
 mod approximation;
 pub mod course;
@@ -21,6 +21,7 @@ mod export;
 mod flat;
 pub mod gltf;
 pub mod mitsuba;
+mod picture;
 mod ply;
 pub mod pov;
 mod reporter;

@@ -10,6 +10,16 @@ use std::fmt::Write as _;
 
 /// The PLY file of a mesh.
 pub(super) fn encode(mesh: &Mesh) -> Vec<u8> {
+    let linear = ["linear_red", "linear_green", "linear_blue", "linear_alpha"];
+    encode_with(mesh, &mesh.colors, linear)
+}
+
+/// The PLY file of a mesh, with other colours in place of its own, by their property names.
+pub(super) fn encode_with<const N: usize>(
+    mesh: &Mesh,
+    colors: &Column<N>,
+    color_names: [&str; N],
+) -> Vec<u8> {
     let Mesh {
         name: _,
         part: _,
@@ -18,7 +28,7 @@ pub(super) fn encode(mesh: &Mesh) -> Vec<u8> {
         uvs,
         second_uvs,
         tangents,
-        colors,
+        colors: _,
         triangles,
     } = mesh;
     // Header.
@@ -29,8 +39,7 @@ pub(super) fn encode(mesh: &Mesh) -> Vec<u8> {
     declare(uvs, ["s", "t"], &mut head);
     declare(second_uvs, ["s1", "t1"], &mut head);
     declare(tangents, ["tx", "ty", "tz", "tw"], &mut head);
-    let linear = ["linear_red", "linear_green", "linear_blue", "linear_alpha"];
-    declare(colors, linear, &mut head);
+    declare(colors, color_names, &mut head);
     let faces = triangles.len();
     writeln!(
         head,

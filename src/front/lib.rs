@@ -37,6 +37,7 @@ pub use foreign::foreign;
 use rtc_diag::{Diagnostic, codes};
 use rtc_math::Vec3;
 use rtc_source::Exceeded;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// The axis that points up in a file. A scene has y upwards.
@@ -80,6 +81,9 @@ pub struct FrontOptions {
     pub camera: Option<String>,
     /// The axis that points up in a mesh file or a glTF asset that is read as the scene.
     pub up_axis: Option<UpAxis>,
+    /// Values of the parameters (`$name`) of a Mitsuba scene, by name; they come before the scene's
+    /// own `<default>`.
+    pub define: BTreeMap<String, String>,
     /// The number of threads that decode images of a glTF asset; 0 for one per core.
     pub threads: usize,
 }

@@ -5,6 +5,7 @@ use rtc_math::{Vec3, unit};
 use rtc_profile::{IesAngles, Profile};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
 
 /// A light of any kind.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
@@ -322,6 +323,16 @@ pub struct PointLight {
     #[serde(default, skip_serializing_if = "is_zero")]
     #[schemars(range(min = 0.0))]
     pub radius: f64,
+}
+
+impl PointLight {
+    /// The radiant intensity of a point with falloff that lights a place as much: a white
+    /// Lambertian surface that faces it there has the colour of the light as radiance.
+    #[must_use]
+    pub fn intensity_at(&self, place: [f64; 3]) -> [f64; 3] {
+        let square = Vec3::from_array(place).distance_squared(Vec3::from_array(self.position));
+        self.color.map(|channel| channel * PI * square)
+    }
 }
 
 #[expect(

@@ -119,8 +119,7 @@ impl Input {
                 }))
             }
             ExportFormat::Mitsuba | ExportFormat::Pov => {
-                let folder = (format == ExportFormat::Mitsuba).then_some(folder);
-                let exported = self.export(lowered, folder);
+                let exported = self.export(lowered, format, Some(folder));
                 Ok(exported.map(|exported| ExportedFiles {
                     bytes: exported.text.into_bytes(),
                     files: exported.files,

@@ -1,6 +1,6 @@
 //! A scene from its files to validation, with its diagnostics.
 
-use super::{Options, SourceKind, load, stage, validate};
+use super::{ExportFormat, Options, SourceKind, load, stage, validate};
 use rtc_diag::{Diagnostic, Sink, codes};
 use rtc_emit::{self as emit, ExportedScene, gltf::GltfAsset};
 use rtc_front::{gltf, pixels};
@@ -314,21 +314,25 @@ impl Input {
         )
     }
 
-    /// The scene as a Mitsuba scene with meshes in `folder`, or without a folder as a POV-Ray
-    /// scene; `None` if it can't be exported, with an error diagnostic.
-    pub fn export(&mut self, lowered: &Lowered, folder: Option<&str>) -> Option<ExportedScene> {
-        let (
-            Lowered {
-                scene,
-                source_spans,
-            },
-            budget,
-        ) = (lowered, self.map.budget());
-        match folder {
-            Some(folder) => {
+    /// The scene as a Mitsuba scene, or as a POV-Ray scene, with meshes and pictures in `folder`;
+    /// without one a POV-Ray scene lacks its pictures. `None` if it can't be exported, with an
+    /// error diagnostic.
+    pub fn export(
+        &mut self,
+        lowered: &Lowered,
+        format: ExportFormat,
+        folder: Option<&str>,
+    ) -> Option<ExportedScene> {
+        let Lowered {
+            scene,
+            source_spans,
+        } = lowered;
+        let budget = self.map.budget();
+        match (format, folder) {
+            (ExportFormat::Mitsuba, Some(folder)) => {
                 emit::mitsuba::emit(scene, source_spans, folder, budget, &mut self.sink)
             }
-            None => emit::pov::emit(scene, source_spans, budget, &mut self.sink),
+            _ => emit::pov::emit(scene, source_spans, folder, budget, &mut self.sink),
         }
     }
 

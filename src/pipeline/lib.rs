@@ -118,6 +118,11 @@ pub fn load(
     if !matches!(kind, SourceKind::Scene | SourceKind::Gltf) {
         report_unused_choices(&options.front, false, sink);
     }
+    if kind != SourceKind::Mitsuba && !options.front.define.is_empty() {
+        let message = "the parameters of the command line have no effect";
+        let ignored = Diagnostic::new(&codes::MITSUBA_IGNORED, message);
+        sink.push(ignored.hint("only a scene of Mitsuba has parameters"));
+    }
     match kind {
         SourceKind::Ir(encoding) => {
             let scene = codec::decode(encoding, file, map, sink)?;

@@ -32,6 +32,31 @@ plane { <0, 0, 1>, -20 texture { M1 } }
     assert_eq!(String::from_utf8(done.stdout).unwrap(), expected);
 }
 
+#[test]
+fn refraction_soft_lights_and_textures_reach_pov_ray() {
+    let scene = "\
+Camera: {eye: [0, 0, 5], center: [0, 0, 0], up: [0, 0.1, 0], right: [0.1, 0, 0], viewSize: [40, 30]}
+LightSamples: 16
+Lights:
+- {position: [0, 9, 0], color: [1, 1, 1], radius: 0.5}
+Objects:
+- {type: sphere, position: [0, 0, 0], radius: 1, material: {color: [1, 1, 1], ka: 0.1, kd: 0.2, ks: 0.3, n: 9, kt: 0.5, eta: 1.5}}
+- {type: quad, v0: [-2, -2, -2], v1: [2, -2, -2], v2: [2, 2, -2], v3: [-2, 2, -2], material: {ka: 0, kd: 1, ks: 0, n: 1, texture: UV}}
+";
+    let (folder, text, _) = written(scene, "scene.pov");
+    for part in [
+        "area_light <1, 0, 0>, <0, 1, 0>, 4, 4 circular orient",
+        "pigment { rgb <1, 1, 1> transmit 0.5 }",
+        "diffuse 0.4 phong 0.3",
+        "interior { ior 1.5 }",
+        "uv_mapping image_map { png \"scene.files/",
+        "uv_vectors",
+    ] {
+        assert!(text.contains(part), "{part} is missing: {text}");
+    }
+    assert_eq!(beside(&folder, ".png").len(), 1);
+}
+
 /// Traced paths between shapes that Mitsuba has.
 const PATHS: &str = "\
 Camera: {eye: [0, 1, 5], center: [0.5, 1, 0], up: [0, 0.1, 0], right: [0.1, 0, 0], viewSize: [40, 30]}
@@ -100,13 +125,12 @@ fn what_has_no_twin_is_told_part_by_part() {
     let scene = format!("{}{more}", PATHS.replace(spot, lit));
     let (_, text, reported) = written(&scene, "scene.xml");
     let words = [
-        "a spot is left out",
         "Mitsuba has no torus: a mesh",
         "Mitsuba has no bilinear patch: a mesh",
         "Mitsuba has no plane: a square",
-        "without one-sidedness for the camera and its layers, volume or dispersion",
+        "a material is written without one-sidedness for the camera",
         "`principled` approximates the metallic-roughness material",
-        "this one shines both ways",
+        "a material shines both ways",
     ];
     for words in words {
         assert!(reported.contains(words), "{words} is missing: {reported}");
@@ -117,22 +141,96 @@ fn what_has_no_twin_is_told_part_by_part() {
         "{reported}"
     );
     assert!(
-        !text.contains("torus") && text.contains("principled"),
+        !text.contains("torus") && text.contains("principled") && text.contains("clearcoat"),
         "{text}"
     );
+    // A spot is exact: full up to its rim, under a picture of its profile.
+    assert!(text.contains(r#"<emitter type="spot">"#), "{text}");
 
-    // POV-Ray has the torus and the plane, but neither paths nor physical lights.
+    // POV-Ray has the torus and the plane, but no traced paths.
     let (_, text, reported) = written(&scene, "scene.pov");
     for words in [
-        "this scene is shown in another way",
-        "the surroundings are left out",
-        "a light in physical units is left out",
+        "paths are not traced",
+        "POV-Ray's spots fade in another way at their rim",
         "POV-Ray has no bilinear patch: it is left out",
-        "a material of glTF is written as matt",
+        "a material is written with a matt colour and sharp mirror images",
     ] {
         assert!(reported.contains(words), "{words} is missing: {reported}");
     }
-    assert!(text.contains("torus { 1, 0.2 matrix <") && text.contains("plane { <0, 1, 0>, 0"));
+    for part in [
+        "torus { 1, 0.2 matrix <",
+        "plane { <0, 1, 0>, 0",
+        "sky_sphere { pigment { rgb <0.5, 0.6, 0.7> } }",
+        "spotlight",
+        "parallel",
+        "radiosity",
+    ] {
+        assert!(text.contains(part), "{part} is missing: {text}");
+    }
+}
+
+/// The files beside `scene.xml`, by extension.
+fn beside(folder: &TempDir, extension: &str) -> Vec<String> {
+    let files = fs::read_dir(folder.path().join("scene.files")).unwrap();
+    let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+    names.filter(|name| name.ends_with(extension)).collect()
+}
+
+#[test]
+fn the_light_of_the_studio_and_textures_go_beside_the_scene_of_mitsuba() {
+    let scene = "\
+Camera: {eye: [0, 0, 5], center: [0, 0, 0], up: [0, 0.1, 0], right: [0.1, 0, 0], viewSize: [40, 30]}
+RenderMode: path
+Objects:
+- {type: sphere, position: [0, 0, 0], radius: 1, material: {type: standard, name: Globe, metallic: 0, specular: 0, baseColor: [0.5, 1, 1, 1], baseColorMap: {pattern: noise, scale: 6, colors: [[0.1, 0.1, 0.1], [1, 1, 1]]}, alpha: mask}}
+";
+    let folder = folder();
+    fs::write(folder.path().join("scene.yaml"), scene).unwrap();
+    let compile = ["compile", "scene.yaml", "-o", "scene.xml", "--studio", "on"];
+    let done = rtc(&folder, &compile);
+    assert_eq!(code(&done), 0, "{}", stderr(&done));
+    let text = fs::read_to_string(folder.path().join("scene.xml")).unwrap();
+    for part in [
+        r#"<emitter type="envmap">"#,
+        r#"<texture type="bitmap" name="reflectance">"#,
+        r#"<bsdf type="mask""#,
+    ] {
+        assert!(text.contains(part), "{part} is missing: {text}");
+    }
+    assert_eq!(beside(&folder, ".exr").len(), 1);
+    assert!(
+        stderr(&done).contains("the material `Globe`"),
+        "{}",
+        stderr(&done)
+    );
+}
+
+#[test]
+fn a_file_in_which_nothing_shines_is_an_error() {
+    let scene = "\
+Camera: {eye: [0, 0, 5], center: [0, 0, 0], up: [0, 0.1, 0], right: [0.1, 0, 0], viewSize: [40, 30]}
+RenderMode: path
+Objects:
+- {type: sphere, position: [0, 0, 0], radius: 1, material: {type: standard, metallic: 0}}
+";
+    let folder = folder();
+    fs::write(folder.path().join("scene.yaml"), scene).unwrap();
+    for target in ["scene.xml", "scene.pov"] {
+        let done = rtc(
+            &folder,
+            &[
+                "compile",
+                "scene.yaml",
+                "--env-color",
+                "0,0,0",
+                "-o",
+                target,
+            ],
+        );
+        assert_eq!(code(&done), 1, "{target}: {}", stderr(&done));
+        assert!(stderr(&done).contains("error[EX001]"), "{}", stderr(&done));
+        assert!(!folder.path().join(target).exists());
+    }
 }
 
 #[test]

@@ -46,6 +46,15 @@ pub(crate) struct Reading {
     /// Set the axis that points up in a mesh file or glTF asset [default: y]
     #[arg(long, value_enum, value_name = "AXIS", help_heading = "Input")]
     pub(crate) up_axis: Option<UpAxisArg>,
+    /// Set a parameter of a Mitsuba scene, before its own `<default>`
+    #[arg(
+        short = 'D',
+        long = "define",
+        value_name = "NAME=VALUE",
+        value_parser = definition,
+        help_heading = "Input",
+    )]
+    pub(crate) define: Vec<(String, String)>,
     /// Do not report this code, as VA004, or any `warnings`; errors stay
     #[arg(
         long,
@@ -245,4 +254,10 @@ pub(crate) enum Color {
     Auto,
     Always,
     Never,
+}
+
+/// A parameter and its value.
+fn definition(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.split_once('=').ok_or("`NAME=VALUE` is needed")?;
+    Ok((name.to_owned(), value.to_owned()))
 }

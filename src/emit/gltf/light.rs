@@ -7,7 +7,6 @@ use rtc_diag::codes;
 use rtc_ir::{Emitter, EntityKind, Field, Light, Photometry, PointLight, Punctual, ValuePath};
 use rtc_math::{Basis, Vec3, unit};
 use serde_json::{Map as Block, Value, json};
-use std::f64::consts::PI;
 
 /// A light in terms of glTF.
 struct GltfLight {
@@ -41,9 +40,8 @@ impl GltfWriter<'_> {
         }
     }
 
-    /// A light of the course has no falloff. The light written gives the same irradiance at the
-    /// centre of the scene: a white Lambertian surface that faces it there has the colour of the
-    /// light as radiance.
+    /// A light of the course has no falloff: one that lights the middle of the scene as much stands
+    /// for it.
     fn course_light(&mut self, light: &PointLight, middle: Vec3, path: ValuePath) -> GltfLight {
         let PointLight {
             position,
@@ -55,11 +53,10 @@ impl GltfWriter<'_> {
         let message =
             "a light without falloff becomes one that lights the middle of the scene as much";
         self.reporter.report(&codes::GLTF_NEARLY, message, path);
-        let square = middle.distance_squared(Vec3::from_array(*position));
         let rtc_extras = json!({ "color": color, "radius": radius });
         GltfLight {
             kind: "point",
-            intensity: color.map(|channel| channel * PI * square),
+            intensity: light.intensity_at(middle.to_array()),
             range: None,
             angles: None,
             rtc_extras: Block::from_iter([("point".to_owned(), rtc_extras)]),

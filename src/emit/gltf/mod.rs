@@ -42,7 +42,7 @@ pub struct GltfAsset {
 const FORMAT: TargetFormat = TargetFormat {
     name: "glTF",
     approximated: &codes::GLTF_NEARLY,
-    has: |_| false,
+    has: |_, _| false,
 };
 
 /// Converts a valid scene to glTF. `tolerance` is the maximum distance between a mesh and its shape

@@ -5,6 +5,7 @@ use super::document::{
     REPEAT, Sampler, Texture, TextureInfo,
 };
 use super::writer::{GltfWriter, number};
+use crate::export::to_byte;
 use rtc_diag::codes;
 use rtc_image::png_bytes;
 use rtc_ir::{
@@ -214,15 +215,6 @@ fn wrapping(wrap: Wrap) -> u32 {
 /// A little-endian float as a byte, 1 as 255.
 fn quantized(bytes: &[u8; 4]) -> u8 {
     to_byte(f32::from_le_bytes(*bytes).into())
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "clamped"
-)]
-fn to_byte(value: f64) -> u8 {
-    (value.clamp(0.0, 1.0) * 255.0).round() as u8
 }
 
 /// The scale, rotation and offset of `KHR_texture_transform` that equal a map; `None` if it has

@@ -1,21 +1,23 @@
-//! Writes the IR as a Mitsuba 3 scene (XML) with meshes as PLY sidecar files. Path-traced features
-//! that Mitsuba supports are exact; everything else is reported with its replacement.
+//! Writes the IR as a Mitsuba 3 scene (XML) with meshes and pictures as sidecar files. Path-traced
+//! features that Mitsuba supports are exact; everything else is reported with its replacement.
 
 mod camera;
 mod light;
 mod material;
 mod shape;
+mod texture;
 
 use super::ExportedScene;
 use super::export::joined;
 use super::reporter::ExportReporter;
 use super::tessellate::{TargetFormat, with_meshes};
+use material::MaterialVariant;
 use rtc_diag::{Sink, codes};
 use rtc_ir::{
-    Display, EntityKind, Environment, Field, Mode, PathSettings, Scene, SourceSpans, ValuePath,
+    Display, EntityKind, Field, Material, Mode, PathSettings, Scene, SourceSpans, ValuePath,
 };
 use rtc_source::Budget;
-use shape::TriangleSoup;
+use shape::{MeshFileKey, TriangleSoup};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -27,8 +29,8 @@ const FORMAT: TargetFormat = TargetFormat {
 
 /// Exports a valid scene; meshes become files in `folder`, a path relative to the text.
 ///
-/// `None` if the meshes exceed the budget; the sink has the error. It also has a warning for each
-/// feature without an exact equivalent.
+/// `None` if meshes or pictures exceed the budget, or if nothing in the file emits light; the sink
+/// has the error. It also has a warning for each feature without an exact equivalent.
 pub fn emit(
     scene: &Scene,
     source_spans: &SourceSpans,
@@ -47,15 +49,18 @@ pub fn emit(
         files: BTreeMap::new(),
         meshes: BTreeMap::new(),
         triangle_soups: BTreeMap::new(),
+        bitmaps: BTreeMap::new(),
+        shines: false,
     };
     writer.line(0, r#"<scene version="3.0.0">"#);
     writer.settings();
     writer.camera();
-    writer.environment();
-    writer.lights();
-    writer.materials();
+    writer.environment()?;
+    writer.lights()?;
+    writer.materials()?;
     writer.surfaces()?;
     writer.line(0, "</scene>");
+    writer.reporter.shines(writer.shines)?;
     Some(ExportedScene {
         text: writer.text,
         files: writer.files,
@@ -70,10 +75,14 @@ struct MitsubaWriter<'w> {
     reporter: ExportReporter<'w>,
     text: String,
     files: BTreeMap<String, Vec<u8>>,
-    /// The file names of the meshes written so far.
-    meshes: BTreeMap<u32, String>,
+    /// The file names of the meshes written so far, by what distinguishes them.
+    meshes: BTreeMap<MeshFileKey, String>,
     /// Triangles in world coordinates, by material.
-    triangle_soups: BTreeMap<u32, TriangleSoup>,
+    triangle_soups: BTreeMap<MaterialVariant, TriangleSoup>,
+    /// The file names of the pictures of textures, by what was made of which.
+    bitmaps: BTreeMap<String, String>,
+    /// Whether anything that is written emits light.
+    shines: bool,
 }
 
 impl MitsubaWriter<'_> {
@@ -113,7 +122,14 @@ impl MitsubaWriter<'_> {
         };
         self.line(1, r#"<default name="sampler" value="independent"/>"#);
         self.line(1, &format!(r#"<default name="spp" value="{samples}"/>"#));
-        self.line(1, r#"<integrator type="path">"#);
+        let absorbs = |material: &Material| material::absorption(&material::standard(material));
+        let has_media = self
+            .scene
+            .materials
+            .iter()
+            .any(|one| absorbs(one).is_some());
+        let integrator = if has_media { "volpath" } else { "path" };
+        self.line(1, &format!(r#"<integrator type="{integrator}">"#));
         let edges = settings.max_depth.saturating_add(1).min(i32::MAX as u32);
         self.value(2, "integer", "max_depth", &edges.to_string());
         self.line(1, "</integrator>");
@@ -124,25 +140,5 @@ impl MitsubaWriter<'_> {
             let path = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
             self.reporter.unsupported(message, path);
         }
-    }
-
-    fn environment(&mut self) {
-        let Some(Environment {
-            radiance,
-            image,
-            image_from_world: _,
-        }) = &self.scene.environment
-        else {
-            return;
-        };
-        if image.is_some() {
-            let message = "a picture of the surroundings is left out";
-            let path = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
-            self.reporter.unsupported(message, path);
-            return;
-        }
-        self.line(1, r#"<emitter type="constant">"#);
-        self.rgb(2, "radiance", *radiance);
-        self.line(1, "</emitter>");
     }
 }

@@ -1,53 +1,77 @@
 //! Writes the IR as a POV-Ray 3.7 scene. Features of the Phong model that POV-Ray supports are
 //! exact; everything else is reported with its replacement.
 
+mod light;
 mod material;
 mod shape;
 
 use super::ExportedScene;
 use super::export::joined;
 use super::reporter::ExportReporter;
-use rtc_diag::Sink;
+use super::tessellate::{TargetFormat, with_meshes};
+use rtc_diag::{Sink, codes};
 use rtc_ir::{
-    Camera, Display, EntityKind, Field, Light, Mode, Pattern, PointLight, Projection, Scene,
-    Settings, SourceSpans, ValuePath,
+    Camera, Display, EntityKind, Field, Mode, Pattern, Projection, Scene, Settings, SourceSpans,
+    ValuePath,
 };
 use rtc_math::Vec3;
 use rtc_source::Budget;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// Exports a valid scene. `None` if its meshes exceed the budget; the sink has the error. It also
-/// has a warning for each feature without an exact equivalent.
+/// Stand-ins are reported with these words.
+const FORMAT: TargetFormat = TargetFormat {
+    name: "POV-Ray",
+    approximated: &codes::NO_TWIN,
+    has: material::is_written,
+};
+
+/// Exports a valid scene; pictures become files in `folder`, a path relative to the text, and are
+/// left out without one.
+///
+/// `None` if meshes or pictures exceed the budget, or if nothing in the file emits light; the sink
+/// has the error. It also has a warning for each feature without an exact equivalent.
 pub fn emit(
     scene: &Scene,
     source_spans: &SourceSpans,
+    folder: Option<&str>,
     budget: &Budget,
     sink: &mut Sink,
 ) -> Option<ExportedScene> {
+    let mut reporter = ExportReporter::new(source_spans, sink);
+    let scene = &with_meshes(scene, &FORMAT, None, budget, &mut reporter)?;
     let mut writer = PovWriter {
         scene,
+        folder,
         budget,
-        reporter: ExportReporter::new(source_spans, sink),
+        reporter,
         text: String::new(),
+        files: BTreeMap::new(),
+        shines: false,
     };
     writer.settings();
     writer.camera();
+    writer.environment()?;
     writer.lights();
-    writer.materials();
+    writer.materials()?;
     writer.surfaces()?;
+    writer.reporter.shines(writer.shines)?;
     Some(ExportedScene {
         text: writer.text,
-        files: BTreeMap::new(),
+        files: writer.files,
     })
 }
 
 /// The scene so far.
 struct PovWriter<'w> {
     scene: &'w Scene,
+    folder: Option<&'w str>,
     budget: &'w Budget,
     reporter: ExportReporter<'w>,
     text: String,
+    files: BTreeMap<String, Vec<u8>>,
+    /// Whether anything that is written emits light.
+    shines: bool,
 }
 
 impl PovWriter<'_> {
@@ -60,6 +84,8 @@ impl PovWriter<'_> {
     fn settings(&mut self) {
         /// The maximum number of reflection levels, and of samples across a pixel.
         const MAX: [u32; 2] = [256, 9];
+        /// The most bounces of gathered light.
+        const BOUNCES: u32 = 8;
         let Settings {
             mode,
             max_depth,
@@ -78,7 +104,12 @@ impl PovWriter<'_> {
         };
         // Report what POV-Ray does not support.
         let path = ValuePath::new(EntityKind::Settings, 0, Field::Mode);
-        if *mode != Mode::Phong || *toon {
+        let is_path = matches!(mode, Mode::Path(_));
+        if is_path {
+            let message = "POV-Ray gathers the light between surfaces at few points (radiosity): \
+                           paths are not traced";
+            self.reporter.unsupported(message, path);
+        } else if *mode != Mode::Phong || *toon {
             let message = "POV-Ray shows Phong's model, and this scene is shown in another way";
             self.reporter.unsupported(message, path);
         }
@@ -98,9 +129,18 @@ impl PovWriter<'_> {
             "// povray +W{width} +H{height} +FN File_Gamma=1.0{samples}\n#version 3.7;"
         ));
         let levels = levels.min(MAX[0]);
+        let radiosity = match is_path {
+            true => format!(
+                " radiosity {{ pretrace_start 0.08 pretrace_end 0.01 count 400 nearest_count 8 \
+                 error_bound 0.3 recursion_limit {} low_error_factor 0.7 gray_threshold 0 \
+                 minimum_reuse 0.005 brightness 1 }}",
+                levels.clamp(1, BOUNCES)
+            ),
+            false => String::new(),
+        };
         self.line(&format!(
             "global_settings {{ assumed_gamma 1 ambient_light rgb 1 max_trace_level {levels} \
-             adc_bailout 0 }}"
+             adc_bailout 0{radiosity} }}"
         ));
     }
 
@@ -132,35 +172,6 @@ impl PovWriter<'_> {
         self.line(&format!(
             "camera {{ {kind} location {eye} direction {view_direction} right {right} up {up} }}"
         ));
-    }
-
-    fn lights(&mut self) {
-        let scene = self.scene;
-        if scene.environment.is_some() {
-            let message = "the surroundings are left out";
-            let path = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
-            self.reporter.unsupported(message, path);
-        }
-        let emitting = scene.lights.iter().enumerate();
-        for (index, light) in emitting.filter(|(_, light)| light.emits()) {
-            let path = ValuePath::new(EntityKind::Light, index, Field::Whole);
-            let Light::Point(PointLight {
-                position,
-                color,
-                radius,
-            }) = light
-            else {
-                let message = "a light in physical units is left out";
-                self.reporter.unsupported(message, path);
-                continue;
-            };
-            if *radius > 0.0 && scene.settings.light_samples > 1 {
-                let message = "a soft light is written as the point in its middle";
-                self.reporter.unsupported(message, path);
-            }
-            let (position, color) = (vector(*position), vector(*color));
-            self.line(&format!("light_source {{ {position}, rgb {color} }}"));
-        }
     }
 }
 

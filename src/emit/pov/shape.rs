@@ -1,13 +1,16 @@
 //! Writes surfaces: all shapes except bilinear patches and paraboloids; meshes with all vertices.
 
+use super::material::color_map;
 use super::{PovWriter, vector};
 use crate::export::{part_of, parts_of_one, shape_name};
 use crate::flat::split;
+use crate::picture::TexturePicture;
 use rtc_ir::{
     Column, Cone, Csg, Cylinder, Disc, Ellipsoid, EntityKind, Field, InfiniteCylinder, Instance,
-    MaterialId, Mesh, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle, ValuePath,
+    MaterialId, MeshId, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle, ValuePath,
 };
 use rtc_math::{Basis, SetStep, Vec3, is_flat, shortest, unit};
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 /// The maximum number of bytes of three numbers, or three indices, as text.
@@ -17,7 +20,7 @@ impl PovWriter<'_> {
     /// Writes all surfaces; `None` if a mesh exceeds the budget, which is reported.
     pub(super) fn surfaces(&mut self) -> Option<()> {
         let scene = self.scene;
-        let mut declared = vec![false; scene.meshes.len()];
+        let mut declared = BTreeSet::new();
         let mut next = 0;
         while let Some(surface) = scene.surfaces.get(next) {
             let index = next;
@@ -25,9 +28,9 @@ impl PovWriter<'_> {
             next += parts.len();
             let path = ValuePath::new(EntityKind::Surface, index, Field::Whole);
             if let Shape::Instance(Instance { mesh, .. }) = &surface.shape {
-                let at = mesh.0 as usize;
-                if !std::mem::replace(&mut declared[at], true) {
-                    self.declare(at, &scene.meshes[at])?;
+                let name = self.mesh_name(*mesh, surface.material);
+                if declared.insert(name.clone()) {
+                    self.declare(&name, mesh.0 as usize, surface.material)?;
                 }
             }
             if let Shape::Csg(csg) = &surface.shape {
@@ -48,7 +51,7 @@ impl PovWriter<'_> {
         if self.is_empty(shape) {
             return;
         }
-        let Some(shape_text) = self.shape_text(shape) else {
+        let Some(shape_text) = self.shape_text(shape, *material) else {
             let message = format!("POV-Ray has no {}: it is left out", shape_name(shape));
             self.reporter.unsupported(&message, path);
             return;
@@ -56,8 +59,9 @@ impl PovWriter<'_> {
         let blocks_light = self.scene.settings.shadows && !casts_no_shadow;
         let shadow = if blocks_light { "" } else { " no_shadow" };
         self.line(&format!(
-            "{shape_text} texture {{ M{} }}{shadow} }}",
-            material.0
+            "{shape_text} texture {{ M{} }}{}{shadow} }}",
+            material.0,
+            self.interior(*material)
         ));
     }
 
@@ -75,7 +79,8 @@ impl PovWriter<'_> {
             self.reporter.unsupported(message, path);
         }
         let shadow = if casting > 0 { "" } else { " no_shadow" };
-        self.line(&format!("object {{ {text}{shadow} }}"));
+        let interior = self.interior(parts[0].material);
+        self.line(&format!("object {{ {text}{interior}{shadow} }}"));
     }
 
     /// The operations over the operands, each with its texture.
@@ -86,9 +91,9 @@ impl PovWriter<'_> {
             let operation = match step {
                 SetStep::Operand => {
                     let (index, operand) = operands.next()?;
-                    let shape_text = self.shape_text(&operand.shape())?;
-                    let MaterialId(material) = part_of(parts, index).unwrap_or(&parts[0]).material;
-                    stack.push(format!("{shape_text} texture {{ M{material} }} }}"));
+                    let material = part_of(parts, index).unwrap_or(&parts[0]).material;
+                    let shape_text = self.shape_text(&operand.shape(), material)?;
+                    stack.push(format!("{shape_text} texture {{ M{} }} }}", material.0));
                     continue;
                 }
                 SetStep::Union => "merge",
@@ -111,7 +116,7 @@ impl PovWriter<'_> {
     }
 
     /// A shape without its closing brace; `None` if POV-Ray has no such shape.
-    fn shape_text(&self, shape: &Shape) -> Option<String> {
+    fn shape_text(&self, shape: &Shape, material: MaterialId) -> Option<String> {
         Some(match shape {
             Shape::Sphere(Sphere { center, radius, .. }) => {
                 format!("sphere {{ {}, {}", vector(*center), shortest(*radius))
@@ -147,7 +152,10 @@ impl PovWriter<'_> {
                 world_from_object,
             }) => {
                 let columns = vector(world_from_object.iter().flatten().copied());
-                format!("object {{ Mesh{} matrix {columns}", mesh.0)
+                format!(
+                    "object {{ {} matrix {columns}",
+                    self.mesh_name(*mesh, material)
+                )
             }
             Shape::Ellipsoid(Ellipsoid { center, axes }) => {
                 let columns = vector(axes.iter().chain([center]).flatten().copied());
@@ -158,23 +166,51 @@ impl PovWriter<'_> {
         })
     }
 
+    /// The name of a mesh with the texture coordinates that a material looks up.
+    fn mesh_name(&self, MeshId(mesh): MeshId, MaterialId(material): MaterialId) -> String {
+        match color_map(&self.scene.materials[material as usize]) {
+            Some(_) => format!("Mesh{mesh}M{material}"),
+            None => format!("Mesh{mesh}"),
+        }
+    }
+
     /// Declares a mesh for its instances; `None` if it exceeds the budget, which is reported.
-    fn declare(&mut self, index: usize, mesh: &Mesh) -> Option<()> {
+    fn declare(
+        &mut self,
+        name: &str,
+        index: usize,
+        MaterialId(material): MaterialId,
+    ) -> Option<()> {
+        let scene = self.scene;
+        let mesh = &scene.meshes[index];
         let path = ValuePath::new(EntityKind::Mesh, index, Field::Whole);
         if !mesh.colors.is_empty() {
             let message = "the colours of the corners of a mesh are left out";
             self.reporter.unsupported(message, path);
         }
-        let lines = mesh.positions.len() + mesh.normals.len() + mesh.triangles.len();
+        let map = color_map(&scene.materials[material as usize]);
+        let uvs = match map.as_ref().map_or(0, |map| map.set) {
+            1 => &mesh.second_uvs,
+            _ => &mesh.uvs,
+        };
+        let lines = mesh.positions.len() + mesh.normals.len() + uvs.len() + mesh.triangles.len();
         self.reporter
             .charge(TRIPLE * lines as u64, self.budget, path)?;
         if mesh.triangles.is_empty() {
             return Some(());
         }
-        self.line(&format!("#declare Mesh{index} = mesh2 {{"));
+        self.line(&format!("#declare {name} = mesh2 {{"));
         self.vectors("vertex_vectors", &mesh.positions);
         if !mesh.normals.is_empty() {
             self.vectors("normal_vectors", &mesh.normals);
+        }
+        if let Some(map) = map.filter(|_| !uvs.is_empty()) {
+            // POV-Ray's pictures have their origin at the bottom.
+            let [u, v] = TexturePicture::new(scene, map.texture).rows(&map);
+            let at = |row: [f64; 3], [u, v]: [f64; 2]| row[0] * u + row[1] * v + row[2];
+            let each = (0..uvs.len()).map(|corner| uvs.at(corner));
+            let each = each.map(|uv| vector([at(u, uv), 1.0 - at(v, uv)]));
+            self.list("uv_vectors", uvs.len(), each);
         }
         let faces = mesh.triangles.iter();
         let faces = faces.map(|[a, b, c]| format!("<{a}, {b}, {c}>"));

@@ -314,7 +314,7 @@ mod tests {
         let format = TargetFormat {
             name: "test",
             approximated: &codes::GLTF_NEARLY,
-            has: |_| false,
+            has: |_, _| false,
         };
         let budget = Budget::default();
         for (operands, step, volume) in [

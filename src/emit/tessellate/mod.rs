@@ -47,8 +47,8 @@ pub(super) struct TargetFormat {
     pub(super) name: &'static str,
     /// The code for tessellated shapes.
     pub(super) approximated: &'static Code,
-    /// Whether it has a shape, which stays as it is.
-    pub(super) has: fn(&Shape) -> bool,
+    /// Whether it has the shape of a surface of a scene, which stays as it is.
+    pub(super) has: fn(&Scene, &Surface) -> bool,
 }
 
 /// The scene with meshes instead of all shapes that the format lacks; `None` if they exceed the
@@ -71,7 +71,7 @@ pub(super) fn with_meshes(
     let mut surfaces = Vec::with_capacity(scene.surfaces.len());
     for (index, surface) in scene.surfaces.iter().enumerate() {
         let path = ValuePath::new(EntityKind::Surface, index, Field::Whole);
-        let shape = if (format.has)(&surface.shape) {
+        let shape = if (format.has)(scene, surface) {
             surface.shape.clone()
         } else {
             Shape::Instance(tessellator.instance(&surface.shape, path, reporter)?)

@@ -6,7 +6,7 @@ use crate::{FrontOptions, over_limit};
 use roxmltree::{Document, ParsingOptions};
 use rtc_diag::{Diagnostic, Sink, clip, clip_words, codes};
 use rtc_source::{FileId, FileKind, Loader, Resource, Search, SourceMap, Span};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The deepest nesting of elements and of included files.
 const MAX_DEPTH: usize = 64;
@@ -152,13 +152,23 @@ pub(super) fn read(
         map,
         sink,
         search,
-        defaults: BTreeMap::new(),
+        defaults: options.define.clone(),
+        used: BTreeSet::new(),
         version: 3,
         depth: 0,
         files: 0,
         has_unset: false,
     };
-    reader.file(file)
+    let root = reader.file(file)?;
+    for name in options.define.keys() {
+        if !reader.used.contains(name) {
+            let message = format!("the scene has no parameter `${}`", clip(name));
+            let diagnostic = Diagnostic::new(&codes::MITSUBA_IGNORED, message);
+            let label = "its value of the command line has no effect";
+            reader.sink.push(diagnostic.at(root.span, label));
+        }
+    }
+    Some(root)
 }
 
 /// The state of reading: one for a scene and the files that it includes.
@@ -168,6 +178,8 @@ struct XmlReader<'run> {
     search: Search,
     /// The parameters `$name` and their values.
     defaults: BTreeMap<String, String>,
+    /// The parameters that an attribute refers to.
+    used: BTreeSet<String>,
     /// The major version of the file.
     version: u32,
     /// The number of open files.
@@ -392,6 +404,7 @@ impl XmlReader<'_> {
             let after = &rest[at + 1..];
             let end = after.find(|c: char| !(c.is_alphanumeric() || c == '_'));
             let parameter = &after[..end.unwrap_or(after.len())];
+            self.used.insert(parameter.to_owned());
             match self.defaults.get(parameter) {
                 Some(value) if filled.len() + value.len() > MAX_ATTRIBUTE => {
                     let message = format!("an attribute has more than {MAX_ATTRIBUTE} bytes");
@@ -404,7 +417,8 @@ impl XmlReader<'_> {
                 None => {
                     let message = format!("the parameter `${}` has no value", clip(parameter));
                     let diagnostic = Diagnostic::new(&codes::MITSUBA_IGNORED, message);
-                    let hint = "give it one by `<default name=\"…\" value=\"…\"/>`";
+                    let hint =
+                        "give it one by `<default name=\"…\" value=\"…\"/>`, or by `-D NAME=VALUE`";
                     let label = "this attribute is ignored";
                     self.sink.push(diagnostic.at(span, label).hint(hint));
                     self.has_unset = true;

@@ -1,0 +1,211 @@
+//! Textures as picture files for renderers that know bitmaps only: factors are multiplied in,
+//! channels picked, patterns drawn.
+
+use super::export::to_byte;
+use rtc_color::{srgb_decoded, srgb_encoded};
+use rtc_image::{EncodeError, FileFormat, Image as Radiances, Picture, png_bytes};
+use rtc_ir::{self as ir, Filter, Pixels, Sampled, Scene, TextureId, Wrap};
+use rtc_math::{TextureMapping, Vec3};
+
+/// The side in pixels of the picture of a pattern.
+const PATTERN_SIDE: u32 = 512;
+
+/// How the values of a picture are coded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Coding {
+    /// Colours; bytes are encoded with sRGB.
+    Srgb,
+    /// Numbers, without an encoding.
+    Linear,
+}
+
+/// A texture of which a picture is made.
+pub(super) struct TexturePicture<'s> {
+    source: TexelSource<'s>,
+    pub(super) size: [u32; 2],
+    pub(super) wrap: [Wrap; 2],
+    pub(super) filter: Filter,
+    /// Whether v grows upwards.
+    pub(super) is_upward: bool,
+}
+
+enum TexelSource<'s> {
+    Image(&'s ir::Image),
+    Pattern(&'s ir::Procedural),
+    Uv,
+}
+
+impl<'s> TexturePicture<'s> {
+    pub(super) fn new(scene: &'s Scene, TextureId(id): TextureId) -> Self {
+        let image = |id: ir::ImageId| &scene.images[id.0 as usize];
+        let drawn = |source, side| Self {
+            source,
+            size: [side; 2],
+            wrap: [Wrap::Repeat; 2],
+            filter: Filter::Linear,
+            is_upward: true,
+        };
+        let of_image = |image: &'s ir::Image, wrap, filter, is_upward| Self {
+            source: TexelSource::Image(image),
+            size: [image.width, image.height],
+            wrap,
+            filter,
+            is_upward,
+        };
+        match &scene.textures[id as usize] {
+            ir::Texture::Uv => Self {
+                wrap: [Wrap::Clamp; 2],
+                ..drawn(TexelSource::Uv, PATTERN_SIDE / 2)
+            },
+            ir::Texture::Image(id) => of_image(image(*id), [Wrap::Repeat; 2], Filter::Linear, true),
+            ir::Texture::Sampled(Sampled {
+                image: id,
+                wrap,
+                filter,
+            }) => of_image(image(*id), *wrap, *filter, false),
+            ir::Texture::Procedural(pattern) => {
+                let is_in_space = pattern.mapping == TextureMapping::World;
+                let side = if is_in_space { 1 } else { PATTERN_SIDE };
+                drawn(TexelSource::Pattern(pattern), side)
+            }
+        }
+    }
+
+    /// The name of its file, if it has one.
+    pub(super) fn name(&self) -> &'s str {
+        match self.source {
+            TexelSource::Image(image) => &image.name,
+            TexelSource::Pattern(_) | TexelSource::Uv => "",
+        }
+    }
+
+    /// Bytes of memory that its picture takes.
+    pub(super) fn cost(&self) -> u64 {
+        let is_float =
+            matches!(self.source, TexelSource::Image(image) if image.kind == Pixels::Rgb32f);
+        let each = if is_float { 40 } else { 4 };
+        u64::from(self.size[0]) * u64::from(self.size[1]) * each
+    }
+
+    /// The rows of the map to the coordinates of the picture, v downwards, from those of the
+    /// surface.
+    pub(super) fn rows(&self, map: &ir::Map) -> [[f64; 3]; 2] {
+        let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let [u, [a, b, c]] = map.texture_from_surface.unwrap_or(identity);
+        match self.is_upward {
+            true => [u, [-a, -b, 1.0 - c]],
+            false => [u, [a, b, c]],
+        }
+    }
+
+    /// The picture of its texels changed by a function: red, green, blue, alpha of a texel, linear
+    /// by `coding`, to the colour in the picture. A PNG, or an EXR where a value exceeds 1; the
+    /// bytes and the extension.
+    pub(super) fn encode(
+        &self,
+        coding: Coding,
+        change: impl Fn([f64; 4]) -> [f64; 3],
+    ) -> Result<(Vec<u8>, &'static str), EncodeError> {
+        let [width, height] = self.size;
+        let pixels = || {
+            let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+            places.map(|(x, y)| change(self.texel(x, y, coding)))
+        };
+        if pixels().flatten().all(|value| value <= 1.0) {
+            let byte = |value: f64| match coding {
+                Coding::Srgb => to_byte(srgb_encoded(value)),
+                Coding::Linear => to_byte(value),
+            };
+            let bytes: Vec<u8> = pixels().flatten().map(byte).collect();
+            return Ok((png_bytes(self.size, false, &bytes), "png"));
+        }
+        let picture = Picture::opaque(Radiances {
+            width,
+            height,
+            pixels: pixels().collect(),
+        });
+        Ok((picture.encode(FileFormat::Exr)?, "exr"))
+    }
+
+    /// A texel, counted from the top left.
+    fn texel(&self, x: u32, y: u32, coding: Coding) -> [f64; 4] {
+        let [u, v] = [
+            (f64::from(x) + 0.5) / f64::from(self.size[0]),
+            1.0 - (f64::from(y) + 0.5) / f64::from(self.size[1]),
+        ];
+        match self.source {
+            TexelSource::Uv => [u, 0.0, v, 1.0],
+            TexelSource::Pattern(pattern) => {
+                let color = pattern.solid().map_or(Vec3::ZERO, |solid| {
+                    match pattern.mapping == TextureMapping::World {
+                        true => solid.mean(),
+                        false => solid.color(Vec3::new(u, v, 0.0)),
+                    }
+                });
+                color.extend(1.0).to_array()
+            }
+            TexelSource::Image(image) => {
+                let index = y as usize * image.width as usize + x as usize;
+                stored(image, index, coding)
+            }
+        }
+    }
+}
+
+/// A pixel of an image.
+fn stored(image: &ir::Image, index: usize, coding: Coding) -> [f64; 4] {
+    let size = image.kind.bytes();
+    let bytes = &image.pixels[index * size..][..size];
+    let color = |byte: u8| match coding {
+        Coding::Srgb => srgb_decoded(f64::from(byte) / 255.0),
+        Coding::Linear => f64::from(byte) / 255.0,
+    };
+    match image.kind {
+        Pixels::Rgb8 => [color(bytes[0]), color(bytes[1]), color(bytes[2]), 1.0],
+        Pixels::Rgba8 => {
+            let alpha = f64::from(bytes[3]) / 255.0;
+            [color(bytes[0]), color(bytes[1]), color(bytes[2]), alpha]
+        }
+        Pixels::Rgb32f => {
+            let [r, g, b] = floats(bytes);
+            [r, g, b, 1.0]
+        }
+    }
+}
+
+/// Three little-endian floats.
+fn floats(bytes: &[u8]) -> [f64; 3] {
+    let parts = bytes.as_chunks::<4>().0;
+    [0, 1, 2].map(|channel| f64::from(f32::from_le_bytes(parts[channel])))
+}
+
+/// The rows below which an environment map is written with twice as many.
+const FEW_ROWS: u32 = 512;
+
+/// An environment map, times a factor, for renderers whose first and last row are the poles
+/// themselves: a row at every half, so that what is linear between the rows stays as it is. Maps of
+/// many rows are written as they are.
+pub(super) fn environment(image: &ir::Image, factor: [f64; 3]) -> Result<Vec<u8>, EncodeError> {
+    let [width, height] = [image.width, image.height];
+    let at = |x: u32, y: u32| {
+        let row = y as usize * width as usize;
+        let [r, g, b, _] = stored(image, row + x as usize, Coding::Srgb);
+        Vec3::new(r, g, b) * Vec3::from_array(factor)
+    };
+    let rows = if height < FEW_ROWS {
+        2 * height + 1
+    } else {
+        height
+    };
+    let pixel = |x: u32, y: u32| match rows == height {
+        true => at(x, y),
+        false => (at(x, y.saturating_sub(1) / 2) + at(x, (y / 2).min(height - 1))) / 2.0,
+    };
+    let places = (0..rows).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let picture = Picture::opaque(Radiances {
+        width,
+        height: rows,
+        pixels: places.map(|(x, y)| pixel(x, y).to_array()).collect(),
+    });
+    picture.encode(FileFormat::Exr)
+}
