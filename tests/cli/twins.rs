@@ -206,6 +206,17 @@ Objects:
 }
 
 #[test]
+fn the_direct_light_of_phong_s_model_reaches_mitsuba() {
+    let folder = folder();
+    let done = rtc(&folder, &["compile", "ball.json", "-o", "ball.xml"]);
+    assert_eq!(code(&done), 0, "{}", stderr(&done));
+    let text = fs::read_to_string(folder.path().join("ball.xml")).unwrap();
+    // One reflection, and the light at its hit.
+    let depth = r#"<integer name="max_depth" value="3"/>"#;
+    assert!(text.contains(depth), "{text}");
+}
+
+#[test]
 fn a_file_in_which_nothing_shines_is_an_error() {
     let scene = "\
 Camera: {eye: [0, 0, 5], center: [0, 0, 0], up: [0, 0.1, 0], right: [0.1, 0, 0], viewSize: [40, 30]}

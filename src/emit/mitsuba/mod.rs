@@ -130,7 +130,13 @@ impl MitsubaWriter<'_> {
             .any(|one| absorbs(one).is_some());
         let integrator = if has_media { "volpath" } else { "path" };
         self.line(1, &format!(r#"<integrator type="{integrator}">"#));
-        let edges = settings.max_depth.saturating_add(1).min(i32::MAX as u32);
+        // Phong's model lights every hit directly, also one without reflections.
+        let more = if matches!(settings.mode, Mode::Path(_)) {
+            1
+        } else {
+            2
+        };
+        let edges = settings.max_depth.saturating_add(more).min(i32::MAX as u32);
         self.value(2, "integer", "max_depth", &edges.to_string());
         self.line(1, "</integrator>");
         self.reporter.own_settings(settings);
