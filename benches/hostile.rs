@@ -23,6 +23,7 @@ fn main() {
         .chain(make::media::all())
         .chain(make::many::all())
         .chain(make::pbrt::all())
+        .chain(make::usd::all())
         .enumerate()
     {
         let Repro {

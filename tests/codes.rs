@@ -13,7 +13,7 @@ fn ids_are_a_family_and_a_number_and_ascend() {
         let (family, number) = code.id.split_at(2);
         assert!(
             [
-                "IO", "SY", "SC", "RE", "VA", "GL", "MI", "PB", "IR", "RD", "EX"
+                "IO", "SY", "SC", "RE", "VA", "GL", "MI", "PB", "US", "IR", "RD", "EX"
             ]
             .contains(&family),
             "{code}"

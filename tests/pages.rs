@@ -87,6 +87,7 @@ fn lay_out(folder: &Path, blocks: &[Block]) -> Vec<String> {
             "gltf" => ("scene.gltf", whole_asset(text)),
             "xml" => ("scene.xml", (*text).to_owned()),
             "pbrt" => ("scene.pbrt", (*text).to_owned()),
+            "usda" => ("scene.usda", (*text).to_owned()),
             "gltf whole" => ("scene.gltf", (*text).to_owned()),
             "json" => ("scene.json", (*text).to_owned()),
             "toml" => ("rtc.toml", (*text).to_owned()),
@@ -152,6 +153,7 @@ fn faults(code: &Code) -> Vec<String> {
         Some(("json", _)) => "scene.json",
         Some(("xml", _)) => "scene.xml",
         Some(("pbrt", _)) => "scene.pbrt",
+        Some(("usda", _)) => "scene.usda",
         _ => "scene.yaml",
     };
     let check = vec![format!("rtc check {scene} -v")];

@@ -51,4 +51,5 @@ mod tampered;
 mod texts;
 mod tidy;
 mod unseen;
+mod usd;
 mod valid;

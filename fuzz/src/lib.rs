@@ -139,6 +139,11 @@ pub fn pbrt(input: &[u8]) {
     folder(&[b"== scene.pbrt\n", input].concat());
 }
 
+/// A stage of USD; what it names may follow behind lines `== NAME`.
+pub fn usd(input: &[u8]) {
+    folder(&[b"== scene.usd\n", input].concat());
+}
+
 /// The names and the bytes of all files.
 fn files(input: &[u8]) -> Vec<(&[u8], &[u8])> {
     let (mut files, mut name, mut start, mut at) = (Vec::new(), &b"scene.yaml"[..], 0, 0);

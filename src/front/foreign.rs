@@ -71,7 +71,6 @@ const FOREIGN: &[ForeignFile] = &[
         "give the scene that is meant",
     ),
     ("a 3MF model", is_3mf, EXPORT),
-    ("a USDZ package", is_usdz, EXPORT),
     (
         "an archive",
         |b| b.starts_with(b"PK\x03\x04") || b.starts_with(b"\x1f\x8b"),
@@ -91,11 +90,6 @@ const FOREIGN: &[ForeignFile] = &[
     (
         "an FBX file",
         |b| b.starts_with(b"Kaydara FBX") || is_text_fbx(b),
-        EXPORT,
-    ),
-    (
-        "a USD file",
-        |b| b.starts_with(b"#usda") || b.starts_with(b"PXR-USDC"),
         EXPORT,
     ),
     ("a VRML file", |b| b.starts_with(b"#VRML"), EXPORT),
@@ -150,8 +144,8 @@ const HEAD: usize = 4096;
 
 /// The diagnostic that a file is no scene, if its first bytes are those of another format.
 pub fn foreign(name: &str, bytes: &[u8]) -> Option<Diagnostic> {
-    // A scene of pbrt may be compressed.
-    if crate::pbrt::is_pbrt_gzip(name, bytes) {
+    // A scene of pbrt may be compressed, and a stage of USD an archive.
+    if crate::pbrt::is_pbrt_gzip(name, bytes) || crate::usd::is_usd(name, bytes) {
         return None;
     }
     let head = &bytes[..bytes.len().min(HEAD)];
@@ -229,7 +223,7 @@ fn is_3mf(head: &[u8]) -> bool {
     first.is_some_and(|name| is_part(name) || (is_list(name) && contains(head, b"3D/")))
 }
 
-fn is_usdz(head: &[u8]) -> bool {
+pub(crate) fn is_usdz(head: &[u8]) -> bool {
     let is_layer = |name: &[u8]| {
         [&b".usdc"[..], b".usda", b".usd"]
             .iter()
@@ -326,8 +320,6 @@ mod tests {
                 b"#version 3.7;\n// a ball\ncamera { location 0 }",
                 "a file of POV-Ray",
             ),
-            (b"#usda 1.0\n(\n)", "a USD file"),
-            (b"PXR-USDC\0", "a USD file"),
             (b"ISO-10303-21;\nHEADER;", "a STEP file"),
             (b"#VRML V2.0 utf8\n", "a VRML file"),
             (b"; FBX 7.3.0 project file\n", "an FBX file"),
@@ -335,7 +327,6 @@ mod tests {
             (b"\xabKTX 20\xbb\r\n\x1a\n", "a KTX texture"),
             (b"  0\r\nSECTION\r\n", "a DXF drawing"),
             (&zip("3D/3dmodel.model"), "a 3MF model"),
-            (&zip("scene.usdc"), "a USDZ package"),
             (&zip("scene.yaml"), "an archive"),
         ] {
             assert_eq!(message(bytes), format!("`x` is {format}, and no scene"));

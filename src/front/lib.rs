@@ -6,6 +6,7 @@
 //! * [`mesh`]: OBJ, OFF, STL, PLY and XYZ files. They are inputs themselves, or parts of a scene.
 //! * [`mitsuba`]: scenes of Mitsuba, XML.
 //! * [`pbrt`]: scenes of pbrt, versions 3 and 4.
+//! * [`usd`]: stages of USD, as text, binary or package.
 //!
 //! All front ends share the modules beside them: [`pixels`] decodes images within the budget,
 //! `glyph` gives points and lines a shape, `words` splits text files into words with spans, and
@@ -30,6 +31,7 @@ pub mod mesh;
 pub mod mitsuba;
 pub mod pbrt;
 pub mod pixels;
+pub mod usd;
 mod words;
 
 pub use foreign::foreign;
@@ -70,14 +72,15 @@ pub struct FrontOptions {
     pub asset_root: Option<PathBuf>,
     /// The home folder of the user. It is not searched as the parent of a scene's folder.
     pub home: Option<PathBuf>,
-    /// The time of a glTF animation, in seconds; the rest pose by default.
+    /// The time of an animation of glTF or USD, in seconds; the rest pose, or the start, by
+    /// default.
     pub time: Option<f64>,
     /// The name of the glTF animation; the first by default.
     pub animation: Option<String>,
-    /// The name of the glTF material variant.
+    /// The name of the glTF material variant, or `SET=NAME` for a variant of USD.
     pub variant: Option<String>,
-    /// The glTF camera, by its name, the name of its node, or its index. The default is the first
-    /// camera that sees a surface.
+    /// The camera of glTF or USD, by its name, the name of its node or its path, or its index. The
+    /// default is the first camera that sees a surface, of USD the first one.
     pub camera: Option<String>,
     /// The axis that points up in a mesh file or a glTF asset that is read as the scene.
     pub up_axis: Option<UpAxis>,
@@ -91,7 +94,9 @@ pub struct FrontOptions {
 /// Whether a file with this extension is a scene, when folders are searched for scenes.
 #[must_use]
 pub fn is_scene_name(name: &str) -> bool {
-    const OTHERS: [&str; 8] = ["yaml", "yml", "json", "gltf", "glb", "rtir", "xml", "pbrt"];
+    const OTHERS: [&str; 12] = [
+        "yaml", "yml", "json", "gltf", "glb", "rtir", "xml", "pbrt", "usd", "usda", "usdc", "usdz",
+    ];
     let name = match name.to_lowercase().strip_suffix(".pbrt.gz") {
         Some(_) => "x.pbrt",
         None => name,

@@ -4,7 +4,7 @@ use super::Input;
 use rtc_codec as codec;
 use rtc_diag as diag;
 use rtc_front::course;
-use rtc_front::{self as front, gltf, mesh, mitsuba, pbrt};
+use rtc_front::{self as front, gltf, mesh, mitsuba, pbrt, usd};
 use rtc_source::tree::yaml::LayoutFault;
 
 /// Why a scene is not formatted.
@@ -35,6 +35,8 @@ pub enum SourceKind {
     Mitsuba,
     /// A scene of pbrt.
     Pbrt,
+    /// A stage of USD.
+    Usd,
 }
 
 impl SourceKind {
@@ -46,14 +48,15 @@ impl SourceKind {
             None if gltf::is_gltf(name, bytes) => Self::Gltf,
             None if mesh::is_mesh_file(name, bytes) => Self::Mesh,
             None if mitsuba::is_mitsuba(bytes) => Self::Mitsuba,
+            None if usd::is_usd(name, bytes) => Self::Usd,
             None if pbrt::is_pbrt(name, bytes) => Self::Pbrt,
             None => Self::Scene,
         }
     }
 
-    /// Whether it is shown as an asset is: glTF, or a mesh.
+    /// Whether it is shown as an asset is: glTF, a mesh, or USD.
     pub(crate) fn is_asset(self) -> bool {
-        matches!(self, Self::Gltf | Self::Mesh)
+        matches!(self, Self::Gltf | Self::Mesh | Self::Usd)
     }
 }
 
@@ -65,7 +68,11 @@ pub fn is_scene(name: &str, bytes: &[u8]) -> bool {
     match SourceKind::of(name, bytes) {
         SourceKind::Scene => course::is_scene_text(bytes),
         SourceKind::Pbrt => pbrt::is_whole(bytes),
-        SourceKind::Ir(_) | SourceKind::Gltf | SourceKind::Mesh | SourceKind::Mitsuba => true,
+        SourceKind::Ir(_)
+        | SourceKind::Gltf
+        | SourceKind::Mesh
+        | SourceKind::Mitsuba
+        | SourceKind::Usd => true,
     }
 }
 

@@ -65,7 +65,7 @@ use rtc_codec as codec;
 use rtc_diag::{Diagnostic, DiagnosticLevels, Sink, clip, codes};
 use rtc_front as front;
 use rtc_front::course::assets::{self, AssetTarget};
-use rtc_front::{course, gltf, mitsuba, pbrt};
+use rtc_front::{course, gltf, mitsuba, pbrt, usd};
 use rtc_image::Layers;
 use rtc_ir::{EntityKind, Field, Lowered, Scene, SourceSpans, ValuePath};
 use rtc_math::BasisFault;
@@ -115,7 +115,7 @@ pub fn load(
     }
     // Detect the format and lower the scene.
     let kind = SourceKind::of(map.name(file), map.bytes(file));
-    if !matches!(kind, SourceKind::Scene | SourceKind::Gltf) {
+    if !matches!(kind, SourceKind::Scene | SourceKind::Gltf | SourceKind::Usd) {
         report_unused_choices(&options.front, false, sink);
     }
     if kind != SourceKind::Mitsuba && !options.front.define.is_empty() {
@@ -144,6 +144,7 @@ pub fn load(
         }
         SourceKind::Mitsuba => mitsuba::lower(file, map, &options.front, sink),
         SourceKind::Pbrt => pbrt::lower(file, map, &options.front, sink),
+        SourceKind::Usd => usd::lower(file, map, &options.front, sink),
         SourceKind::Scene => {
             let draft = course::lower(file, map, &options.front, sink)?;
             let has_assets = draft

@@ -45,6 +45,7 @@ const TARGETS: &[Target] = &[
     ("stl", inputs::stl),
     ("written", run::written),
     ("pbrt", inputs::pbrt),
+    ("usd", inputs::usd),
 ];
 
 /// A trial for the seeds of each target, and for each file of its corpus.

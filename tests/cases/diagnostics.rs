@@ -24,7 +24,7 @@ const ELSEWHERE: &[&str] = &[
 
 pub(crate) fn trials() -> Vec<Trial> {
     let folder = root("tests/diagnostics");
-    let cases = files(&folder, &["yaml", "gltf", "glb", "pbrt"]).into_iter();
+    let cases = files(&folder, &["yaml", "gltf", "glb", "pbrt", "usda"]).into_iter();
     // What cases name lies in folders below.
     let depth = folder.components().count() + 2;
     let cases = cases.filter(|case| case.components().count() == depth);

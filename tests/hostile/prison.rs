@@ -98,6 +98,12 @@ fn hostile_scenes_of_pbrt_are_refused_or_harmless() {
 
 #[test]
 #[cfg_attr(not(target_os = "linux"), ignore = "only Linux limits addresses")]
+fn hostile_stages_of_usd_are_refused_or_harmless() {
+    try_all(make::usd::all());
+}
+
+#[test]
+#[cfg_attr(not(target_os = "linux"), ignore = "only Linux limits addresses")]
 fn pictures_that_there_is_no_memory_for_are_refused_in_words() {
     let scene = b"Camera: {eye: [0, 0, 10], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, 8]}\nObjects: []\n";
     let folder = folder(&[("scene.yaml".to_owned(), scene.to_vec())]);

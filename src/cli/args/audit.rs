@@ -24,7 +24,7 @@ pub(crate) struct Audit {
     pub(crate) picture: PathBuf,
     /// Its scene; `-` is standard input
     ///
-    /// Formats: YAML or JSON of the course, glTF, Mitsuba XML, pbrt, mesh files, and the IR.
+    /// Formats: YAML or JSON of the course, glTF, USD, Mitsuba XML, pbrt, mesh files, and the IR.
     #[arg(value_name = "SCENE", value_hint = ValueHint::FilePath)]
     pub(crate) scene: PathBuf,
     #[command(flatten)]

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 pub(crate) struct Farm {
     /// The scene; `-` is standard input
     ///
-    /// Formats: YAML or JSON of the course, glTF, Mitsuba XML, pbrt, mesh files, and the IR.
+    /// Formats: YAML or JSON of the course, glTF, USD, Mitsuba XML, pbrt, mesh files, and the IR.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) file: PathBuf,
     /// Select the engine that will run the job

@@ -125,7 +125,7 @@ pub(super) enum TemplateArg {
 pub(super) struct CheckArgs {
     /// Scenes, folders of scenes, or patterns such as 'a/*.glb'; `-` is standard input
     ///
-    /// Formats: YAML or JSON of the course, glTF, Mitsuba XML, pbrt, mesh files, and the IR.
+    /// Formats: YAML or JSON of the course, glTF, USD, Mitsuba XML, pbrt, mesh files, and the IR.
     #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) files: Vec<PathBuf>,
     /// Apply the suggested fixes that keep the meaning
@@ -163,7 +163,7 @@ pub(super) struct Lsp {
 pub(super) struct Info {
     /// The scene; `-` is standard input
     ///
-    /// Formats: YAML or JSON of the course, glTF, Mitsuba XML, pbrt, mesh files, and the IR.
+    /// Formats: YAML or JSON of the course, glTF, USD, Mitsuba XML, pbrt, mesh files, and the IR.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) file: PathBuf,
     #[command(flatten)]
@@ -180,7 +180,7 @@ pub(super) struct Info {
 pub(super) struct Compile {
     /// The scene; `-` is standard input
     ///
-    /// Formats: YAML or JSON of the course, glTF, Mitsuba XML, pbrt, mesh files, and the IR.
+    /// Formats: YAML or JSON of the course, glTF, USD, Mitsuba XML, pbrt, mesh files, and the IR.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) file: PathBuf,
     /// Write to this file; `-` is standard output

@@ -12,7 +12,7 @@ use std::time::Duration;
 pub(crate) struct Render {
     /// Scenes, folders of scenes, or patterns such as 'a/*.glb'; `-` is standard input
     ///
-    /// Formats: YAML or JSON of the course, glTF, Mitsuba XML, pbrt, mesh files, and the IR.
+    /// Formats: YAML or JSON of the course, glTF, USD, Mitsuba XML, pbrt, mesh files, and the IR.
     #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) files: Vec<PathBuf>,
     /// Write the picture to this file [default: the scene's name with .png, here]

@@ -68,9 +68,11 @@ impl Workspace {
             SourceKind::Scene => &self.scenes,
             SourceKind::Ir(_) => &self.ir,
             SourceKind::Gltf if document.text.trim_start().starts_with('{') => &self.gltf,
-            SourceKind::Gltf | SourceKind::Mesh | SourceKind::Mitsuba | SourceKind::Pbrt => {
-                &self.nothing
-            }
+            SourceKind::Gltf
+            | SourceKind::Mesh
+            | SourceKind::Mitsuba
+            | SourceKind::Pbrt
+            | SourceKind::Usd => &self.nothing,
         }
     }
 

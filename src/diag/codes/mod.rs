@@ -2,8 +2,8 @@
 //!
 //! The first two letters are the family, which is the stage that raises it: `IO` files, `SY` YAML
 //! syntax, `SC` structure and keys, `RE` files that a scene names, `VA` values, `GL` glTF, `MI`
-//! Mitsuba, `PB` pbrt, `IR` the intermediate representation, `RD` rendering, `EX` export to other
-//! renderers.
+//! Mitsuba, `PB` pbrt, `US` USD, `IR` the intermediate representation, `RD` rendering, `EX` export
+//! to other renderers.
 //!
 //! The page of a code, `pages/<CODE>.md`, states what it finds and why that matters, with an
 //! example that raises it and the fixed example; `tests/pages.rs` runs both.
@@ -20,6 +20,7 @@ mod picture;
 mod references;
 mod shape;
 mod syntax;
+mod usd;
 mod values;
 
 pub use container::*;
@@ -32,6 +33,7 @@ pub use picture::*;
 pub use references::*;
 pub use shape::*;
 pub use syntax::*;
+pub use usd::*;
 pub use values::*;
 
 /// The severity of a diagnostic. Only errors stop the work.
@@ -109,7 +111,7 @@ use codes;
 
 /// Every code there is, family by family.
 pub fn all() -> impl Iterator<Item = &'static Code> {
-    [IO, SY, SC, RE, VA, GL, MI, PB, IR, RD, EX]
+    [IO, SY, SC, RE, VA, GL, MI, PB, US, IR, RD, EX]
         .into_iter()
         .flatten()
         .copied()

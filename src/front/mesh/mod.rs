@@ -24,6 +24,7 @@ mod obj;
 mod off;
 mod ply;
 mod polygon;
+pub(crate) use polygon::EarClipper;
 mod polygons;
 mod stl;
 mod stroke;

@@ -16,7 +16,7 @@ const COMPARED_PER_CORNER: usize = 32;
 
 /// Triangulates the polygons of a file by ear clipping.
 #[derive(Debug)]
-pub(super) struct EarClipper {
+pub(crate) struct EarClipper {
     /// The remaining number of comparisons.
     left: usize,
     /// The corners of the polygon, flat.
@@ -27,7 +27,7 @@ pub(super) struct EarClipper {
 
 impl EarClipper {
     /// A triangulator for a file whose polygons have `corners` corners in all.
-    pub(super) fn new(corners: usize) -> Self {
+    pub(crate) fn new(corners: usize) -> Self {
         Self {
             left: COMPARED.saturating_add(COMPARED_PER_CORNER.saturating_mul(corners)),
             flat: Vec::new(),
@@ -37,7 +37,7 @@ impl EarClipper {
 
     /// The triangles of a polygon of `count` corners, two less than those, each by three of them.
     /// `position` says where a corner is.
-    pub(super) fn cut(
+    pub(crate) fn cut(
         &mut self,
         count: usize,
         position: impl Fn(usize) -> [f64; 3],

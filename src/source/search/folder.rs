@@ -43,6 +43,12 @@ impl Folder {
         })
     }
 
+    /// The canonical path.
+    #[must_use]
+    pub fn path(&self) -> PathBuf {
+        self.resolved.clone()
+    }
+
     /// A folder by its canonical path, displayed by the first of these names that leads to it.
     pub(super) fn named(resolved: &Path, names: impl IntoIterator<Item = PathBuf>) -> Self {
         let leads_there = |folder: &Self| folder.resolved == resolved;

@@ -46,7 +46,10 @@ pub(crate) fn trials() -> Vec<Trial> {
 
 /// The scenes; what they name lies in folders below, and is no case.
 fn cases(folder: &Path) -> Vec<PathBuf> {
-    let mut found = files(folder, &["yaml", "gltf", "glb", "json", "pbrt"]);
+    let mut found = files(
+        folder,
+        &["yaml", "gltf", "glb", "json", "pbrt", "usda", "usdz"],
+    );
     let depth = folder.components().count() + 2;
     found.retain(|path| path.components().count() == depth);
     found

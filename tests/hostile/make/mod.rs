@@ -5,6 +5,7 @@ pub(crate) mod gltf;
 pub(crate) mod many;
 pub(crate) mod media;
 pub(crate) mod pbrt;
+pub(crate) mod usd;
 mod webp;
 
 /// Files that ask for much, and what is done with them.

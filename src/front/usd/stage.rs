@@ -1,0 +1,571 @@
+//! Composition: which layers speak of a prim, and which of them is stronger.
+//!
+//! The order is that of OpenUSD ("LIVRPS"): a layer stack itself, then what it inherits, its
+//! variants, references, payloads and what it specializes, each with all of its own arcs. A
+//! [`Node`] is a place in a layer stack; the child of a composed prim is the child of each of its
+//! nodes, with the arcs that it adds. Specializes are weak within their node only, and classes are
+//! not inherited across references.
+
+use super::Lowering;
+use super::layer::{ArcKind, Keyed, ListOp, MAX_DEPTH, PrimSpec, Specifier, Target, TimeMap};
+use crate::exchange::Text;
+use rtc_diag::{clip_path, codes};
+use rtc_source::{Exceeded, Resource, Span};
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+
+/// The longest chain of arcs.
+const MAX_ARCS: usize = 48;
+/// The most layers of a stack.
+const MAX_LAYERS: usize = 1 << 10;
+/// The nodes of the budget that a node of composition counts as.
+const NODE: u64 = 4;
+/// The most nodes that speak of one prim.
+const MAX_NODES: u64 = 1 << 15;
+
+/// A layer with those beneath it, the strongest first.
+pub(super) struct LayerStack {
+    layers: Vec<(usize, TimeMap)>,
+}
+
+/// A place in a layer stack that speaks of a prim.
+struct Node {
+    stack: usize,
+    path: Rc<str>,
+    /// The layer and its prim, the strongest first.
+    specs: Vec<(usize, u32, TimeMap)>,
+    kind: ArcKind,
+    /// How deep in the tree of prims the arc stands that leads here.
+    depth: usize,
+    /// The target of the arc, and the prim that has it, in the paths of the node above.
+    from: Rc<str>,
+    to: Rc<str>,
+    time: TimeMap,
+    children: Vec<Node>,
+}
+
+/// How paths of a layer become paths of the stage.
+#[derive(Debug)]
+struct PathMap {
+    from: Rc<str>,
+    to: Rc<str>,
+    above: Option<Rc<Self>>,
+}
+
+/// What one layer says of a prim.
+pub(super) struct Opinion {
+    pub(super) layer: usize,
+    pub(super) prim: u32,
+    pub(super) time: TimeMap,
+    /// Whether it is that of a class which the prim inherits.
+    is_inherited: bool,
+    paths: Option<Rc<PathMap>>,
+}
+
+/// A composed prim.
+pub(super) struct Prim {
+    pub(super) path: String,
+    node: Node,
+    /// The strongest first.
+    pub(super) opinions: Vec<Opinion>,
+}
+
+/// The arcs of one kind of a prim.
+type ArcList = fn(&PrimSpec) -> &ListOp<Target>;
+
+/// The variants that are chosen, by sets; the first choice of a set counts.
+type Selections = Vec<(String, String)>;
+
+impl Opinion {
+    /// A path of the layer as one of the stage.
+    fn path(&self, path: &str) -> String {
+        let mut path = path.to_owned();
+        let mut map = self.paths.as_ref();
+        while let Some(PathMap { from, to, above }) = map.map(Rc::as_ref) {
+            let rest = path.strip_prefix(&**from);
+            let rest = rest.filter(|rest| rest.is_empty() || rest.starts_with(['/', '.']));
+            if let Some(rest) = rest {
+                path = format!("{to}{rest}");
+            }
+            map = above.as_ref();
+        }
+        path
+    }
+}
+
+impl Prim {
+    /// What distinguishes its content from that of other prims.
+    pub(super) fn key(&self) -> Vec<(usize, u32)> {
+        self.opinions
+            .iter()
+            .map(|opinion| (opinion.layer, opinion.prim))
+            .collect()
+    }
+
+    pub(super) fn name(&self) -> &str {
+        self.path.rsplit('/').next().unwrap_or("")
+    }
+}
+
+impl Lowering<'_> {
+    pub(super) fn spec(&self, opinion: &Opinion) -> &PrimSpec {
+        self.layers[opinion.layer].prim(opinion.prim)
+    }
+
+    /// The stack of a layer.
+    fn stack(&mut self, layer: usize) -> usize {
+        if let Some(known) = self.stack_of.get(&layer) {
+            return *known;
+        }
+        let mut layers = Vec::new();
+        self.stack_layers(layer, TimeMap::default(), &mut Vec::new(), &mut layers);
+        self.stacks.push(Rc::new(LayerStack { layers }));
+        self.stack_of.insert(layer, self.stacks.len() - 1);
+        self.stacks.len() - 1
+    }
+
+    fn stack_layers(
+        &mut self,
+        layer: usize,
+        time: TimeMap,
+        open: &mut Vec<usize>,
+        found: &mut Vec<(usize, TimeMap)>,
+    ) {
+        found.push((layer, time));
+        open.push(layer);
+        for sub in self.layers[layer].metadata.sub_layers.clone() {
+            let Some(below) = self.open_layer(&sub.asset, layer) else {
+                continue;
+            };
+            if open.contains(&below) || open.len() >= MAX_ARCS || found.len() >= MAX_LAYERS {
+                let message =
+                    "the layer is one of those above it, or there are too many: it is left out";
+                self.report(&codes::USD_ARC, sub.asset.span, message);
+                continue;
+            }
+            self.stack_layers(below, time.after(sub.time), open, found);
+        }
+        open.pop();
+    }
+
+    /// The root of the prims of a layer stack.
+    fn root_node(&self, stack: usize) -> Node {
+        let layers = self.stacks[stack].layers.iter();
+        Node {
+            stack,
+            path: "".into(),
+            specs: layers.map(|(layer, time)| (*layer, 0, *time)).collect(),
+            kind: ArcKind::Root,
+            depth: 0,
+            from: "".into(),
+            to: "".into(),
+            time: TimeMap::default(),
+            children: Vec::new(),
+        }
+    }
+
+    /// The root of the stage.
+    pub(super) fn pseudo_root(&mut self, layer: usize) -> Prim {
+        let stack = self.stack(layer);
+        self.composed(String::new(), self.root_node(stack))
+    }
+
+    fn composed(&self, path: String, node: Node) -> Prim {
+        let mut opinions = Vec::new();
+        flatten(&node, (None, TimeMap::default(), false), &mut opinions);
+        Prim {
+            path,
+            node,
+            opinions,
+        }
+    }
+
+    /// The names of the children of a prim; those of weaker layers come first.
+    pub(super) fn child_names(&self, prim: &Prim) -> Vec<String> {
+        let (mut names, mut seen) = (Vec::new(), BTreeSet::new());
+        for opinion in prim.opinions.iter().rev() {
+            let mut children: Vec<_> = self.spec(opinion).children.iter().collect();
+            children
+                .sort_by_key(|(_, index)| (self.layers[opinion.layer].prim(**index).rank, **index));
+            for (name, _) in children {
+                if seen.insert(name) {
+                    names.push(name.clone());
+                }
+            }
+        }
+        names
+    }
+
+    /// A child of a prim, composed.
+    pub(super) fn child(&mut self, prim: &Prim, name: &str) -> Option<Prim> {
+        self.nodes = 0;
+        let mut node = self.step(&prim.node, name)?;
+        self.expand(&mut node, &[], 0);
+        Some(self.composed(format!("{}/{name}", prim.path), node))
+    }
+
+    /// The prim at a path of the stage.
+    pub(super) fn prim_at(&mut self, path: &str) -> Option<Rc<Prim>> {
+        if let Some(known) = self.prims.get(path) {
+            return known.clone();
+        }
+        let (above, name) = path.rsplit_once('/')?;
+        let found = match above {
+            "" => self.root.clone(),
+            above => self.prim_at(above),
+        };
+        let found = found
+            .and_then(|parent| self.child(&parent, name))
+            .map(Rc::new);
+        let bytes = 1024 + 2 * path.len() as u64;
+        self.charge(Resource::Memory, bytes, self.root_span)?;
+        self.prims.insert(path.to_owned(), found.clone());
+        found
+    }
+
+    /// The child of each place of a node.
+    fn step(&mut self, node: &Node, name: &str) -> Option<Node> {
+        let specs = node.specs.iter().filter_map(|(layer, prim, time)| {
+            let child = self.layers[*layer].prim(*prim).children.get(name)?;
+            Some((*layer, *child, *time))
+        });
+        let specs: Vec<_> = specs.collect();
+        let children = node.children.iter();
+        let children: Vec<Node> = children
+            .filter_map(|child| self.step(child, name))
+            .collect();
+        if specs.is_empty() && children.is_empty() {
+            return None;
+        }
+        self.charge_node()?;
+        Some(Node {
+            stack: node.stack,
+            path: format!("{}/{name}", node.path).into(),
+            specs,
+            kind: node.kind,
+            depth: node.depth,
+            from: Rc::clone(&node.from),
+            to: Rc::clone(&node.to),
+            time: node.time,
+            children,
+        })
+    }
+
+    /// Charges a node. `None` if the budget is used up, or a prim has too many.
+    fn charge_node(&mut self) -> Option<()> {
+        self.nodes += 1;
+        if self.nodes > MAX_NODES {
+            let fault = Exceeded {
+                resource: Resource::Nodes,
+                total: self.nodes,
+                limit: MAX_NODES,
+            };
+            self.exhaust(&fault, self.root_span);
+            return None;
+        }
+        self.charge(Resource::Nodes, NODE, self.root_span)
+    }
+
+    /// The prim at a path of a layer stack; `selections` are those of stronger layers.
+    fn prim_index(
+        &mut self,
+        stack: usize,
+        path: &str,
+        selections: &[(String, String)],
+        arcs: usize,
+    ) -> Option<Node> {
+        let mut node = self.root_node(stack);
+        let names: Vec<&str> = path.split('/').filter(|name| !name.is_empty()).collect();
+        if names.len() > MAX_DEPTH {
+            return None;
+        }
+        for (index, name) in names.iter().enumerate() {
+            node = self.step(&node, name)?;
+            let is_last = index + 1 == names.len();
+            self.expand(&mut node, if is_last { selections } else { &[] }, arcs);
+        }
+        Some(node)
+    }
+
+    /// Adds the arcs that the places of a node have.
+    fn expand(&mut self, node: &mut Node, selections: &[(String, String)], arcs: usize) {
+        if self.is_exhausted {
+            return;
+        }
+        let mut known: Selections = selections.to_vec();
+        self.selections(node, &mut known);
+        for child in &mut node.children {
+            self.expand(child, &known, arcs);
+            self.all_selections(child, &mut known);
+        }
+        let lists: [(ArcKind, ArcList); 4] = [
+            (ArcKind::Inherit, |spec| &spec.inherits),
+            (ArcKind::Reference, |spec| &spec.references),
+            (ArcKind::Payload, |spec| &spec.payloads),
+            (ArcKind::Specialize, |spec| &spec.specializes),
+        ];
+        for (kind, list) in lists {
+            for (target, from) in self.arc_targets(node, list) {
+                if let Some(child) = self.follow(node, kind, &target, (from, arcs), &known) {
+                    self.all_selections(&child, &mut known);
+                    node.children.push(child);
+                }
+            }
+        }
+        self.variants(node, &mut known, arcs);
+        node.children
+            .sort_by_key(|child| (child.kind, usize::MAX - child.depth));
+    }
+
+    /// The targets of a list, with the layer that names each.
+    fn arc_targets(&self, node: &Node, list: ArcList) -> Vec<(Target, usize)> {
+        let mut targets: Vec<Target> = Vec::new();
+        let mut layer_origins = BTreeMap::new();
+        for (layer, prim, time) in node.specs.iter().rev() {
+            let list = list(self.layers[*layer].prim(*prim));
+            for target in list.prepended.iter().chain(&list.appended) {
+                let (asset, path) = target.key();
+                layer_origins.insert((asset.to_owned(), path.to_owned()), (*layer, *time));
+            }
+            list.apply(&mut targets);
+        }
+        let with_origin = |mut target: Target| {
+            let key = (target.asset.clone(), target.path.clone());
+            let (layer, time) = layer_origins.get(&key).copied()?;
+            target.time = time.after(target.time);
+            Some((target, layer))
+        };
+        targets.into_iter().filter_map(with_origin).collect()
+    }
+
+    /// The node that an arc leads to, which the layer `from` names behind so many others; `None`
+    /// if it leads nowhere, which is reported.
+    fn follow(
+        &mut self,
+        node: &Node,
+        kind: ArcKind,
+        target: &Target,
+        (from, arcs): (usize, usize),
+        known: &[(String, String)],
+    ) -> Option<Node> {
+        let (stack, layer) = match target.asset.as_str() {
+            "" => (node.stack, None),
+            asset => {
+                let asset = Text {
+                    text: asset.to_owned(),
+                    span: target.span,
+                };
+                let layer = self.open_layer(&asset, from)?;
+                (self.stack(layer), Some(layer))
+            }
+        };
+        let default = || {
+            let layer = layer.unwrap_or(self.stacks[stack].layers[0].0);
+            let name = self.layers[layer].metadata.default_prim.as_ref()?;
+            Some(format!("/{}", name.trim_start_matches('/')))
+        };
+        let path = match target.path.as_str() {
+            "" => default(),
+            path => Some(path.to_owned()),
+        };
+        let Some(path) = path else {
+            return self.nowhere(
+                node,
+                target.span,
+                "the layer that it names has no default prim",
+            );
+        };
+        let is_within = |inner: &str| {
+            inner
+                .strip_prefix(path.as_str())
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        };
+        let place = (stack, path.clone());
+        let is_cycle =
+            stack == node.stack && is_within(&node.path) || self.open_arcs.contains(&place);
+        if is_cycle || arcs >= MAX_ARCS {
+            return self.nowhere(node, target.span, "it leads back to itself, or too far");
+        }
+        self.open_arcs.push(place);
+        let found = self.prim_index(stack, &path, known, arcs + 1);
+        self.open_arcs.pop();
+        let Some(mut found) = found else {
+            // A class without an opinion is none.
+            let may_be_missing = matches!(kind, ArcKind::Inherit | ArcKind::Specialize);
+            if self.is_exhausted || may_be_missing {
+                return None;
+            }
+            let message = format!("there is no prim `{}`", clip_path(&path));
+            return self.nowhere(node, target.span, &message);
+        };
+        found.kind = kind;
+        found.depth = node.path.matches('/').count();
+        found.from = path.into();
+        found.to = Rc::clone(&node.path);
+        found.time = target.time;
+        Some(found)
+    }
+
+    fn nowhere(&mut self, node: &Node, span: Span, why: &str) -> Option<Node> {
+        let message = format!("an arc of `{}` is left out: {why}", clip_path(&node.path));
+        if self
+            .reported
+            .insert((span.file, span.start, message.clone()))
+        {
+            self.report(&codes::USD_ARC, span, message);
+        }
+        None
+    }
+
+    /// Adds the chosen variant of each set.
+    fn variants(&mut self, node: &mut Node, known: &mut Selections, arcs: usize) {
+        let mut sets = BTreeSet::new();
+        for (layer, prim, _) in &node.specs {
+            let variants = &self.layers[*layer].prim(*prim).variants;
+            sets.extend(variants.keys().cloned());
+        }
+        if arcs >= MAX_ARCS {
+            return;
+        }
+        for set in sets {
+            let wanted = self.options.variant.as_deref();
+            let wanted = wanted.and_then(|wanted| wanted.split_once('='));
+            let wanted = wanted.filter(|(wanted, _)| *wanted == set);
+            let wanted = wanted.map(|(_, variant)| variant.to_owned());
+            self.used_variant |= wanted.is_some();
+            let choice = || {
+                known
+                    .iter()
+                    .find(|(of, _)| *of == set)
+                    .map(|(_, variant)| variant.clone())
+            };
+            let Some(choice) = wanted.or_else(choice) else {
+                continue;
+            };
+            let specs = node.specs.iter().filter_map(|(layer, prim, time)| {
+                let variants = self.layers[*layer].prim(*prim).variants.get(&set)?;
+                Some((*layer, *variants.get(&choice)?, *time))
+            });
+            let specs: Vec<_> = specs.collect();
+            if specs.is_empty() || self.charge_node().is_none() {
+                continue;
+            }
+            let mut variant = Node {
+                stack: node.stack,
+                path: Rc::clone(&node.path),
+                specs,
+                kind: ArcKind::Variant,
+                depth: node.path.matches('/').count(),
+                from: "".into(),
+                to: "".into(),
+                time: TimeMap::default(),
+                children: Vec::new(),
+            };
+            self.expand(&mut variant, known, arcs + 1);
+            self.all_selections(&variant, known);
+            node.children.push(variant);
+        }
+    }
+
+    /// The selections of the layers of a node.
+    fn selections(&self, node: &Node, known: &mut Selections) {
+        for (layer, prim, _) in &node.specs {
+            for (set, variant) in &self.layers[*layer].prim(*prim).selections {
+                if !known.iter().any(|(of, _)| of == set) {
+                    known.push((set.clone(), variant.clone()));
+                }
+            }
+        }
+    }
+
+    fn all_selections(&self, node: &Node, known: &mut Selections) {
+        self.selections(node, known);
+        for child in &node.children {
+            self.all_selections(child, known);
+        }
+    }
+
+    /// Whether a prim is drawn at all: it is defined, active and no class.
+    pub(super) fn is_defined(&self, prim: &Prim) -> bool {
+        let mut specifiers = prim.opinions.iter().filter_map(|opinion| {
+            match (self.spec(opinion).specifier, opinion.is_inherited) {
+                (Specifier::Over, _) | (Specifier::Class, true) => None,
+                (specifier, _) => Some(specifier),
+            }
+        });
+        let mut active = prim
+            .opinions
+            .iter()
+            .filter_map(|opinion| self.spec(opinion).is_active);
+        specifiers.next() == Some(Specifier::Def) && active.next().unwrap_or(true)
+    }
+
+    pub(super) fn type_name(&self, prim: &Prim) -> &str {
+        let mut names = prim
+            .opinions
+            .iter()
+            .map(|opinion| self.spec(opinion).type_name.as_str());
+        names.find(|name| !name.is_empty()).unwrap_or("")
+    }
+
+    pub(super) fn span_of(&self, prim: &Prim) -> Span {
+        let first = prim.opinions.first().map(|opinion| self.spec(opinion).span);
+        first.unwrap_or(self.root_span)
+    }
+
+    /// The targets of a relationship, or the connections of an attribute, as paths of the stage.
+    pub(super) fn targets(&self, prim: &Prim, name: &str) -> Vec<String> {
+        let mut targets: Vec<Text> = Vec::new();
+        for opinion in prim.opinions.iter().rev() {
+            let property = self.spec(opinion).properties.get(name);
+            let Some(list) = property.and_then(|property| property.targets.as_ref()) else {
+                continue;
+            };
+            let map = |items: &Vec<Text>| {
+                let map = |item: &Text| Text {
+                    text: opinion.path(&item.text),
+                    span: item.span,
+                };
+                items.iter().map(map).collect()
+            };
+            let mapped = ListOp {
+                is_explicit: list.is_explicit,
+                prepended: map(&list.prepended),
+                appended: map(&list.appended),
+                deleted: map(&list.deleted),
+            };
+            mapped.apply(&mut targets);
+        }
+        targets.into_iter().map(|target| target.text).collect()
+    }
+}
+
+/// The opinions of a node and those behind its arcs, the strongest first.
+fn flatten(
+    node: &Node,
+    (above, time, is_inherited): (Option<&Rc<PathMap>>, TimeMap, bool),
+    found: &mut Vec<Opinion>,
+) {
+    let time = time.after(node.time);
+    let is_inherited = is_inherited || matches!(node.kind, ArcKind::Inherit | ArcKind::Specialize);
+    let paths = match node.from.is_empty() {
+        true => above.cloned(),
+        false => Some(Rc::new(PathMap {
+            from: Rc::clone(&node.from),
+            to: Rc::clone(&node.to),
+            above: above.cloned(),
+        })),
+    };
+    for (layer, prim, own) in &node.specs {
+        found.push(Opinion {
+            layer: *layer,
+            prim: *prim,
+            time: time.after(*own),
+            is_inherited,
+            paths: paths.clone(),
+        });
+    }
+    for child in &node.children {
+        flatten(child, (paths.as_ref(), time, is_inherited), found);
+    }
+}

@@ -1,0 +1,778 @@
+//! Layers as text (`.usda`): one pass over the bytes, with the span of each prim and property.
+//! After a mistake the next line is read, so that all are found.
+
+use super::layer::{
+    Layer, ListOp, MAX_DEPTH, PrimSpec, Specifier, Stored, SubLayer, Target, TimeMap, Value,
+};
+use crate::exchange::Text;
+use rtc_diag::clip;
+use rtc_source::{Budget, Exceeded, FileId, Resource, Span};
+
+/// After so many mistakes a text is not read further.
+const MAX_MISTAKES: usize = 16;
+/// The deepest brackets of a value: lists of matrices.
+const MAX_BRACKETS: usize = 8;
+/// The step in which memory is charged, in bytes.
+const STEP: u64 = 1 << 16;
+/// The memory of a prim, of a property, of a word and of a number, in bytes, rounded up.
+const PRIM: u64 = 1024;
+const PROPERTY: u64 = 768;
+const WORD: u64 = 128;
+const NUMBER: u64 = 16;
+
+/// Why a layer is not read.
+pub(super) enum LayerFault {
+    /// Mistakes of the text, at most [`MAX_MISTAKES`].
+    Mistakes(Vec<(Span, String)>),
+    /// A binary file is damaged.
+    Damaged(&'static str),
+    Limit(Exceeded),
+}
+
+/// Reads a layer.
+///
+/// # Errors
+/// All mistakes of the text, or the limit that it exceeds.
+pub(super) fn read(file: FileId, bytes: &[u8], budget: &Budget) -> Result<Layer, LayerFault> {
+    let mut reader = TextReader {
+        file,
+        bytes,
+        at: 0,
+        budget,
+        layer: Layer::new(file),
+        paths: Vec::new(),
+        mistakes: Vec::new(),
+        exceeded: None,
+        owed: 0,
+    };
+    if reader.peek() == Some(b'(') {
+        reader.at += 1;
+        reader.metadata(Owner::Root);
+    }
+    reader.body(0, 0);
+    if let Some(exceeded) = reader.exceeded {
+        return Err(LayerFault::Limit(exceeded));
+    }
+    match reader.mistakes.is_empty() {
+        true => Ok(reader.layer),
+        false => Err(LayerFault::Mistakes(reader.mistakes)),
+    }
+}
+
+/// Of what metadata speaks.
+#[derive(Clone, Copy)]
+enum Owner<'a> {
+    Root,
+    Prim(u32),
+    Property(u32, &'a str),
+}
+
+struct TextReader<'a> {
+    file: FileId,
+    bytes: &'a [u8],
+    at: usize,
+    budget: &'a Budget,
+    layer: Layer,
+    /// The names of the prims around the place that is read.
+    paths: Vec<String>,
+    mistakes: Vec<(Span, String)>,
+    exceeded: Option<Exceeded>,
+    /// The memory that is not charged so far.
+    owed: u64,
+}
+
+fn is_name(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b':' | b'.' | b'!' | b'-' | b'+' | 128..)
+}
+
+impl<'a> TextReader<'a> {
+    fn span(&self, start: usize) -> Span {
+        let at = |offset: usize| u32::try_from(offset).unwrap_or(u32::MAX);
+        Span::new(self.file, at(start), at(self.at.max(start)))
+    }
+
+    /// Reports a mistake at the place that is read.
+    fn mistake<T>(&mut self, message: impl Into<String>) -> Option<T> {
+        let start = self.at.min(self.bytes.len());
+        self.at = (start + 1).min(self.bytes.len());
+        let span = self.span(start);
+        self.at = start;
+        self.mistakes.push((span, message.into()));
+        if self.mistakes.len() >= MAX_MISTAKES {
+            self.at = self.bytes.len();
+        }
+        None
+    }
+
+    /// Charges memory in steps; the text ends where there is no more.
+    fn spend(&mut self, bytes: u64) {
+        self.owed += bytes;
+        if self.owed >= STEP {
+            let charged = self.budget.charge(Resource::Memory, self.owed);
+            let nodes = self.owed / PRIM;
+            let charged = charged.and_then(|()| self.budget.charge(Resource::Nodes, nodes));
+            self.owed = 0;
+            if let Err(exceeded) = charged {
+                self.exceeded = Some(exceeded);
+                self.at = self.bytes.len();
+            }
+        }
+    }
+
+    /// The next byte that is no white space and no comment.
+    fn peek(&mut self) -> Option<u8> {
+        loop {
+            let byte = *self.bytes.get(self.at)?;
+            let rest = &self.bytes[self.at..];
+            if byte.is_ascii_whitespace() || matches!(byte, b';' | 0xef | 0xbb | 0xbf) {
+                self.at += 1;
+            } else if byte == b'#' || rest.starts_with(b"//") {
+                self.skip_line();
+            } else if rest.starts_with(b"/*") {
+                let end = memchr::memmem::find(rest, b"*/").map_or(rest.len(), |end| end + 2);
+                self.at += end;
+            } else {
+                return Some(byte);
+            }
+        }
+    }
+
+    fn skip_line(&mut self) {
+        let rest = &self.bytes[self.at..];
+        self.at += memchr::memchr2(b'\n', b'\r', rest).map_or(rest.len(), |end| end + 1);
+    }
+
+    fn eat(&mut self, byte: u8) -> bool {
+        let is_next = self.peek() == Some(byte);
+        self.at += usize::from(is_next);
+        is_next
+    }
+
+    fn expect(&mut self, byte: u8) -> Option<()> {
+        if self.eat(byte) {
+            return Some(());
+        }
+        self.mistake(format!("a `{}` is expected here", char::from(byte)))
+    }
+
+    /// A name, a keyword or a number; empty if there is none.
+    fn word(&mut self) -> &'a str {
+        self.peek();
+        let rest = &self.bytes[self.at..];
+        let length = rest.iter().position(|byte| !is_name(*byte));
+        let length = length.unwrap_or(rest.len());
+        self.at += length;
+        std::str::from_utf8(&rest[..length]).unwrap_or("")
+    }
+
+    fn string(&mut self) -> Option<String> {
+        let quote = self.peek().filter(|byte| matches!(byte, b'"' | b'\''));
+        let Some(quote) = quote else {
+            return self.mistake("a string is expected here");
+        };
+        let start = self.at;
+        let is_long = self.bytes[start..].starts_with(&[quote; 3]);
+        let mark = if is_long { 3 } else { 1 };
+        let mut bytes = Vec::new();
+        self.at += mark;
+        loop {
+            let rest = &self.bytes[self.at.min(self.bytes.len())..];
+            match rest.first() {
+                Some(b'\\') => {
+                    bytes.push(match rest.get(1) {
+                        Some(b'n') => b'\n',
+                        Some(b't') => b'\t',
+                        Some(other) => *other,
+                        None => b'\\',
+                    });
+                    self.at += 2;
+                }
+                Some(byte) if *byte == quote && (!is_long || rest.starts_with(&[quote; 3])) => {
+                    self.at += mark;
+                    self.spend(WORD + bytes.len() as u64);
+                    return Some(String::from_utf8_lossy(&bytes).into_owned());
+                }
+                Some(byte) if is_long || !matches!(byte, b'\n' | b'\r') => {
+                    bytes.push(*byte);
+                    self.at += 1;
+                }
+                _ => {
+                    self.at = start;
+                    self.mistake::<()>("nothing ends this string");
+                    self.at = if is_long {
+                        self.bytes.len()
+                    } else {
+                        self.at + 1
+                    };
+                    return None;
+                }
+            }
+        }
+    }
+
+    /// What stands between two marks, as `@file@` and `<path>`.
+    fn between(&mut self, open: u8, close: u8) -> Option<Text> {
+        self.expect(open)?;
+        let mut start = self.at;
+        let is_long = open == b'@' && self.bytes[start..].starts_with(b"@@");
+        let mark: &[u8] = if is_long { b"@@@" } else { &[close] };
+        start += if is_long { 2 } else { 0 };
+        let rest = &self.bytes[start..];
+        let end = memchr::memmem::find(rest, mark);
+        let end = end.filter(|end| is_long || !rest[..*end].contains(&b'\n'));
+        let Some(end) = end else {
+            return self.mistake(format!("nothing ends this with `{}`", char::from(close)));
+        };
+        let text = String::from_utf8_lossy(&rest[..end]).into_owned();
+        self.at = start + end;
+        let span = self.span(start);
+        self.at += mark.len();
+        self.spend(WORD + text.len() as u64);
+        Some(Text { text, span })
+    }
+
+    /// A path, absolute within the layer, without selections of variants.
+    fn path(&mut self) -> Option<Text> {
+        let Text { text, span } = self.between(b'<', b'>')?;
+        let mut plain = String::new();
+        let mut depth = 0_u32;
+        for character in text.chars() {
+            match character {
+                '{' => depth += 1,
+                '}' => depth = depth.saturating_sub(1),
+                _ if depth == 0 => plain.push(character),
+                _ => {}
+            }
+        }
+        if plain.starts_with('/') || plain.is_empty() {
+            return Some(Text { text: plain, span });
+        }
+        let mut names: Vec<&str> = self.paths.iter().map(String::as_str).collect();
+        let mut rest = plain.as_str();
+        while let Some(after) = rest.strip_prefix("..") {
+            names.pop();
+            rest = after.strip_prefix('/').unwrap_or(after);
+        }
+        let joint = if rest.is_empty() || rest.starts_with('.') {
+            ""
+        } else {
+            "/"
+        };
+        let above = names
+            .iter()
+            .fold(String::new(), |all, name| all + "/" + name);
+        let text = format!("{above}{joint}{}", rest.strip_prefix("./").unwrap_or(rest));
+        Some(Text { text, span })
+    }
+
+    /// Items in brackets, one alone, or `None`.
+    fn list<T>(&mut self, mut item: impl FnMut(&mut Self) -> Option<T>) -> Option<Vec<T>> {
+        let mut items = Vec::new();
+        match self.peek() {
+            Some(b'[') => {
+                self.at += 1;
+                while !self.eat(b']') {
+                    items.push(item(self)?);
+                    if !self.eat(b',') {
+                        self.expect(b']')?;
+                        break;
+                    }
+                }
+            }
+            Some(b'N') => drop(self.word()),
+            _ => items.push(item(self)?),
+        }
+        Some(items)
+    }
+
+    /// A number, `true` as 1, or a word as text.
+    fn atom(&mut self, numbers: &mut Vec<f64>, texts: &mut Vec<String>) -> Option<()> {
+        match self.peek() {
+            Some(b'"' | b'\'') => texts.push(self.string()?),
+            Some(b'@') => texts.push(self.between(b'@', b'@')?.text),
+            Some(b'<') => texts.push(self.path()?.text),
+            _ => {
+                let start = self.at;
+                let word = self.word();
+                match word {
+                    "" => return self.mistake("a value is expected here"),
+                    "true" | "True" | "yes" => numbers.push(1.0),
+                    "false" | "False" | "no" => numbers.push(0.0),
+                    // `None` in a list, as in a list of targets.
+                    "None" => {}
+                    _ => match word.parse::<f64>() {
+                        Ok(number) => {
+                            numbers.push(number);
+                            self.spend(NUMBER);
+                        }
+                        Err(_) if word.starts_with(|c: char| c.is_ascii_digit()) => {
+                            self.at = start;
+                            let message = format!("`{}` is no number", clip(word));
+                            return self.mistake(message);
+                        }
+                        Err(_) => {
+                            self.spend(WORD);
+                            texts.push(word.to_owned());
+                        }
+                    },
+                }
+            }
+        }
+        Some(())
+    }
+
+    /// A value; lists and tuples of any depth become one list.
+    fn value(&mut self) -> Option<Value> {
+        let (mut numbers, mut texts) = (Vec::new(), Vec::new());
+        let mut depth = 0;
+        if self.peek() == Some(b'{') {
+            self.skip_value()?;
+            return Some(Value::Blocked);
+        }
+        if self.bytes[self.at..].starts_with(b"None") {
+            self.word();
+            return Some(Value::Blocked);
+        }
+        loop {
+            match self.peek() {
+                Some(b'[' | b'(') if depth < MAX_BRACKETS => {
+                    self.at += 1;
+                    depth += 1;
+                }
+                Some(b']' | b')') if depth > 0 => {
+                    self.at += 1;
+                    depth -= 1;
+                    if depth > 0 {
+                        self.eat(b',');
+                    }
+                }
+                Some(b'[' | b'(') => return self.mistake("the brackets are nested too deep"),
+                _ => {
+                    self.atom(&mut numbers, &mut texts)?;
+                    if depth > 0 && !self.eat(b',') && !matches!(self.peek(), Some(b']' | b')')) {
+                        return self.mistake("a `,` or the end of the list is expected here");
+                    }
+                }
+            }
+            if depth == 0 {
+                break;
+            }
+        }
+        Some(match texts.is_empty() {
+            true => Value::Numbers(numbers),
+            false => Value::Texts(texts),
+        })
+    }
+
+    /// Skips a value of any kind.
+    fn skip_value(&mut self) -> Option<()> {
+        let mut depth = 0_usize;
+        loop {
+            match self.peek() {
+                None => return self.mistake("nothing ends this value"),
+                Some(b'{' | b'[' | b'(') => {
+                    self.at += 1;
+                    depth += 1;
+                }
+                Some(b'}' | b']' | b')') => {
+                    self.at += 1;
+                    depth = depth.saturating_sub(1);
+                }
+                Some(b'"' | b'\'') => drop(self.string()?),
+                Some(b'@') => drop(self.between(b'@', b'@')?),
+                Some(b'<') => drop(self.between(b'<', b'>')?),
+                Some(byte) if is_name(byte) => drop(self.word()),
+                Some(_) => self.at += 1,
+            }
+            if depth == 0 {
+                return Some(());
+            }
+        }
+    }
+
+    /// The metadata behind an opening parenthesis.
+    fn metadata(&mut self, owner: Owner<'_>) {
+        loop {
+            match self.peek() {
+                None => {
+                    self.mistake::<()>("nothing closes the `(` of this metadata");
+                    return;
+                }
+                Some(b')') => {
+                    self.at += 1;
+                    return;
+                }
+                Some(b'"' | b'\'') => drop(self.string()),
+                Some(_) => {
+                    if self.entry(owner).is_none() {
+                        self.skip_line();
+                    }
+                }
+            }
+        }
+    }
+
+    /// One entry of metadata.
+    fn entry(&mut self, owner: Owner<'_>) -> Option<()> {
+        let start = self.at;
+        let mut key = self.word();
+        let mut keyword = "";
+        if matches!(key, "prepend" | "append" | "add" | "delete" | "reorder") {
+            keyword = key;
+            key = self.word();
+        }
+        if key.is_empty() {
+            return self.mistake("the name of a metadatum is expected here");
+        }
+        self.expect(b'=')?;
+        match owner {
+            Owner::Root => self.stage_entry(key),
+            Owner::Prim(index) => self.prim_entry(index, keyword, key, start),
+            Owner::Property(index, name) => {
+                if key == "interpolation" {
+                    let interpolation = self.string()?;
+                    if let Some(property) = self.layer.prim_mut(index).properties.get_mut(name) {
+                        property.interpolation = Some(interpolation);
+                    }
+                    return Some(());
+                }
+                self.skip_value()
+            }
+        }
+    }
+
+    fn stage_entry(&mut self, key: &str) -> Option<()> {
+        match key {
+            "defaultPrim" => self.layer.metadata.default_prim = Some(self.string()?),
+            "upAxis" => {
+                let start = self.at;
+                let text = self.string()?;
+                let span = self.span(start);
+                self.layer.metadata.up_axis = Some(Text { text, span });
+            }
+            "metersPerUnit" | "timeCodesPerSecond" | "startTimeCode" => {
+                let Value::Numbers(numbers) = self.value()? else {
+                    return self.mistake("a number is expected here");
+                };
+                let number = numbers.first().copied();
+                let metadata = &mut self.layer.metadata;
+                *match key {
+                    "metersPerUnit" => &mut metadata.meters_per_unit,
+                    "startTimeCode" => &mut metadata.start_time_code,
+                    _ => &mut metadata.time_codes_per_second,
+                } = number;
+            }
+            "subLayers" => {
+                let layers = self.list(|reader| {
+                    let asset = reader.between(b'@', b'@')?;
+                    let time = reader.time_map()?;
+                    Some(SubLayer { asset, time })
+                });
+                self.layer.metadata.sub_layers = layers?;
+            }
+            _ => self.skip_value()?,
+        }
+        Some(())
+    }
+
+    fn prim_entry(&mut self, index: u32, keyword: &str, key: &str, start: usize) -> Option<()> {
+        match key {
+            "references" | "payload" => {
+                let items = self.list(Self::target)?;
+                let prim = self.layer.prim_mut(index);
+                let list = if key == "payload" {
+                    &mut prim.payloads
+                } else {
+                    &mut prim.references
+                };
+                list.edit(keyword, items);
+            }
+            "inherits" | "specializes" => {
+                let items = self.list(|reader| {
+                    let Text { text: path, span } = reader.path()?;
+                    let (asset, time) = (String::new(), TimeMap::default());
+                    Some(Target {
+                        asset,
+                        path,
+                        time,
+                        span,
+                    })
+                })?;
+                let prim = self.layer.prim_mut(index);
+                let is_inherit = key == "inherits";
+                let list = if is_inherit {
+                    &mut prim.inherits
+                } else {
+                    &mut prim.specializes
+                };
+                list.edit(keyword, items);
+            }
+            "active" => {
+                let value = self.value()?;
+                let is_active = value == Value::Numbers(vec![1.0]);
+                self.layer.prim_mut(index).is_active = Some(is_active);
+            }
+            "variants" => {
+                self.expect(b'{')?;
+                while !self.eat(b'}') {
+                    self.word();
+                    let set = match self.peek() {
+                        Some(b'"') => self.string()?,
+                        _ => self.word().to_owned(),
+                    };
+                    self.expect(b'=')?;
+                    let variant = self.string()?;
+                    self.layer.prim_mut(index).selections.insert(set, variant);
+                }
+            }
+            "clips" => {
+                self.layer.prim_mut(index).has_clips = true;
+                self.layer.prim_mut(index).span = self.span(start);
+                self.skip_value()?;
+            }
+            _ => self.skip_value()?,
+        }
+        Some(())
+    }
+
+    /// The target of a reference: `@file@</path> (offset = 1)`.
+    fn target(&mut self) -> Option<Target> {
+        let start = self.at;
+        let asset = match self.peek() {
+            Some(b'@') => self.between(b'@', b'@')?.text,
+            _ => String::new(),
+        };
+        let path = match self.peek() {
+            Some(b'<') => self.path()?.text,
+            _ if asset.is_empty() => return self.mistake("a file or a path is expected here"),
+            _ => String::new(),
+        };
+        let span = self.span(start);
+        let time = self.time_map()?;
+        Some(Target {
+            asset,
+            path,
+            time,
+            span,
+        })
+    }
+
+    /// `(offset = 1; scale = 2)`, or nothing.
+    fn time_map(&mut self) -> Option<TimeMap> {
+        let mut time = TimeMap::default();
+        if !self.eat(b'(') {
+            return Some(time);
+        }
+        while !self.eat(b')') {
+            let key = self.word();
+            self.expect(b'=')?;
+            match key {
+                "offset" | "scale" => {
+                    let number = self.word().parse::<f64>();
+                    let Ok(number) = number else {
+                        return self.mistake("a number is expected here");
+                    };
+                    *(if key == "scale" {
+                        &mut time.scale
+                    } else {
+                        &mut time.offset
+                    }) = number;
+                }
+                _ => self.skip_value()?,
+            }
+            self.eat(b',');
+        }
+        Some(time)
+    }
+
+    /// The statements of a prim, to its closing brace, or to the end of the file.
+    fn body(&mut self, index: u32, depth: usize) {
+        loop {
+            match self.peek() {
+                None if depth == 0 => return,
+                None => {
+                    self.mistake::<()>("nothing closes the `{` of this prim");
+                    return;
+                }
+                Some(b'}') if depth > 0 => {
+                    self.at += 1;
+                    return;
+                }
+                Some(_) => {
+                    let start = self.at;
+                    if self.statement(index, depth).is_none() {
+                        // The rest of the line is not understood.
+                        self.at = self.at.max(start);
+                        self.skip_line();
+                    }
+                }
+            }
+        }
+    }
+
+    fn statement(&mut self, index: u32, depth: usize) -> Option<()> {
+        let start = self.at;
+        let first = self.word();
+        match first {
+            "def" => self.prim(index, depth, Specifier::Def, start),
+            "over" => self.prim(index, depth, Specifier::Over, start),
+            "class" => self.prim(index, depth, Specifier::Class, start),
+            "variantSet" => self.variant_set(index, depth),
+            "" => self.mistake("a prim or a property is expected here"),
+            "reorder" => {
+                self.word();
+                self.expect(b'=')?;
+                self.skip_value()
+            }
+            _ => self.property(index, first, start),
+        }
+    }
+
+    fn prim(
+        &mut self,
+        parent: u32,
+        depth: usize,
+        specifier: Specifier,
+        start: usize,
+    ) -> Option<()> {
+        let mut type_name = String::new();
+        if self.peek().is_some_and(is_name) {
+            type_name = self.word().to_owned();
+        }
+        let name = self.string()?;
+        if depth >= MAX_DEPTH {
+            let message = format!("prims are nested more than {MAX_DEPTH} deep");
+            self.at = start;
+            self.mistake::<()>(message);
+            self.at = self.bytes.len();
+            return None;
+        }
+        self.spend(PRIM);
+        let mut prim = PrimSpec::new(self.span(start));
+        (prim.specifier, prim.type_name) = (specifier, type_name);
+        let index = self.layer.add(prim);
+        self.layer
+            .prim_mut(parent)
+            .children
+            .insert(name.clone(), index);
+        self.paths.push(name);
+        self.braced(index, depth);
+        self.paths.pop();
+        Some(())
+    }
+
+    /// The metadata and the body of a prim or a variant.
+    fn braced(&mut self, index: u32, depth: usize) {
+        if self.eat(b'(') {
+            self.metadata(Owner::Prim(index));
+        }
+        if self.expect(b'{').is_some() {
+            self.body(index, depth + 1);
+        }
+    }
+
+    fn variant_set(&mut self, prim: u32, depth: usize) -> Option<()> {
+        let set = self.string()?;
+        self.expect(b'=')?;
+        self.expect(b'{')?;
+        if depth + 1 >= MAX_DEPTH {
+            self.mistake::<()>(format!("prims are nested more than {MAX_DEPTH} deep"));
+            self.at = self.bytes.len();
+            return None;
+        }
+        while !self.eat(b'}') {
+            let start = self.at;
+            let name = self.string()?;
+            self.spend(PRIM);
+            let index = self.layer.add(PrimSpec::new(self.span(start)));
+            let variants = self.layer.prim_mut(prim).variants.entry(set.clone());
+            variants.or_default().insert(name, index);
+            self.braced(index, depth + 1);
+        }
+        Some(())
+    }
+
+    /// An attribute or a relationship; `first` is its first word.
+    fn property(&mut self, index: u32, first: &'a str, start: usize) -> Option<()> {
+        let mut keyword = "";
+        let mut word = first;
+        loop {
+            match word {
+                "prepend" | "append" | "add" | "delete" => keyword = word,
+                "custom" | "uniform" | "varying" | "config" => {}
+                _ => break,
+            }
+            word = self.word();
+        }
+        let is_relationship = word == "rel";
+        if self.eat(b'[') {
+            self.expect(b']')?;
+        }
+        let full = self.word();
+        if full.is_empty() {
+            return self.mistake("the name of a property is expected here");
+        }
+        let (name, suffix) = full.split_once('.').unwrap_or((full, ""));
+        self.spend(PROPERTY + name.len() as u64);
+        let span = self.span(start);
+        let properties = &mut self.layer.prim_mut(index).properties;
+        let property = properties.entry(name.to_owned()).or_default();
+        property.span.get_or_insert(span);
+        if self.eat(b'=') {
+            match suffix {
+                "timeSamples" => self.samples(index, name)?,
+                "connect" => self.targets(index, name, keyword)?,
+                "" if is_relationship => self.targets(index, name, keyword)?,
+                "" => {
+                    let value = self.value()?;
+                    let properties = &mut self.layer.prim_mut(index).properties;
+                    if let Some(property) = properties.get_mut(name) {
+                        property.value = Some(Stored::Read(value));
+                    }
+                }
+                _ => self.skip_value()?,
+            }
+        }
+        if self.eat(b'(') {
+            self.metadata(Owner::Property(index, name));
+        }
+        Some(())
+    }
+
+    fn targets(&mut self, index: u32, name: &str, keyword: &str) -> Option<()> {
+        let items = self.list(Self::path)?;
+        if let Some(property) = self.layer.prim_mut(index).properties.get_mut(name) {
+            let targets = property.targets.get_or_insert_with(ListOp::default);
+            targets.edit(keyword, items);
+        }
+        Some(())
+    }
+
+    fn samples(&mut self, index: u32, name: &str) -> Option<()> {
+        self.expect(b'{')?;
+        let mut samples: Vec<(f64, Stored)> = Vec::new();
+        while !self.eat(b'}') {
+            let start = self.at;
+            // The colon is one of the bytes of a name.
+            let word = self.word();
+            let Ok(time) = word.trim_end_matches(':').parse::<f64>() else {
+                self.at = start;
+                return self.mistake("the time of a sample is expected here");
+            };
+            if !word.ends_with(':') {
+                self.expect(b':')?;
+            }
+            self.spend(WORD);
+            samples.push((time, Stored::Read(self.value()?)));
+            if !self.eat(b',') {
+                self.expect(b'}')?;
+                break;
+            }
+        }
+        samples.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some(property) = self.layer.prim_mut(index).properties.get_mut(name) {
+            property.samples = samples;
+        }
+        Some(())
+    }
+}

@@ -1,0 +1,363 @@
+//! Pictures of materials: channels of files, scaled as `UsdUVTexture` says, become the pictures
+//! that the standard material looks up.
+
+use super::Lowering;
+use super::stage::Prim;
+use crate::exchange::Text;
+use crate::exchange::color::{decode, encoded};
+use crate::pixels;
+use rtc_diag::codes;
+use rtc_image::{Opacity, is_radiance};
+use rtc_ir::{EntityKind, Filter, Image, ImageId, Map, Pixels, Sampled, Texture, TextureId, Wrap};
+use rtc_source::{FileKind, Resource, Span};
+use std::collections::BTreeMap;
+
+/// What takes the place of a picture.
+const INSTEAD: &str = "its fallback takes its place";
+
+/// The formats of textures; those that are not read are told.
+const TEXTURES: FileKind = FileKind {
+    extensions: &[
+        "png", "jpg", "jpeg", "webp", "ktx2", "exr", "hdr", "tga", "tif", "tiff", "bmp", "avif",
+    ],
+    begins: |_| true,
+};
+
+/// One channel of a picture that is made: a channel of a file with its scale and bias, or a
+/// constant.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Channel {
+    Constant(u8),
+    File {
+        path: String,
+        layer: usize,
+        channel: usize,
+        is_srgb: bool,
+        scale: u64,
+        bias: u64,
+    },
+}
+
+/// What distinguishes pictures: their channels, and whether their colours are coded as sRGB.
+pub(super) type ChannelsKey = (Vec<Channel>, bool);
+
+/// How a material looks a picture up.
+#[derive(Clone, Debug)]
+pub(super) struct TextureLook {
+    pub(super) path: Text,
+    pub(super) layer: usize,
+    /// The channel that is used; none for all colours.
+    pub(super) channel: Option<usize>,
+    pub(super) scale: [f64; 4],
+    pub(super) bias: [f64; 4],
+    pub(super) fallback: [f64; 4],
+    /// Whether the colours are coded as sRGB, if the material says so.
+    pub(super) is_srgb: Option<bool>,
+    pub(super) wrap: [Wrap; 2],
+    /// The texture coordinates by their primvar, and their map.
+    pub(super) primvar: String,
+    pub(super) rows: [[f64; 3]; 2],
+}
+
+impl TextureLook {
+    /// The value of a channel without the file.
+    pub(super) fn fallback(&self, channel: usize) -> f64 {
+        self.fallback[channel] * self.scale[channel] + self.bias[channel]
+    }
+
+    /// Channels of the file for the picture that is made: its values times `scale`, plus `bias`.
+    pub(super) fn file(&self, channel: usize, is_color: bool, scale: f64, bias: f64) -> Channel {
+        let is_srgb = self.is_srgb.unwrap_or(is_color) && channel < 3;
+        Channel::File {
+            path: self.path.text.clone(),
+            layer: self.layer,
+            channel,
+            is_srgb,
+            scale: (self.scale[channel] * scale).to_bits(),
+            bias: (self.bias[channel] * scale + bias).to_bits(),
+        }
+    }
+
+    /// The rows for texture coordinates whose v runs down, as those of meshes do.
+    fn flipped(&self) -> Option<[[f64; 3]; 2]> {
+        let [[a, b, c], [d, e, f]] = self.rows;
+        let rows = [[a, -b, b + c], [-d, e, 1.0 - e - f]].map(|row| row.map(|number| number + 0.0));
+        (rows != [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]).then_some(rows)
+    }
+}
+
+impl Lowering<'_> {
+    /// The map of a picture of some channels; `set` is that of the texture coordinates. `None`
+    /// without its file, which is reported once.
+    pub(super) fn picture_map(
+        &mut self,
+        look: &TextureLook,
+        channels: Vec<Channel>,
+        is_color: bool,
+        set: u32,
+    ) -> Option<Map> {
+        let key = (channels, is_color);
+        let image = match self.images.get(&key) {
+            Some(known) => *known,
+            None => {
+                let image = self.read_image(look, &key);
+                self.images.insert(key, image);
+                image
+            }
+        }?;
+        let texture = self.sampled_texture(image, look.wrap, look.path.span);
+        Some(Map {
+            texture,
+            set,
+            texture_from_surface: look.flipped(),
+        })
+    }
+
+    /// Makes a picture of the channels of its files.
+    fn read_image(
+        &mut self,
+        look: &TextureLook,
+        (channels, is_color): &ChannelsKey,
+    ) -> Option<ImageId> {
+        let mut files = BTreeMap::new();
+        let span = look.path.span;
+        for channel in channels {
+            let Channel::File { path, layer, .. } = channel else {
+                continue;
+            };
+            if files.contains_key(path) {
+                continue;
+            }
+            let text = Text {
+                text: path.clone(),
+                span,
+            };
+            let bytes = self.file(&text, *layer, &TEXTURES, INSTEAD)?;
+            if is_radiance(&bytes) {
+                return self.float_image(&text, &bytes);
+            }
+            let decoded = pixels::decode(&bytes, Opacity::Kept, self.map.budget());
+            match decoded {
+                Ok(decoded) => drop(files.insert(path.clone(), decoded)),
+                Err(fault) => {
+                    let what = format!("the image `{}`", rtc_diag::clip_path(path));
+                    let formats = "textures are PNG, JPEG, WebP, EXR or HDR";
+                    let diagnostic = pixels::rejection(&fault, &what, formats);
+                    self.without(diagnostic, span, INSTEAD);
+                    return None;
+                }
+            }
+        }
+        let width = files.values().map(|file| file.width).max()?;
+        let height = files.values().map(|file| file.height).max()?;
+        let bytes = channels.len() as u64 * u64::from(width) * u64::from(height);
+        self.charge(Resource::Textures, bytes, span)?;
+        let (columns, rows) = (width as usize, height as usize);
+        let mut made = vec![0; channels.len() * columns * rows];
+        for (at, channel) in channels.iter().enumerate() {
+            let targets = made.iter_mut().skip(at).step_by(channels.len());
+            match channel {
+                Channel::Constant(byte) => targets.for_each(|target| *target = *byte),
+                Channel::File {
+                    path,
+                    channel,
+                    is_srgb,
+                    scale,
+                    bias,
+                    ..
+                } => {
+                    let file = &files[path];
+                    let table = table(*is_srgb, [*scale, *bias], *is_color && at < 3);
+                    let (w, h) = (file.width as usize, file.height as usize);
+                    let size = file.bytes.len() / (w * h);
+                    for (index, target) in targets.enumerate() {
+                        let (x, y) = (index % columns * w / columns, index / columns * h / rows);
+                        let texel = &file.bytes[(y * w + x) * size..][..size];
+                        let byte = texel.get(*channel).copied().unwrap_or(255);
+                        *target = table[usize::from(byte)];
+                    }
+                }
+            }
+        }
+        let image = Image {
+            name: look.path.text.clone(),
+            width,
+            height,
+            kind: if channels.len() == 4 {
+                Pixels::Rgba8
+            } else {
+                Pixels::Rgb8
+            },
+            pixels: made.into(),
+        };
+        Some(self.add_picture(image, span))
+    }
+
+    /// A picture of radiance as it is.
+    fn float_image(&mut self, path: &Text, bytes: &[u8]) -> Option<ImageId> {
+        match pixels::environment(&path.text, bytes, self.map.budget()) {
+            Ok(image) => Some(self.add_picture(image, path.span)),
+            Err(fault) => {
+                let what = format!("the image `{}`", rtc_diag::clip_path(&path.text));
+                let diagnostic = pixels::rejection(&fault, &what, "");
+                self.without(diagnostic, path.span, INSTEAD);
+                None
+            }
+        }
+    }
+
+    fn add_picture(&mut self, image: Image, span: Span) -> ImageId {
+        let id = self.scene.add_image(image);
+        self.record(EntityKind::Image, id.0 as usize, span);
+        id
+    }
+
+    /// The texture of an image, one for each way in which it is looked up.
+    fn sampled_texture(&mut self, image: ImageId, wrap: [Wrap; 2], span: Span) -> TextureId {
+        let sampled = Sampled {
+            image,
+            wrap,
+            filter: Filter::Linear,
+        };
+        let known = self.textures.entry(image.0).or_default();
+        if let Some((_, id)) = known.iter().find(|(other, _)| *other == sampled) {
+            return *id;
+        }
+        let index = self.scene.textures.len();
+        let id = TextureId(u32::try_from(index).unwrap_or(u32::MAX));
+        known.push((sampled.clone(), id));
+        self.scene.textures.push(Texture::Sampled(sampled));
+        self.record(EntityKind::Texture, index, span);
+        id
+    }
+
+    /// What a `UsdUVTexture` says of its picture; `None` without a file.
+    pub(super) fn texture_look(&mut self, texture: &Prim, output: &str) -> Option<TextureLook> {
+        let (file, name) = self.value_source(texture, "inputs:file")?;
+        let (path, layer) = self
+            .asset(&file, &name)
+            .filter(|(path, _)| !path.text.is_empty())?;
+        let four = |lowering: &Self, name: &str, default: [f64; 4]| {
+            lowering.vector::<4>(texture, name).unwrap_or(default)
+        };
+        let (scale, bias) = (
+            four(self, "inputs:scale", [1.0; 4]),
+            four(self, "inputs:bias", [0.0; 4]),
+        );
+        let fallback = four(self, "inputs:fallback", [0.0, 0.0, 0.0, 1.0]);
+        let space = self.text(texture, "inputs:sourceColorSpace");
+        let space = space.or_else(|| self.text(texture, "inputs:isSRGB"));
+        let is_srgb = match space.as_deref() {
+            Some("sRGB" | "srgb") => Some(true),
+            Some("raw") => Some(false),
+            _ => None,
+        };
+        let wrap = ["inputs:wrapS", "inputs:wrapT"].map(|name| {
+            match self.text(texture, name).as_deref() {
+                Some("clamp") => Wrap::Clamp,
+                Some("mirror") => Wrap::Mirror,
+                Some("black") => {
+                    let span = self.property_span(texture, name);
+                    let message =
+                        "beyond its edges the picture is not black: its last texels go on";
+                    self.report(&codes::USD_APPROXIMATE, span, message);
+                    Wrap::Clamp
+                }
+                _ => Wrap::Repeat,
+            }
+        });
+        let (primvar, rows) = self.texture_coordinates(texture);
+        let channel = "rgba"
+            .find(output.strip_prefix("outputs:").unwrap_or(output))
+            .filter(|_| {
+                matches!(
+                    output,
+                    "outputs:r" | "outputs:g" | "outputs:b" | "outputs:a"
+                )
+            });
+        Some(TextureLook {
+            path,
+            layer,
+            channel,
+            scale,
+            bias,
+            fallback,
+            is_srgb,
+            wrap,
+            primvar,
+            rows,
+        })
+    }
+
+    /// The primvar of the texture coordinates, and the map from it to them.
+    fn texture_coordinates(&mut self, texture: &Prim) -> (String, [[f64; 3]; 2]) {
+        let mut rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let mut node = self.node(texture, "inputs:st").map(|(node, _)| node);
+        for _ in 0..4 {
+            let Some(prim) = node else { break };
+            match self.shader_id(&prim).as_deref() {
+                Some("UsdTransform2d") => {
+                    rows = after(rows, self.transform_2d(&prim));
+                    node = self.node(&prim, "inputs:in").map(|(node, _)| node);
+                }
+                Some("UsdPrimvarReader_float2") => {
+                    let source = self.value_source(&prim, "inputs:varname");
+                    let name = source.and_then(|(prim, name)| self.text(&prim, &name));
+                    return (name.unwrap_or_else(|| "st".to_owned()), rows);
+                }
+                id => {
+                    let id = rtc_diag::clip(id.unwrap_or("")).into_owned();
+                    let what = format!("the texture coordinates by `{id}`");
+                    self.unsupported(&prim, &what, "`st` takes their place");
+                    break;
+                }
+            }
+        }
+        ("st".to_owned(), rows)
+    }
+
+    /// Scale, then turn, then move.
+    fn transform_2d(&self, prim: &Prim) -> [[f64; 3]; 2] {
+        let [sx, sy] = self.vector::<2>(prim, "inputs:scale").unwrap_or([1.0; 2]);
+        let [tx, ty] = self
+            .vector::<2>(prim, "inputs:translation")
+            .unwrap_or([0.0; 2]);
+        let angle = self
+            .number(prim, "inputs:rotation")
+            .unwrap_or(0.0)
+            .to_radians();
+        let (s, c) = (rtc_math::sin(angle), rtc_math::cos(angle));
+        [[c * sx, -s * sy, tx], [s * sx, c * sy, ty]]
+    }
+}
+
+/// The rows of an affine map after another one.
+fn after(outer: [[f64; 3]; 2], [x, y]: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
+    outer.map(|[a, b, c]| {
+        let sum = |at: usize| a * x[at] + b * y[at];
+        [sum(0), sum(1), sum(2) + c]
+    })
+}
+
+/// What each byte of a file becomes.
+fn table(is_srgb: bool, [scale, bias]: [u64; 2], encodes: bool) -> [u8; 256] {
+    std::array::from_fn(|byte| {
+        let value = byte as f64 / 255.0;
+        let value = if is_srgb { decode(value) } else { value };
+        let value = value * f64::from_bits(scale) + f64::from_bits(bias);
+        match encodes {
+            true => encoded(value),
+            false => quantized(value),
+        }
+    })
+}
+
+/// A value from 0 to 1 as a byte.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped"
+)]
+pub(super) fn quantized(value: f64) -> u8 {
+    (value.clamp(0.0, 1.0) * 255.0).round() as u8
+}

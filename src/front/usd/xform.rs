@@ -1,0 +1,118 @@
+//! Transforms: the stack of operations of a prim (`UsdGeomXformable`).
+
+use super::Lowering;
+use super::stage::Prim;
+use crate::exchange::transform::Transform;
+use rtc_diag::{clip_path, codes};
+use rtc_math::Vec3;
+
+impl Lowering<'_> {
+    /// The map from a prim to its parent, and whether it forgets those above.
+    pub(super) fn local(&mut self, prim: &Prim) -> (Transform, bool) {
+        let (mut all, mut resets) = (Transform::IDENTITY, false);
+        for name in self.texts(prim, "xformOpOrder").unwrap_or_default() {
+            if name == "!resetXformStack!" {
+                (all, resets) = (Transform::IDENTITY, true);
+                continue;
+            }
+            let inverted = name.strip_prefix("!invert!");
+            let operation = self.operation(prim, inverted.unwrap_or(&name));
+            let operation = match inverted {
+                Some(_) => operation.and_then(|operation| operation.inverse()),
+                None => operation,
+            };
+            match operation {
+                Some(operation) => all = all.after(&operation),
+                None => {
+                    let span = self.property_span(prim, "xformOpOrder");
+                    let path = clip_path(&prim.path).into_owned();
+                    let name = clip_path(&name);
+                    let message = format!("`{name}` of `{path}` is no transform: it is left out");
+                    self.report(&codes::USD_UNSUPPORTED, span, message);
+                }
+            }
+        }
+        (all, resets)
+    }
+
+    /// One operation; an attribute without a value does nothing.
+    fn operation(&self, prim: &Prim, name: &str) -> Option<Transform> {
+        let kind = name.strip_prefix("xformOp:")?.split(':').next()?;
+        let Some(numbers) = self.numbers(prim, name) else {
+            return Some(Transform::IDENTITY);
+        };
+        let (axes, angle) = (["X", "Y", "Z"], numbers.first().copied()?);
+        let along = |axis: usize, value: f64, rest: f64| {
+            let mut vector = [rest; 3];
+            vector[axis] = value;
+            vector
+        };
+        let three = || -> Option<[f64; 3]> { numbers.get(..3)?.try_into().ok() };
+        let transform = match kind {
+            "translate" => Transform::translation(three()?),
+            "scale" => Transform::scale(three()?),
+            "orient" => turned(numbers.get(..4)?.try_into().ok()?)?,
+            "transform" => {
+                let row = |at: usize| Some(Vec3::from_slice(numbers.get(4 * at..4 * at + 3)?));
+                Transform([row(0)?, row(1)?, row(2)?, row(3)?])
+            }
+            _ => {
+                if let Some(rest) = kind.strip_prefix("translate") {
+                    let axis = axes.iter().position(|axis| *axis == rest)?;
+                    Transform::translation(along(axis, angle, 0.0))
+                } else if let Some(rest) = kind.strip_prefix("scale") {
+                    let axis = axes.iter().position(|axis| *axis == rest)?;
+                    Transform::scale(along(axis, angle, 1.0))
+                } else {
+                    // `rotateXYZ` turns about x first.
+                    let order = kind.strip_prefix("rotate")?;
+                    let mut all = Transform::IDENTITY;
+                    for letter in order.chars() {
+                        let axis = "XYZ".find(letter)?;
+                        let angle = *numbers.get(if order.len() == 1 { 0 } else { axis })?;
+                        let turn = Transform::rotation(along(axis, 1.0, 0.0), angle)?;
+                        all = turn.after(&all);
+                    }
+                    all
+                }
+            }
+        };
+        transform
+            .0
+            .iter()
+            .all(|column| column.is_finite())
+            .then_some(transform)
+    }
+}
+
+/// The turn by a quaternion, its real part first; `None` if it is zero.
+pub(super) fn turned(quaternion: [f64; 4]) -> Option<Transform> {
+    let length = quaternion
+        .iter()
+        .map(|part| part * part)
+        .sum::<f64>()
+        .sqrt();
+    if length <= 0.0 || !length.is_finite() {
+        return None;
+    }
+    let [w, x, y, z] = quaternion.map(|part| part / length);
+    let column = |a: f64, b: f64, c: f64| Vec3::new(a, b, c);
+    Some(Transform([
+        column(
+            1.0 - 2.0 * (y * y + z * z),
+            2.0 * (x * y + w * z),
+            2.0 * (x * z - w * y),
+        ),
+        column(
+            2.0 * (x * y - w * z),
+            1.0 - 2.0 * (x * x + z * z),
+            2.0 * (y * z + w * x),
+        ),
+        column(
+            2.0 * (x * z + w * y),
+            2.0 * (y * z - w * x),
+            1.0 - 2.0 * (x * x + y * y),
+        ),
+        Vec3::ZERO,
+    ]))
+}
