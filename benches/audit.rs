@@ -327,7 +327,7 @@ fn audited(
             whole.add(part(by, 3, 3)).unwrap();
             whole.add(part(by, 2, 2)).unwrap();
             let picture = whole.develop().unwrap().0;
-            let bytes = whole.look().encode(&picture, || whole.origin()).unwrap();
+            let bytes = whole.look().encode(&picture, || whole.metadata()).unwrap();
             audit(&read(&bytes).unwrap(), recipe, all, audited_on).unwrap()
         }
         Way::Part(by) => {

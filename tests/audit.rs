@@ -109,7 +109,7 @@ fn other_metadata_are_found_with_their_root_and_with_one_that_fits() {
         assert_eq!(subjects(&result), expected);
     };
     check(
-        |written| written.origin.scene = written.origin.scene.replace("xxh3:", "xxh3:0"),
+        |written| written.metadata.scene = written.metadata.scene.replace("xxh3:", "xxh3:0"),
         &[AuditSubject::Scene],
     );
     // Other settings are another scene, and what is not of the scene is other values.
@@ -133,7 +133,7 @@ fn other_metadata_are_found_with_their_root_and_with_one_that_fits() {
     );
     // The view is no part of the root, and follows from the scene.
     let written = made.with_other_words(
-        |written| written.origin.world_to_camera.as_mut().unwrap()[3] += 1.0,
+        |written| written.metadata.world_to_camera.as_mut().unwrap()[3] += 1.0,
         false,
     );
     let result = audited(&written, &recipe).unwrap();
@@ -141,8 +141,8 @@ fn other_metadata_are_found_with_their_root_and_with_one_that_fits() {
 }
 
 fn set(written: &mut WrittenPicture, old: &str, new: &str) {
-    assert!(written.origin.settings.contains(old));
-    written.origin.settings = written.origin.settings.replacen(old, new, 1);
+    assert!(written.metadata.settings.contains(old));
+    written.metadata.settings = written.metadata.settings.replacen(old, new, 1);
 }
 
 #[test]
@@ -181,8 +181,8 @@ fn what_cannot_be_made_tile_by_tile_is_refused_with_the_reason() {
         };
         assert!(reason.contains(words), "{reason}");
     }
-    assert!(refused(|written| written.origin.software = "rtc 0.0.1".into()).contains("0.0.1"));
-    assert!(refused(|written| written.origin.layer = "{}".into()).contains("layer"));
+    assert!(refused(|written| written.metadata.software = "rtc 0.0.1".into()).contains("0.0.1"));
+    assert!(refused(|written| written.metadata.layer = "{}".into()).contains("layer"));
     let mut bare = made.written();
     bare.tree = None;
     assert!(matches!(
@@ -202,7 +202,7 @@ fn each_flipped_bit_of_the_words_is_found_or_refused() {
             assert_eq!(subjects(&result), [AuditSubject::Root]);
             let written = made.with_flipped_word(&mut random, true);
             match audited(&written, &recipe) {
-                Ok(result) => assert_ne!(result.findings, [], "{:?}", written.origin),
+                Ok(result) => assert_ne!(result.findings, [], "{:?}", written.metadata),
                 Err(RenderError::Refused(_)) => {}
                 Err(other) => panic!("{other:?}"),
             }
@@ -244,7 +244,7 @@ fn chunks(png: &[u8]) -> Vec<([u8; 4], std::ops::Range<usize>)> {
 #[test]
 fn each_flipped_bit_of_the_metadata_of_a_png_is_found() {
     let made = small();
-    let origin = made.written().origin;
+    let metadata = made.written().metadata;
     let bytes = made.file();
     let texts = ["Software", "rtc:scene", "rtc:settings"];
     let mut flips = 0;
@@ -263,7 +263,7 @@ fn each_flipped_bit_of_the_metadata_of_a_png_is_found() {
             let sum = crc32fast::hash(&bytes[content.start - 4..content.end]);
             bytes[content.end..content.end + 4].copy_from_slice(&sum.to_be_bytes());
             let is_found = read(&bytes).is_none_or(|written| {
-                let is_other = written.origin != origin || written.tree != made.written().tree;
+                let is_other = written.metadata != metadata || written.tree != made.written().tree;
                 assert!(is_other, "a bit that is not read");
                 match audited(&written, &made.recipe) {
                     Ok(result) => !result.findings.is_empty(),

@@ -162,7 +162,7 @@ impl Made {
         let picture = setup.develop(&mut subject, sums, &[], input, &|| false);
         let picture = picture.unwrap();
         let head = PictureHead {
-            origin: setup.origin(&subject.validated.lowered.scene),
+            metadata: setup.metadata(&subject.validated.lowered.scene),
             ..PictureHead::of(&picture, form)
         };
         let made = Self {
@@ -239,11 +239,11 @@ impl Made {
         fits: bool,
     ) -> WrittenPicture {
         let change = |written: &mut WrittenPicture| {
-            let origin = &mut written.origin;
+            let metadata = &mut written.metadata;
             let texts = [
-                &mut origin.software,
-                &mut origin.scene,
-                &mut origin.settings,
+                &mut metadata.software,
+                &mut metadata.scene,
+                &mut metadata.settings,
             ];
             let text = texts.into_iter().nth(random(3) as usize).unwrap();
             let mut bytes = std::mem::take(text).into_bytes();
@@ -263,7 +263,7 @@ impl Made {
         let tile = random(tiles.len() as u64);
         tiles[tile as usize] = TileHash::of_tile(&random(u64::MAX).to_le_bytes());
         let mut written = self.written();
-        written.tree = Some(MerkleTree::new(tiles, &written.origin).pruned());
+        written.tree = Some(MerkleTree::new(tiles, &written.metadata).pruned());
         (written, tile)
     }
 
@@ -277,7 +277,7 @@ impl Made {
         change(&mut written);
         if fits {
             let tiles = self.picture.tiles.clone();
-            written.tree = Some(MerkleTree::new(tiles, &written.origin).pruned());
+            written.tree = Some(MerkleTree::new(tiles, &written.metadata).pruned());
         }
         written
     }

@@ -2,7 +2,7 @@
 
 use super::{Aov, Diagnostic, Error, Format, Tone};
 use rtc_color::quantize8;
-use rtc_image::{self as image, Origin};
+use rtc_image::{self as image, PictureMetadata};
 use rtc_pipeline::ResolvedOutputTransform;
 use rtc_render::Counts;
 
@@ -23,7 +23,7 @@ use rtc_render::Counts;
 pub struct Picture {
     held: image::Picture,
     look: ResolvedOutputTransform,
-    origin: Origin,
+    metadata: PictureMetadata,
     format: Format,
     statistics: Statistics,
     error: Option<f64>,
@@ -58,7 +58,7 @@ pub struct Statistics {
 
 impl Picture {
     pub(super) fn new(
-        (held, look, origin): (image::Picture, ResolvedOutputTransform, Origin),
+        (held, look, metadata): (image::Picture, ResolvedOutputTransform, PictureMetadata),
         format: Format,
         (counts, error): (&Counts, Option<f64>),
         diagnostics: Vec<Diagnostic>,
@@ -66,7 +66,7 @@ impl Picture {
         Self {
             held,
             look,
-            origin,
+            metadata,
             format,
             statistics: Statistics {
                 rays: counts.rays(),
@@ -172,7 +172,7 @@ impl Picture {
     /// # Errors
     /// [`Error::Refused`] if it is larger than the format allows.
     pub fn encode(&self) -> Result<Vec<u8>, Error> {
-        let bytes = self.look.encode(&self.held, || self.origin.clone());
+        let bytes = self.look.encode(&self.held, || self.metadata.clone());
         bytes.map_err(|error| Error::Refused(error.to_string()))
     }
 

@@ -269,10 +269,10 @@ impl Run<'_> {
             });
         // Attach the metadata of the picture.
         let (picture, counts, error) = made.map_err(|error| self.error(error))?;
-        let origin = setup.origin(&subject.validated.lowered.scene);
+        let metadata = setup.metadata(&subject.validated.lowered.scene);
         let look = setup.look.resolve(&subject.validated.scene.settings().mode);
         Ok(Picture::new(
-            (picture, look, origin),
+            (picture, look, metadata),
             options.format,
             (&counts, error),
             self.diagnostics(),

@@ -43,7 +43,7 @@ pub(super) fn run(args: &Merge) -> Result<(), Failure> {
         .for_each(|diagnostic| sink.push(diagnostic));
     reporter.file(&args.output.display().to_string(), sink, &map)?;
     reporter.finish()?;
-    let bytes = merged.look().encode(&picture, || merged.origin());
+    let bytes = merged.look().encode(&picture, || merged.metadata());
     let bytes = bytes.map_err(|error| Failure::Trouble(error.to_string()))?;
     output.commit(&bytes, &interrupt)?;
     let [width, height] = [picture.image.width, picture.image.height];

@@ -152,7 +152,7 @@ pub fn foreign(name: &str, bytes: &[u8]) -> Option<Diagnostic> {
     let found = FOREIGN.iter().find(|(_, begins, _)| begins(head));
     let known = found.map(|(format, _, hint)| (*format, *hint));
     let (format, hint) = known.or_else(|| xml(head))?;
-    let message = format!("`{}` is {format}, and no scene", clip_path(name));
+    let message = format!("`{}` is {format}, not a scene", clip_path(name));
     Some(Diagnostic::new(&codes::NOT_A_SCENE, message).hint(hint))
 }
 

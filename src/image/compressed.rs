@@ -49,7 +49,7 @@ pub(super) fn write(
                 false => image_webp::ColorType::Rgb8,
             };
             let mut encoder = WebPEncoder::new(&mut bytes);
-            if let Some(packet) = xmp::packet(&head.origin, strips.tree(head)) {
+            if let Some(packet) = xmp::packet(&head.metadata, strips.tree(head)) {
                 encoder.set_xmp_metadata(packet.into_bytes());
             }
             encoder

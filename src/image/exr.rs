@@ -7,7 +7,7 @@
 
 use super::file::{BLOCK_ROWS, PictureHead, StripSource};
 use super::range::{is_half, narrow};
-use super::{FileFormat, MerkleTree, Origin, Picture};
+use super::{FileFormat, MerkleTree, Picture, PictureMetadata};
 use ::exr::block::UncompressedBlock;
 use ::exr::block::lines::LineRefMut;
 use ::exr::block::writer::ChunksWriter;
@@ -114,13 +114,13 @@ fn offset_of_tree(header: &Header) -> Option<u64> {
 fn header(head: &PictureHead, sources: &[(&str, ChannelSource)]) -> Header {
     const COMPRESSION: Compression = Compression::ZIP16;
     const _: () = assert!(BLOCK_ROWS == 16, "as many rows as ZIP16 has in a block");
-    let Origin {
+    let PictureMetadata {
         software,
         scene,
         settings,
         world_to_camera,
         layer: _,
-    } = &head.origin;
+    } = &head.metadata;
     let [width, height] = head.size.map(|side| side as usize);
     let size = (width, height);
     let other = |name, words: &str| {
@@ -273,7 +273,7 @@ mod tests {
             pixels,
         });
         let mut head = PictureHead::of(&picture, FileFormat::Exr);
-        head.origin = Origin {
+        head.metadata = PictureMetadata {
             software: "rtc 1".into(),
             scene: "abc".into(),
             settings: "{\"size\":\"2×2→\"}".into(),

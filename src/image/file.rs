@@ -3,7 +3,8 @@
 
 use super::compressed::{self, CompressedForm};
 use super::{
-    EncodeError, FileFormat, Image, Layers, MerkleTree, Origin, Picture, TileHash, exr, png, rgbe,
+    EncodeError, FileFormat, Image, Layers, MerkleTree, Picture, PictureMetadata, TileHash, exr,
+    png, rgbe,
 };
 use ::png::BitDepth;
 use std::borrow::Cow;
@@ -27,7 +28,7 @@ pub struct PictureHead {
     /// numbers.
     pub is_color: bool,
     /// Its provenance.
-    pub origin: Origin,
+    pub metadata: PictureMetadata,
     /// Whether it keeps the hashes of its tiles, which come with its strips.
     pub has_tiles: bool,
 }
@@ -64,7 +65,8 @@ impl StripSource<'_> {
     /// The tree over the tiles of all strips, once there are no more; none if the file keeps none.
     pub(super) fn tree(&mut self, head: &PictureHead) -> Option<MerkleTree> {
         let tiles = std::mem::take(&mut self.tiles);
-        head.has_tiles.then(|| MerkleTree::new(tiles, &head.origin))
+        head.has_tiles
+            .then(|| MerkleTree::new(tiles, &head.metadata))
     }
 }
 
@@ -84,7 +86,7 @@ impl PictureHead {
             layers: names.clone(),
             form,
             is_color: true,
-            origin: Origin::default(),
+            metadata: PictureMetadata::default(),
             has_tiles: !tiles.is_empty(),
         }
     }

@@ -136,7 +136,7 @@ pub struct FormatTraits {
     pub is_linear: bool,
     /// Whether it has an alpha channel.
     pub has_alpha: bool,
-    /// Whether it has metadata about its origin.
+    /// Whether it has metadata about the program and scene.
     pub has_metadata: bool,
     /// Whether it has layers, or files of this format beside it have them.
     pub has_layers: bool,
@@ -218,7 +218,7 @@ impl FileFormat {
 /// The provenance in a file: in a PNG as international text (`iTXt`), in an EXR as text attributes,
 /// in a WebP as XMP.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Origin {
+pub struct PictureMetadata {
     /// The program and its version: `Software` in a PNG, the standard attribute `software`.
     pub software: String,
     /// The hash of the scene: `rtc:scene`.
@@ -231,7 +231,7 @@ pub struct Origin {
     pub layer: String,
 }
 
-impl Origin {
+impl PictureMetadata {
     /// The meaning of the pixels, without their provenance.
     #[must_use]
     pub fn meaning(self) -> Self {

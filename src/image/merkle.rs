@@ -5,7 +5,7 @@
 //! values of a tile, a node that of a byte 1 and its two children. The root is the hash of a byte
 //! 2, of the metadata (each text after its length in 64 bits, little-endian), and of the top node.
 
-use super::{BLOCK_ROWS, Image, Origin};
+use super::{BLOCK_ROWS, Image, PictureMetadata};
 use sha2::{Digest as _, Sha256};
 use std::fmt;
 use std::ops::Range;
@@ -109,15 +109,15 @@ pub struct MerkleTree {
 }
 
 impl MerkleTree {
-    /// The tree over tiles of a picture of this origin, with all its leaves.
+    /// The tree over tiles of a picture with this metadata, with all its leaves.
     #[must_use]
-    pub fn new(tiles: Vec<TileHash>, origin: &Origin) -> Self {
+    pub fn new(tiles: Vec<TileHash>, metadata: &PictureMetadata) -> Self {
         let mut tree = Self {
             root: TileHash::default(),
             level: 0,
             nodes: tiles,
         };
-        tree.root = tree.root_of(origin);
+        tree.root = tree.root_of(metadata);
         tree
     }
 
@@ -168,8 +168,8 @@ impl MerkleTree {
 
     /// The root of these nodes for a picture of this origin.
     #[must_use]
-    pub fn root_of(&self, origin: &Origin) -> TileHash {
-        let texts = [&origin.software, &origin.scene, &origin.settings];
+    pub fn root_of(&self, metadata: &PictureMetadata) -> TileHash {
+        let texts = [&metadata.software, &metadata.scene, &metadata.settings];
         let lengths = texts.map(|text| (text.len() as u64).to_le_bytes());
         let top = Self::node(self.nodes.clone());
         let mut pieces: Vec<&[u8]> = vec![&[2]];
@@ -260,12 +260,12 @@ mod tests {
 
     #[test]
     fn pruning_keeps_the_root_and_says_which_tiles_a_node_has() {
-        let origin = Origin::default();
+        let metadata = PictureMetadata::default();
         for count in [1, 511, 512, 513, 1025, 3000] {
-            let whole = MerkleTree::new(leaves(count), &origin);
+            let whole = MerkleTree::new(leaves(count), &metadata);
             let pruned = whole.clone().pruned();
             assert!(pruned.nodes.len() <= MAX_NODES);
-            assert_eq!(pruned.root_of(&origin), whole.root());
+            assert_eq!(pruned.root_of(&metadata), whole.root());
             for (index, node) in pruned.nodes().iter().enumerate() {
                 let tiles = leaves(count)[pruned.tiles(index, count)].to_vec();
                 assert_eq!(MerkleTree::node(tiles), *node);
@@ -276,17 +276,17 @@ mod tests {
 
     #[test]
     fn each_text_changes_the_root() {
-        let tree = MerkleTree::new(leaves(5), &Origin::default());
-        let with = |change: fn(&mut Origin)| {
-            let mut origin = Origin::default();
-            change(&mut origin);
-            tree.root_of(&origin)
+        let tree = MerkleTree::new(leaves(5), &PictureMetadata::default());
+        let with = |change: fn(&mut PictureMetadata)| {
+            let mut metadata = PictureMetadata::default();
+            change(&mut metadata);
+            tree.root_of(&metadata)
         };
         let roots = [
             tree.root(),
-            with(|origin| origin.software = "a".into()),
-            with(|origin| origin.scene = "a".into()),
-            with(|origin| origin.settings = "a".into()),
+            with(|metadata| metadata.software = "a".into()),
+            with(|metadata| metadata.scene = "a".into()),
+            with(|metadata| metadata.settings = "a".into()),
         ];
         for (index, root) in roots.iter().enumerate() {
             assert!(!roots[..index].contains(root), "{index}");

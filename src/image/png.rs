@@ -98,7 +98,7 @@ fn encode(
     if head.is_some_and(|head| head.is_color) {
         encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
     }
-    for (name, text) in head.into_iter().flat_map(|head| head.origin.texts()) {
+    for (name, text) in head.into_iter().flat_map(|head| head.metadata.texts()) {
         encoder.add_itxt_chunk(name.to_owned(), text.to_owned())?;
     }
     let mut writer = encoder.write_header()?;
@@ -138,7 +138,7 @@ impl<W: Write> Write for CheckedWriter<W> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{FileFormat, Image, Origin};
+    use super::super::{FileFormat, Image, PictureMetadata};
     use super::*;
 
     fn ramp() -> Picture {
@@ -166,21 +166,21 @@ mod tests {
 
     #[test]
     fn where_it_came_from_is_read_and_changes_no_pixel() {
-        let origin = Origin {
+        let metadata = PictureMetadata {
             software: "rtc 1".into(),
             scene: "abc".into(),
             settings: "{\"size\":\"2×2→\"}".into(),
-            ..Origin::default()
+            ..PictureMetadata::default()
         };
-        let encode = |origin: Origin| {
+        let encode = |metadata: PictureMetadata| {
             let head = PictureHead {
-                origin,
+                metadata,
                 ..PictureHead::of(&ramp(), FileFormat::Png8)
             };
             head.encode(&ramp()).unwrap()
         };
-        let (before, none) = read(&encode(Origin::default()));
-        let (after, texts) = read(&encode(origin));
+        let (before, none) = read(&encode(PictureMetadata::default()));
+        let (after, texts) = read(&encode(metadata));
         assert_eq!((before, none), (after, Vec::new()));
         let expected = [
             ("Software", "rtc 1"),

@@ -17,7 +17,7 @@ pub(super) fn write(
     strips: &mut StripSource<'_>,
 ) -> io::Result<()> {
     let [width, height] = head.size;
-    let software = &head.origin.software;
+    let software = &head.metadata.software;
     let mut bytes = b"#?RADIANCE\n".to_vec();
     if !software.is_empty() {
         writeln!(bytes, "SOFTWARE={software}")?;

@@ -3,7 +3,9 @@
 
 use super::decode::{DecodeCost, DecodeError, ImageSize};
 use super::png::{TREE as TREE_CHUNK, pack};
-use super::{FileFormat, MerkleTree, Opacity, Origin, Picture, PixelFile, exr, is_radiance, xmp};
+use super::{
+    FileFormat, MerkleTree, Opacity, Picture, PictureMetadata, PixelFile, exr, is_radiance, xmp,
+};
 use ::exr::meta::MetaData;
 use ::exr::meta::attribute::{AttributeValue, SampleType, Text};
 use ::exr::meta::header::Header;
@@ -31,7 +33,7 @@ pub struct WrittenPicture {
     /// The names of its channels but for red, green, blue and opacity, in the order of the file.
     pub layers: Vec<String>,
     /// Its provenance.
-    pub origin: Origin,
+    pub metadata: PictureMetadata,
     /// The tree over the tiles of its film, if it has one.
     pub tree: Option<MerkleTree>,
     /// The samples, pixel after pixel.
@@ -150,7 +152,7 @@ fn read_png(bytes: &[u8]) -> Result<WrittenPicture, DecodeError> {
         form,
         size: [info.width, info.height],
         layers: Vec::new(),
-        origin: Origin {
+        metadata: PictureMetadata {
             software: text("Software"),
             scene: text("rtc:scene"),
             settings: text("rtc:settings"),
@@ -188,12 +190,12 @@ fn read_webp(bytes: &[u8]) -> Result<WrittenPicture, DecodeError> {
         .read_image(&mut samples)
         .map_err(DecodeError::damaged)?;
     let packet = decoder.xmp_metadata().map_err(DecodeError::damaged)?;
-    let (origin, tree) = xmp::read(&packet.unwrap_or_default());
+    let (metadata, tree) = xmp::read(&packet.unwrap_or_default());
     Ok(WrittenPicture {
         form: FileFormat::Webp,
         size: decoder.dimensions().into(),
         layers: Vec::new(),
-        origin,
+        metadata,
         tree,
         samples,
     })
@@ -262,7 +264,7 @@ fn read_exr(bytes: &[u8]) -> Result<WrittenPicture, DecodeError> {
         },
         size,
         layers: names.filter(is_layer).collect(),
-        origin: Origin {
+        metadata: PictureMetadata {
             software: own
                 .software_name
                 .as_ref()
@@ -321,7 +323,7 @@ mod tests {
 
     fn head(picture: &Picture, form: FileFormat) -> PictureHead {
         PictureHead {
-            origin: Origin {
+            metadata: PictureMetadata {
                 software: "rtc 1".into(),
                 scene: "abc".into(),
                 settings: "{\"a\":[1,\"&<\"]}".into(),
@@ -348,8 +350,8 @@ mod tests {
             );
             let written = decoded(&bytes);
             assert_eq!((written.form, written.size), (form, SIZE));
-            assert_eq!(written.origin, head.origin, "{form:?}");
-            let tree = MerkleTree::new(picture.tiles.clone(), &head.origin);
+            assert_eq!(written.metadata, head.metadata, "{form:?}");
+            let tree = MerkleTree::new(picture.tiles.clone(), &head.metadata);
             assert_eq!(written.tree, Some(tree), "{form:?}");
             assert_eq!(
                 written.part([0, 0], SIZE),
@@ -384,7 +386,10 @@ mod tests {
             picture.tiles.clear();
             let bytes = picture.encode(form).unwrap();
             let written = decoded(&bytes);
-            assert_eq!((written.tree, written.origin), (None, Origin::default()));
+            assert_eq!(
+                (written.tree, written.metadata),
+                (None, PictureMetadata::default())
+            );
             let has = |name: &[u8]| bytes.windows(name.len()).any(|window| window == name);
             assert!(
                 ![&b"rtMT"[..], b"rtc:", b"XMP "]
@@ -431,7 +436,7 @@ mod tests {
         writer.write_image_data(&[1, 2, 3]).unwrap();
         writer.finish().unwrap();
         assert!(bytes.len() < 1 << 15, "it is small: {}", bytes.len());
-        assert_eq!(decoded(&bytes).origin, Origin::default());
+        assert_eq!(decoded(&bytes).metadata, PictureMetadata::default());
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The provenance of a WebP, as XMP (ISO 16684-1): attributes of one description.
 
 use super::merkle::from_hex;
-use super::{MerkleTree, Origin};
+use super::{MerkleTree, PictureMetadata};
 use roxmltree::{Document, ParsingOptions};
 use std::fmt::Write as _;
 
@@ -11,14 +11,14 @@ const XMP: &str = "http://ns.adobe.com/xap/1.0/";
 const RTC: &str = "urn:rtc:picture";
 
 /// The packet; `None` if there is no provenance.
-pub(super) fn packet(origin: &Origin, tree: Option<MerkleTree>) -> Option<String> {
-    let Origin {
+pub(super) fn packet(metadata: &PictureMetadata, tree: Option<MerkleTree>) -> Option<String> {
+    let PictureMetadata {
         software,
         scene,
         settings,
         world_to_camera: _,
         layer: _,
-    } = origin;
+    } = metadata;
     let tree = tree.map(|tree| tree.pruned().bytes());
     let mut hex = String::new();
     for byte in tree.into_iter().flatten() {
@@ -44,7 +44,7 @@ pub(super) fn packet(origin: &Origin, tree: Option<MerkleTree>) -> Option<String
 }
 
 /// The provenance in such a packet; empty for another one.
-pub(super) fn read(packet: &[u8]) -> (Origin, Option<MerkleTree>) {
+pub(super) fn read(packet: &[u8]) -> (PictureMetadata, Option<MerkleTree>) {
     let text = std::str::from_utf8(packet).unwrap_or_default();
     let options = ParsingOptions {
         nodes_limit: 64,
@@ -59,14 +59,14 @@ pub(super) fn read(packet: &[u8]) -> (Origin, Option<MerkleTree>) {
         let found = described.and_then(|node| node.attribute((space, name)));
         found.unwrap_or_default().to_owned()
     };
-    let origin = Origin {
+    let metadata = PictureMetadata {
         software: property(XMP, "CreatorTool"),
         scene: property(RTC, "scene"),
         settings: property(RTC, "settings"),
-        ..Origin::default()
+        ..PictureMetadata::default()
     };
     let tree = from_hex(&property(RTC, "tiles"));
-    (origin, tree.as_deref().and_then(MerkleTree::read))
+    (metadata, tree.as_deref().and_then(MerkleTree::read))
 }
 
 /// Text within an attribute.
@@ -83,20 +83,20 @@ mod tests {
 
     #[test]
     fn what_is_said_comes_back() {
-        let origin = Origin {
+        let metadata = PictureMetadata {
             software: "rtc 1".into(),
             scene: "a&b".into(),
             settings: "{\"size\":\"<2×2>\"}".into(),
-            ..Origin::default()
+            ..PictureMetadata::default()
         };
-        let tree = MerkleTree::new(vec![TileHash::of_tile(b"a")], &origin);
-        let packet_text = packet(&origin, Some(tree.clone())).unwrap();
-        assert_eq!(read(packet_text.as_bytes()), (origin.clone(), Some(tree)));
-        let bare = packet(&origin, None).unwrap();
-        assert_eq!(read(bare.as_bytes()), (origin, None));
-        assert_eq!(packet(&Origin::default(), None), None);
-        assert_eq!(read(b"<a"), (Origin::default(), None));
+        let tree = MerkleTree::new(vec![TileHash::of_tile(b"a")], &metadata);
+        let packet_text = packet(&metadata, Some(tree.clone())).unwrap();
+        assert_eq!(read(packet_text.as_bytes()), (metadata.clone(), Some(tree)));
+        let bare = packet(&metadata, None).unwrap();
+        assert_eq!(read(bare.as_bytes()), (metadata, None));
+        assert_eq!(packet(&PictureMetadata::default(), None), None);
+        assert_eq!(read(b"<a"), (PictureMetadata::default(), None));
         let many = bare.replace("</rdf:RDF>", &("<a/>".repeat(99) + "</rdf:RDF>"));
-        assert_eq!(read(many.as_bytes()), (Origin::default(), None));
+        assert_eq!(read(many.as_bytes()), (PictureMetadata::default(), None));
     }
 }

@@ -5,7 +5,7 @@ use rtc_color::Tone;
 use rtc_diag::Diagnostic;
 use rtc_image::{
     self as image, Association, BackgroundFill, EncodeError, FileFormat, FormatTraits, Image,
-    Layers, Origin, Picture, PictureHead, RangeClipping,
+    Layers, Picture, PictureHead, PictureMetadata, RangeClipping,
 };
 use rtc_ir::{Display, Scene};
 use rtc_plan::Arithmetic;
@@ -36,7 +36,7 @@ pub struct OutputTransform {
     background: BackgroundFill,
     /// The requested layers, without duplicates.
     pub aovs: Vec<Aov>,
-    /// Whether the file contains metadata about its origin.
+    /// Whether the file contains metadata about the program and scene.
     pub has_metadata: bool,
 }
 
@@ -245,7 +245,7 @@ pub struct ResolvedOutputTransform {
     stops: f64,
     tone: Tone,
     background: BackgroundFill,
-    /// Whether the file contains metadata about its origin.
+    /// Whether the file contains metadata about the program and scene.
     has_metadata: bool,
 }
 
@@ -328,10 +328,10 @@ impl ResolvedOutputTransform {
     pub fn encode(
         &self,
         picture: &Picture,
-        origin: impl FnOnce() -> Origin,
+        metadata: impl FnOnce() -> PictureMetadata,
     ) -> Result<Vec<u8>, EncodeError> {
         let head = PictureHead {
-            origin: self.origin(origin()),
+            metadata: self.metadata(metadata()),
             ..PictureHead::of(picture, self.kind)
         };
         head.encode(picture)
@@ -342,7 +342,7 @@ impl ResolvedOutputTransform {
         &self,
         size: [u32; 2],
         aovs: &[Aov],
-        origin: impl FnOnce() -> Origin,
+        metadata: impl FnOnce() -> PictureMetadata,
     ) -> PictureHead {
         PictureHead {
             size,
@@ -354,7 +354,7 @@ impl ResolvedOutputTransform {
                 .collect(),
             form: self.kind,
             is_color: true,
-            origin: self.origin(origin()),
+            metadata: self.metadata(metadata()),
             has_tiles: self.has_tiles(),
         }
     }
@@ -364,17 +364,17 @@ impl ResolvedOutputTransform {
         self.has_metadata && self.kind.traits().has_metadata
     }
 
-    /// Whether the file contains metadata about its origin.
+    /// Whether the file contains metadata about the program and scene.
     pub(super) fn has_metadata(&self) -> bool {
         self.has_metadata
     }
 
     /// The metadata of the file.
-    pub(super) fn origin(&self, origin: Origin) -> Origin {
+    pub(super) fn metadata(&self, metadata: PictureMetadata) -> PictureMetadata {
         if self.has_metadata {
-            origin
+            metadata
         } else {
-            origin.meaning()
+            metadata.meaning()
         }
     }
 }

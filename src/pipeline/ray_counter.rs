@@ -214,7 +214,7 @@ impl RayCounter {
         Diagnostic::new(&codes::RAYS_RAN_OUT, message)
             .at(span, format!("`{name}` is {value}"))
             .hint(format!(
-                "lower `{name}`; `--limit rays=…` sets another limit, `--allow-huge` lifts it"
+                "lower `{name}`; `--limit rays=…` changes the limit, `--allow-huge` removes it"
             ))
     }
 }

@@ -9,7 +9,7 @@ use super::{
 };
 use rayon::ThreadPoolBuildError;
 use rtc_diag::Diagnostic;
-use rtc_image::{Image, Layers, Origin, Picture, PictureHead};
+use rtc_image::{Image, Layers, Picture, PictureHead, PictureMetadata};
 use rtc_ir::{EntityKind, Field, Lens, Mode, Scene, Settings, ValuePath};
 use rtc_passes::{self as passes, Framing, Overrides};
 use rtc_plan::{self as plan, Plan, Rule, Rules};
@@ -358,9 +358,9 @@ impl PictureSetup {
         picture: &Picture,
         subject: &RenderSubject,
     ) -> Result<Vec<u8>, RenderError> {
-        let origin = || self.origin(&subject.validated.lowered.scene);
+        let metadata = || self.metadata(&subject.validated.lowered.scene);
         let look = self.look.resolve(&subject.validated.scene.settings().mode);
-        let bytes = look.encode(picture, origin);
+        let bytes = look.encode(picture, metadata);
         bytes.map_err(|error| RenderError::Refused(error.to_string()))
     }
 
@@ -394,8 +394,8 @@ impl PictureSetup {
 
     /// The metadata that identifies the picture: rtc version, scene, settings.
     #[must_use]
-    pub fn origin(&self, scene: &Scene) -> Origin {
-        Origin {
+    pub fn metadata(&self, scene: &Scene) -> PictureMetadata {
+        PictureMetadata {
             software: SOFTWARE.to_owned(),
             scene: hash(scene),
             settings: self.described(scene).to_string(),
@@ -578,9 +578,9 @@ impl PictureSetup {
         let displayed = Picture::opaque(layer.image);
         let head = PictureHead {
             is_color: layer.is_color,
-            origin: look.origin(Origin {
+            metadata: look.metadata(PictureMetadata {
                 layer: metadata.to_string(),
-                ..self.origin(&subject.validated.lowered.scene)
+                ..self.metadata(&subject.validated.lowered.scene)
             }),
             ..PictureHead::of(&displayed, self.look.kind)
         };

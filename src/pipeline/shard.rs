@@ -10,7 +10,7 @@ pub use file::{MAX_SHARES, hash_of_file};
 
 use super::{ResolvedOutputTransform, ShardBy, ShardPlan, picture_diagnostics};
 use rtc_diag::Diagnostic;
-use rtc_image::{Layers, MerkleTree, Origin, Picture, TileHash, WorldToCamera};
+use rtc_image::{Layers, MerkleTree, Picture, PictureMetadata, TileHash, WorldToCamera};
 use rtc_plan::Arithmetic;
 use rtc_render::{Aov, Counts, Crop, FilmError, PartialFilm, Tiles};
 use serde::{Deserialize, Serialize};
@@ -66,7 +66,7 @@ struct ShardTiles {
 
 /// The settings that a shard was rendered with.
 pub(super) struct ShardSource<'a> {
-    pub(super) origin: Origin,
+    pub(super) metadata: PictureMetadata,
     pub(super) look: ResolvedOutputTransform,
     pub(super) arithmetic: Arithmetic,
     pub(super) aovs: &'a [Aov],
@@ -157,8 +157,8 @@ impl RenderShard {
     ) -> Self {
         // The description of the picture.
         let ShardSource {
-            origin:
-                Origin {
+            metadata:
+                PictureMetadata {
                     software,
                     scene,
                     settings,
@@ -237,8 +237,8 @@ impl RenderShard {
 
     /// The metadata that identifies the picture.
     #[must_use]
-    pub fn origin(&self) -> Origin {
-        Origin {
+    pub fn metadata(&self) -> PictureMetadata {
+        PictureMetadata {
             software: self.head.software.clone(),
             scene: self.head.scene.clone(),
             settings: self.head.settings.to_string(),
@@ -289,7 +289,7 @@ impl RenderShard {
         let keeps = self.head.look.has_metadata() && !leaves.is_empty();
         keeps.then(|| ShardTiles {
             leaves: leaves.iter().map(TileHash::to_string).collect(),
-            root: MerkleTree::new(leaves, &self.origin()).root().to_string(),
+            root: MerkleTree::new(leaves, &self.metadata()).root().to_string(),
         })
     }
 

@@ -90,8 +90,8 @@ impl PictureSetup {
     ) -> io::Result<Result<Counts, RenderError>> {
         // Prepare the header and the state.
         let look = self.look.resolve(&subject.validated.scene.settings().mode);
-        let origin = || self.origin(&subject.validated.lowered.scene);
-        let head = look.head([window.width, window.height], &self.look.aovs, origin);
+        let metadata = || self.metadata(&subject.validated.lowered.scene);
+        let head = look.head([window.width, window.height], &self.look.aovs, metadata);
         let mut render = StripRender {
             setup: self,
             subject,

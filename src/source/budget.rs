@@ -228,7 +228,7 @@ impl Exceeded {
     #[must_use]
     pub fn hint(&self) -> String {
         format!(
-            "`--limit {}=…` sets another limit, `--allow-huge` lifts all of them",
+            "`--limit {}=…` changes the limit, `--allow-huge` removes all of them",
             self.resource.name()
         )
     }

@@ -1,7 +1,7 @@
 //! Rendering within a time budget: first a coarse picture, then a complete one, then samples where
 //! they reduce the error most. A pass that the time interrupts leaves complete tiles.
 
-use super::noise::{Bound, Noise};
+use super::noise::{ErrorBound, Noise};
 use super::progressive::ProgressiveRender;
 use super::rounds::next_round;
 use super::subject::Stopped;
@@ -203,7 +203,7 @@ impl TimedRender<'_, '_> {
                 .unwrap_or(BLOCKS[0])
         };
         let blocks: Vec<_> = (0..film.len()).map(finest).collect();
-        let nothing = Bound {
+        let nothing = ErrorBound {
             error: f64::INFINITY,
             undersampled: None,
         };

@@ -56,7 +56,7 @@ impl Noise {
     /// The error bound: the sampled part exceeds it with probability `tail`, the unsampled part
     /// with 5 %. The unsampled part is included only if it is small against the target, in grey
     /// levels.
-    pub(super) fn bound(&self, tail: f64, target: Option<f64>) -> Bound {
+    pub(super) fn bound(&self, tail: f64, target: Option<f64>) -> ErrorBound {
         let sampled = if self.square == 0.0 {
             0.0
         } else {
@@ -69,7 +69,7 @@ impl Noise {
             } else {
                 0.0
             };
-        Bound {
+        ErrorBound {
             error: all.sqrt() * LEVELS,
             undersampled: (!is_whole).then_some(self.undersampled.source.brightest),
         }
@@ -87,7 +87,7 @@ impl Noise {
 
 /// A bound on the error of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Bound {
+pub(super) struct ErrorBound {
     /// The root mean square error in grey levels.
     pub(super) error: f64,
     /// If there is no bound: the possible brightness, in multiples of white, of light that no

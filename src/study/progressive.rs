@@ -2,7 +2,7 @@
 //! same bytes: a round takes the samples that are missing.
 
 use super::batch::WorkBatch;
-use super::noise::Bound;
+use super::noise::ErrorBound;
 use super::target::{RenderOrder, Samples, TargetResult};
 use super::undersampled::Undersampled;
 use rtc_render::{AnyWorld, FilmError, OnPixel, ProgressiveFilm, Replicates, Tiles, Values};
@@ -118,7 +118,7 @@ impl ProgressiveRender {
     /// The current picture with a bound on its error.
     pub(super) fn result(
         &self,
-        bound: Bound,
+        bound: ErrorBound,
         undersampled: &Undersampled,
         values: Values,
     ) -> TargetResult {

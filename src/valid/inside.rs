@@ -196,7 +196,7 @@ pub(super) fn lights(scene: &ir::Scene, check: &mut Checker<'_>) {
         ));
         check.report(
             ValuePath::new(EntityKind::Light, index, Field::Position),
-            &format!("with shadows, the {name} blocks this light to the outside"),
+            &format!("with shadows, nothing outside the {name} receives this light"),
             diagnostic.also(span, format!("the {name}")),
         );
     }

@@ -154,9 +154,11 @@ fn no_light(scene: &ir::Scene, check: &mut Checker<'_>) {
     let is_lit = matches!(settings.mode, ir::Mode::Phong | ir::Mode::Gooch(_));
     let has_own_light = settings.mode == ir::Mode::Phong && settings.ambient == ir::Ambient::Once;
     if is_lit && !has_own_light && lights.is_empty() && !surfaces.is_empty() {
-        let diagnostic =
-            Diagnostic::new(&codes::NO_LIGHT, "the scene has no light, so it is black")
-                .hint("a light is written as `Lights: [{position: [0, 0, 0], color: [1, 1, 1]}]`");
+        let diagnostic = Diagnostic::new(
+            &codes::NO_LIGHT,
+            "the scene has no light, so the picture is black",
+        )
+        .hint("write a light as `Lights: [{position: [0, 0, 0], color: [1, 1, 1]}]`");
         check.report_all(EntityKind::Light, "/lights", "no light here", diagnostic);
     }
 }

@@ -210,7 +210,7 @@ pub(super) fn budget(
         let message = format!("the image is too large: {width} × {height} = {pixels} pixels");
         let diagnostic = Diagnostic::new(&codes::HUGE_IMAGE, message);
         let diagnostic = diagnostic.hint(format!(
-            "at most {limit} pixels; `--limit pixels=…` sets another limit"
+            "at most {limit} pixels; `--limit pixels=…` changes the limit"
         ));
         check.report(
             ValuePath::new(EntityKind::Camera, 0, Field::Size),
@@ -255,7 +255,7 @@ fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Checke
         format!("the picture takes too many rays: {product} = {total}"),
     );
     let diagnostic = diagnostic.hint(format!(
-        "at most {limit} rays; `--limit rays=…` sets another limit"
+        "at most {limit} rays; `--limit rays=…` changes the limit"
     ));
     let field = if u128::from(samples.light) > cells {
         Field::LightSamples

@@ -91,13 +91,13 @@ pub(super) struct PreviewData {
     wants_effects: bool,
     wants_settings: bool,
     /// The requests to the renderer.
-    orders: Orders,
+    orders: PreviewTasks,
     is_ended: bool,
 }
 
 /// The next task.
 #[derive(Clone, Copy, Default, PartialEq)]
-pub(super) struct Orders {
+pub(super) struct PreviewTasks {
     /// Files have changed.
     pub(super) reload: bool,
     /// The view has changed.
@@ -112,7 +112,7 @@ pub(super) struct Orders {
 
 /// A piece of work for the render.
 pub(super) struct Work {
-    pub(super) orders: Orders,
+    pub(super) orders: PreviewTasks,
     pub(super) view_settings: ViewSettings,
     /// The view is still changing: a crude picture will do.
     pub(super) is_moving: bool,
@@ -228,7 +228,7 @@ impl PreviewState {
     /// Waits for work; `None` if there is to be none any more.
     pub(super) fn next(&self) -> Option<Work> {
         let is_idle =
-            |state: &mut PreviewData| !state.is_ended && state.orders == Orders::default();
+            |state: &mut PreviewData| !state.is_ended && state.orders == PreviewTasks::default();
         let waited = self.changed.wait_while(self.state(), is_idle);
         let mut state = waited.unwrap_or_else(PoisonError::into_inner);
         if state.is_ended {

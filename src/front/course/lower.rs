@@ -45,9 +45,12 @@ pub fn lower(
         NodeContent::Word(_) | NodeContent::Text(_) | NodeContent::List => {
             let hint = "it starts like `Camera:`, with a colon and a space after each key";
             sink.push(
-                Diagnostic::new(&codes::NOT_A_SCENE, "a scene is a map of keys and values")
-                    .at(tree.span(tree.root()), "not a map")
-                    .hint(hint),
+                Diagnostic::new(
+                    &codes::NOT_A_SCENE,
+                    "a scene must be a map of keys and values",
+                )
+                .at(tree.span(tree.root()), "not a map")
+                .hint(hint),
             );
             return None;
         }

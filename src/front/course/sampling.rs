@@ -104,11 +104,11 @@ fn factor_of_switch(boolean: bool, node: NodeId, context: &mut Context<'_>) -> S
         return SuperSampling::ONE;
     }
     let span = context.tree.span(node);
-    let message = || format!("`true` does not say how many rays: taken as {DEFAULT_FACTOR}");
+    let message = || format!("`true` is not a number of rays: read as {DEFAULT_FACTOR}");
     context.report(&codes::ASSUMED, span, message, |d| {
         d.at(
             span,
-            format!("{DEFAULT_FACTOR} × {DEFAULT_FACTOR} rays a pixel"),
+            format!("{DEFAULT_FACTOR} × {DEFAULT_FACTOR} rays per pixel"),
         )
         .replace(
             "write how many along each side",

@@ -32,7 +32,7 @@ pub(super) fn diagnostic(mistake: Mistake<'_>) -> Diagnostic {
         Mistake::TooDeep { span } => {
             let message = format!("lists and maps are nested more than {MAX_DEPTH} deep");
             at_span(&codes::NESTED_TOO_DEEP, message, span, "too deep here")
-                .hint("a scene needs a depth of 6")
+                .hint("a scene needs at most 6 levels")
         }
         Mistake::Unclosed {
             bracket,

@@ -90,7 +90,7 @@ fn report(
         ),
         _ => (
             &codes::MISSING_KEY,
-            format!("the {name} has no {}", missing.join(" or ")),
+            format!("the {name} needs {}", missing.join(" or ")),
         ),
     };
     let in_variants =

@@ -12,7 +12,7 @@ use rtc_source::tree::{NodeId, NodeKind};
 const MAX_ZEROS: u64 = 1 << 24;
 
 /// The repair of misaligned elements.
-pub(super) const UNALIGNED: &str = "they are read from where they lie";
+pub(super) const UNALIGNED: &str = "they are read unaligned";
 
 /// Elements.
 #[derive(Debug)]
@@ -131,7 +131,8 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut As
             let stride = doc.views.get(view).and_then(|view| view.stride);
             if let Some(stride) = stride.filter(|stride| *stride < layout.size()) {
                 let message = format!(
-                    "the stride of the view is {stride}, and an element has {} bytes",
+                    "the stride of the buffer view is {stride}, less than the {} bytes of an \
+                    element",
                     layout.size()
                 );
                 report.add(
@@ -164,8 +165,8 @@ fn depends(accessor: &Accessor, report: &mut AssetReport<'_, '_>) {
         .get(accessor.at, "byteOffset")
         .filter(|_| accessor.view.is_none())
     {
-        let message = "there is an offset, and no view that it could be in";
-        let (alias, repair) = ("UNSATISFIED_DEPENDENCY", "it is passed over");
+        let message = "the accessor has a `byteOffset` but no buffer view";
+        let (alias, repair) = ("UNSATISFIED_DEPENDENCY", "it is ignored");
         report.repair(&codes::GLTF_TOGETHER, alias, at, message, repair);
     }
 }
@@ -176,7 +177,7 @@ fn alone(accessor: &Accessor, layout: ElementLayout, report: &mut AssetReport<'_
     if layout.columns > 1 && accessor.view.is_some() && !accessor.offset.is_multiple_of(4) {
         let at = report.json.at_or(accessor.at, "byteOffset");
         let message = format!(
-            "matrices start at multiples of 4 bytes, and the offset is {}",
+            "the columns of a matrix must be aligned to 4 bytes, but the offset is {}",
             accessor.offset
         );
         let alias = "ACCESSOR_MATRIX_ALIGNMENT";
@@ -185,7 +186,7 @@ fn alone(accessor: &Accessor, layout: ElementLayout, report: &mut AssetReport<'_
     if layout.normalized && matches!(layout.component, Component::F32 | Component::U32) {
         let at = report.json.at_or(accessor.at, "normalized");
         let message = format!(
-            "{} is not normalised, only bytes and shorts are",
+            "{} cannot be normalised; only bytes and shorts can",
             layout.component.name()
         );
         report.add(
@@ -206,7 +207,11 @@ fn alone(accessor: &Accessor, layout: ElementLayout, report: &mut AssetReport<'_
 fn bound(list: NodeId, key: &str, layout: ElementLayout, report: &mut AssetReport<'_, '_>) {
     let kind = report.json.kind(list);
     if kind != NodeKind::List {
-        let message = format!("`{key}` is {}, not {}", kind.name(), NodeKind::List.name());
+        let message = format!(
+            "`{key}` is {}; it must be {}",
+            kind.name(),
+            NodeKind::List.name()
+        );
         return report.add(&codes::GLTF_TYPE, "TYPE_MISMATCH", list, message);
     }
     let items: Vec<NodeId> = report.json.items(list).collect();
@@ -216,12 +221,12 @@ fn bound(list: NodeId, key: &str, layout: ElementLayout, report: &mut AssetRepor
             "EMPTY_ENTITY",
             list,
             &format!("`{key}` is empty"),
-            "it is taken as absent",
+            "it is treated as absent",
         );
     }
     if items.len() != layout.components() {
         let message = format!(
-            "`{key}` has {} numbers, and an element has {}",
+            "`{key}` has {} numbers, but an element has {}",
             items.len(),
             layout.components()
         );
@@ -235,7 +240,7 @@ fn bound(list: NodeId, key: &str, layout: ElementLayout, report: &mut AssetRepor
     for item in items {
         let Some(number) = report.json.number(item) else {
             let message = format!(
-                "an element of `{key}` is {}, not a number",
+                "an element of `{key}` is {}; it must be a number",
                 report.json.kind(item).name()
             );
             report.add(&codes::GLTF_TYPE, "ARRAY_TYPE_MISMATCH", item, message);
@@ -243,20 +248,20 @@ fn bound(list: NodeId, key: &str, layout: ElementLayout, report: &mut AssetRepor
         };
         let Some([least, most]) = layout.component.range() else {
             if !number.is_finite() {
-                let message = format!("`{key}` is {}, which is not finite", report.shown(item));
+                let message = format!("`{key}` is {}; it must be finite", report.shown(item));
                 report.add(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", item, message);
             }
             continue;
         };
         if number.fract() != 0.0 {
             let message = format!(
-                "`{key}` is {}, and the components are whole numbers",
+                "`{key}` is {}, but the components are whole numbers",
                 report.shown(item)
             );
             report.add(&codes::GLTF_TYPE, "ARRAY_TYPE_MISMATCH", item, message);
         } else if !(least..=most).contains(&number) {
             let message = format!(
-                "`{key}` is {}, which no {} is",
+                "`{key}` is {}, which is out of the range of {}",
                 report.shown(item),
                 layout.component.name()
             );
@@ -293,7 +298,8 @@ fn fits(
     let total = holder.offset.saturating_add(offset);
     if !total.is_multiple_of(size) {
         let message = format!(
-            "the offset in the buffer is {total}, not a multiple of {size}, the size of a component"
+            "the offset in the buffer is {total}; it must be a multiple of {size}, the size of a \
+            component"
         );
         let alias = "ACCESSOR_TOTAL_OFFSET_ALIGNMENT";
         report.repair(code, alias, at, &message, UNALIGNED);
@@ -302,8 +308,9 @@ fn fits(
     let length = holder.length.unwrap_or(0);
     if end > length as u64 {
         let at = if offset > length { place } else { at };
-        let message =
-            format!("the elements end at byte {end} of buffer view {view}, which has {length}");
+        let message = format!(
+            "the elements end at byte {end} of buffer view {view}, which has {length} bytes"
+        );
         report.add(code, "ACCESSOR_TOO_LONG", at, message);
     }
 }
@@ -318,7 +325,7 @@ fn check_sparse(
     if sparse.count > count {
         let at = report.json.at_or(sparse.at, "count");
         let message = format!(
-            "{} elements are replaced, and there are {count}",
+            "{} elements are replaced, but there are only {count}",
             sparse.count
         );
         report.add(
@@ -340,7 +347,7 @@ fn check_sparse(
             .get(view)
             .is_some_and(|view| view.stride.is_some())
         {
-            let message = "only a view of vertices has a stride".to_owned();
+            let message = "only a buffer view of vertices may have a `byteStride`".to_owned();
             report.add(
                 &codes::GLTF_VIEW,
                 "BUFFER_VIEW_INVALID_BYTE_STRIDE",
@@ -382,7 +389,8 @@ pub(super) fn check_claims(doc: &Document<'_>, report: &mut AssetReport<'_, '_>)
             None => {
                 let at = report.json.at_or(accessor.at, "count");
                 let message = format!(
-                    "the accessor has no view and claims {count} elements of zeros, {bytes} bytes"
+                    "the accessor has no buffer view and asks for {count} elements of zeros, \
+                    {bytes} bytes"
                 );
                 report.add(&codes::GLTF_HUGE, "", at, message);
             }

@@ -90,13 +90,13 @@ pub(super) fn check(
             let first = *targets.entry((node, path)).or_insert(index);
             if first != index {
                 let at = report.json.at_or(channel.at, "target");
-                let message = format!("channel {first} moves the same");
+                let message = format!("channel {first} already animates this target");
                 report.repair(
                     &codes::GLTF_DUPLICATE,
                     "ANIMATION_DUPLICATE_TARGETS",
                     at,
                     &message,
-                    "the last channel counts",
+                    "the last channel is used",
                 );
             }
         }
@@ -126,7 +126,7 @@ fn check_used(animation: &Animation, report: &mut AssetReport<'_, '_>) {
             &codes::GLTF_REMARK,
             "UNUSED_OBJECT",
             sampler.at,
-            "nothing refers to this",
+            "this is unused: nothing refers to it",
         );
     }
 }
@@ -153,7 +153,7 @@ fn check_sampler(
             .and_then(|view| doc.views.get(view))
             .is_some_and(|view| view.stride.is_some())
         {
-            let message = "the view of keyframes has a stride".to_owned();
+            let message = "the buffer view of keyframes must not have a `byteStride`".to_owned();
             report.add(
                 &codes::GLTF_VIEW,
                 "ANIMATION_SAMPLER_ACCESSOR_WITH_BYTESTRIDE",
@@ -183,8 +183,8 @@ fn check_times(
     if !accessor.layout.is_some_and(is_time) {
         let found = accessor
             .layout
-            .map_or("of no known type".to_owned(), ElementLayout::name);
-        let message = format!("times are {found}, not scalar of f32");
+            .map_or("of an unknown type".to_owned(), ElementLayout::name);
+        let message = format!("the times are {found}; they must be scalar of f32");
         report.add(
             &codes::GLTF_FORMAT,
             "ANIMATION_SAMPLER_INPUT_ACCESSOR_INVALID_FORMAT",
@@ -197,12 +197,12 @@ fn check_times(
             &codes::GLTF_FORMAT,
             "ANIMATION_SAMPLER_INPUT_ACCESSOR_WITHOUT_BOUNDS",
             at,
-            "times come without `min` and `max`",
-            "these are computed",
+            "the accessor of times needs `min` and `max`",
+            "they are computed",
         );
     }
     if sampler.interpolation == Interpolation::Cubic && accessor.count == Some(1) {
-        let message = "a cubic spline has at least 2 keyframes, and this has 1".to_owned();
+        let message = "a cubic spline needs at least 2 keyframes, and this has 1".to_owned();
         report.add(
             &codes::GLTF_COUNT,
             "ANIMATION_SAMPLER_INPUT_ACCESSOR_TOO_FEW_ELEMENTS",

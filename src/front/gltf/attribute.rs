@@ -87,7 +87,10 @@ pub(super) fn check_names(primitive: &Primitive, report: &mut AssetReport<'_, '_
         .iter()
         .filter(|attribute| Semantic::of(&attribute.name) == Semantic::None)
     {
-        let message = format!("`{}` is no name of an attribute", shown(&attribute.name));
+        let message = format!(
+            "`{}` is not a valid name of an attribute",
+            shown(&attribute.name)
+        );
         report.add(
             &codes::GLTF_ATTRIBUTE,
             "MESH_PRIMITIVE_INVALID_ATTRIBUTE",
@@ -108,7 +111,7 @@ pub(super) fn check_names(primitive: &Primitive, report: &mut AssetReport<'_, '_
     }
     if has(Semantic::Tangent) && !has(Semantic::Normal) {
         let at = report.json.at_or(at, "TANGENT");
-        let message = "there are tangents and no normals".to_owned();
+        let message = "the primitive has `TANGENT` but no `NORMAL`".to_owned();
         report.add(
             &codes::GLTF_PRIMITIVE_ODD,
             "MESH_PRIMITIVE_TANGENT_WITHOUT_NORMAL",
@@ -140,7 +143,7 @@ fn check_sets(semantics: &[Semantic], at: NodeId, report: &mut AssetReport<'_, '
         let gap = (0..*count as u64).find(|set| !present.contains(&kind(*set)));
         if let Some(gap) = gap {
             let message =
-                format!("there are {count} sets of `{name}`, and none has the number {gap}");
+                format!("there are {count} sets of `{name}`, but `{name}_{gap}` is missing");
             report.add(
                 &codes::GLTF_ATTRIBUTE,
                 "MESH_PRIMITIVE_INDEXED_SEMANTIC_CONTINUITY",
@@ -151,7 +154,7 @@ fn check_sets(semantics: &[Semantic], at: NodeId, report: &mut AssetReport<'_, '
     }
     let [_, _, joints, weights] = counts;
     if joints != weights {
-        let message = format!("{joints} sets of joints, and {weights} of weights");
+        let message = format!("there are {joints} sets of joints but {weights} sets of weights");
         report.add(
             &codes::GLTF_COUNT,
             "MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH",
@@ -176,8 +179,8 @@ pub(super) fn check_format(
             &codes::GLTF_FORMAT,
             "MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS",
             attribute.at,
-            "positions come without `min` and `max`",
-            "these are computed",
+            "the accessor of positions needs `min` and `max`",
+            "they are computed",
         );
     }
     let Some(layout) = accessor.layout else {
@@ -194,7 +197,7 @@ pub(super) fn check_format(
     let quantized = doc.uses("KHR_mesh_quantization");
     if !allows(semantic, layout, quantized, in_target) {
         let message = format!(
-            "`{}` is {}, which no `{}` is",
+            "`{}` is {}, a type that `{}` does not allow",
             attribute.name,
             layout.name(),
             attribute.name
@@ -206,7 +209,7 @@ pub(super) fn check_format(
             message,
         );
     } else if semantic == Semantic::Custom && layout.component == Component::U32 {
-        let message = "attributes of vertices are not u32".to_owned();
+        let message = "a vertex attribute must not be u32".to_owned();
         report.add(
             &codes::GLTF_FORMAT,
             "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_UNSIGNED_INT",
@@ -273,20 +276,21 @@ pub(super) fn check_place(
             &codes::GLTF_ACCESSOR,
             "MESH_PRIMITIVE_ACCESSOR_UNALIGNED",
             attribute.at,
-            "vertices start at multiples of 4 bytes, and these don't",
+            "vertex data must be aligned to 4 bytes",
             UNALIGNED,
         );
     }
     if view.stride.is_none()
         && *streams.entry(index).or_insert(attribute.accessor) != attribute.accessor
     {
-        let message = format!("buffer view {index} holds several attributes and has no stride");
+        let message =
+            format!("buffer view {index} contains several attributes but has no `byteStride`");
         report.repair(
             &codes::GLTF_VIEW,
             "MESH_PRIMITIVE_ACCESSOR_WITHOUT_BYTESTRIDE",
             attribute.at,
             &message,
-            "the elements of each are taken as lying close together",
+            "the elements of each are read as tightly packed",
         );
     }
 }

@@ -154,8 +154,9 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
                 "byteLength"
             };
             let at = report.json.at_or(view.at, key);
-            let message =
-                format!("the view ends at byte {end} of buffer {buffer}, which has {size}");
+            let message = format!(
+                "the buffer view ends at byte {end} of buffer {buffer}, which has {size} bytes"
+            );
             report.add(&codes::GLTF_VIEW, "BUFFER_VIEW_TOO_LONG", at, message);
         }
     }
@@ -165,13 +166,13 @@ fn stride(view: &BufferView, report: &mut AssetReport<'_, '_>) {
     let Some(stride) = view.stride else { return };
     let at = report.json.at_or(view.at, "byteStride");
     if !stride.is_multiple_of(4) {
-        let message = format!("the stride is {stride}, not a multiple of 4");
-        let (alias, repair) = ("VALUE_MULTIPLE_OF", "it is followed all the same");
+        let message = format!("`byteStride` is {stride}; it must be a multiple of 4");
+        let (alias, repair) = ("VALUE_MULTIPLE_OF", "it is used");
         report.repair(&codes::GLTF_VALUE, alias, at, &message, repair);
     }
     if let Some(length) = view.length.filter(|length| *length < stride) {
         let message =
-            format!("the stride is {stride}, longer than the view, which has {length} bytes");
+            format!("`byteStride` is {stride}, more than the {length} bytes of the buffer view");
         report.add(
             &codes::GLTF_VIEW,
             "BUFFER_VIEW_TOO_BIG_BYTE_STRIDE",
@@ -180,7 +181,7 @@ fn stride(view: &BufferView, report: &mut AssetReport<'_, '_>) {
         );
     }
     if view.target == Some(Purpose::Indices) {
-        let message = "a view of indices has a stride";
+        let message = "a buffer view of indices must not have a `byteStride`";
         let (alias, repair) = (
             "BUFFER_VIEW_INVALID_BYTE_STRIDE",
             "its users define its contents",
@@ -212,11 +213,11 @@ impl Purposes {
             None => *slot = Some(purpose),
             Some(first) if *first != purpose => {
                 let message = format!(
-                    "the view is used for {} here, and is for {}",
+                    "the buffer view is used for {} here, but its target is {}",
                     purpose.name(),
                     first.name()
                 );
-                let (alias, repair) = ("BUFFER_VIEW_TARGET_OVERRIDE", "it serves both");
+                let (alias, repair) = ("BUFFER_VIEW_TARGET_OVERRIDE", "it is used for both");
                 report.repair(&codes::GLTF_VIEW, alias, at, &message, repair);
             }
             Some(_) => {}

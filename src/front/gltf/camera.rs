@@ -40,7 +40,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
         let (perspective, orthographic) =
             (fields.object("perspective"), fields.object("orthographic"));
         if fields.has("perspective") && fields.has("orthographic") {
-            let message = "a camera is perspective or orthographic, not both".to_owned();
+            let message = "a camera must be either perspective or orthographic".to_owned();
             report.add(&codes::GLTF_TOGETHER, "ONE_OF_MISMATCH", *camera, message);
         }
         for kind in ["perspective", "orthographic"] {
@@ -54,8 +54,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
                 && far <= near
             {
                 let [far, near] = [far, near].map(shortest);
-                let message =
-                    format!("the far plane at {far} is no farther than the near one at {near}");
+                let message = format!("`zfar` is {far}; it must be above `znear`, which is {near}");
                 report.add(
                     &codes::GLTF_VALUE,
                     "CAMERA_ZFAR_LEQUAL_ZNEAR",
@@ -75,7 +74,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
 
 fn check_perspective(part: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     if part.number_or("yfov", 0.0) >= std::f64::consts::PI {
-        let message = "the camera opens half a turn or more";
+        let message = "the field of view is 180° or more";
         let alias = "CAMERA_YFOV_GEQUAL_PI";
         report.add(&codes::GLTF_MATERIAL_ODD, alias, part.at, message);
     }
@@ -84,7 +83,7 @@ fn check_perspective(part: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
 fn check_orthographic(part: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     let mags = [part.number_or("xmag", 1.0), part.number_or("ymag", 1.0)];
     if mags.contains(&0.0) {
-        let message = "the picture of the camera has no width or no height";
+        let message = "the width or the height of the view is 0";
         let alias = "CAMERA_XMAG_YMAG_ZERO";
         report.add(&codes::GLTF_VALUE, alias, part.at, message);
     } else if mags.iter().any(|mag| *mag < 0.0) {

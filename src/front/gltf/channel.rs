@@ -83,8 +83,10 @@ pub(super) fn check_pointers(
         };
         let path = target.node("path");
         if let Some(at) = path.filter(|path| !is_used && report.json.is(*path, "pointer")) {
-            let message =
-                format!("the path `pointer` is one of `{POINTER}`, which the asset does not use");
+            let message = format!(
+                "the path `pointer` needs the extension `{POINTER}`, which `extensionsUsed` does \
+                not list"
+            );
             report.add(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", at, message);
         }
         let Some(extension) = target.extension(POINTER).filter(|_| is_used) else {
@@ -92,7 +94,7 @@ pub(super) fn check_pointers(
         };
         if let Some(at) = path.filter(|path| !report.json.is(*path, "pointer")) {
             let message = format!(
-                "the channel has a pointer, and its path is {}, not `pointer`",
+                "the channel has a pointer, so its path must be `pointer`, not {}",
                 report.shown(at)
             );
             let alias = "KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_PATH";
@@ -105,7 +107,7 @@ pub(super) fn check_pointers(
             report.add(&codes::GLTF_MATERIAL_ODD, "", extension.at, message);
         }
         if target.has("node") {
-            let message = "the channel has a pointer and a node".to_owned();
+            let message = "the channel has both a pointer and a node".to_owned();
             let alias = "KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_NODE";
             report.add(&codes::GLTF_TOGETHER, alias, extension.at, message);
         }
@@ -144,8 +146,8 @@ pub(super) fn check(
     if !accessor.layout.is_some_and(|layout| allows(path, layout)) {
         let found = accessor
             .layout
-            .map_or("of no known type".to_owned(), ElementLayout::name);
-        let message = format!("the keyframes are {found}, which this path does not take");
+            .map_or("of an unknown type".to_owned(), ElementLayout::name);
+        let message = format!("the keyframes are {found}, which this path does not accept");
         report.add(
             &codes::GLTF_FORMAT,
             "ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_FORMAT",
@@ -228,7 +230,7 @@ fn check_target(doc: &Document<'_>, channel: &Channel, report: &mut AssetReport<
     match channel.path {
         Some(Path::Translation | Path::Rotation | Path::Scale) => {
             if matches!(node.transform, Transform::Matrix(_)) {
-                let message = "the node has a matrix, which can't be moved".to_owned();
+                let message = "the node has a `matrix`, so it cannot be animated".to_owned();
                 report.add(
                     &codes::GLTF_ANIMATION,
                     "ANIMATION_CHANNEL_TARGET_NODE_MATRIX",
@@ -238,7 +240,7 @@ fn check_target(doc: &Document<'_>, channel: &Channel, report: &mut AssetReport<
             }
             if node.skin.is_some() {
                 let message =
-                    "the node has a skin, and moving it does not move the mesh".to_owned();
+                    "the node has a skin, so animating the node does not move the mesh".to_owned();
                 report.add(
                     &codes::GLTF_SKIN_ODD,
                     "ANIMATION_CHANNEL_TARGET_NODE_SKIN",
@@ -248,7 +250,7 @@ fn check_target(doc: &Document<'_>, channel: &Channel, report: &mut AssetReport<
             }
         }
         Some(Path::Weights) if mesh(doc, channel).map_or(0, Mesh::targets) == 0 => {
-            let message = "the node has no morph targets that weights could move".to_owned();
+            let message = "the node has no morph targets, so it cannot have weights".to_owned();
             report.add(
                 &codes::GLTF_ANIMATION,
                 "ANIMATION_CHANNEL_TARGET_NODE_WEIGHTS_NO_MORPHS",

@@ -143,10 +143,10 @@ fn report_violations(
     });
     if count > 0 {
         let message = format!(
-            "{count} of {} elements {what}, the first at {first}",
+            "{count} of {} elements {what}; the first is element {first}",
             elements.count
         );
-        let repair = "they are taken as they are";
+        let repair = "they are used unchanged";
         report.repair(&codes::GLTF_VECTOR, alias, at, &message, repair);
     }
 }
@@ -165,7 +165,7 @@ fn times(elements: &AccessorReader<'_>, at: NodeId, report: &mut AssetReport<'_,
         }
     });
     if let Some(index) = negative {
-        let message = format!("the time at {index} is negative");
+        let message = format!("time {index} is negative");
         report.add(
             &codes::GLTF_ANIMATION,
             "ACCESSOR_ANIMATION_INPUT_NEGATIVE",
@@ -174,7 +174,7 @@ fn times(elements: &AccessorReader<'_>, at: NodeId, report: &mut AssetReport<'_,
         );
     }
     if let Some(index) = falling {
-        let message = format!("the time at {index} is no later than the one before");
+        let message = format!("time {index} is not later than the one before it");
         report.add(
             &codes::GLTF_ANIMATION,
             "ACCESSOR_ANIMATION_INPUT_NON_INCREASING",
@@ -214,11 +214,13 @@ fn indices(
         degenerate += usize::from(at % 3 == 2 && ((a - b) * (b - c) * (c - a) == 0.0));
     });
     if let Some((place, index)) = beyond {
-        let message = format!("the index at {place} is {index}, and there are {count} vertices");
+        let message = format!("index {place} is {index}, but there are only {count} vertices");
         report.add(&codes::GLTF_INDEX, "ACCESSOR_INDEX_OOB", at, message);
     }
     if let Some(place) = restart {
-        let message = format!("the index at {place} is {greatest}, which restarts a primitive");
+        let message = format!(
+            "index {place} is {greatest}, the value that restarts a primitive, which glTF forbids"
+        );
         report.add(
             &codes::GLTF_INDEX,
             "ACCESSOR_INDEX_PRIMITIVE_RESTART",
@@ -228,7 +230,7 @@ fn indices(
     }
     if degenerate > 0 && mode == TRIANGLES {
         let message = format!(
-            "{degenerate} of {} triangles have two corners in one vertex",
+            "{degenerate} of {} triangles use one vertex twice",
             elements.count / 3
         );
         report.add(
@@ -249,7 +251,7 @@ fn affine(elements: &AccessorReader<'_>, at: NodeId, report: &mut AssetReport<'_
         }
     });
     if let Some(index) = off {
-        let message = format!("the last row of the matrix at {index} is not 0, 0, 0, 1");
+        let message = format!("the last row of matrix {index} is not 0, 0, 0, 1");
         let alias = "ACCESSOR_INVALID_IBM";
         report.repair(&codes::GLTF_MATRIX, alias, at, &message, LAST_ROW);
     }

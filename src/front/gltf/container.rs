@@ -135,7 +135,7 @@ impl Scan<'_> {
                 code,
                 "GLB_INVALID_MAGIC",
                 0..4,
-                format!("the file starts with `{found}`, not with `glTF`"),
+                format!("the file starts with `{found}`; a `.glb` file starts with `glTF`"),
             );
             return None;
         }
@@ -156,13 +156,13 @@ impl Scan<'_> {
                 code,
                 "GLB_INVALID_VERSION",
                 4..8,
-                format!("the container has version {version}, not 2"),
+                format!("the container has version {version}; rtc reads version 2"),
             );
             return None;
         }
         if length <= HEADER {
             let message = format!(
-                "the header gives the file a length of {length} bytes, no more than its own"
+                "the length in the header is {length} bytes, so there is no room for a JSON chunk"
             );
             self.add(code, "GLB_LENGTH_TOO_SMALL", 8..12, message);
         }
@@ -198,7 +198,10 @@ impl Scan<'_> {
             self.chunk(kind, at, start..end.min(size), end, declared);
             if end > size {
                 self.json = self.json.take().filter(|json| json.start != start);
-                let message = format!("the file ends {} bytes before its chunk does", end - size);
+                let message = format!(
+                    "the file is truncated: the chunk needs {} bytes more",
+                    end - size
+                );
                 self.add(
                     &codes::GLB_CHUNK,
                     "GLB_UNEXPECTED_END_OF_CHUNK_DATA",
@@ -211,7 +214,7 @@ impl Scan<'_> {
         }
         if at != declared {
             let message =
-                format!("the header gives the file a length of {declared} bytes, and it has {at}");
+                format!("the length in the header is {declared} bytes, but the file has {at}");
             self.add(&codes::GLB_HEADER, "GLB_LENGTH_MISMATCH", 8..12, message);
         }
         true
@@ -235,18 +238,18 @@ impl Scan<'_> {
         }
         if end > declared {
             let message = format!(
-                "the {name} chunk ends {} bytes after the file should",
+                "the {name} chunk ends {} bytes after the length in the header",
                 end - declared
             );
             self.add(code, "GLB_CHUNK_TOO_BIG", header.clone(), message);
         }
         // Check the order of the chunks, and for empty ones.
         if self.chunks == 1 && kind != JSON {
-            let message = format!("the first chunk is of type {name}, not JSON");
+            let message = format!("the first chunk has the type {name}; it must be JSON");
             self.add(code, "GLB_UNEXPECTED_FIRST_CHUNK", header.clone(), message);
         }
         if kind == BIN && content.is_empty() {
-            let message = "an empty binary chunk may as well be left out".to_owned();
+            let message = "the binary chunk is empty and can be omitted".to_owned();
             self.add(
                 &codes::GLTF_REMARK,
                 "GLB_EMPTY_BIN_CHUNK",
@@ -255,7 +258,7 @@ impl Scan<'_> {
             );
         }
         if kind == BIN && self.chunks > 2 && self.bin.is_none() {
-            let message = "the binary chunk is not the second one".to_owned();
+            let message = "the binary chunk must be the second chunk".to_owned();
             self.add(code, "GLB_UNEXPECTED_BIN_CHUNK", header.clone(), message);
         }
         if kind == JSON && content.is_empty() {
@@ -276,7 +279,7 @@ impl Scan<'_> {
             }
         };
         if slot.is_some() {
-            let message = format!("this is the second {name} chunk");
+            let message = format!("there is a second {name} chunk; only one is allowed");
             self.add(code, "GLB_DUPLICATE_CHUNK", header, message);
         } else {
             *slot = Some(content);

@@ -15,7 +15,7 @@ const LOOKS: u64 = 16;
 const FREE_LOOKS: u64 = 1 << 24;
 
 /// The repair of wrong bounds.
-const BOUNDS: &str = "the values count";
+const BOUNDS: &str = "the values are used";
 
 /// Checks the elements of each accessor once, for all its uses. Decompressed values are no longer
 /// exact, so bounds and lengths are not checked.
@@ -99,7 +99,7 @@ fn sparse(elements: &AccessorReader<'_>, accessor: &Accessor, report: &mut Asset
         .find(|(_, (a, b))| b <= a)
     {
         let message = format!(
-            "the indices don't rise: that at {} is no greater than the one before",
+            "sparse indices must increase: index {} is not greater than the one before it",
             place + 1
         );
         report.add(
@@ -114,7 +114,7 @@ fn sparse(elements: &AccessorReader<'_>, accessor: &Accessor, report: &mut Asset
         .find(|(_, index)| *index >= elements.count)
     {
         let message = format!(
-            "the index at {place} is {index}, and there are {} elements",
+            "index {place} is {index}, but there are only {} elements",
             elements.count
         );
         report.add(
@@ -147,11 +147,11 @@ fn not_finite(
 ) {
     let (code, alias) = (&codes::GLTF_NOT_FINITE, "ACCESSOR_INVALID_FLOAT");
     let message = match count {
-        1 => format!("element {first} is not finite"),
-        count => format!("{count} elements are not finite, the first is element {first}"),
+        1 => format!("element {first} is NaN or infinite"),
+        count => format!("{count} elements are NaN or infinite; the first is element {first}"),
     };
     if is_unused {
-        let repair = "no index names them, so they are left out";
+        let repair = "no triangle uses these vertices, so they are ignored";
         report.repair(code, alias, accessor.at, &message, repair);
     } else {
         report.add(code, alias, accessor.at, message);
@@ -258,7 +258,7 @@ fn bound(
     let list = report.json.at_or(accessor.at, key);
     let at = report.json.items(list).nth(component).unwrap_or(list);
     let message = format!(
-        "`{key}` is {}, and the {} value is {}",
+        "`{key}` is {}, but the {} value is {}",
         shortest(declared),
         if is_min { "least" } else { "greatest" },
         shortest(found)
@@ -267,7 +267,7 @@ fn bound(
     let beyond = beyond.get_or_insert_with(|| count_beyond(elements, all, is_min))[component];
     if beyond > 0 {
         let message = format!(
-            "{beyond} elements are beyond `{key}`, which is {}",
+            "{beyond} elements are outside `{key}`, which is {}",
             shortest(declared)
         );
         report.repair(&codes::GLTF_BOUNDS, out, at, &message, BOUNDS);

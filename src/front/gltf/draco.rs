@@ -57,7 +57,7 @@ pub(super) fn expand(doc: &mut Document<'_>, report: &mut AssetReport<'_, '_>) {
                 .into_iter()
                 .for_each(|(accessor, bytes)| fill(doc, accessor, bytes)),
             Err(fault) => {
-                let message = format!("the primitive can't be decompressed: {fault}");
+                let message = format!("the primitive cannot be decompressed: {fault}");
                 report.add(&codes::GLTF_COMPRESSED, "", packed.at, message);
             }
         }
@@ -91,7 +91,9 @@ fn unpack(
     made: &mut DecodedData,
     report: &mut AssetReport<'_, '_>,
 ) -> Result<Vec<(usize, Bytes<'static>)>, String> {
-    let bytes = doc.view_bytes(packed.view).ok_or("its view is not there")?;
+    let bytes = doc
+        .view_bytes(packed.view)
+        .ok_or("its buffer view is missing")?;
     let range = byte_range(bytes);
     // Find the numbers of points and triangles.
     let corners = packed.indices.map_or(Ok(0), |accessor| {
@@ -202,7 +204,7 @@ fn check(
 ) -> Result<(), String> {
     let Some(number) = number else {
         let faces = mesh.num_faces();
-        let message = || format!("there are {count} indices, and the data has {faces} triangles");
+        let message = || format!("there are {count} indices, but the data has {faces} triangles");
         return if count == 3 * faces {
             Ok(())
         } else {
@@ -212,11 +214,11 @@ fn check(
     let (points, attribute) = (
         mesh.num_points(),
         mesh.attribute_by_unique_id(number)
-            .ok_or("it lacks an attribute")?,
+            .ok_or("an attribute is missing")?,
     );
     if count != points || usize::from(attribute.num_components()) != layout.components() {
         return Err(format!(
-            "an accessor has {count} elements, and the data {points}"
+            "an accessor has {count} elements, but the data has {points}"
         ));
     }
     Ok(())

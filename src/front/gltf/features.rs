@@ -39,9 +39,9 @@ fn png(bytes: &[u8]) -> Option<&'static str> {
         rest = after;
     }
     if gamma == Some(false) || primaries == Some(false) {
-        Some("colours of its own")
+        Some("a colour profile")
     } else {
-        (!squares).then_some("pixels that are no squares")
+        (!squares).then_some("non-square pixels")
     }
 }
 
@@ -63,7 +63,7 @@ fn webp(bytes: &[u8]) -> Option<&'static str> {
     if flags & ANIMATION != 0 {
         Some("an animation")
     } else {
-        (flags & PROFILE != 0).then_some("colours of its own")
+        (flags & PROFILE != 0).then_some("a colour profile")
     }
 }
 
@@ -89,13 +89,13 @@ mod tests {
             found(&[(b"gAMA", &45_455_u32.to_be_bytes()), (b"cHRM", &srgb)]),
             None
         );
-        assert_eq!(found(&[(b"gAMA", &gamma)]), Some("colours of its own"));
+        assert_eq!(found(&[(b"gAMA", &gamma)]), Some("a colour profile"));
         assert_eq!(found(&[(b"sRGB", &[0]), (b"gAMA", &gamma)]), None);
-        assert_eq!(found(&[(b"cHRM", &[0; 32])]), Some("colours of its own"));
+        assert_eq!(found(&[(b"cHRM", &[0; 32])]), Some("a colour profile"));
         assert_eq!(found(&[(b"IDAT", &[]), (b"iCCP", &[])]), None);
         assert_eq!(
             found(&[(b"pHYs", &[0, 0, 0, 1, 0, 0, 0, 2, 0])]),
-            Some("pixels that are no squares")
+            Some("non-square pixels")
         );
         assert_eq!(unfollowed(ImageCoding::Png, b"\x89PNG"), None);
     }
@@ -105,7 +105,7 @@ mod tests {
         let webp = |kind: &[u8], flags| [b"RIFF\0\0\0\0WEBP", kind, &[10, 0, 0, 0, flags]].concat();
         assert_eq!(
             unfollowed(ImageCoding::WebP, &webp(b"VP8X", 0x20)),
-            Some("colours of its own")
+            Some("a colour profile")
         );
         assert_eq!(
             unfollowed(ImageCoding::WebP, &webp(b"VP8X", 0x02)),

@@ -102,7 +102,7 @@ fn of_first_version(json: &Tree<'_>) -> Option<NodeId> {
 pub(super) fn is_refused(report: &mut AssetReport<'_, '_>) -> bool {
     let at = of_first_version(report.json);
     if let Some(at) = at {
-        let message = "the asset is glTF 1.0, and this rtc reads 2.0".to_owned();
+        let message = "the asset is glTF 1.0; rtc reads glTF 2.0".to_owned();
         let (alias, hint) = ("UNKNOWN_ASSET_MAJOR_VERSION", CONVERT.to_owned());
         report.add_with_hint(&codes::GLTF_VERSION, alias, at, message, hint);
     }
@@ -118,7 +118,7 @@ pub(super) fn check_version(report: &mut AssetReport<'_, '_>) -> bool {
         return false;
     };
     if major != 2 {
-        let message = format!("the asset is glTF {major}.{minor}, not 2");
+        let message = format!("the asset is glTF {major}.{minor}; rtc reads glTF 2.0");
         report.add(
             &codes::GLTF_VERSION,
             "UNKNOWN_ASSET_MAJOR_VERSION",
@@ -126,7 +126,7 @@ pub(super) fn check_version(report: &mut AssetReport<'_, '_>) -> bool {
             message,
         );
     } else if minor > 0 {
-        let message = format!("the asset is glTF {major}.{minor} and is read as 2.0");
+        let message = format!("the asset declares glTF {major}.{minor}; it is read as 2.0");
         report.add(
             &codes::GLTF_MINOR_VERSION,
             "UNKNOWN_ASSET_MINOR_VERSION",
@@ -150,7 +150,7 @@ pub(super) fn check_version(report: &mut AssetReport<'_, '_>) -> bool {
         );
     } else if least > (2, 0) {
         let message = format!(
-            "the asset needs glTF {}.{}, and this rtc reads 2.0",
+            "the asset needs glTF {}.{}; rtc reads glTF 2.0",
             least.0, least.1
         );
         report.add(&codes::GLTF_VERSION, "", at, message);
@@ -186,7 +186,8 @@ pub(super) fn check_extensions(report: &mut AssetReport<'_, '_>) {
         .get(json.root(), "extensionsRequired")
         .filter(|_| !has_used)
     {
-        let message = "extensions are required, and none is listed in `extensionsUsed`".to_owned();
+        let message =
+            "`extensionsRequired` lists extensions, but `extensionsUsed` is missing".to_owned();
         report.add(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
     }
     for (at, name) in &required {
@@ -204,7 +205,8 @@ pub(super) fn check_extensions(report: &mut AssetReport<'_, '_>) {
 fn check_required(at: NodeId, name: &str, is_listed: bool, report: &mut AssetReport<'_, '_>) {
     let shown = shown(name);
     if !is_listed {
-        let message = format!("`{shown}` is required and not listed in `extensionsUsed`");
+        let message =
+            format!("`{shown}` is listed in `extensionsRequired` but not in `extensionsUsed`");
         let alias = "UNUSED_EXTENSION_REQUIRED";
         report.add(&codes::GLTF_EXTENSION, alias, at, message);
     }
@@ -224,7 +226,7 @@ fn check_not_required(
     report: &mut AssetReport<'_, '_>,
 ) {
     if name == "KHR_mesh_quantization" {
-        let message = format!("no reader can do without `{name}`, so it must be required");
+        let message = format!("`{name}` must also be listed in `extensionsRequired`");
         let alias = "NON_REQUIRED_EXTENSION";
         report.add(&codes::GLTF_EXTENSION, alias, at, message);
     }
@@ -233,7 +235,8 @@ fn check_not_required(
     }
     let shown = shown(name);
     if is_in_materials {
-        let message = format!("materials have `{shown}`, which is not drawn: they look otherwise");
+        let message =
+            format!("materials use `{shown}`, which is not supported, so they look different");
         report.add(&codes::GLTF_MATERIAL_ODD, "", at, message);
     } else {
         let message = format!("the extension `{shown}` has no effect");
@@ -247,13 +250,16 @@ fn check_name(at: NodeId, name: &str, report: &mut AssetReport<'_, '_>) {
     match parts.filter(|(prefix, rest)| !prefix.is_empty() && !rest.is_empty()) {
         Some((prefix, _)) if PREFIXES.contains(&prefix) => {}
         Some((prefix, _)) => {
-            let message = format!("`{}` is no registered prefix of extensions", shown(prefix));
+            let message = format!(
+                "`{}` is not a registered prefix of extensions",
+                shown(prefix)
+            );
             let alias = "UNRESERVED_EXTENSION_PREFIX";
             report.add(&codes::GLTF_EXTENSION_ODD, alias, at, message);
         }
         None => {
             let message = format!(
-                "`{}` is no name of an extension, as `KHR_lights_punctual` is",
+                "`{}` is not a valid name of an extension, such as `KHR_lights_punctual`",
                 shown(name)
             );
             let alias = "INVALID_EXTENSION_NAME_FORMAT";

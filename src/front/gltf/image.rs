@@ -133,15 +133,14 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut As
     {
         let fields = Fields::new(report.json, image.at);
         if fields.text("uri").is_some() == fields.index("bufferView").is_some() {
-            let message = "an image has a `uri` or a `bufferView`, and one only".to_owned();
+            let message = "an image needs either a `uri` or a `bufferView`".to_owned();
             report.add(&codes::GLTF_TOGETHER, "ONE_OF_MISMATCH", image.at, message);
         }
         let Some(at) = fields.node("bufferView").filter(|_| image.view.is_some()) else {
             continue;
         };
         if fields.text("mimeType").is_none() {
-            let message =
-                "an image in a buffer view has a `mimeType`, and this has none".to_owned();
+            let message = "an image in a buffer view needs a `mimeType`".to_owned();
             report.add(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
         }
         purposes.set(image.view, Purpose::Image, at, report);
@@ -150,7 +149,7 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut As
             .and_then(|view| doc.views.get(view))
             .is_some_and(|view| view.stride.is_some())
         {
-            let message = "the view of an image has a stride".to_owned();
+            let message = "the buffer view of an image must not have a `byteStride`".to_owned();
             report.add(
                 &codes::GLTF_VIEW,
                 "IMAGE_BUFFER_VIEW_WITH_BYTESTRIDE",
@@ -176,7 +175,7 @@ pub(super) fn inspect(doc: &mut Document<'_>, threads: usize, report: &mut Asset
         };
         let (at, media) = (image.at, image.media.as_deref());
         let Some(format) = ImageCoding::of(bytes) else {
-            let message = "the image is neither PNG, JPEG, WebP nor KTX2".to_owned();
+            let message = "the image is not PNG, JPEG, WebP or KTX2".to_owned();
             report.add(
                 &codes::GLTF_IMAGE_ODD,
                 "IMAGE_UNRECOGNIZED_FORMAT",
@@ -187,7 +186,7 @@ pub(super) fn inspect(doc: &mut Document<'_>, threads: usize, report: &mut Asset
         };
         check_media(doc, (format, media), at, report);
         if let Some(what) = features::unfollowed(format, bytes) {
-            let message = format!("the image has {what}, and that is not followed");
+            let message = format!("the image has {what}, which is ignored");
             report.add(
                 &codes::GLTF_IMAGE_ODD,
                 "IMAGE_FEATURES_UNSUPPORTED",
@@ -234,7 +233,7 @@ fn check_media(
             format.media(),
             super::report::shown(media)
         );
-        let (alias, repair) = ("IMAGE_MIME_TYPE_INVALID", "its bytes count");
+        let (alias, repair) = ("IMAGE_MIME_TYPE_INVALID", "the type is read from the data");
         report.repair(&codes::GLTF_IMAGE, alias, at, &message, repair);
     }
     let (name, extension) = match format {

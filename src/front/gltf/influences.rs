@@ -114,14 +114,14 @@ impl Influences {
                 out,
                 "ACCESSOR_JOINTS_INDEX_OOB",
                 "JOINTS_0",
-                "follows a joint that the skin has not",
+                "uses a joint that the skin does not have",
             ),
             (
                 skin,
                 twice,
                 "ACCESSOR_JOINTS_INDEX_DUPLICATE",
                 "JOINTS_0",
-                "follows a joint twice",
+                "uses a joint twice",
             ),
             (
                 skin,
@@ -135,14 +135,14 @@ impl Influences {
                 sum,
                 "ACCESSOR_WEIGHTS_NON_NORMALIZED",
                 "WEIGHTS_0",
-                "has weights that don't sum to 1",
+                "has skin weights that do not sum to 1",
             ),
             (
                 &codes::GLTF_SKIN_ODD,
                 idle,
                 "ACCESSOR_JOINTS_USED_ZERO_WEIGHT",
                 "JOINTS_0",
-                "names a joint of weight 0",
+                "uses a joint with weight 0",
             ),
         ] {
             let Some(vertex) = place else { continue };

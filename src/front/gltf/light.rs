@@ -23,11 +23,11 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
             .node("range")
             .filter(|_| fields.is("type", "directional"))
         {
-            let message = "a directional light reaches everywhere".to_owned();
+            let message = "a directional light has no range".to_owned();
             report.add(&codes::GLTF_REMARK, "EXTRA_PROPERTY", at, message);
         }
         if let Some(at) = fields.node("spot").filter(|_| !fields.is("type", "spot")) {
-            let message = "only a spot light has a cone".to_owned();
+            let message = "only a spot light may have `spot`".to_owned();
             report.add(&codes::GLTF_REMARK, "EXTRA_PROPERTY", at, message);
         }
         let Some(spot) = fields.object("spot") else {
@@ -38,8 +38,9 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
         if outer <= inner {
             let at = report.json.at_or(spot.at, "outerConeAngle");
             let [inner, outer] = [inner, outer].map(shortest);
-            let message =
-                format!("the outer cone opens by {outer}, no wider than the inner one, by {inner}");
+            let message = format!(
+                "`outerConeAngle` is {outer}; it must be above `innerConeAngle`, which is {inner}"
+            );
             report.add(
                 &codes::GLTF_VALUE,
                 "KHR_LIGHTS_PUNCTUAL_LIGHT_SPOT_ANGLES",

@@ -102,9 +102,9 @@ fn report_occlusion(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
         .filter_map(|material| json.get(*material, "occlusionTexture"));
     let Some(first) = baked.next() else { return };
     let message = match baked.count() {
-        0 => "the shade of an `occlusionTexture` is not shown: paths find it themselves".to_owned(),
+        0 => "the `occlusionTexture` is ignored: path tracing computes the occlusion".to_owned(),
         more => format!(
-            "the shade of {} `occlusionTexture`s is not shown: paths find it themselves",
+            "{} `occlusionTexture`s are ignored: path tracing computes the occlusion",
             more + 1
         ),
     };
@@ -119,7 +119,7 @@ fn check_models(fields: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     let count = report.json.pairs(extensions).count();
     for name in ["KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness"] {
         if let Some(one) = fields.extension(name).filter(|_| count > 1) {
-            let message = format!("`{name}` does not go together with other extensions");
+            let message = format!("`{name}` cannot be combined with other extensions");
             report.add(
                 &codes::GLTF_EXTENSION_ODD,
                 "MULTIPLE_EXTENSIONS",
@@ -147,7 +147,7 @@ fn check_ior(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetRepor
         && value > 0.0
         && value < 1.0
     {
-        let message = format!("the index of refraction is {value}, neither 0 nor 1 or more");
+        let message = format!("the index of refraction is {value}; it must be 0, or at least 1");
         report.add(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", at, message);
     }
 }
@@ -165,14 +165,14 @@ fn check_iridescence(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut As
         .node("iridescenceThicknessMinimum")
         .filter(|_| !texture)
     {
-        let message = "the least thickness has no effect without a texture".to_owned();
+        let message = "the minimum thickness has no effect without a texture".to_owned();
         let alias = "KHR_MATERIALS_IRIDESCENCE_THICKNESS_RANGE_WITHOUT_TEXTURE";
         report.add(&codes::GLTF_REMARK, alias, at, message);
     }
     if texture && least > most {
         let [least, most] = [least, most].map(shortest);
         let message =
-            format!("the least thickness is {least}, above the greatest, which is {most}");
+            format!("the minimum thickness is {least}, above the maximum, which is {most}");
         report.add(
             &codes::GLTF_VALUE,
             "KHR_MATERIALS_IRIDESCENCE_THICKNESS_RANGE_INVALID",
@@ -181,7 +181,8 @@ fn check_iridescence(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut As
         );
     } else if texture && least - most == 0.0 {
         let at = report.json.at_or(film.at, "iridescenceThicknessTexture");
-        let message = "the texture has no effect: the least thickness is the greatest".to_owned();
+        let message =
+            "the texture has no effect: the minimum thickness equals the maximum".to_owned();
         report.add(
             &codes::GLTF_REMARK,
             "KHR_MATERIALS_IRIDESCENCE_THICKNESS_TEXTURE_UNUSED",
@@ -213,7 +214,8 @@ fn check_volume(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetRe
         );
     }
     if fields.boolean("doubleSided") && volume.number_or("thicknessFactor", 0.0) > 0.0 {
-        let message = "a volume has one outside, and the material two".to_owned();
+        let message =
+            "a volume needs a surface with one side, but the material is double-sided".to_owned();
         report.add(
             code,
             "KHR_MATERIALS_VOLUME_DOUBLE_SIDED",
@@ -228,8 +230,7 @@ fn check_dispersion(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Ass
     if let Some(dispersion) =
         extension(doc, fields, "KHR_materials_dispersion").filter(|_| volume.is_none())
     {
-        let message =
-            "only what enters a volume is dispersed, and the material has none".to_owned();
+        let message = "dispersion has no effect without a volume".to_owned();
         report.add(
             &codes::GLTF_MATERIAL_ODD,
             "KHR_MATERIALS_DISPERSION_NO_VOLUME",
@@ -277,7 +278,7 @@ fn check_emission(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Asset
             .iter()
             .all(|channel| *channel == 0.0)
     {
-        let message = "nothing emits: the emissive factor is zero".to_owned();
+        let message = "the emissive factor is 0, so nothing is emitted".to_owned();
         report.add(
             &codes::GLTF_MATERIAL_ODD,
             "KHR_MATERIALS_EMISSIVE_STRENGTH_ZERO_FACTOR",
@@ -306,7 +307,7 @@ pub(super) fn check_variants(doc: &Document<'_>, report: &mut AssetReport<'_, '_
                 };
                 if !seen.insert(variant) {
                     let message =
-                        format!("the primitive has a material for variant {variant} already");
+                        format!("the primitive has already a material for variant {variant}");
                     report.add(
                         &codes::GLTF_DUPLICATE,
                         "KHR_MATERIALS_VARIANTS_NON_UNIQUE_VARIANT",

@@ -78,7 +78,7 @@ pub(super) fn check(
         {
             let at = report.json.at_or(primitive.at, "targets");
             let message = format!(
-                "{} morph targets, and the first primitive has {targets}",
+                "this primitive has {} morph targets, but the first primitive has {targets}",
                 primitive.targets.len()
             );
             report.add(
@@ -90,7 +90,10 @@ pub(super) fn check(
         }
         if !mesh.weights.is_empty() && mesh.weights.len() != targets {
             let at = report.json.at_or(mesh.at, "weights");
-            let message = format!("{} weights for {targets} morph targets", mesh.weights.len());
+            let message = format!(
+                "there are {} weights for {targets} morph targets",
+                mesh.weights.len()
+            );
             report.add(
                 &codes::GLTF_COUNT,
                 "MESH_INVALID_WEIGHTS_COUNT",

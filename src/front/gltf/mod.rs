@@ -182,9 +182,9 @@ fn parts(file: FileId, map: &SourceMap, is_lenient: bool, sink: &mut Sink) -> Op
     let is_glb = container::is_glb(map.name(file), bytes);
     let is_misnamed = is_glb && opens_object(bytes);
     if is_misnamed {
-        let message = "the file is named `.glb` and is the JSON of a `.gltf`";
+        let message = "the file is named `.glb` but contains the JSON of a `.gltf`";
         let diagnostic = Diagnostic::new(&codes::GLB_HEADER, message).alias("GLB_INVALID_MAGIC");
-        let diagnostic = repair(diagnostic, is_lenient, "its content counts");
+        let diagnostic = repair(diagnostic, is_lenient, "it is read as `.gltf`");
         sink.push(diagnostic.at(Span::new(file, 0, 1), "JSON begins here"));
     }
     match (is_glb, is_misnamed) {
@@ -224,7 +224,7 @@ fn text<'s>(
     };
     let mark = Span::new(file, offset(0), offset(BOM.len()));
     let diagnostic = not_json(mark, "the text starts with a byte order mark");
-    sink.push(repair(diagnostic, is_lenient, "it is passed over"));
+    sink.push(repair(diagnostic, is_lenient, "it is ignored"));
     Some((offset(BOM.len()), rest))
 }
 
@@ -255,11 +255,11 @@ fn check_keys(tree: &Tree<'_>, is_lenient: bool, sink: &mut Sink) {
         };
         sink.push_with(code, severity, || {
             let key = report::shown(tree.text(*second).unwrap_or_default());
-            let message = format!("the key `{key}` stands twice in one object");
+            let message = format!("the key `{key}` occurs twice in one object");
             let diagnostic = Diagnostic::new(&codes::GLTF_KEY_TWICE, message)
                 .at(tree.span(*second), "the second");
             let diagnostic = match are_equal {
-                true => repair(diagnostic, is_lenient, "both say the same"),
+                true => repair(diagnostic, is_lenient, "both values are equal"),
                 false => diagnostic,
             };
             diagnostic

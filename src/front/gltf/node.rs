@@ -18,7 +18,7 @@ const IDENTITY: [f64; 16] = [
 const LEVELS: &str = "MSFT_lod";
 
 /// The repair of a matrix that is not affine.
-pub(super) const LAST_ROW: &str = "its last row is taken as 0, 0, 0, 1";
+pub(super) const LAST_ROW: &str = "the last row is read as 0, 0, 0, 1";
 
 /// A node.
 #[derive(Debug)]
@@ -143,7 +143,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> Nod
                 Some(parent @ None) => *parent = Some(index),
                 Some(Some(parent)) if *parent != index => {
                     let before = std::mem::replace(parent, index);
-                    let message = format!("node {child} is a child of node {before} already");
+                    let message = format!("node {child} is already a child of node {before}");
                     report.add(&codes::GLTF_NODES, "NODE_PARENT_OVERRIDE", at, message);
                 }
                 Some(Some(_)) | None => {}
@@ -157,13 +157,14 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> Nod
                 continue;
             };
             if parents.get(node).is_some_and(Option::is_some) {
-                let message = format!("node {node} is a child, and a scene lists roots");
+                let message =
+                    format!("node {node} is a child, but a scene may list only root nodes");
                 report.repair(
                     &codes::GLTF_NODES,
                     "SCENE_NON_ROOT_NODE",
                     at,
                     &message,
-                    "it is shown once, where its parents put it",
+                    "it appears once, under its parent",
                 );
             }
         }
@@ -234,11 +235,13 @@ fn check_transform(node: &Node, report: &mut AssetReport<'_, '_>) {
                 .iter()
                 .any(|key| fields.numbers(key).is_some())
             {
-                let message = "a node has a matrix or its parts, not both".to_owned();
+                let message = "a node may have a `matrix` or `translation`, `rotation` and \
+                `scale`, but not both"
+                    .to_owned();
                 report.add(&codes::GLTF_TOGETHER, "NODE_MATRIX_TRS", at, message);
             }
             if matrix == IDENTITY {
-                let message = "the matrix is the one that a node has anyway".to_owned();
+                let message = "the matrix is the identity, which is the default".to_owned();
                 report.add(&codes::GLTF_REMARK, "NODE_MATRIX_DEFAULT", at, message);
             } else if !is_invertible(&matrix) {
                 let message = "the matrix is no product of translation, rotation and scale";
@@ -250,7 +253,9 @@ fn check_transform(node: &Node, report: &mut AssetReport<'_, '_>) {
                     LAST_ROW,
                 );
             } else if is_sheared(&matrix) {
-                let message = "the matrix shears, which not all readers of glTF follow".to_owned();
+                let message =
+                    "the matrix contains shear, which some readers of glTF do not support"
+                        .to_owned();
                 report.add(&codes::GLTF_REMARK, "", at, message);
             }
         }
@@ -262,7 +267,8 @@ fn check_transform(node: &Node, report: &mut AssetReport<'_, '_>) {
             let length = rotation.iter().map(|part| part * part).sum::<f64>().sqrt();
             if (length - 1.0).abs() > UNIT {
                 let at = report.json.at_or(node.at, "rotation");
-                let message = format!("the rotation has length {length}, not 1");
+                let message =
+                    format!("the rotation has length {length}; it must be a unit quaternion");
                 report.add(&codes::GLTF_VALUE, "ROTATION_NON_UNIT", at, message);
             }
         }
@@ -274,7 +280,7 @@ pub(super) fn report_levels(at: NodeId, report: &mut AssetReport<'_, '_>) {
     let levels = Fields::new(report.json, at).extension(LEVELS);
     if let Some(levels) = levels {
         let count = 1 + levels.indices("ids").len();
-        let message = format!("the finest of {count} levels of detail is shown");
+        let message = format!("the finest of {count} levels of detail is used");
         report.add(&codes::GLTF_IGNORES, "", levels.at, message);
     }
 }
@@ -304,13 +310,13 @@ fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut AssetReport<'_, '_>)
     let fields = Fields::new(report.json, node.at);
     if let Some(at) = fields.node("weights").filter(|_| !node.weights.is_empty()) {
         if node.mesh.is_none() {
-            let message = "there are weights, and no mesh that they could move".to_owned();
+            let message = "the node has `weights` but no mesh".to_owned();
             report.add(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
         } else if let Some(mesh) =
             mesh.filter(|mesh| !mesh.primitives.is_empty() && mesh.targets() != node.weights.len())
         {
             let message = format!(
-                "{} weights for {} morph targets",
+                "there are {} weights for {} morph targets",
                 node.weights.len(),
                 mesh.targets()
             );
@@ -321,12 +327,12 @@ fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut AssetReport<'_, '_>)
         .node("skin")
         .filter(|_| node.skin.is_some() && node.mesh.is_none())
     {
-        let message = "there is a skin, and no mesh that it could move".to_owned();
+        let message = "the node has a `skin` but no mesh".to_owned();
         report.add(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
     }
     match (mesh, node.skin.and_then(|skin| doc.skins.get(skin))) {
         (Some(mesh), Some(_)) if mesh.is_skinned() == Some(false) => {
-            let message = "the node has a skin, and its mesh no joints".to_owned();
+            let message = "the node has a skin, but its mesh has no `JOINTS_0`".to_owned();
             report.add(
                 &codes::GLTF_SKIN,
                 "NODE_SKIN_WITH_NON_SKINNED_MESH",
@@ -335,7 +341,7 @@ fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut AssetReport<'_, '_>)
             );
         }
         (Some(mesh), None) if mesh.is_skinned() == Some(true) => {
-            let message = "the mesh has joints, and the node no skin".to_owned();
+            let message = "the mesh has `JOINTS_0`, but the node has no skin".to_owned();
             report.add(
                 &codes::GLTF_SKIN_ODD,
                 "NODE_SKINNED_MESH_WITHOUT_SKIN",

@@ -103,7 +103,7 @@ pub(super) fn check(
             Some(first) if accessor.count != Some(first) => {
                 let count = accessor.count.unwrap_or(0);
                 let message = format!(
-                    "`{}` has {count} elements, and the first attribute {first}",
+                    "`{}` has {count} elements, but the first attribute has {first}",
                     attribute.name
                 );
                 report.add(
@@ -140,7 +140,7 @@ fn check_indices(
             .and_then(|view| doc.views.get(view))
             .is_some_and(|view| view.stride.is_some())
         {
-            let message = "the view of the indices has a stride".to_owned();
+            let message = "the buffer view of indices must not have a `byteStride`".to_owned();
             report.add(
                 &codes::GLTF_VIEW,
                 "MESH_PRIMITIVE_INDICES_ACCESSOR_WITH_BYTESTRIDE",
@@ -160,8 +160,8 @@ fn check_indices(
         } else {
             let found = accessor
                 .layout
-                .map_or("of no known type".to_owned(), ElementLayout::name);
-            let message = format!("the indices are {found}, not scalar of u8, u16 or u32");
+                .map_or("of an unknown type".to_owned(), ElementLayout::name);
+            let message = format!("the indices are {found}; they must be scalar of u8, u16 or u32");
             report.add(
                 &codes::GLTF_FORMAT,
                 "MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT",
@@ -178,7 +178,7 @@ fn check_indices(
     if let Some(count) = count.filter(|count| !fills(primitive.mode, *count)) {
         let at = report.json.at_or(primitive.at, "mode");
         let message = format!(
-            "{count} vertices or indices leave some over in mode {}",
+            "{count} vertices or indices do not make whole primitives of mode {}",
             primitive.mode
         );
         report.add(
@@ -221,7 +221,7 @@ fn check_targets(
         attribute::check_place(doc, attribute, accessor, links.streams, report);
         let Some(base) = primitive.find(&attribute.name) else {
             let message = format!(
-                "the target moves `{}`, which the primitive has not",
+                "the morph target has `{}`, which the primitive lacks",
                 attribute.name
             );
             report.add(
@@ -235,7 +235,7 @@ fn check_targets(
         let base = doc.accessors.get(base).and_then(|base| base.count);
         if let Some(base) = base.filter(|base| accessor.count != Some(*base)) {
             let message = format!(
-                "{} elements, and the primitive has {base} vertices",
+                "there are {} elements, but the primitive has {base} vertices",
                 accessor.count.unwrap_or(0)
             );
             let alias = "MESH_PRIMITIVE_MORPH_TARGET_INVALID_ATTRIBUTE_COUNT";
@@ -288,8 +288,7 @@ fn check_tangents(doc: &Document<'_>, primitive: &Primitive, report: &mut AssetR
             .find(|attribute| attribute.name == name)
     };
     if let Some(tangent) = find("TANGENT").filter(|_| !is_needed) {
-        let message =
-            "no texture of the material follows tangents, so they have no effect".to_owned();
+        let message = "the material has no normal map, so the tangents have no effect".to_owned();
         report.add(
             &codes::GLTF_REMARK,
             "UNUSED_MESH_TANGENT",
@@ -306,7 +305,7 @@ fn check_tangents(doc: &Document<'_>, primitive: &Primitive, report: &mut AssetR
     let at = report.json.at_or(primitive.at, "material");
     if material.object("normalTexture").is_some() {
         let message =
-            "the material has a normal map, and the tangents it follows are made up".to_owned();
+            "the normal map needs tangents, which are missing: they are computed".to_owned();
         report.add(
             &codes::GLTF_PRIMITIVE_ODD,
             "MESH_PRIMITIVE_GENERATED_TANGENT_SPACE",
@@ -315,7 +314,7 @@ fn check_tangents(doc: &Document<'_>, primitive: &Primitive, report: &mut AssetR
         );
     } else {
         let message =
-            "the material needs tangents, and there are none, nor a normal map to make them by"
+            "the material needs tangents: there are none, and no normal map to compute them for"
                 .to_owned();
         report.add(
             &codes::GLTF_ATTRIBUTE,

@@ -59,7 +59,8 @@ impl<'m> Resources<'m> {
                     })
             } else if is_glb && index == 0 && !buffer.is_fallback && buffer.length.is_some() {
                 if chunk.is_none() {
-                    let message = "the buffer is the binary chunk, and there is none".to_owned();
+                    let message =
+                        "the buffer refers to the binary chunk, which is missing".to_owned();
                     report.add(
                         &codes::GLTF_BUFFER,
                         "BUFFER_MISSING_GLB_DATA",
@@ -90,7 +91,7 @@ impl<'m> Resources<'m> {
             }
             let extra = bytes.len() - length;
             if !fields.has("uri") && extra >= 4 {
-                let message = format!("the binary chunk has {extra} bytes more than the buffer");
+                let message = format!("the binary chunk is {extra} bytes longer than the buffer");
                 report.add(
                     &codes::GLB_EXTRA,
                     "BUFFER_GLB_CHUNK_TOO_BIG",
@@ -151,7 +152,8 @@ impl<'m> Resources<'m> {
         match parsed {
             Ok(Uri::Data { media, bytes }) => {
                 if is_glb {
-                    let message = "data is written in Base64 where a chunk would do".to_owned();
+                    let message =
+                        "the data is Base64 text; the binary chunk would be smaller".to_owned();
                     report.add(&codes::GLB_EXTRA, "DATA_URI_GLB", at, message);
                 }
                 let bytes: Bytes<'static> = Rc::new(Cow::Owned(bytes));
@@ -173,7 +175,7 @@ impl<'m> Resources<'m> {
                     .map(|bytes| (bytes, None))
             }
             Err(UriFault::Malformed(why)) => {
-                let message = format!("`{}` is no URI: {why}", shown(text));
+                let message = format!("`{}` is not a valid URI: {why}", shown(text));
                 report.add(&codes::GLTF_URI, "INVALID_URI", at, message);
                 None
             }
@@ -197,7 +199,7 @@ impl<'m> Resources<'m> {
             Err(Missing::Outside(_)) => {
                 let climbs = path.split('/').any(|part| part == "..");
                 let how = match climbs {
-                    true => "it climbs by `..`",
+                    true => "it contains `..`",
                     false => "a link leaves it",
                 };
                 outside(path, how, at, report);
@@ -205,10 +207,10 @@ impl<'m> Resources<'m> {
             }
             Err(Missing::NoFolder) => {
                 let message = format!(
-                    "`{}` can't be looked for: an asset from a stream has no folder",
+                    "`{}` cannot be found: an asset from standard input has no folder",
                     shown(path)
                 );
-                let hint = "name the folder of its files by `--asset-root`".to_owned();
+                let hint = "pass the folder of its files with `--asset-root FOLDER`".to_owned();
                 report.add_with_hint(&codes::GLTF_NO_FILE, "IO_ERROR", at, message, hint);
                 return None;
             }
@@ -240,7 +242,7 @@ impl<'m> Resources<'m> {
                 Some(bytes)
             }
             Err(error) => {
-                let message = format!("can't read `{}`: {error}", found.shown.display());
+                let message = format!("cannot read `{}`: {error}", found.shown.display());
                 report.add(&codes::GLTF_NO_FILE, "IO_ERROR", at, message);
                 None
             }
@@ -254,17 +256,16 @@ fn remark_uri(is_glb: bool, at: NodeId, report: &mut AssetReport<'_, '_>) {
             &codes::GLTF_REMARK,
             "URI_GLB",
             at,
-            "a .glb could hold this itself",
+            "a `.glb` could contain this file",
         );
     }
 }
 
 fn outside(text: &str, how: &str, at: NodeId, report: &mut AssetReport<'_, '_>) {
     let message = format!("`{}` leaves the folder of the asset: {how}", shown(text));
-    let hint =
-        "put the file beside the asset and name it by a relative path, or allow its folder by \
-                `--asset-root`"
-            .to_owned();
+    let hint = "put the file beside the asset and use a relative path, or pass its folder with \
+                `--asset-root FOLDER`"
+        .to_owned();
     report.add_with_hint(&codes::GLTF_OUTSIDE, "IO_ERROR", at, message, hint);
 }
 
@@ -274,10 +275,14 @@ fn is_buffer(media: Option<&str>, at: NodeId, report: &mut AssetReport<'_, '_>) 
     let is_buffer = ["application/octet-stream", "application/gltf-buffer"].contains(&media);
     if !is_buffer {
         let message = format!(
-            "the media type of a buffer is application/octet-stream, not `{}`",
+            "the media type of the buffer is `{}`; it must be application/octet-stream or \
+            application/gltf-buffer",
             shown(media)
         );
-        let (alias, repair) = ("BUFFER_DATA_URI_MIME_TYPE_INVALID", "its bytes count");
+        let (alias, repair) = (
+            "BUFFER_DATA_URI_MIME_TYPE_INVALID",
+            "the media type is ignored",
+        );
         report.repair(&codes::GLTF_URI, alias, at, &message, repair);
     }
     is_buffer || report.is_lenient()

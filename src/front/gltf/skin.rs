@@ -63,7 +63,7 @@ pub(super) fn check(
         };
         check_node((index, node), hierarchy, report);
         if scene_trees.differ(hierarchy.roots[index], of) {
-            let message = "a scene shows the mesh and not the joints that move it".to_owned();
+            let message = "the scene contains the mesh but not its joints".to_owned();
             report.add(&codes::GLTF_SKIN, "NODE_SKIN_NO_SCENE", node.at, message);
         }
         if done.meshes.insert((at, skin.joints.len())) {
@@ -207,8 +207,8 @@ fn check_tree(
         && !known.iter().all(|joint| order.is_below(*joint, skeleton))
     {
         let at = report.json.at_or(skin.at, "skeleton");
-        let message = format!("not all joints lie below node {skeleton}");
-        let (alias, repair) = ("SKIN_SKELETON_INVALID", "the hint is passed over");
+        let message = format!("node {skeleton} is not an ancestor of all joints");
+        let (alias, repair) = ("SKIN_SKELETON_INVALID", "`skeleton` is ignored");
         report.repair(&codes::GLTF_SKIN, alias, at, &message, repair);
     }
 }
@@ -230,7 +230,8 @@ fn check_matrices(
         .and_then(|view| doc.views.get(view))
         .is_some_and(|view| view.stride.is_some())
     {
-        let message = "the view of inverse bind matrices has a stride".to_owned();
+        let message =
+            "the buffer view of inverse bind matrices must not have a `byteStride`".to_owned();
         report.add(
             &codes::GLTF_VIEW,
             "SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE",
@@ -246,14 +247,17 @@ fn check_matrices(
     } else {
         let found = accessor
             .layout
-            .map_or("of no known type".to_owned(), ElementLayout::name);
-        let message = format!("inverse bind matrices are {found}, not mat4 of f32");
+            .map_or("of an unknown type".to_owned(), ElementLayout::name);
+        let message = format!("the inverse bind matrices are {found}; they must be mat4 of f32");
         report.add(&codes::GLTF_FORMAT, "SKIN_IBM_INVALID_FORMAT", at, message);
     }
     if let Some(count) =
         Some(accessor.count.unwrap_or(0)).filter(|count| *count < skin.joints.len())
     {
-        let message = format!("{count} matrices for {} joints", skin.joints.len());
+        let message = format!(
+            "there are {count} matrices for {} joints",
+            skin.joints.len()
+        );
         report.add(
             &codes::GLTF_COUNT,
             "INVALID_IBM_ACCESSOR_COUNT",
@@ -275,12 +279,13 @@ fn check_node(
         scale: [1.0; 3],
     };
     if hierarchy.parents[index].is_some() {
-        let message = "the node is no root, and transformations above it don't move a skinned mesh"
+        let message = "the node with a skinned mesh is not a root; the transforms of its \
+        ancestors are ignored"
             .to_owned();
         report.add(code, "NODE_SKINNED_MESH_NON_ROOT", node.at, message);
     }
     if node.transform != unmoved {
-        let message = "the transformation of the node does not move a skinned mesh".to_owned();
+        let message = "the transform of a node with a skinned mesh is ignored".to_owned();
         report.add(code, "NODE_SKINNED_MESH_LOCAL_TRANSFORMS", node.at, message);
     }
 }

@@ -57,13 +57,16 @@ impl TextureSampler {
 pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     for texture in &doc.textures {
         let faulty = |report: &mut AssetReport<'_, '_>, at, found: &str, wanted: &str| {
-            let message = format!("the image is of the type {}, not {wanted}", shown(found));
+            let message = format!(
+                "the media type of the image is {}; it must be {wanted}",
+                shown(found)
+            );
             report.repair(
                 &codes::GLTF_IMAGE,
                 "TEXTURE_INVALID_IMAGE_MIME_TYPE",
                 at,
                 &message,
-                "its bytes count",
+                "the type is read from the data",
             );
         };
         let core = [ImageCoding::Png.media(), ImageCoding::Jpeg.media()];

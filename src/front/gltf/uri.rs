@@ -58,15 +58,17 @@ pub(super) fn parse(uri: &str) -> Result<Uri, UriFault> {
             {
                 UriFault::Outside("it names a scheme or a drive")
             }
-            _ => UriFault::Malformed("what stands before the colon is no scheme"),
+            _ => UriFault::Malformed("the text before the colon is not a scheme"),
         });
     }
     let path = unescape(uri.split(['?', '#']).next().unwrap_or_default())?;
     if path.starts_with(['/', '\\']) {
-        return Err(UriFault::Outside("it starts at the root"));
+        return Err(UriFault::Outside("it is an absolute path"));
     }
     if path.contains(['\\', ':', '\0']) {
-        return Err(UriFault::Outside("it holds a backslash, a colon or a NUL"));
+        return Err(UriFault::Outside(
+            "it contains a backslash, a colon or a NUL",
+        ));
     }
     if path.is_empty() {
         Err(UriFault::Malformed("it is empty"))
@@ -84,12 +86,12 @@ pub(super) fn repair(uri: &str) -> Option<(Uri, &'static str, &'static str)> {
         let joined: String = uri.split_ascii_whitespace().collect();
         let is_broken = joined.len() < uri.len();
         let data = parse(&joined).ok().filter(|_| is_broken)?;
-        return Some((data, "has white space in its data", "it is passed over"));
+        return Some((data, "has white space in its data", "it is ignored"));
     }
     let turned = uri.replace('\\', "/");
     let path = parse(&turned).ok().filter(|_| turned != uri)?;
     let is_path = matches!(path, Uri::Path(_));
-    is_path.then_some((path, "has backslashes", "they are taken as slashes"))
+    is_path.then_some((path, "has backslashes", "they are read as slashes"))
 }
 
 fn in_scheme(byte: u8) -> bool {
@@ -105,7 +107,7 @@ fn strip_scheme<'a>(uri: &'a str, scheme: &str) -> Option<&'a str> {
 /// A data URI without its scheme (RFC 2397).
 fn data(rest: &str) -> Result<Uri, UriFault> {
     let (head, body) = rest.split_once(',').ok_or(UriFault::Malformed(
-        "a data URI has a comma before its data",
+        "a data URI needs a comma before its data",
     ))?;
     let mut parameters = head.split(';');
     let media = parameters
@@ -163,7 +165,9 @@ fn unescape_bytes(text: &str) -> Result<Vec<u8>, UriFault> {
         .skip(1)
         .all(is_escape)
     {
-        return Err(UriFault::Malformed("two hexadecimal digits follow a `%`"));
+        return Err(UriFault::Malformed(
+            "a `%` must be followed by two hexadecimal digits",
+        ));
     }
     Ok(percent_decode_str(text).collect())
 }

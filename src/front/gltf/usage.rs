@@ -49,7 +49,7 @@ impl Usages {
             None => *slot = Some(usage),
             Some(first) if *first != usage => {
                 let message = format!(
-                    "the accessor is used for {} here, and for {}",
+                    "the accessor is used for {} here, but for {} elsewhere",
                     usage.name(),
                     first.name()
                 );

@@ -239,7 +239,7 @@ fn index(corner: &Word<'_>, vertices: &Count<'_>) -> Result<Result<u32, WordFaul
         .filter(|index| (*index as usize) < vertices.value);
     Ok(index.ok_or_else(|| {
         let message = format!(
-            "a face refers to vertex {number}, and there are {}, from 0",
+            "a face refers to vertex {number}, but there are only {}, from 0",
             vertices.value
         );
         corner.fault(message, "there is no such vertex")

@@ -204,7 +204,7 @@ fn statement(words: &[Word<'_>], positions: &mut Vec<[f64; 3]>) -> Result<(), Wo
         }
         b"facet" | b"endfacet" | b"outer" | b"endloop" | b"solid" | b"endsolid" | b"color" => {}
         _ => {
-            let message = format!("`{}` is no statement of STL", head.text());
+            let message = format!("`{}` is not a statement of STL", head.text());
             return Err(head.fault(message, "not known"));
         }
     }

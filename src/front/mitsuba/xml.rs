@@ -513,7 +513,7 @@ impl XmlReader<'_> {
                 "spectrum" if attribute == "filename" => {
                     "spectra in files are not supported".to_owned()
                 }
-                _ => format!("`{}` is no value of a `<{kind}>`", clip(&text.text)),
+                _ => format!("`{}` is not a value of a `<{kind}>`", clip(&text.text)),
             };
             let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
             self.sink.push(diagnostic.at(text.span, ""));

@@ -242,7 +242,7 @@ fn parameter(
     };
     let Some(kind) = ParameterType::parse(kind) else {
         each_value(reader, |_, _| true);
-        let message = format!("`{}` is no type of a parameter", clip(kind));
+        let message = format!("`{}` is not a type of a parameter", clip(kind));
         let diagnostic = Diagnostic::new(&codes::PBRT_IGNORED, message).at(span, "is ignored");
         return Err(Box::new(diagnostic));
     };
@@ -253,7 +253,7 @@ fn parameter(
     };
     if let Some(token) = refused {
         let word = reader.text(token);
-        let message = format!("`{}` is no value of `{}`", clip(&word.text), clip(&text));
+        let message = format!("`{}` is not a value of `{}`", clip(&word.text), clip(&text));
         return mistake(message, word.span);
     }
     match values {

@@ -462,7 +462,7 @@ impl Lowering<'_> {
             return None;
         };
         let (cells, []) = numbers.as_chunks::<N>() else {
-            let message = format!("the number of `indices` is no multiple of {N}");
+            let message = format!("the number of `indices` is not a multiple of {N}");
             self.mistake(plugin.span, message);
             return None;
         };

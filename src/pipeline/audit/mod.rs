@@ -12,7 +12,8 @@ use super::output_transform::{Losses, ResolvedOutputTransform};
 use super::{Observer, PictureSetup, RayCounter, RenderError, RenderSubject, Renderer};
 use rayon::prelude::*;
 use rtc_image::{
-    Layers, MerkleTree, Origin, Picture, TILE, TileHash, WrittenPicture, samples, tile_count,
+    Layers, MerkleTree, Picture, PictureMetadata, TILE, TileHash, WrittenPicture, samples,
+    tile_count,
 };
 use rtc_math::{mix, to_u32};
 use rtc_render::{AnyWorld, Aov, Background, Crop, Job, OnPixel, PartialFilm, Tiles, Values};
@@ -114,8 +115,8 @@ fn drawn(all: usize, draw: AuditDraw) -> Vec<usize> {
 }
 
 /// The errors in the metadata of a picture by themselves.
-fn contradiction(tree: &MerkleTree, origin: &Origin) -> Option<AuditFinding> {
-    let anew = tree.root_of(origin);
+fn contradiction(tree: &MerkleTree, metadata: &PictureMetadata) -> Option<AuditFinding> {
+    let anew = tree.root_of(metadata);
     (anew != tree.root()).then(|| finding(AuditSubject::Root, tree.root(), anew))
 }
 
@@ -131,17 +132,21 @@ fn finding(subject: AuditSubject, stated: impl ToString, anew: impl ToString) ->
 }
 
 /// Rejects pictures of another version.
-fn check_software(origin: &Origin) -> Result<(), RenderError> {
+fn check_software(metadata: &PictureMetadata) -> Result<(), RenderError> {
     let own = super::setup::SOFTWARE;
-    let words = || format!("it is by `{}`, and this is `{own}`", origin.software);
-    match origin.software == own {
+    let words = || format!("it is by `{}`, and this is `{own}`", metadata.software);
+    match metadata.software == own {
         true => Ok(()),
         false => Err(RenderError::Refused(words())),
     }
 }
 
 /// The differences of the metadata from scene, settings and view.
-fn differing(stated: &Origin, anew: &Origin, has_view: bool) -> Vec<AuditFinding> {
+fn differing(
+    stated: &PictureMetadata,
+    anew: &PictureMetadata,
+    has_view: bool,
+) -> Vec<AuditFinding> {
     let texts = [
         (AuditSubject::Scene, &stated.scene, &anew.scene),
         (AuditSubject::Settings, &stated.settings, &anew.settings),
@@ -151,7 +156,9 @@ fn differing(stated: &Origin, anew: &Origin, has_view: bool) -> Vec<AuditFinding
         .map(|(subject, stated, anew)| finding(subject, stated, anew))
         .collect();
     if has_view && stated.world_to_camera != anew.world_to_camera {
-        let words = |origin: &Origin| format!("{:?}", origin.world_to_camera.unwrap_or_default());
+        let words = |metadata: &PictureMetadata| {
+            format!("{:?}", metadata.world_to_camera.unwrap_or_default())
+        };
         findings.push(finding(AuditSubject::View, words(stated), words(anew)));
     }
     findings
@@ -192,15 +199,15 @@ impl<'p> PictureAudit<'p> {
                  program",
             )
         })?;
-        if !picture.origin.layer.is_empty() {
+        if !picture.metadata.layer.is_empty() {
             return Err(refused("it is a layer; audit the picture beside it"));
         }
-        if let Some(finding) = contradiction(tree, &picture.origin) {
+        if let Some(finding) = contradiction(tree, &picture.metadata) {
             return Ok(Err(AuditResult::refuted(vec![finding])));
         }
-        check_software(&picture.origin)?;
+        check_software(&picture.metadata)?;
         let layers = layers_of(&picture.layers)?;
-        let setup = claim::setup(&picture.origin.settings, picture.form, &layers)?;
+        let setup = claim::setup(&picture.metadata.settings, picture.form, &layers)?;
         Ok(Ok((Self { picture, tree }, setup)))
     }
 
@@ -219,8 +226,8 @@ impl<'p> PictureAudit<'p> {
         let Self { picture, tree } = self;
         // The metadata of scene, settings and size.
         let scene = &subject.validated.lowered.scene;
-        let origin = setup.origin(scene);
-        let mut findings = differing(&picture.origin, &origin, picture.form.is_linear());
+        let metadata = setup.metadata(scene);
+        let mut findings = differing(&picture.metadata, &metadata, picture.form.is_linear());
         let window = setup.window(scene)?;
         let size = [window.width, window.height];
         if size != picture.size || !tree.fits(size) {

@@ -15,14 +15,14 @@ impl RenderShard {
     /// # Errors
     /// If it can't be audited.
     pub fn setup(&self) -> Result<PictureSetup, RenderError> {
-        let origin = self.origin();
-        check_software(&origin)?;
+        let metadata = self.metadata();
+        check_software(&metadata)?;
         if self.is_refined() {
             let words = "it was sampled to a target error, so the samples of a pixel depend on \
                          the whole picture";
             return Err(RenderError::Refused(words.to_owned()));
         }
-        let mut setup = claim::setup(&origin.settings, self.look().kind, self.aovs())?;
+        let mut setup = claim::setup(&metadata.settings, self.look().kind, self.aovs())?;
         setup.look.has_metadata = self.look().has_metadata();
         Ok(setup)
     }
@@ -42,7 +42,7 @@ impl RenderShard {
         // The metadata of scene, settings, output transform and crop.
         let scene = &subject.validated.lowered.scene;
         let window = setup.window(scene)?;
-        let mut findings = differing(&self.origin(), &setup.origin(scene), true);
+        let mut findings = differing(&self.metadata(), &setup.metadata(scene), true);
         if window != self.window() {
             let words = |crop: Crop| format!("{crop:?}");
             findings.push(finding(

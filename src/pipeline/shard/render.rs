@@ -71,9 +71,9 @@ impl PictureSetup {
         let film = film.ok_or(RenderError::Stopped)?;
         let tiles = Some(shares.tiles());
         let layers = self.layers(subject, &Job { tiles, ..job }, observer.is_stopped)?;
-        let origin = self.origin(&subject.validated.lowered.scene);
+        let metadata = self.metadata(&subject.validated.lowered.scene);
         let made = ShardSource {
-            origin,
+            metadata,
             look,
             arithmetic: self.arithmetic,
             aovs: &self.look.aovs,

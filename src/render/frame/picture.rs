@@ -7,7 +7,7 @@ use crate::film::partial::{FilmError, FilmLayout, PartialFilm, Summation};
 use crate::film::pixel::{Accumulator, InBlocks, InOrder, PixelSum, SampleRanges};
 use crate::film::tiled::Tiled;
 use crate::film::{Counts, Crop, Film, Job};
-use crate::integrator::aov::{Aov, CameraHit, FirstHits, LayerSums};
+use crate::integrator::aov::{Aov, AovAccumulator, CameraHit, FirstHits};
 use crate::integrator::first_hit::{Depth, Distance};
 use crate::integrator::path::{FirstHitsOfPaths, PathTracer, Strategy};
 use crate::integrator::whitted::Tracer;
@@ -209,13 +209,13 @@ impl<S: Intersect> World<S> {
         job: &Job,
     ) -> Option<Layers> {
         let camera = &self.camera;
-        let open = |_: [u32; 2], _: usize, _: &<LayerSums<'_> as Accumulator>::PixelState| {
+        let open = |_: [u32; 2], _: usize, _: &<AovAccumulator<'_> as Accumulator>::PixelState| {
             (
-                LayerSums::new(wanted, camera),
+                AovAccumulator::new(wanted, camera),
                 sample_ranges(job, 0..samples),
             )
         };
-        let blank = <LayerSums<'_> as Accumulator>::PixelState::new();
+        let blank = <AovAccumulator<'_> as Accumulator>::PixelState::new();
         let mut film = Tiled::new(self.crop(job), job.tiles, blank);
         run(&mut film, Selection::of(job), make_integrator, &open)?;
         let names: Vec<_> = wanted.iter().flat_map(|aov| aov.channels()).collect();

@@ -149,13 +149,13 @@ impl<'run, I: FirstHit<'run>> Integrator<'run> for FirstHits<I> {
 pub(crate) const CHANNELS: usize = 16;
 
 /// Adds up layers of a pixel.
-pub(crate) struct LayerSums<'run> {
+pub(crate) struct AovAccumulator<'run> {
     wanted: &'run [Aov],
     camera: &'run Camera,
     sums: FirstHitSums,
 }
 
-impl<'run> LayerSums<'run> {
+impl<'run> AovAccumulator<'run> {
     pub(crate) fn new(wanted: &'run [Aov], camera: &'run Camera) -> Self {
         Self {
             wanted,
@@ -165,7 +165,7 @@ impl<'run> LayerSums<'run> {
     }
 }
 
-impl Accumulator for LayerSums<'_> {
+impl Accumulator for AovAccumulator<'_> {
     type Sample = CameraHit;
     type PixelState = arrayvec::ArrayVec<f32, CHANNELS>;
 

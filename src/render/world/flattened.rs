@@ -1,4 +1,4 @@
-//! Flattened instances: meshes whose triangles are in one world-space BVH.
+//! FlattenedInstances instances: meshes whose triangles are in one world-space BVH.
 
 use super::{Surface, SurfaceId, SurfacePrimitive};
 use crate::accel::simd::SimdLevel;
@@ -11,7 +11,7 @@ use rtc_math::{IdTable, to_u32};
 use rtc_valid::{self as valid, MAX_MESH_TRIANGLES, ValidScene};
 
 /// The triangles of all flattened instances, numbered surface by surface.
-pub(super) struct Flattened {
+pub(super) struct FlattenedInstances {
     /// The surfaces in their order, and the number of the first triangle of each.
     starts: Vec<(SurfaceId, u32)>,
     pub(super) hierarchy: Wide,
@@ -27,7 +27,7 @@ const _: () = assert!(MAX_MESH_TRIANGLES == MOST, "a proven mesh has a hierarchy
 /// a run of its triangles.
 pub(super) struct FlattenedRay<'traverse, S> {
     surfaces: &'traverse IdTable<Surface, Surface<S>>,
-    flattened: &'traverse Flattened,
+    flattened: &'traverse FlattenedInstances,
     ray: Ray,
     /// The primitive that the ray starts at.
     from: SurfacePrimitive,
@@ -44,7 +44,7 @@ impl<'traverse, S: Intersect> FlattenedRay<'traverse, S> {
         ray: &Ray,
         from: SurfacePrimitive,
         surfaces: &'traverse IdTable<Surface, Surface<S>>,
-        flattened: &'traverse Flattened,
+        flattened: &'traverse FlattenedInstances,
     ) -> Self {
         Self {
             surfaces,
@@ -115,7 +115,7 @@ impl<'traverse, S: Intersect> FlattenedRay<'traverse, S> {
     }
 }
 
-impl Flattened {
+impl FlattenedInstances {
     /// Flattens these surfaces, in the order of the world.
     pub(super) fn new<S: Intersect>(
         surfaces: &IdTable<Surface, Surface<S>>,

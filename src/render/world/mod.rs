@@ -37,7 +37,7 @@ use crate::shape::geometry::Intersect;
 use crate::shape::tie::{CLOSE, Nearest, Tie};
 use crate::shape::triangle::WatertightRay;
 use alpha::AlphaTested;
-use flattened::{Flattened, FlattenedRay};
+use flattened::{FlattenedInstances, FlattenedRay};
 use light::LightList;
 use rtc_math::{Id, IdTable, Vec3};
 use rtc_plan::Plan;
@@ -106,7 +106,7 @@ pub struct World<S = Shape> {
     objects: ObjectBvh,
     /// The surfaces of `objects` that cast shadows, if some do not.
     casters: Option<ObjectBvh>,
-    flattened: Option<Flattened>,
+    flattened: Option<FlattenedInstances>,
     /// The SIMD instructions that rays are traced with.
     pub(crate) simd: SimdLevel,
     /// All surfaces, if they are few and the integrator uses ray cones.

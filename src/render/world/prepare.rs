@@ -2,7 +2,7 @@
 //! here.
 
 use super::alpha::AlphaTested;
-use super::flattened::{Flattened, flattened_surfaces};
+use super::flattened::{FlattenedInstances, flattened_surfaces};
 use super::material::{PhongList, standard, unchanged};
 use super::settings::{camera, settings};
 use super::shape::Prepare;
@@ -111,7 +111,7 @@ fn surfaces<S: Prepare>(
 struct Lookup {
     objects: ObjectBvh,
     casters: Option<ObjectBvh>,
-    flattened: Option<Flattened>,
+    flattened: Option<FlattenedInstances>,
     small_scene: Option<SmallScene>,
 }
 
@@ -147,7 +147,7 @@ impl Lookup {
             small_scene: bundled.then(small_scene).flatten(),
             casters: (casters.len() < objects.len()).then(|| ObjectBvh::of(surfaces, &casters)),
             objects: ObjectBvh::of(surfaces, &objects),
-            flattened: Flattened::new(surfaces, &flattened, simd),
+            flattened: FlattenedInstances::new(surfaces, &flattened, simd),
         }
     }
 }

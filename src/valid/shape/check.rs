@@ -95,9 +95,9 @@ impl SurfaceCheck<'_, '_> {
         if valid.is_none() {
             let message = format!("a {name} has no area, so it is invisible");
             let diagnostic = Diagnostic::new(&codes::DEGENERATE_TRIANGLE, message);
-            let diagnostic = diagnostic.hint("give it corners that are not in line, or remove it");
+            let diagnostic = diagnostic.hint("move a corner off the line, or remove the shape");
             self.check
-                .report(self.whole(), "its corners are in line", diagnostic);
+                .report(self.whole(), "its corners lie on a line", diagnostic);
         }
         valid
     }
@@ -254,7 +254,7 @@ impl Validate for ir::Csg {
         let count = operands.len();
         let is_face = |face: &u32| usize::try_from(*face).is_ok_and(|face| face < count);
         if !is_set_expression(steps, count) || !faces.iter().all(is_face) {
-            let message = "the operations over solids are no expression of 1 to 64 solids";
+            let message = "the operations of a CSG solid are not an expression of 1 to 64 solids";
             let diagnostic = Diagnostic::new(&codes::BAD_OPERAND, message);
             let at = surface_check.whole();
             surface_check.check.report(at, "", diagnostic);

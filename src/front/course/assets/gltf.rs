@@ -98,7 +98,7 @@ fn add_asset(
     if gltf::is_gltf("", &bytes) {
         return Some(loader.map.add_found(found, bytes));
     }
-    let message = format!("`{}` is no glTF asset", found.shown.display());
+    let message = format!("`{}` is not a glTF asset", found.shown.display());
     loader.reject(
         Diagnostic::new(&codes::GLTF_NOT_JSON, message).at(pending.span, "named here"),
         MissingAssetPolicy::Object,

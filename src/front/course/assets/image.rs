@@ -112,7 +112,7 @@ fn rejection(fault: &PixelFault, found: &Found, pending: &PendingAsset) -> Diagn
     pixels::rejection(
         fault,
         &what,
-        "textures are PNG, JPEG, WebP, or KTX2 of Basis Universal",
+        "textures are PNG, JPEG, WebP, or KTX2 with Basis Universal",
     )
     .at(pending.span, "named here")
 }

@@ -13,10 +13,11 @@ pub(super) fn missing(
     let name = clip_path(&pending.path);
     match fault {
         Missing::NoFolder => {
-            let message = format!("`{name}` can't be found: a scene from a stream has no folder");
+            let message =
+                format!("`{name}` cannot be found: a scene from standard input has no folder");
             Diagnostic::new(&codes::FILE_OUTSIDE, message)
                 .at(pending.span, "no folder to search")
-                .hint("name the folder of its files by `--asset-root`")
+                .hint("pass the folder of its files with `--asset-root FOLDER`")
         }
         Missing::Absent(searched) => {
             Diagnostic::new(&codes::FILE_NOT_FOUND, format!("there is no file `{name}`"))

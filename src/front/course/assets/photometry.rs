@@ -157,7 +157,7 @@ impl<'a> NumberReader<'a> {
             let angle = self.number()?;
             if angles.last().is_some_and(|before| *before >= angle) {
                 let message = format!("the angle {angle} follows a larger one");
-                return Err(self.last.fault(message, "angles ascend"));
+                return Err(self.last.fault(message, "angles must ascend"));
             }
             angles.push(angle);
         }
@@ -200,7 +200,7 @@ impl<'a> NumberReader<'a> {
             let value = self.number()? * factor;
             if value < 0.0 {
                 let message = format!("the intensity {value} is negative");
-                return Err(self.last.fault(message, "at least 0"));
+                return Err(self.last.fault(message, "must be at least 0"));
             }
             candela.push(value.abs());
         }

@@ -222,13 +222,13 @@ fn report_unknown_type(name: &str, node: NodeId, context: &mut Context<'_>) {
     context.report(
         &codes::UNKNOWN_TYPE,
         span,
-        || format!("there is no type `{}`", clip(name)),
+        || format!("unknown object type `{}`", clip(name)),
         |d| {
             let d = match lenient {
                 true => d
-                    .at(span, "the object is left out")
+                    .at(span, "the object is skipped")
                     .severity(Severity::Warning),
-                false => d.at(span, "no such type"),
+                false => d.at(span, "not an object type"),
             };
             match suggestion {
                 Some((suggestion, replacement)) => {
@@ -238,7 +238,7 @@ fn report_unknown_type(name: &str, node: NodeId, context: &mut Context<'_>) {
                 None => {
                     let kinds = quoted_list(KINDS.iter().map(|kind| kind.names[0]));
                     d.hint(format!(
-                        "the types are {kinds}; `--lenient` leaves the object out"
+                        "the types are {kinds}; `--lenient` skips the object"
                     ))
                 }
             }

@@ -185,23 +185,22 @@ fn report_two_radii(
     context: &mut Context<'_>,
 ) {
     let Some(span) = inner.span else { return };
-    let (of, [first, second], hint) = match is_tube {
+    let ([first, second], hint) = match is_tube {
         false => (
-            "the hole and of the outer rim",
-            ["the hole", "the outer rim"],
-            "in some programs they are those of the tube and of the ring: here `alpha` and `radius`"
+            ["the radius of the hole", "that of the outer rim"],
+            "if they are the radii of the tube and of the ring, write `alpha` and `radius`"
                 .to_owned(),
         ),
         true => {
             let [major, minor] = major_and_minor(inner.value.0, outer.value.0).map(shortest);
             let hint = format!(
-                "as radii of the hole and the outer rim, `radius: {major}` and `alpha: {minor}`, \
-                 the torus would contain other objects"
+                "if they are the radii of the hole and of the outer rim, write \
+                 `radius: {major}` and `alpha: {minor}`; the torus would then contain other objects"
             );
-            ("the tube and of the ring", ["the tube", "the ring"], hint)
+            (["the radius of the tube", "that of the ring"], hint)
         }
     };
-    let message = || format!("`innerRadius` and `outerRadius` are those of {of}");
+    let message = || format!("`innerRadius` is read as {first}, `outerRadius` as {second}");
     context.report(&codes::TWO_READINGS, span, message, |d| {
         d.at(span, first).also(outer.span, second).hint(hint)
     });

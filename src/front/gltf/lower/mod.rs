@@ -294,7 +294,8 @@ impl Lowering<'_, '_, '_> {
         let is_lit = primitive.find("NORMAL").is_some();
         let (id, loses_light) = self.materials.of_strokes(material, is_lit, &mut self.scene);
         if loses_light {
-            let message = "points and lines without normals show their colour, not what they emit";
+            let message =
+                "points and lines without normals show their colour; their emission is ignored";
             self.report
                 .add(&codes::GLTF_MATERIAL_ODD, "", primitive.at, message);
         }

@@ -105,7 +105,7 @@ fn chosen<'d>(
         options.time?;
         if doc.animations.is_empty() {
             let [message, hint] =
-                ["the asset is the same at all times", "it has no animations"].map(str::to_owned);
+                ["the asset does not move", "it has no animations"].map(str::to_owned);
             report.add_with_hint(&codes::GLTF_STILL, "", report.json.root(), message, hint);
         }
         return doc.animations.first();
@@ -139,7 +139,7 @@ impl Pose {
         } = *property;
         if keys.width() != width {
             let message = format!(
-                "the keyframes have {} numbers, and `{key}` takes {width}, so it does not move",
+                "the keyframes have {} numbers, but `{key}` needs {width}, so it does not move",
                 keys.width()
             );
             return report.add(&codes::GLTF_MATERIAL_ODD, "", at, message);

@@ -83,7 +83,7 @@ impl Lowering<'_, '_, '_> {
         let is_color = elements.layout.component == Component::F32
             && (elements.layout.columns, elements.layout.rows) == (1, 3);
         let Some([width, height]) = size.filter(|_| is_color) else {
-            let message = "the pixels are not whole rows of `width` vectors of three floats";
+            let message = "the number of pixels is not a multiple of `width`";
             self.report
                 .add(&codes::GLTF_ACCESSOR, "", extras.at, message.to_owned());
             return None;

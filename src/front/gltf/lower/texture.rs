@@ -101,7 +101,7 @@ impl LoweredTextures {
         });
         let image = image.and_then(|image| self.image(doc, image, scene, source_spans, report));
         if image.is_none() {
-            let message = "the texture has no image that can be read, so it has no effect";
+            let message = "the texture has no readable image, so it has no effect";
             let message = message.to_owned();
             report.add(&codes::GLTF_MATERIAL_ODD, "", texture.at, message);
         }

@@ -32,7 +32,7 @@ pub(super) fn apply(filter: &str, stride: usize, bytes: &mut [u8]) -> Result<(),
             color_from(color, u32::from(a.cast_unsigned()), 65535.0)
                 .map(|value| to_u16(value).cast_signed())
         }),
-        _ => return Err("its filter does not go with its stride"),
+        _ => return Err("its filter does not fit its stride"),
     }
     Ok(())
 }

@@ -45,14 +45,14 @@ struct Triangles<'a> {
 pub(super) fn triangles(bytes: &[u8], count: usize) -> Result<Vec<u32>, Fault> {
     let inside = bytes
         .strip_prefix(&[0xe1])
-        .ok_or("the first byte is not that of triangles")?;
+        .ok_or("the first byte does not mark triangles")?;
     let end = inside
         .len()
         .checked_sub(QUEUE)
         .ok_or("the data ends too early")?;
     let (inside, table) = inside.split_at(end);
     if !count.is_multiple_of(3) {
-        return Err("the indices make no whole triangles");
+        return Err("the number of indices is not a multiple of 3");
     }
     let (codes, data) = inside
         .split_at_checked(count / 3)
@@ -72,7 +72,7 @@ pub(super) fn triangles(bytes: &[u8], count: usize) -> Result<Vec<u32>, Fault> {
     if state.data.bytes.is_empty() {
         Ok(indices)
     } else {
-        Err("something is left over at the end of the data")
+        Err("there is extra data at the end")
     }
 }
 
@@ -96,7 +96,7 @@ impl Triangles<'_> {
         }
         let (z, w) = (pair >> 4, pair & 15);
         if low < 14 && (z == 15 || w == 15) {
-            return Err("the table of triangles is not sound");
+            return Err("the table of triangles is damaged");
         }
         let a = self.corner(if low == 15 { 15 } else { 0 })?;
         let b = self.corner(z)?;
@@ -153,7 +153,7 @@ pub(super) fn sequence(bytes: &[u8], count: usize) -> Result<Vec<u32>, Fault> {
     const TAIL: usize = 4;
     let inside = bytes
         .strip_prefix(&[0xd1])
-        .ok_or("the first byte is not that of indices")?;
+        .ok_or("the first byte does not mark indices")?;
     let end = inside
         .len()
         .checked_sub(TAIL)
@@ -172,7 +172,7 @@ pub(super) fn sequence(bytes: &[u8], count: usize) -> Result<Vec<u32>, Fault> {
     if reader.bytes.is_empty() {
         Ok(indices)
     } else {
-        Err("something is left over at the end of the data")
+        Err("there is extra data at the end")
     }
 }
 

@@ -82,7 +82,7 @@ impl StreamHeader {
         else {
             return Err("it has no `count` or no `byteStride`");
         };
-        let size = count.checked_mul(stride).ok_or("it claims too much")?;
+        let size = count.checked_mul(stride).ok_or("its size is too large")?;
         if size / MAX_RATIO > bytes.len() {
             return Err("it claims more data than its bytes can hold");
         }
@@ -123,7 +123,7 @@ pub(super) fn expand(doc: &mut Document<'_>, report: &mut AssetReport<'_, '_>) {
                 Resource::Memory,
                 header.memory(),
                 extension.at,
-                "the compressed view",
+                "the compressed buffer view",
             ) {
                 return Err("it exceeds a limit");
             }
@@ -143,7 +143,7 @@ fn add(at: NodeId, fault: Fault, report: &mut AssetReport<'_, '_>) {
         &codes::GLTF_COMPRESSED,
         "",
         at,
-        format!("the compressed view can't be read: {fault}"),
+        format!("the compressed buffer view cannot be decoded: {fault}"),
     );
 }
 
@@ -193,6 +193,6 @@ fn narrow(indices: &[u32], stride: usize) -> Result<Vec<u8>, Fault> {
                 .flat_map(|index| index.to_le_bytes())
                 .collect())
         }
-        _ => Err("indices have two or four bytes"),
+        _ => Err("an index must have 2 or 4 bytes"),
     }
 }

@@ -20,12 +20,12 @@ enum Channel {
 /// Decodes `count` elements of `stride` bytes.
 pub(super) fn decode(bytes: &[u8], count: usize, stride: usize) -> Result<Vec<u8>, Fault> {
     if !stride.is_multiple_of(4) || stride == 0 || stride > BLOCK_ELEMENTS {
-        return Err("the stride is no multiple of 4 up to 256");
+        return Err("the stride is not a multiple of 4 up to 256");
     }
     let version = match bytes.first() {
         Some(0xa0) => 0,
         Some(0xa1) => 1,
-        _ => return Err("the first byte is not that of attributes"),
+        _ => return Err("the first byte does not mark attributes"),
     };
     let tail = if version == 0 {
         stride
@@ -68,7 +68,7 @@ pub(super) fn decode(bytes: &[u8], count: usize, stride: usize) -> Result<Vec<u8
     if reader.bytes.is_empty() {
         Ok(decoded)
     } else {
-        Err("something is left over at the end of the data")
+        Err("there is extra data at the end")
     }
 }
 

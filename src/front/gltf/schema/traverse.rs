@@ -17,7 +17,7 @@ pub(crate) fn traverse(is_known: bool, report: &mut AssetReport<'_, '_>) -> BTre
     let root = report.json.root();
     if report.json.kind(root) != NodeKind::Map {
         let kind = report.json.kind(root).name();
-        let message = format!("an asset is an object, and this is {kind}");
+        let message = format!("an asset must be an object, not {kind}");
         report.add(&codes::GLTF_TYPE, "TYPE_MISMATCH", root, message);
         return BTreeSet::new();
     }
@@ -130,7 +130,11 @@ impl Walk<'_, '_, '_> {
 
     fn unknown(&mut self, name: NodeId, object: &'static Object) {
         let written = self.report.json.text(name).unwrap_or_default();
-        let message = format!("the {} has no property `{}`", object.name, shown(written));
+        let message = format!(
+            "the {} has an unknown property `{}`",
+            object.name,
+            shown(written)
+        );
         self.report
             .add(&codes::GLTF_UNKNOWN, "UNEXPECTED_PROPERTY", name, message);
     }
@@ -144,7 +148,7 @@ impl Walk<'_, '_, '_> {
             self.open.push((node, object));
         }
         if ![NodeKind::Map, NodeKind::Null].contains(&self.report.json.kind(value)) {
-            let message = "extras are best an object".to_owned();
+            let message = "`extras` should be an object".to_owned();
             self.report
                 .add(&codes::GLTF_REMARK, "NON_OBJECT_EXTRAS", value, message);
         }
@@ -163,7 +167,7 @@ impl Walk<'_, '_, '_> {
                     "the extension `{}` is not listed in `extensionsUsed`",
                     shown(name)
                 );
-                let (alias, repair) = ("UNDECLARED_EXTENSION", "it is taken as listed");
+                let (alias, repair) = ("UNDECLARED_EXTENSION", "it is treated as listed");
                 self.report
                     .repair(&codes::GLTF_EXTENSION, alias, value, &message, repair);
                 if !self.report.is_lenient() {
@@ -204,7 +208,7 @@ impl Walk<'_, '_, '_> {
             .iter()
             .position(|(_, path)| path.len() > 1 && path[1] == name);
         if owner.name != ROOT.name && target.is_some_and(|target| !self.present[target]) {
-            let message = format!("this refers to `{name}` of the asset, which has none");
+            let message = format!("this refers to `{name}` of the asset, which is missing");
             self.report.add(
                 &codes::GLTF_TOGETHER,
                 "UNSATISFIED_DEPENDENCY",
@@ -218,7 +222,12 @@ impl Walk<'_, '_, '_> {
     pub(super) fn expect(&mut self, node: NodeId, kind: NodeKind, name: &str) -> bool {
         let found = self.report.json.kind(node);
         if found != kind {
-            let message = format!("`{}` is {}, not {}", shown(name), found.name(), kind.name());
+            let message = format!(
+                "`{}` is {}; it must be {}",
+                shown(name),
+                found.name(),
+                kind.name()
+            );
             self.report
                 .add(&codes::GLTF_TYPE, "TYPE_MISMATCH", node, message);
         }
@@ -251,7 +260,7 @@ impl Walk<'_, '_, '_> {
             }
             None => {
                 let message = format!(
-                    "there is no {index} in `{target}`, which {}",
+                    "index {index} is out of range: `{target}` {}",
                     count_words(count)
                 );
                 self.report.add(
@@ -283,7 +292,7 @@ impl Walk<'_, '_, '_> {
                     &codes::GLTF_REMARK,
                     "UNUSED_OBJECT",
                     node,
-                    "nothing refers to this",
+                    "this is unused: nothing refers to it",
                 );
             }
         }
@@ -293,7 +302,7 @@ impl Walk<'_, '_, '_> {
 fn count_words(count: usize) -> String {
     match count {
         0 => "is empty or absent".to_owned(),
-        1 => "holds only 0".to_owned(),
-        count => format!("ends at {}", count - 1),
+        1 => "has only element 0".to_owned(),
+        count => format!("ends with element {}", count - 1),
     }
 }

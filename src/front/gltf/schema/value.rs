@@ -64,7 +64,7 @@ impl Walk<'_, '_, '_> {
                 continue;
             };
             if !seen.insert(index) {
-                let message = format!("`{name}` holds {index} twice");
+                let message = format!("`{name}` lists {index} twice");
                 let alias = "DUPLICATE_ELEMENTS";
                 self.report
                     .add(&codes::GLTF_DUPLICATE, alias, item, message);
@@ -98,7 +98,7 @@ impl Walk<'_, '_, '_> {
                 "EMPTY_ENTITY",
                 node,
                 &format!("`{name}` is empty"),
-                "it is taken as absent",
+                "it is treated as absent",
             );
         }
     }
@@ -110,7 +110,7 @@ impl Walk<'_, '_, '_> {
                 .any(|keyword| self.report.json.is(node, keyword))
         {
             let message = format!(
-                "`{name}` is {}, none of {}",
+                "`{name}` is {}; it must be one of {}",
                 self.report.shown(node),
                 words.join(", ")
             );
@@ -123,7 +123,7 @@ impl Walk<'_, '_, '_> {
         if self.expect(node, NodeKind::Text, name)
             && !fits(self.report.json.text(node).unwrap_or_default())
         {
-            let message = format!("`{name}` is {}, not {what}", self.report.shown(node));
+            let message = format!("`{name}` is {}; it must be {what}", self.report.shown(node));
             self.report
                 .add(&codes::GLTF_VALUE, "PATTERN_MISMATCH", node, message);
         }
@@ -137,7 +137,7 @@ impl Walk<'_, '_, '_> {
         let number = self.report.json.number(node)?;
         if number.fract() != 0.0 {
             let message = format!(
-                "`{name}` is {}, not a whole number",
+                "`{name}` is {}; it must be a whole number",
                 self.report.shown(node)
             );
             self.report
@@ -152,7 +152,7 @@ impl Walk<'_, '_, '_> {
             return;
         };
         if !number.is_some_and(|number| (min..=max).contains(&number)) {
-            let least = format!("`{name}` is {}, not {min}", self.report.shown(node));
+            let least = format!("`{name}` is {}; it must be {min}", self.report.shown(node));
             let message = if max < 1 << 53 && max > 1 << 32 {
                 format!("{least} or more")
             } else {
@@ -170,7 +170,7 @@ impl Walk<'_, '_, '_> {
         if !number.is_some_and(|number| choices.contains(&number)) {
             let choices: Vec<String> = choices.iter().map(u64::to_string).collect();
             let message = format!(
-                "`{name}` is {}, none of {}",
+                "`{name}` is {}; it must be one of {}",
                 self.report.shown(node),
                 choices.join(", ")
             );
@@ -182,7 +182,10 @@ impl Walk<'_, '_, '_> {
     fn index(&mut self, node: NodeId, name: &str) -> Option<u64> {
         let number = self.integer(node, name)?;
         if number.is_none() {
-            let message = format!("`{name}` is {}, not an index", self.report.shown(node));
+            let message = format!(
+                "`{name}` is {}; it must be an index",
+                self.report.shown(node)
+            );
             self.report
                 .add(&codes::GLTF_TYPE, "INVALID_INDEX", node, message);
         }
@@ -194,7 +197,7 @@ impl Walk<'_, '_, '_> {
         let number = self.report.json.integer(node);
         if number.is_none() {
             let message = format!(
-                "`{name}` holds {}, which is no index",
+                "`{name}` contains {}, which is not an index",
                 self.report.shown(node)
             );
             self.report
@@ -223,7 +226,10 @@ impl Walk<'_, '_, '_> {
                 (false, false) if min.is_finite() => format!("{min} or more"),
                 (false, false) => "finite".to_owned(),
             };
-            let message = format!("`{name}` is {}, not {range}", self.report.shown(node));
+            let message = format!(
+                "`{name}` is {}; it must be {range}",
+                self.report.shown(node)
+            );
             self.report
                 .add(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", node, message);
         }
@@ -239,7 +245,7 @@ impl Walk<'_, '_, '_> {
         } else if !lengths.contains(&items.len()) {
             let lengths: Vec<String> = lengths.iter().map(usize::to_string).collect();
             let message = format!(
-                "`{name}` has {} numbers, not {}",
+                "`{name}` has {} numbers; it must have {}",
                 items.len(),
                 lengths.join(" or ")
             );
@@ -262,7 +268,7 @@ impl Walk<'_, '_, '_> {
         let found = self.report.json.kind(node);
         if found != kind {
             let message = format!(
-                "an element of `{name}` is {}, not {}",
+                "an element of `{name}` is {}; it must be {}",
                 found.name(),
                 kind.name()
             );
@@ -279,7 +285,7 @@ impl Walk<'_, '_, '_> {
                 && let Some(text) = self.report.json.text(item)
                 && !seen.insert(text)
             {
-                let message = format!("`{name}` holds {} twice", self.report.shown(item));
+                let message = format!("`{name}` lists {} twice", self.report.shown(item));
                 self.report
                     .add(&codes::GLTF_DUPLICATE, "DUPLICATE_ELEMENTS", item, message);
             }

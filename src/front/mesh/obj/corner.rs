@@ -52,12 +52,12 @@ fn resolve(index: &Word<'_>, entity: &str, so_far: usize, total: usize) -> Resul
         .and_then(|index| u32::try_from(index).ok())
         .ok_or_else(|| {
             let there = if number < 0 {
-                format!("{so_far} stand before it")
+                format!("only {so_far} come before it")
             } else {
-                format!("the file has {total}")
+                format!("the file has only {total}")
             };
             index.fault(
-                format!("a face refers to {entity} {number}, and {there}"),
+                format!("a face refers to {entity} {number}, but {there}"),
                 format!("there is no such {entity}"),
             )
         })

@@ -55,7 +55,7 @@ impl NumberKind {
             b"float" | b"float32" => Self::F32,
             b"double" | b"float64" => Self::F64,
             _ => {
-                let message = format!("there is no type `{}`", word.text());
+                let message = format!("unknown type `{}`", word.text());
                 return Err(word.fault(message, "char to double are there"));
             }
         })
@@ -159,7 +159,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PlyHead<'_>, WordFault> {
             }
             _ => {
                 let head = name(&words, bytes).map_or_else(String::new, |line| line.text);
-                let message = format!("`{}` is no line of a head", rtc_diag::clip(&head));
+                let message = format!("`{}` is not a line of a header", rtc_diag::clip(&head));
                 return Err(words[0].fault(message, "before `end_header`"));
             }
         }

@@ -62,9 +62,9 @@ impl SourceText<'_, '_> {
         }
         let span = self.span(at, at + inside.len() + 2);
         Some(typo(
-            "a backslash in double quotes starts an escape".to_owned(),
-            "no such escape in here".to_owned(),
-            "in single quotes it is a backslash",
+            "an unknown escape in a double-quoted string".to_owned(),
+            "contains an unknown escape".to_owned(),
+            "in single quotes, a backslash is literal",
             span,
             (span, format!("'{inside}'")),
         ))

@@ -14,7 +14,7 @@ use rtc_source::{Resource, Span};
 use std::collections::BTreeMap;
 
 /// A texture to bake once its images are loaded.
-pub(crate) struct Bake {
+pub(crate) struct TextureBake {
     pub(super) material: MaterialId,
     pub(super) baked: BakedMap,
     pub(super) placement: MapPlacement,
@@ -71,7 +71,7 @@ impl ScaledImage<'_> {
 /// Bakes the textures. `image_of` maps pending images to loaded ones; without its images a texture
 /// is left out.
 pub(crate) fn bake(
-    bakes: Vec<Bake>,
+    bakes: Vec<TextureBake>,
     image_of: &BTreeMap<u32, Option<ImageId>>,
     lowered: &mut Lowered,
     loader: &mut AssetLoader<'_>,
@@ -96,7 +96,7 @@ pub(crate) fn bake(
             }
         };
         let Some(baked) = baked else { continue };
-        // Bake the image, or reuse an equal one.
+        // TextureBake the image, or reuse an equal one.
         let key = baked.key();
         let image = match (known.get(&key), &baked) {
             (Some(image), _) => *image,

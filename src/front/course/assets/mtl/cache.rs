@@ -2,7 +2,7 @@
 
 use super::super::mesh::MeshFile;
 use super::super::{AssetTarget, PendingAsset};
-use super::bake::Bake;
+use super::bake::TextureBake;
 use super::{LoadedLibrary, phong, standard};
 use crate::mesh::mtl::{MtlMap, MtlMaterial, MtlValue};
 use crate::mesh::{Named, WordSpan};
@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 pub(crate) struct MtlCache {
     pub(crate) pending_assets: Vec<PendingAsset>,
     /// The textures to bake once the images are loaded.
-    pub(crate) bakes: Vec<Bake>,
+    pub(crate) bakes: Vec<TextureBake>,
     images: BTreeMap<(String, bool), ImageId>,
     textures: BTreeMap<(u32, Option<bool>), TextureId>,
     /// Statements without effect: the span of the first, the reason, and their number.

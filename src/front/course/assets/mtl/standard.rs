@@ -1,6 +1,6 @@
 //! Converts an MTL material to the `standard` material, for path tracing.
 
-use super::bake::{Bake, BakedMap};
+use super::bake::{BakedMap, TextureBake};
 use super::cache::{MapPlacement, MtlCache};
 use super::phong::{is_glass, opacity, weight};
 use super::{LoadedLibrary, phong};
@@ -179,7 +179,7 @@ impl MtlCache {
         // Textures that combine several images.
         let mut bake = |map: &Option<MtlValue<MtlMap>>, baked: BakedMap| {
             let Some(map) = map else { return };
-            self.bakes.push(Bake {
+            self.bakes.push(TextureBake {
                 material,
                 baked,
                 placement: MapPlacement::of(&map.value),
