@@ -83,12 +83,12 @@ fn a_fault_loses_one_face() {
     let obj = format!("{SQUARE}f 1 2 3\nf 1 2 99\nf 1 2 x\nf 1 3 4\n");
     let parsed = read(obj);
     assert_eq!(parsed.mesh.triangles.len(), 2);
-    let expected = "a face refers to vertex 99, and the file has 4";
+    let expected = "a face refers to vertex 99, but the file has only 4";
     assert_eq!(told(&parsed), Some((2, expected)));
     let off = "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n3 0 1 2\n";
     let parsed = read(off);
     assert_eq!(*parsed.mesh.triangles, [[0, 1, 2]]);
-    let expected = "a face refers to vertex 7, and there are 3, from 0";
+    let expected = "a face refers to vertex 7, but there are only 3, from 0";
     assert_eq!(told(&parsed), Some((1, expected)));
     let ply = ply(
         "element face 3\nproperty list uchar int vertex_indices\n",

@@ -182,7 +182,7 @@ fn faults_of_stl_have_their_places() {
         ),
         (
             text.replacen("outer", "inner", 1),
-            "`inner` is no statement of STL",
+            "`inner` is not a statement of STL",
             "inner",
         ),
     ];
@@ -199,11 +199,11 @@ fn faults_of_stl_have_their_places() {
 
 /// A slip in a PLY: what is replaced by what, the fault, and its place.
 const SLIPS: [[&str; 4]; 6] = [
-    ["float z", "floot z", "there is no type `floot`", "floot"],
+    ["float z", "floot z", "unknown type `floot`", "floot"],
     [
         "format",
         "fromat",
-        "`fromat ascii 1.0` is no line of a head",
+        "`fromat ascii 1.0` is not a line of a header",
         "fromat",
     ],
     [

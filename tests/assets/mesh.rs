@@ -156,19 +156,19 @@ fn faults_of_obj_files_have_their_place_there() {
         ("v 0 1,5 0\n".to_owned(), "m.obj:1:5 `1,5` is not a number"),
         (
             format!("{corners}f 1 2 4\n"),
-            "m.obj:4:7 a face refers to vertex 4, and the file has 3",
+            "m.obj:4:7 a face refers to vertex 4, but the file has only 3",
         ),
         (
             format!("{corners}f 1 2 0\n"),
-            "m.obj:4:7 a face refers to vertex 0, and the file has 3",
+            "m.obj:4:7 a face refers to vertex 0, but the file has only 3",
         ),
         (
             format!("{corners}f 1 2 -4\n"),
-            "m.obj:4:7 a face refers to vertex -4, and 3 stand before it",
+            "m.obj:4:7 a face refers to vertex -4, but only 3 come before it",
         ),
         (
             format!("{corners}f 1/1 2 3\n"),
-            "m.obj:4:5 a face refers to texture coordinate 1, and the file has 0",
+            "m.obj:4:5 a face refers to texture coordinate 1, but the file has only 0",
         ),
         (
             format!("{corners}f 1//-9223372036854775808 2 3\n"),
@@ -213,7 +213,7 @@ fn faults_of_off_files_have_their_place_there() {
         ),
         (
             "OFF\n1 1 0\n0 0 0\n3 0 0 1\n",
-            "m.obj:4:7 a face refers to vertex 1, and there are 1, from 0",
+            "m.obj:4:7 a face refers to vertex 1, but there are only 1, from 0",
         ),
         (
             "OFF\n1 1 0\n0 0 0\n4 0 0 0\n",

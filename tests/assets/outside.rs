@@ -230,7 +230,10 @@ fn an_asset_is_read_where_it_was_judged() {
     let scene = folder.path().join("link/scene.yaml");
     let gltf = AssetTarget::Gltf([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]]);
     let findings = bring(&scene, gltf, "a.gltf", &FrontOptions::default()).findings;
-    assert_eq!(findings, "GL046 note a.gltf:1:43 nothing refers to this\n");
+    assert_eq!(
+        findings,
+        "GL046 note a.gltf:1:43 this is unused: nothing refers to it\n"
+    );
     // Beside the scene a link leaves it, to what is no asset and to what is no file.
     for target in ["/etc/passwd", "/dev/zero"] {
         let link = folder.path().join("real/inner/b.gltf");
