@@ -329,7 +329,7 @@ mod tests {
             (&zip("3D/3dmodel.model"), "a 3MF model"),
             (&zip("scene.yaml"), "an archive"),
         ] {
-            assert_eq!(message(bytes), format!("`x` is {format}, and no scene"));
+            assert_eq!(message(bytes), format!("`x` is {format}, not a scene"));
         }
     }
 

@@ -172,12 +172,12 @@ fn shadows_of_paths(scene: &ir::Scene, check: &mut Checker<'_>) {
     if let (ir::Mode::Path(_), Some(index)) = (&settings.mode, first) {
         let diagnostic = Diagnostic::new(
             &codes::SHADOW_IN_PATHS,
-            "every object that paths hit casts a shadow",
+            "path tracing ignores `shadow: false`",
         )
-        .hint("`RenderMode: phong` takes `shadow: false` as it is written");
+        .hint("`RenderMode: phong` honours `shadow: false`");
         check.report(
             ValuePath::new(EntityKind::Surface, index, Field::Whole),
-            "this one too, in spite of its `shadow: false`",
+            "casts a shadow",
             diagnostic,
         );
     }
@@ -219,13 +219,13 @@ fn unsupported_features(scene: &ir::Scene, check: &mut Checker<'_>) {
                 "a `normalMap` shows in both",
             ),
             ir::Material::Standard(standard) if !is_traced && is_more_than_phong(standard) => (
-                "of a `standard` material the colour shows and how rough it is, no more",
-                "traced paths show all of it: `RenderMode: path`, or `--integrator path`",
+                "only the colour and the roughness of a `standard` material show in this `RenderMode`",
+                "path tracing shows all of it: `RenderMode: path`, or `--integrator path`",
             ),
             ir::Material::Phong(_) | ir::Material::Standard(_) => continue,
         };
         let diagnostic = Diagnostic::new(&codes::LOST_PARTS, message).hint(hint);
-        let label = "more precise than the picture";
+        let label = "its other properties are ignored";
         check.report(
             ValuePath::new(EntityKind::Material, index, Field::Whole),
             label,

@@ -95,7 +95,7 @@ impl Scan<'_> {
             Diagnostic::new(&codes::GLB_CHUNK, format!("{message}: {repair}"))
                 .severity(Severity::Warning)
         } else {
-            diagnostic.hint(format!("`--lenient` repairs this: {repair}"))
+            diagnostic.hint(format!("with `--lenient` this is a warning: {repair}"))
         };
         let at = self.span(header);
         self.sink

@@ -235,7 +235,7 @@ fn repair(mut diagnostic: Diagnostic, is_lenient: bool, repair: &str) -> Diagnos
         diagnostic.message = format!("{}: {repair}", diagnostic.message);
         diagnostic.severity(Severity::Warning)
     } else {
-        diagnostic.hint(format!("`--lenient` repairs this: {repair}"))
+        diagnostic.hint(format!("with `--lenient` this is a warning: {repair}"))
     }
 }
 

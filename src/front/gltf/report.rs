@@ -90,7 +90,7 @@ impl<'r, 's> AssetReport<'r, 's> {
             let push = format!("{message}: {repair}");
             return self.push((code, Severity::Warning), alias, at, push, None);
         }
-        let hint = format!("`--lenient` repairs this: {repair}");
+        let hint = format!("with `--lenient` this is a warning: {repair}");
         self.push(
             (code, code.severity),
             alias,

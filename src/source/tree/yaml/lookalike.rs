@@ -170,7 +170,7 @@ fn comment(tree: &Tree<'_>, at: usize, text: &str) -> Option<Mistake<'static>> {
     if tree.source.trim_start().starts_with('{') {
         return Some(typo(
             format!("`{opener}` starts a comment in other languages: JSON has none"),
-            "no comment here".to_owned(),
+            "not a comment".to_owned(),
             "leave it out, or say it in a key `comment`",
             span,
             (span, String::new()),
@@ -178,8 +178,8 @@ fn comment(tree: &Tree<'_>, at: usize, text: &str) -> Option<Mistake<'static>> {
     }
     let has_more_lines = comment_text.contains('\n');
     Some(typo(
-        format!("`{opener}` starts no comment in YAML"),
-        "no comment here".to_owned(),
+        format!("`{opener}` does not start a comment in YAML"),
+        "not a comment".to_owned(),
         "a comment begins with `#`",
         span,
         match has_more_lines {
