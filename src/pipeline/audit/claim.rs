@@ -9,7 +9,7 @@ use rtc_plan::{Arithmetic, Rule, Rules};
 use rtc_render::{Aov, Crop};
 use serde::Deserialize;
 
-/// The settings in the metadata of a picture; [`PictureSetup::origin`] writes them.
+/// The settings in the metadata of a picture; [`PictureSetup::metadata`] writes them.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 struct Claim {

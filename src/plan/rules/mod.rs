@@ -3,7 +3,7 @@
 //! A [`Rule`] names a rule of either integrator; [`Rules`] is a set of them as bits. The names
 //! (`E-…` for the Whitted integrator, `P-…` for path tracing, `B-…` for bounded errors) and the
 //! texts are what `rtc explain` prints. A rule is one row of the table below; the row of a rule for
-//! path tracing is its item in [`path::rules`].
+//! path tracing is its item in [`crate::path::rules`].
 
 use super::path::rules::{PathRule, light, material, paths, texture};
 
