@@ -106,8 +106,8 @@ struct Tally {
     /// Of plain pictures of few and of many paths, and of denoised ones.
     relative: [f64; 3],
     flip: [f64; 3],
-    /// The mean square errors in squares of grey levels: those of a plain and of a denoised picture, what
-    /// is told of that, and the bound.
+    /// The mean square errors in squares of grey levels: those of a plain and of a denoised
+    /// picture, the estimate of that, and the bound.
     squares: [f64; 4],
     /// So many are worse than the plain picture.
     worse: u64,
@@ -193,7 +193,9 @@ impl Tally {
         let flip = self.flip.map(|sum| sum / n);
         let [before, truth, probed, bound] = self.squares.map(|sum| (sum / n).max(0.0).sqrt());
         println!(
-            "| {name} | {plain:.5} | {more:.5} | {denoised:.5} | {:.3} | {:.3} | {:.3} | {before:.2} | {truth:.2} | {:.2} | {} | {probed:.2} | {bound:.2} | {} of {} | {} | {:.0} % |",
+            "| {name} | {plain:.5} | {more:.5} | {denoised:.5} | {:.3} | {:.3} | {:.3} \
+             | {before:.2} | {truth:.2} | {:.2} | {} | {probed:.2} | {bound:.2} | {} of {} | {} \
+             | {:.0} % |",
             flip[0],
             flip[1],
             flip[2],
@@ -235,7 +237,8 @@ fn main() {
     };
     let [side, paths, seeds] = [side, paths, seeds].map(|word| word.parse::<u32>().unwrap());
     println!(
-        "| scene | relMSE 16 | relMSE 64 | denoised | FLIP 16 | FLIP 64 | denoised | error 16 | denoised | most | worse | told | bound | held | no bound | rays of probes |"
+        "| scene | relMSE 16 | relMSE 64 | denoised | FLIP 16 | FLIP 64 | denoised | error 16 \
+         | denoised | most | worse | estimate | bound | held | no bound | rays of probes |"
     );
     println!("| --- |{}", " --: |".repeat(15));
     let mut sum = Tally::default();

@@ -1,6 +1,6 @@
-//! Rays through one asset, one after another: `rays ASSET SET… [COUNT]` builds its hierarchy, then traces
-//! the first COUNT rays of each SET, all without; a set is a file of little-endian f32, six a ray:
-//! origin and direction.
+//! Rays through one asset, one after another: `rays ASSET SET… [COUNT]` builds its hierarchy, then
+//! traces the first COUNT rays of each SET, or all of them. A set is a file of little-endian f32,
+//! six per ray: origin and direction.
 //!
 //! One line of JSON comes out of the build and of each kind of work: CPU-seconds, rays, hits, and the
 //! sum of the first distances, so that others can be checked against it. All of one thread. For

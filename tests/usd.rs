@@ -1,5 +1,6 @@
 //! Stages of USD: what they compose to, and what they look like where that is known.
 
+use crate::assets::png;
 use crate::small::{WHOLE, film};
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{Alpha, Material, Scene, Shape, Standard};
@@ -58,7 +59,8 @@ fn assert_near(a: [f64; 3], b: [f64; 3]) {
 }
 
 /// A camera of a few pixels that looks along −z from (0, 0, 10).
-const CAMERA: &str = "def Camera \"eye\" {\nfloat focalLength = 200\nfloat horizontalAperture = 20\n\
+const CAMERA: &str = "def Camera \"eye\" {\nfloat focalLength = 200\n\
+    float horizontalAperture = 20\n\
     float verticalAperture = 20\ndouble3 xformOp:translate = (0, 0, 10)\n\
     uniform token[] xformOpOrder = [\"xformOp:translate\"]\n}\n";
 
@@ -73,7 +75,8 @@ fn middle(body: &str) -> [f64; 3] {
 
 #[test]
 fn transforms_apply_from_the_last_to_the_first() {
-    let operations = "double3 xformOp:translate = (1, 0, 0)\nfloat3 xformOp:rotateXYZ = (90, 90, 0)\n\
+    let operations = "double3 xformOp:translate = (1, 0, 0)\n\
+        float3 xformOp:rotateXYZ = (90, 90, 0)\n\
         double3 xformOp:translate:in = (0, 0, 2)\nfloat3 xformOp:scale = (2, 2, 2)\n";
     let order = |names: &str| {
         let body = format!(
@@ -96,7 +99,8 @@ fn transforms_apply_from_the_last_to_the_first() {
 #[test]
 fn stages_are_in_metres_with_y_up() {
     let text = "(\n upAxis = \"Z\"\n metersPerUnit = 0.01\n)\ndef Sphere \"s\" {\n\
-        double3 xformOp:translate = (100, 200, 300)\nuniform token[] xformOpOrder = [\"xformOp:translate\"]\n}";
+        double3 xformOp:translate = (100, 200, 300)\n\
+        uniform token[] xformOpOrder = [\"xformOp:translate\"]\n}";
     let (scene, _) = read_layers(&[("a.usda", text)], &Options::default());
     let (center, radius) = spheres(&scene)[0];
     assert_near(center, [1.0, 3.0, -2.0]);
@@ -113,7 +117,8 @@ fn stronger_opinions_win() {
             false => String::new(),
         };
         let root = format!(
-            "{METRES}class \"c\" {{ {} }}\nclass \"z\" {{ {} }}\ndef Sphere \"s\" (\n inherits = </c>\n\
+            "{METRES}class \"c\" {{ {} }}\nclass \"z\" {{ {} }}\n\
+             def Sphere \"s\" (\n inherits = </c>\n\
              specializes = </z>\n references = @r.usda@</r>\n payload = @r.usda@</p>\n\
              variants = {{ string v = \"x\" }}\n variantSets = \"v\"\n)\n{{\n{}\
              variantSet \"v\" = {{\n\"x\" {{ {} }}\n\"y\" {{ double radius = 9 }}\n}}\n}}",
@@ -152,7 +157,8 @@ fn stronger_opinions_win() {
 #[test]
 fn a_variant_of_an_asset_is_stronger_than_what_its_children_refer_to() {
     let text = format!(
-        "{METRES}class Sphere \"ball\" {{ double radius = 2 }}\ndef \"a\" (\n variants = {{ string v = \"x\" }}\n)\n{{\n\
+        "{METRES}class Sphere \"ball\" {{ double radius = 2 }}\n\
+         def \"a\" (\n variants = {{ string v = \"x\" }}\n)\n{{\n\
          variantSet \"v\" = {{ \"x\" {{ over \"b\" {{ double radius = 3 }} }} }}\n\
          def \"b\" ( references = </ball> ) {{}}\n}}"
     );
@@ -162,7 +168,8 @@ fn a_variant_of_an_asset_is_stronger_than_what_its_children_refer_to() {
 
 #[test]
 fn a_variant_is_chosen_from_outside_and_by_the_user() {
-    let asset = "(\n defaultPrim = \"a\"\n)\ndef \"a\" (\n variants = { string size = \"small\" }\n)\n{\n\
+    let asset = "(\n defaultPrim = \"a\"\n)\n\
+        def \"a\" (\n variants = { string size = \"small\" }\n)\n{\n\
         variantSet \"size\" = {\n\"small\" { def Sphere \"s\" { double radius = 1 } }\n\
         \"large\" { def Sphere \"s\" { double radius = 2 } }\n\
         \"huge\" { def Sphere \"s\" { double radius = 3 } }\n}\n}";
@@ -183,10 +190,12 @@ fn a_variant_is_chosen_from_outside_and_by_the_user() {
 
 #[test]
 fn samples_are_read_at_the_time_and_layers_have_their_own() {
-    let moved = "def Sphere \"s\" {\ndouble3 xformOp:translate.timeSamples = { 0: (0, 0, 0), 10: (10, 0, 0) }\n\
+    let moved = "def Sphere \"s\" {\n\
+        double3 xformOp:translate.timeSamples = { 0: (0, 0, 0), 10: (10, 0, 0) }\n\
         uniform token[] xformOpOrder = [\"xformOp:translate\"]\n}";
     let stage = "(\n metersPerUnit = 1\n timeCodesPerSecond = 10\n)\n\
-        def \"a\" ( references = @m.usda@</s> ) {}\ndef \"b\" ( references = @m.usda@</s> (offset = 5; scale = 2) ) {}";
+        def \"a\" ( references = @m.usda@</s> ) {}\n\
+        def \"b\" ( references = @m.usda@</s> (offset = 5; scale = 2) ) {}";
     let at = |time: Option<f64>| {
         let mut options = Options::default();
         options.front.time = time;
@@ -204,17 +213,24 @@ fn samples_are_read_at_the_time_and_layers_have_their_own() {
 
 #[test]
 fn texture_coordinates_run_up_and_are_turned_and_moved() {
-    let body = "def Mesh \"m\" {\nuniform token subdivisionScheme = \"none\"\nint[] faceVertexCounts = [4]\n\
-        int[] faceVertexIndices = [0, 1, 2, 3]\npoint3f[] points = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]\n\
-        texCoord2f[] primvars:uv = [(0, 0), (1, 0), (1, 1), (0, 1)] ( interpolation = \"vertex\" )\n\
-        rel material:binding = </m/l>\ndef Material \"l\" {\ntoken outputs:surface.connect = </m/l/s.outputs:surface>\n\
+    let body = "def Mesh \"m\" {\nuniform token subdivisionScheme = \"none\"\n\
+        int[] faceVertexCounts = [4]\n\
+        int[] faceVertexIndices = [0, 1, 2, 3]\n\
+        point3f[] points = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]\n\
+        texCoord2f[] primvars:uv = [(0, 0), (1, 0), (1, 1), (0, 1)] \
+         ( interpolation = \"vertex\" )\n\
+        rel material:binding = </m/l>\ndef Material \"l\" {\n\
+        token outputs:surface.connect = </m/l/s.outputs:surface>\n\
         def Shader \"s\" {\nuniform token info:id = \"UsdPreviewSurface\"\n\
         color3f inputs:diffuseColor.connect = </m/l/t.outputs:rgb>\n}\n\
         def Shader \"t\" {\nuniform token info:id = \"UsdUVTexture\"\nasset inputs:file = @t.png@\n\
-        float2 inputs:st.connect = </m/l/x.outputs:result>\nfloat4 inputs:scale = (0.5, 1, 1, 1)\n}\n\
-        def Shader \"x\" {\nuniform token info:id = \"UsdTransform2d\"\nfloat2 inputs:translation = (0, 0.25)\n\
+        float2 inputs:st.connect = </m/l/x.outputs:result>\nfloat4 inputs:scale = (0.5, 1, 1, 1)\n\
+        }\n\
+        def Shader \"x\" {\nuniform token info:id = \"UsdTransform2d\"\n\
+        float2 inputs:translation = (0, 0.25)\n\
         float2 inputs:in.connect = </m/l/r.outputs:result>\n}\n\
-        def Shader \"r\" {\nuniform token info:id = \"UsdPrimvarReader_float2\"\nstring inputs:varname = \"uv\"\n}\n}\n}";
+        def Shader \"r\" {\nuniform token info:id = \"UsdPrimvarReader_float2\"\n\
+        string inputs:varname = \"uv\"\n}\n}\n}";
     let folder = tempfile::tempdir().unwrap();
     fs::write(
         folder.path().join("a.usda"),
@@ -235,6 +251,37 @@ fn texture_coordinates_run_up_and_are_turned_and_moved() {
     assert_eq!(scene.meshes[0].uvs.at(0), [0.0, 1.0]);
     // Half of white, coded as sRGB.
     assert_eq!(scene.images[0].pixels[..3], [188, 255, 255]);
+}
+
+#[test]
+fn layers_in_two_folders_may_give_two_pictures_one_name() {
+    let texture = |shader: &str| {
+        format!(
+            "def Shader \"{shader}\" {{ uniform token info:id = \"UsdUVTexture\"\n\
+             asset inputs:file = @t.png@ }}\n"
+        )
+    };
+    let root = format!(
+        "#usda 1.0\n(\n metersPerUnit = 1\n subLayers = [@sub/b.usda@]\n)\n\
+         def Sphere \"s\" {{ rel material:binding = </l> }}\ndef Material \"l\" {{\n\
+         token outputs:surface.connect = </l/s.outputs:surface>\ndef Shader \"s\" {{\n\
+         uniform token info:id = \"UsdPreviewSurface\"\n\
+         float inputs:roughness.connect = </l/rough.outputs:r>\n\
+         float inputs:metallic.connect = </l/metal.outputs:r>\n}}\n{}}}",
+        texture("rough")
+    );
+    let below = format!("#usda 1.0\nover \"l\" {{\n{}}}", texture("metal"));
+    let folder = tempfile::tempdir().unwrap();
+    let sub = folder.path().join("sub");
+    fs::create_dir(&sub).unwrap();
+    fs::write(folder.path().join("a.usda"), root).unwrap();
+    fs::write(sub.join("b.usda"), below).unwrap();
+    fs::write(folder.path().join("t.png"), png([10; 3])).unwrap();
+    fs::write(sub.join("t.png"), png([20; 3])).unwrap();
+    let (scene, codes) = read_with(&folder.path().join("a.usda"), &Options::default());
+    assert_eq!(codes, Vec::<&str>::new());
+    // Roughness is green, metal blue.
+    assert_eq!(scene.images[0].pixels[..3], [255, 10, 20]);
 }
 
 #[test]
@@ -261,7 +308,8 @@ fn a_preview_surface_is_the_standard_material() {
     let cut = material("float inputs:opacity = 0.25\nfloat inputs:opacityThreshold = 0.5");
     assert_eq!(cut.alpha, Alpha::Mask(0.5));
     let specular = material(
-        "int inputs:useSpecularWorkflow = 1\ncolor3f inputs:specularColor = (0.1, 0.2, 0.3)\nfloat inputs:metallic = 1",
+        "int inputs:useSpecularWorkflow = 1\ncolor3f inputs:specularColor = (0.1, 0.2, 0.3)\n\
+         float inputs:metallic = 1",
     );
     assert_eq!(
         (specular.metallic, specular.specular_color),
@@ -286,7 +334,8 @@ fn lights_have_the_radiance_that_they_say() {
         "bool inputs:normalize = 1\nfloat inputs:intensity = 3\ncolor3f inputs:color = (1, 0.5, 0)";
     assert_near(seen("SphereLight", inputs), [3.0 / area, 1.5 / area, 0.0]);
     // Flat lights face −z, away from the camera.
-    let turned = "float inputs:intensity = 2\ndouble xformOp:rotateY = 180\nuniform token[] xformOpOrder = [\"xformOp:rotateY\"]";
+    let turned = "float inputs:intensity = 2\ndouble xformOp:rotateY = 180\n\
+        uniform token[] xformOpOrder = [\"xformOp:rotateY\"]";
     for light in ["RectLight", "DiskLight"] {
         assert_near(seen(light, "float inputs:intensity = 2"), [0.0; 3]);
         assert_near(seen(light, turned), [2.0; 3]);
@@ -299,7 +348,8 @@ fn lights_have_the_radiance_that_they_say() {
 
 #[test]
 fn a_wall_is_lit_by_the_irradiance_of_a_distant_light() {
-    let wall = "def Plane \"w\" {\ndouble width = 50\ndouble length = 50\ncolor3f[] primvars:displayColor = [(0.5, 0.5, 0.5)]\n}\n";
+    let wall = "def Plane \"w\" {\ndouble width = 50\ndouble length = 50\n\
+        color3f[] primvars:displayColor = [(0.5, 0.5, 0.5)]\n}\n";
     let reflected = 0.5 / std::f64::consts::PI;
     let sun = |inputs: &str| middle(&format!("{wall}def DistantLight \"l\" {{\n{inputs}\n}}"));
     assert_near(

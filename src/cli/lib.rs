@@ -189,8 +189,8 @@ fn internal_error(info: &PanicHookInfo) -> String {
         .unwrap_or_default();
     let version = env!("CARGO_PKG_VERSION");
     format!(
-        "internal error: {message}{place}\nThis is a bug in rtc {version}: please report it with the \
-        scene."
+        "internal error: {message}{place}\n\
+         This is a bug in rtc {version}: please report it with the scene."
     )
 }
 

@@ -42,6 +42,17 @@ pub fn quantize8(v: f64) -> u8 {
     (v.clamp(0.0, 1.0) * f64::from(u8::MAX)) as u8
 }
 
+/// The byte nearest to 255·v, with `v` clamped to [0, 1]; NaN is 0.
+#[must_use]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped; the cast takes NaN to 0"
+)]
+pub fn nearest8(v: f64) -> u8 {
+    (v.clamp(0.0, 1.0) * f64::from(u8::MAX)).round() as u8
+}
+
 /// ⌊65535·v⌋ with `v` clamped to [0, 1]; NaN is 0.
 #[must_use]
 #[expect(

@@ -2,10 +2,13 @@
 
 use super::reporter::ExportReporter;
 use rtc_diag::{clip, codes};
-use rtc_ir::{EntityKind, Field, Material, Scene, Settings, Shape, ShapeKind, Surface, ValuePath};
+use rtc_ir::{
+    Emitter, EntityKind, Field, Material, Scene, Settings, Shape, ShapeKind, Surface, ValuePath,
+};
 use rtc_math::shortest;
 use rtc_source::{Budget, Resource};
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::PI;
 
 /// A scene for another renderer.
 #[derive(Debug)]
@@ -42,11 +45,27 @@ impl ExportReporter<'_> {
     /// Reports an error if nothing that is written emits light.
     pub(super) fn shines(&mut self, shines: bool) -> Option<()> {
         if !shines {
-            let message = "nothing that the file would hold shines: its picture would be black";
+            let message = "nothing in the file would emit light: its picture would be black";
             let path = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
             self.report_error(&codes::NO_TWIN, message, path);
         }
         shines.then_some(())
+    }
+
+    /// Reports a light that another renderer has without its range or its IES profile.
+    pub(super) fn simplified_light(&mut self, emitter: &Emitter, renderer: &str, path: ValuePath) {
+        if emitter.range().is_some() {
+            let message =
+                format!("{renderer}'s lights have no range: this one shines beyond its own");
+            self.unsupported(&message, path);
+        }
+        if let Emitter::Photometric { photometry, .. } = emitter {
+            let message = format!(
+                "the IES light `{}` is written as a uniform point light",
+                clip(&photometry.name)
+            );
+            self.unsupported(&message, path);
+        }
     }
 
     /// Charges the bytes of a mesh file or of a picture; `None` if they exceed the budget, which is
@@ -55,11 +74,17 @@ impl ExportReporter<'_> {
         let charged = budget.charge(Resource::Memory, bytes);
         charged
             .map_err(|error| {
-                let message = format!("it takes too much as a file: {error}");
+                let message = format!("its file needs too much memory: {error}");
                 self.report_error(&codes::OVER_LIMIT, &message, path);
             })
             .ok()
     }
+}
+
+/// The mean over all directions of what a light emits, as a factor of its intensity.
+pub(super) fn mean_over_directions(emitter: &Emitter) -> f64 {
+    let solid_angle = emitter.profile().map_or(0.0, |all| all.solid_angle());
+    solid_angle / (4.0 * PI)
 }
 
 /// The materials that surfaces use, with their indices and paths.
@@ -121,17 +146,7 @@ pub(super) fn shape_name(shape: &Shape) -> &'static str {
     shape.kind().name()
 }
 
-/// A value as a byte, 1 as 255.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "clamped"
-)]
-pub(super) fn to_byte(value: f64) -> u8 {
-    (value.clamp(0.0, 1.0) * 255.0).round() as u8
-}
-
-/// How a finding calls a material: by its name, if it has one.
+/// A material in a message: by its name, if it has one.
 pub(super) fn called(name: &str) -> String {
     match name {
         "" => "a material".to_owned(),

@@ -1,8 +1,7 @@
 //! Textures as picture files for renderers that know bitmaps only: factors are multiplied in,
 //! channels picked, patterns drawn.
 
-use super::export::to_byte;
-use rtc_color::{srgb_decoded, srgb_encoded};
+use rtc_color::{nearest8, srgb_decoded, srgb_encoded};
 use rtc_image::{EncodeError, FileFormat, Image as Radiances, Picture, png_bytes};
 use rtc_ir::{self as ir, Filter, Pixels, Sampled, Scene, TextureId, Wrap};
 use rtc_math::{TextureMapping, Vec3};
@@ -113,8 +112,8 @@ impl<'s> TexturePicture<'s> {
         };
         if pixels().flatten().all(|value| value <= 1.0) {
             let byte = |value: f64| match coding {
-                Coding::Srgb => to_byte(srgb_encoded(value)),
-                Coding::Linear => to_byte(value),
+                Coding::Srgb => nearest8(srgb_encoded(value)),
+                Coding::Linear => nearest8(value),
             };
             let bytes: Vec<u8> = pixels().flatten().map(byte).collect();
             return Ok((png_bytes(self.size, false, &bytes), "png"));

@@ -10,12 +10,12 @@
 //! # Writing
 //!
 //! [`DisplayTransform`] turns a film of linear values into a [`Picture`]: exposure, tone map,
-//! background. [`Picture::encode`] writes PNG (8 or 16 bits), JPEG, lossless WebP, OpenEXR (16
-//! or 32 bits), or Radiance HDR. [`StripSource`] and `file` write the same bytes strip by strip, so a large picture
-//! need not be in memory. [`AnimatedPng`] and `AnimatedGif` write animations. The same picture
-//! gives the same bytes on each platform. [`RangeClipping`] counts the values that a format can't
-//! hold. A [`MerkleTree`] commits a file to the film that it shows; [`WrittenPicture`] reads a file
-//! back as it was written.
+//! background. [`Picture::encode`] writes PNG (8 or 16 bits), JPEG, lossless WebP, OpenEXR (16 or
+//! 32 bits), or Radiance HDR. [`StripSource`] and `file` write the same bytes strip by strip, so a
+//! large picture need not be in memory. [`AnimatedPng`] and `AnimatedGif` write animations. The
+//! same picture gives the same bytes on each platform. [`RangeClipping`] counts the values that a
+//! format can't hold. A [`MerkleTree`] commits a file to the film that it shows; [`WrittenPicture`]
+//! reads a file back as it was written.
 //!
 //! # Images in between
 //!

@@ -2,9 +2,9 @@
 //!
 //! # Overview
 //!
-//! - Vectors: [`Vec3`] (glam, f64), [`Bounds`], [`Basis`], [`unit()`] and [`length()`] for vectors of
-//!   any
-//!   size, [`camera_basis`] and [`view_basis`], rotations ([`rotated_about`], [`axis_and_angle`]).
+//! - Vectors: [`Vec3`] (glam, f64), [`Bounds`], [`Basis`], [`unit()`] and [`length()`] for vectors
+//!   of any size, [`camera_basis`] and [`view_basis`], rotations ([`rotated_about`],
+//!   [`axis_and_angle`]).
 //! - Exact arithmetic: error-free transformations ([`two_sum`], [`two_product`]), compensated sums
 //!   ([`dot`], [`cross`], [`difference_of_products`]), and [`DoubleDouble`] with 106 bits.
 //! - Elementary functions from `libm`: [`sin`], [`pow`], [`ln`] and others. std's differ between

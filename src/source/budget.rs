@@ -324,9 +324,9 @@ pub fn page() -> String {
     let mut page = "\
 # Limits
 
-The resource limits of a run, printed by `rtc schema limits`. Resources are charged before memory is taken, for all
-files of a run together; shared ones are charged once. `--limit NAME=NUMBER` sets a limit (`KiB`, `MiB` and `GiB` may
-follow the number), `--allow-huge` lifts all of them.
+The resource limits of a run, printed by `rtc schema limits`. Resources are charged before memory
+is taken, for all files of a run together; shared ones are charged once. `--limit NAME=NUMBER` sets
+a limit (`KiB`, `MiB` and `GiB` may follow the number), `--allow-huge` removes all of them.
 
 | name | limit | and for every KiB read | resource |
 | --- | ---: | --- | --- |

@@ -219,7 +219,8 @@ fn unsupported_features(scene: &ir::Scene, check: &mut Checker<'_>) {
                 "a `normalMap` shows in both",
             ),
             ir::Material::Standard(standard) if !is_traced && is_more_than_phong(standard) => (
-                "only the colour and the roughness of a `standard` material show in this `RenderMode`",
+                "only the colour and the roughness of a `standard` material show in this \
+                 `RenderMode`",
                 "path tracing shows all of it: `RenderMode: path`, or `--integrator path`",
             ),
             ir::Material::Phong(_) | ir::Material::Standard(_) => continue,

@@ -144,7 +144,7 @@ fn encoded(picture: &DynamicImage, format: ImageFormat) -> Vec<u8> {
 }
 
 /// A picture of one colour.
-fn png(color: [u8; 3]) -> Vec<u8> {
+pub(crate) fn png(color: [u8; 3]) -> Vec<u8> {
     encoded(
         &RgbImage::from_pixel(2, 3, Rgb(color)).into(),
         ImageFormat::Png,

@@ -80,11 +80,15 @@ fn names_of_other_places_are_replaced_by_their_tails_with_a_note() {
 
 #[test]
 fn what_is_not_there_is_told_with_the_places() {
-    let absent = "RE001 error scene.yaml:1:3 there is no file `t/a.png`\n  searched at `F/inner/t/a.png`, `F/t/a.png`, \
-                  `F/inner/a.png`, `F/a.png`\n  put the file beside the scene, or allow its folder with `--asset-root`\n";
+    let absent = "RE001 error scene.yaml:1:3 there is no file `t/a.png`\n  \
+                  searched at `F/inner/t/a.png`, `F/t/a.png`, \
+                  `F/inner/a.png`, `F/a.png`\n  \
+                  put the file beside the scene, or allow its folder with `--asset-root`\n";
     assert_eq!(found(&[], "t/a.png", None), (None, absent.to_owned()));
-    let outside = "RE002 error scene.yaml:1:3 `/etc/a.png` leaves the folder of the scene\n  searched at \
-                   `F/inner/etc/a.png`, `F/etc/a.png`, `F/inner/a.png`, `F/a.png`\n  put the file beside the scene, or \
+    let outside = "RE002 error scene.yaml:1:3 `/etc/a.png` leaves the folder of the scene\n  \
+                   searched at \
+                   `F/inner/etc/a.png`, `F/etc/a.png`, `F/inner/a.png`, `F/a.png`\n  \
+                  put the file beside the scene, or \
                    allow its folder with `--asset-root`\n";
     assert_eq!(found(&[], "/etc/a.png", None), (None, outside.to_owned()));
     assert_eq!(

@@ -40,8 +40,10 @@ LightSamples: 16
 Lights:
 - {position: [0, 9, 0], color: [1, 1, 1], radius: 0.5}
 Objects:
-- {type: sphere, position: [0, 0, 0], radius: 1, material: {color: [1, 1, 1], ka: 0.1, kd: 0.2, ks: 0.3, n: 9, kt: 0.5, eta: 1.5}}
-- {type: quad, v0: [-2, -2, -2], v1: [2, -2, -2], v2: [2, 2, -2], v3: [-2, 2, -2], material: {ka: 0, kd: 1, ks: 0, n: 1, texture: UV}}
+- {type: sphere, position: [0, 0, 0], radius: 1,
+   material: {color: [1, 1, 1], ka: 0.1, kd: 0.2, ks: 0.3, n: 9, kt: 0.5, eta: 1.5}}
+- {type: quad, v0: [-2, -2, -2], v1: [2, -2, -2], v2: [2, 2, -2], v3: [-2, 2, -2],
+   material: {ka: 0, kd: 1, ks: 0, n: 1, texture: UV}}
 ";
     let (folder, text, _) = written(scene, "scene.pov");
     for part in [
@@ -182,7 +184,9 @@ fn the_light_of_the_studio_and_textures_go_beside_the_scene_of_mitsuba() {
 Camera: {eye: [0, 0, 5], center: [0, 0, 0], up: [0, 0.1, 0], right: [0.1, 0, 0], viewSize: [40, 30]}
 RenderMode: path
 Objects:
-- {type: sphere, position: [0, 0, 0], radius: 1, material: {type: standard, name: Globe, metallic: 0, specular: 0, baseColor: [0.5, 1, 1, 1], baseColorMap: {pattern: noise, scale: 6, colors: [[0.1, 0.1, 0.1], [1, 1, 1]]}, alpha: mask}}
+- {type: sphere, position: [0, 0, 0], radius: 1,
+   material: {type: standard, name: Globe, metallic: 0, specular: 0, baseColor: [0.5, 1, 1, 1],
+   baseColorMap: {pattern: noise, scale: 6, colors: [[0.1, 0.1, 0.1], [1, 1, 1]]}, alpha: mask}}
 ";
     let folder = folder();
     fs::write(folder.path().join("scene.yaml"), scene).unwrap();

@@ -18,8 +18,8 @@ pub(crate) struct Render {
     /// Write the picture to this file [default: the scene's name with .png, here]
     ///
     /// The extension selects the format: .png, .jpg, .webp (lossless), .exr or .hdr; `-` is
-    /// PNG on standard output. For many scenes: a folder, as `out/`, or a name with `{stem}` for the
-    /// name of the scene, as `out/{stem}.png`.
+    /// PNG on standard output. For many scenes: a folder, as `out/`, or a name with `{stem}` for
+    /// the name of the scene, as `out/{stem}.png`.
     #[arg(
         short,
         long,

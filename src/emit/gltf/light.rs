@@ -50,8 +50,8 @@ impl GltfWriter<'_> {
         } = light;
         self.reporter
             .in_extras("a light without falloff, with its radius,", path);
-        let message =
-            "a light without falloff becomes one that lights the middle of the scene as much";
+        let message = "a light without falloff becomes a point light that is equally bright at the centre of \
+             the scene";
         self.reporter.report(&codes::GLTF_NEARLY, message, path);
         let rtc_extras = json!({ "color": color, "radius": radius });
         GltfLight {
@@ -120,7 +120,7 @@ impl GltfWriter<'_> {
             candela,
         } = photometry;
         self.reporter.in_extras("how a lamp was measured", path);
-        let message = "a measured lamp becomes a point that shines alike in all directions";
+        let message = "an IES light becomes a uniform point light";
         self.reporter.report(&codes::GLTF_NEARLY, message, path);
         let mean = candela.iter().sum::<f64>() / (candela.len().max(1) as f64);
         let rtc_extras = json!({

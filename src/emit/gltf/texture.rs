@@ -5,7 +5,7 @@ use super::document::{
     REPEAT, Sampler, Texture, TextureInfo,
 };
 use super::writer::{GltfWriter, number};
-use crate::export::to_byte;
+use rtc_color::nearest8;
 use rtc_diag::codes;
 use rtc_image::png_bytes;
 use rtc_ir::{
@@ -173,7 +173,7 @@ impl GltfWriter<'_> {
                 true => solid.mean(),
                 false => solid.color(Vec3::new(u, v, 0.0)),
             });
-            color.to_array().map(to_byte)
+            color.to_array().map(nearest8)
         };
         let pixels: Vec<u8> = (0..side)
             .flat_map(|y| (0..side).flat_map(move |x| color(x, y)))
@@ -214,7 +214,7 @@ fn wrapping(wrap: Wrap) -> u32 {
 
 /// A little-endian float as a byte, 1 as 255.
 fn quantized(bytes: &[u8; 4]) -> u8 {
-    to_byte(f32::from_le_bytes(*bytes).into())
+    nearest8(f32::from_le_bytes(*bytes).into())
 }
 
 /// The scale, rotation and offset of `KHR_texture_transform` that equal a map; `None` if it has

@@ -1,14 +1,12 @@
 //! Writes lights: suns, points without range and spots, whose profile is a picture, are exact.
 
 use super::MitsubaWriter;
-use crate::export::joined;
+use crate::export::{joined, mean_over_directions};
 use crate::picture;
-use rtc_diag::clip;
 use rtc_image::{FileFormat, Image as Radiances, Picture};
 use rtc_ir::{Emitter, EntityKind, Environment, Field, Light, PointLight, Punctual, ValuePath};
 use rtc_math::{Basis, Vec3, cos, shortest, sin, unit};
 use rtc_profile::Profile;
-use std::f64::consts::TAU;
 
 /// The side in pixels of the picture of the profile of a spot.
 const PROFILE: u32 = 256;
@@ -32,8 +30,8 @@ impl MitsubaWriter<'_> {
     }
 
     fn course_light(&mut self, light: &PointLight, path: ValuePath) {
-        let message = "a light without falloff is written as one that falls off, and lights the \
-                       middle of the scene as much";
+        let message = "a light without falloff is written as a point light that is equally bright \
+                       at the centre of the scene";
         self.reporter.unsupported(message, path);
         let middle = self.scene.bounding_sphere();
         let middle = middle.map_or(Vec3::ZERO, |sphere| sphere.center);
@@ -51,10 +49,7 @@ impl MitsubaWriter<'_> {
 
     fn punctual(&mut self, light: &Punctual, path: ValuePath) -> Option<()> {
         let Punctual { emitter, intensity } = light;
-        if emitter.range().is_some() {
-            let message = "Mitsuba's lights have no range: this one shines beyond its own";
-            self.reporter.unsupported(message, path);
-        }
+        self.reporter.simplified_light(emitter, "Mitsuba", path);
         match emitter {
             Emitter::Sun { direction } => {
                 let to = unit(Vec3::from_array(*direction)).unwrap_or(Vec3::Z);
@@ -75,19 +70,8 @@ impl MitsubaWriter<'_> {
                 let frame = (*position, *direction, outer_angle.to_degrees());
                 return self.spot(frame, *intensity, &profile, path);
             }
-            Emitter::Photometric {
-                position,
-                photometry,
-                ..
-            } => {
-                let message = format!(
-                    "the IES light `{}` is written as a point that shines alike in all \
-                     directions",
-                    clip(&photometry.name)
-                );
-                self.reporter.unsupported(&message, path);
-                let sphere = emitter.profile().map_or(0.0, |all| all.solid_angle());
-                let mean = sphere / (2.0 * TAU);
+            Emitter::Photometric { position, .. } => {
+                let mean = mean_over_directions(emitter);
                 self.point(*position, intensity.map(|channel| channel * mean));
             }
         }

@@ -22,7 +22,7 @@ const LEAST_IOR: f64 = 1.0001;
 pub(super) struct MaterialVariant {
     pub(super) material: u32,
     /// Whether they lack the texture coordinates of its maps, which have no effect then.
-    pub(super) is_plain: bool,
+    pub(super) lacks_uvs: bool,
     /// Whether their corners have colours.
     pub(super) has_colors: bool,
     /// Whether they have an opacity that counts.
@@ -46,7 +46,7 @@ impl MaterialVariant {
         }
         Self {
             material,
-            is_plain: of_material.maps().next().is_some() && !has_uvs,
+            lacks_uvs: of_material.maps().next().is_some() && !has_uvs,
             has_colors,
             has_opacity,
         }
@@ -54,7 +54,7 @@ impl MaterialVariant {
 
     /// Its identifier in the file.
     pub(super) fn id(self) -> String {
-        let plain = if self.is_plain { "p" } else { "" };
+        let plain = if self.lacks_uvs { "p" } else { "" };
         let colored = if self.has_colors { "c" } else { "" };
         let covering = if self.has_opacity { "a" } else { "" };
         format!("m{}{plain}{colored}{covering}", self.material)
@@ -63,7 +63,7 @@ impl MaterialVariant {
     /// The material, without the maps that have no effect.
     pub(super) fn standard(self, scene: &Scene) -> Standard {
         let mut material = standard(&scene.materials[self.material as usize]).into_owned();
-        if self.is_plain {
+        if self.lacks_uvs {
             material.retain_maps(|_| false);
         }
         material
@@ -221,13 +221,13 @@ impl MitsubaWriter<'_> {
         let color = MaterialValue::color(material, variant.has_colors);
         match plugin {
             Plugin::Black => self.rgb(inner, "reflectance", [0.0; 3]),
-            Plugin::Matt => self.slot(inner, "reflectance", color, path)?,
+            Plugin::Diffuse => self.slot(inner, "reflectance", color, path)?,
             Plugin::Mirror => {
                 self.value(inner, "string", "material", "none");
                 self.slot(inner, "specular_reflectance", color, path)?;
             }
             Plugin::Glass(_) => {
-                self.border(inner, material);
+                self.dielectric_interface(inner, material);
                 self.slot(inner, "specular_transmittance", color, path)?;
             }
             Plugin::Layered => {
@@ -240,8 +240,8 @@ impl MitsubaWriter<'_> {
         Some(())
     }
 
-    /// The border of a dielectric.
-    fn border(&mut self, depth: usize, material: &Standard) {
+    /// The interface of a dielectric with air.
+    fn dielectric_interface(&mut self, depth: usize, material: &Standard) {
         let ior = shortest(material.ior.max(LEAST_IOR));
         self.value(depth, "float", "int_ior", &ior);
         self.value(depth, "float", "ext_ior", "1");
@@ -370,7 +370,7 @@ pub(super) fn absorption(material: &Standard) -> Option<[f64; 3]> {
 pub(super) enum Plugin {
     /// What reflects nothing.
     Black,
-    Matt,
+    Diffuse,
     Mirror,
     /// The name of the plugin.
     Glass(&'static str),
@@ -397,7 +397,7 @@ impl Plugin {
             && material.transmission == 0.0
             && is_bare
         {
-            (Self::Matt, None)
+            (Self::Diffuse, None)
         } else if metal == 1.0 && rough == 0.0 && is_bare {
             let message = "a coloured mirror is written without Schlick's rise towards white";
             (Self::Mirror, (!is_white).then_some(message))
@@ -426,13 +426,13 @@ impl Plugin {
     pub(super) fn color(self, material: &Standard, color: [f64; 3]) -> [f64; 3] {
         match self {
             Self::Layered => principled_color(material, color),
-            Self::Black | Self::Matt | Self::Mirror | Self::Glass(_) => color,
+            Self::Black | Self::Diffuse | Self::Mirror | Self::Glass(_) => color,
         }
     }
 
     fn shape_name(self) -> &'static str {
         match self {
-            Self::Black | Self::Matt => "diffuse",
+            Self::Black | Self::Diffuse => "diffuse",
             Self::Mirror => "conductor",
             Self::Glass(plugin) => plugin,
             Self::Layered => "principled",

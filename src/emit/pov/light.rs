@@ -2,12 +2,12 @@
 //! and points are, other than close to a point.
 
 use super::{PovWriter, vector};
-use crate::export::called;
+use crate::export::mean_over_directions;
 use crate::flat::around;
 use crate::picture;
 use rtc_ir::{Emitter, EntityKind, Environment, Field, Light, PointLight, Punctual, ValuePath};
 use rtc_math::{Vec3, shortest, unit};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// The distance within which the light of a point no longer grows, in radii of the scene.
 const NEAR: f64 = 1e-4;
@@ -49,10 +49,7 @@ impl PovWriter<'_> {
     fn punctual(&mut self, light: &Punctual, path: ValuePath) {
         let Punctual { emitter, intensity } = light;
         let around = around(self.scene);
-        if emitter.range().is_some() {
-            let message = "POV-Ray's lights have no range: this one shines beyond its own";
-            self.reporter.unsupported(message, path);
-        }
+        self.reporter.simplified_light(emitter, "POV-Ray", path);
         let near = NEAR * around.radius;
         // POV-Ray fades by 2 / (1 + (distance / near)²).
         let color = |factor: f64| {
@@ -94,16 +91,8 @@ impl PovWriter<'_> {
                     vector(at.to_array())
                 )
             }
-            Emitter::Photometric {
-                position,
-                photometry,
-                ..
-            } => {
-                let name = called(&photometry.name);
-                let message = format!("{name}, a measured lamp, is written as a point");
-                self.reporter.unsupported(&message, path);
-                let sphere = emitter.profile().map_or(0.0, |all| all.solid_angle());
-                let color = color(sphere / (2.0 * TAU));
+            Emitter::Photometric { position, .. } => {
+                let color = color(mean_over_directions(emitter));
                 format!(
                     "light_source {{ {}, rgb {color} {fade} }}",
                     vector(*position)
@@ -137,8 +126,8 @@ impl PovWriter<'_> {
         self.reporter.charge(cost, self.budget, path)?;
         let bytes = picture::environment(image, *radiance).ok()?;
         let Some((file, _)) = self.beside(&image.name, (bytes, "exr")) else {
-            let message = "a picture of the surroundings is left out: it is to be a file beside \
-                           the text";
+            let message = "the environment map is left out: it needs a file beside the text, as with \
+                           `-o FILE`";
             self.reporter.unsupported(message, path);
             return Some(());
         };

@@ -103,7 +103,8 @@ impl PovWriter<'_> {
             [r * factor[0], g * factor[1], b * factor[2]]
         });
         let Some((file, extension)) = self.beside(picture.name(), encoded.ok()?) else {
-            let message = "a texture is left out: it is to be a file beside the text";
+            let message =
+                "a texture is left out: it needs a file beside the text, as with `-o FILE`";
             self.reporter.unsupported(message, path);
             return self.pigment(color, (None, coding), transmit, path);
         };

@@ -1,15 +1,7 @@
 //! Colours and spectra as linear Rec. 709.
 
+use rtc_color::srgb_decoded;
 use rtc_math::{exp, pow};
-
-/// A channel of sRGB as a linear value (IEC 61966-2-1).
-pub(crate) fn decode(value: f64) -> f64 {
-    if value <= 0.04045 {
-        value / 12.92
-    } else {
-        pow((value + 0.055) / 1.055, 2.4)
-    }
-}
 
 /// A spectrum by pairs of a wavelength in nanometres and a value, as linear Rec. 709; `None` if the
 /// wavelengths do not ascend.
@@ -87,7 +79,7 @@ pub(crate) fn from_xyz([x, y, z]: [f64; 3]) -> [f64; 3] {
 
 /// A linear value as a byte of sRGB: the one whose linear value is closest.
 pub(crate) fn encoded(value: f64) -> u8 {
-    let linear = |byte: u8| decode(f64::from(byte) / 255.0);
+    let linear = |byte: u8| srgb_decoded(f64::from(byte) / 255.0);
     // The last byte that is not above the value.
     let (mut below, mut above) = (0_u8, 255_u8);
     while above - below > 1 {
@@ -209,7 +201,7 @@ mod tests {
     #[test]
     fn a_linear_value_becomes_the_closest_byte() {
         for byte in 0..=255_u8 {
-            assert_eq!(encoded(decode(f64::from(byte) / 255.0)), byte);
+            assert_eq!(encoded(srgb_decoded(f64::from(byte) / 255.0)), byte);
         }
         assert_eq!((encoded(-1.0), encoded(7.0)), (0, 255));
     }

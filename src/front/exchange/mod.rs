@@ -1,10 +1,11 @@
 //! Modules shared by the readers of other renderers' scenes: affine maps, colours and spectra,
-//! checkerboards, materials, and tessellations of shapes that the IR lacks.
+//! checkerboards, materials, textures of images, and tessellations of shapes that the IR lacks.
 
 pub(crate) mod checkerboard;
 pub(crate) mod color;
 pub(crate) mod material;
 pub(crate) mod tessellate;
+pub(crate) mod texture;
 pub(crate) mod transform;
 
 use rtc_ir::{Mode, PathSettings, Settings};

@@ -1,5 +1,6 @@
 //! Affine maps, as the transforms of a scene compose them.
 
+use rtc_ir::{Instance, MeshId, Shape};
 use rtc_math::{Vec3, cos, rotated_about, sin, unit};
 
 /// An affine map by its columns: the images of the three axes, and the image of the origin.
@@ -127,8 +128,12 @@ impl Transform {
         Some([x, y, z])
     }
 
-    pub(crate) fn columns(&self) -> [[f64; 3]; 4] {
-        self.0.map(|column| column.to_array())
+    /// An instance of a mesh, placed by this map.
+    pub(crate) fn instance(&self, mesh: MeshId) -> Shape {
+        Shape::Instance(Instance {
+            mesh,
+            world_from_object: self.0.map(|column| column.to_array()),
+        })
     }
 }
 

@@ -5,8 +5,7 @@ use super::xml::Node;
 use crate::exchange::tessellate;
 use crate::exchange::transform::Transform;
 use rtc_ir::{
-    Column, Disc, EntityKind, Instance, Material, MaterialId, Mesh, MeshId, Scene, Shape, Sphere,
-    Surface,
+    Column, Disc, EntityKind, Material, MaterialId, Mesh, MeshId, Scene, Shape, Sphere, Surface,
 };
 use rtc_math::Vec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -125,7 +124,7 @@ impl<'run> Lowering<'run> {
             "serialized" => self.serialized_mesh(path, node.count("shape_index").unwrap_or(0))?,
             _ => self.mesh_file(path),
         };
-        Some(placed(mesh, to_world))
+        Some(to_world.instance(mesh))
     }
 
     /// A shape that is a mesh made here, once for all its uses.
@@ -143,7 +142,7 @@ impl<'run> Lowering<'run> {
                 id
             }
         };
-        Some(placed(mesh, to_world))
+        Some(to_world.instance(mesh))
     }
 
     /// A sphere; one that is scaled unevenly, or that emits light and so has to be sampled, is a
@@ -184,13 +183,6 @@ impl<'run> Lowering<'run> {
         let local = tessellate::along(p0, p1, radius)?;
         self.built("cylinder", tessellate::cylinder, &to_world.after(&local))
     }
-}
-
-fn placed(mesh: MeshId, to_world: &Transform) -> Shape {
-    Shape::Instance(Instance {
-        mesh,
-        world_from_object: to_world.columns(),
-    })
 }
 
 /// Removes the vertex normals of the meshes of some surfaces. A mesh that other surfaces share is

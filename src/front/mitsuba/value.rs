@@ -1,7 +1,8 @@
 //! Numbers, vectors, colours and matrices of a Mitsuba scene, as it writes them.
 
-use crate::exchange::color::{decode, from_spectrum};
+use crate::exchange::color::from_spectrum;
 use crate::exchange::transform::Transform;
+use rtc_color::srgb_decoded;
 use rtc_math::Vec3;
 
 /// One number.
@@ -50,7 +51,7 @@ pub(super) fn rgb(text: &str) -> Option<[f64; 3]> {
             .ok()
             .filter(|_| hex.len() == 6)?;
         let byte = |shift: u32| f64::from(value >> shift & 0xff) / 255.0;
-        return Some([byte(16), byte(8), byte(0)].map(decode));
+        return Some([byte(16), byte(8), byte(0)].map(srgb_decoded));
     }
     match numbers(text)?[..] {
         [r, g, b] => Some([r, g, b]),

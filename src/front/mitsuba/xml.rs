@@ -1,7 +1,7 @@
 //! The XML of a Mitsuba scene as a tree of plugins with their properties.
 
 use super::value;
-use crate::exchange::{Text, color, transform::Transform};
+use crate::exchange::{Text, transform::Transform};
 use crate::{FrontOptions, over_limit};
 use roxmltree::{Document, ParsingOptions};
 use rtc_diag::{Diagnostic, Sink, clip, clip_words, codes};
@@ -496,7 +496,9 @@ impl XmlReader<'_> {
             },
             "string" => return Some(Value::String(text)),
             "rgb" => value::rgb(&text.text).map(Value::Color),
-            "srgb" => value::rgb(&text.text).map(|rgb| Value::Color(rgb.map(color::decode))),
+            "srgb" => {
+                value::rgb(&text.text).map(|rgb| Value::Color(rgb.map(rtc_color::srgb_decoded)))
+            }
             "spectrum" if attribute == "filename" => None,
             "spectrum" => value::spectrum(&text.text).map(Value::Color),
             "blackbody" => None,

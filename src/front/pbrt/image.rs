@@ -2,10 +2,11 @@
 
 use super::Lowering;
 use crate::exchange::Text;
-use crate::exchange::color::{decode, encoded};
+use crate::exchange::color::encoded;
 use crate::pixels::{self, PICTURES, PixelFault};
+use rtc_color::srgb_decoded;
 use rtc_image::{Opacity, is_radiance};
-use rtc_ir::{EntityKind, Filter, Image, ImageId, Pixels, Sampled, Texture, TextureId, Wrap};
+use rtc_ir::{EntityKind, Filter, Image, ImageId, Pixels, Sampled, TextureId, Wrap};
 use rtc_source::{FileKind, Span};
 
 /// The replacement of an image.
@@ -71,7 +72,11 @@ impl Lowering<'_> {
         if map.is_linear || map.is_inverted {
             let table: [u8; 256] = std::array::from_fn(|byte| {
                 let value = byte as f64 / 255.0;
-                let value = if map.is_linear { value } else { decode(value) };
+                let value = if map.is_linear {
+                    value
+                } else {
+                    srgb_decoded(value)
+                };
                 encoded(if map.is_inverted { 1.0 - value } else { value })
             });
             for byte in &mut pixels {
@@ -141,15 +146,7 @@ impl Lowering<'_> {
             wrap: [wrap; 2],
             filter,
         };
-        let known = self.textures.entry(image.0).or_default();
-        if let Some((_, id)) = known.iter().find(|(other, _)| *other == sampled) {
-            return *id;
-        }
-        let index = self.scene.textures.len();
-        let id = TextureId(u32::try_from(index).unwrap_or(u32::MAX));
-        known.push((sampled.clone(), id));
-        self.scene.textures.push(Texture::Sampled(sampled));
-        self.record(EntityKind::Texture, index, span);
-        id
+        let into = (&mut self.scene, &mut self.source_spans);
+        self.textures.add(sampled, span, into)
     }
 }

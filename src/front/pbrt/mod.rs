@@ -38,13 +38,13 @@ mod state;
 mod texture;
 mod token;
 
+use crate::exchange::texture::SampledTextures;
 use crate::exchange::{Text, transform::Transform};
 use crate::{FrontOptions, over_limit};
 use parameter::Parameters;
 use rtc_diag::{Code, Diagnostic, Sink, clip, codes, nearest};
 use rtc_ir::{
-    EntityKind, Field, ImageId, Lowered, MaterialId, Mesh, MeshId, Sampled, Scene, SourceSpans,
-    TextureId, ValuePath,
+    EntityKind, Field, ImageId, Lowered, MaterialId, Mesh, MeshId, Scene, SourceSpans, ValuePath,
 };
 use rtc_source::{Exceeded, FileId, Resource, Search, SourceMap, Span};
 use shape::PlacedShape;
@@ -128,8 +128,7 @@ struct Lowering<'run> {
     colors: BTreeMap<String, ScaledTexture>,
     floats: BTreeMap<String, ScaledTexture>,
     images: BTreeMap<image::ImageKey, Option<ImageId>>,
-    /// The textures of each image.
-    textures: BTreeMap<u32, Vec<(Sampled, TextureId)>>,
+    textures: SampledTextures,
     /// The images of normals by their paths.
     normal_images: BTreeMap<String, Option<ImageId>>,
     meshes: BTreeMap<String, Option<MeshId>>,
@@ -172,7 +171,7 @@ impl<'run> Lowering<'run> {
             colors: BTreeMap::new(),
             floats: BTreeMap::new(),
             images: BTreeMap::new(),
-            textures: BTreeMap::new(),
+            textures: SampledTextures::default(),
             normal_images: BTreeMap::new(),
             meshes: BTreeMap::new(),
             objects: BTreeMap::new(),

@@ -10,9 +10,7 @@ use crate::exchange::transform::Transform;
 use crate::mesh::{self, ParseFault};
 use crate::over_limit;
 use rtc_diag::{clip_words, codes};
-use rtc_ir::{
-    Column, Disc, Ellipsoid, EntityKind, Instance, Mesh, MeshId, Quad, Shape, Sphere, Surface,
-};
+use rtc_ir::{Column, Disc, Ellipsoid, EntityKind, Mesh, MeshId, Quad, Shape, Sphere, Surface};
 use rtc_math::{Vec3, acos, cos, sin, unit};
 use rtc_source::{FileKind, Resource, Span};
 use std::rc::Rc;
@@ -254,10 +252,10 @@ impl Lowering<'_> {
                 None => {
                     let mesh = flat_disc(*height, *radius, 0.0, std::f64::consts::TAU);
                     let id = self.charged_mesh(mesh, span)?;
-                    instance(id, to_world)
+                    to_world.instance(id)
                 }
             },
-            Geometry::Mesh(id) => instance(*id, to_world),
+            Geometry::Mesh(id) => to_world.instance(*id),
             Geometry::Patch(corners) => Shape::Quad(Quad {
                 vertices: corners.map(|corner| to_world.point(Vec3::from_array(corner)).to_array()),
             }),
@@ -706,13 +704,6 @@ fn flat(triangles: impl Iterator<Item = [Vec3; 3]> + Clone) -> Option<(Vec3, f64
     let is_level = |corner: Vec3| corner.dot(common).abs() <= ROUNDING * extent;
     let faces = |triangle: [Vec3; 3]| normal(triangle).dot(common) >= 0.0;
     (corners().all(is_level) && triangles.clone().all(faces)).then_some((common, extent))
-}
-
-fn instance(mesh: MeshId, to_world: &Transform) -> Shape {
-    Shape::Instance(Instance {
-        mesh,
-        world_from_object: to_world.columns(),
-    })
 }
 
 /// A sphere, or the ellipsoid that it becomes.

@@ -396,14 +396,7 @@ impl Assembly<'_> {
     fn prim_field(&mut self, prim: u32, name: u32, value: u64) {
         let paths = |assembly: &Self| {
             let list = assembly.list(value, |cursor| {
-                let Text { text: path, span } = assembly.path_text(cursor)?;
-                let (asset, time) = (String::new(), TimeMap::default());
-                Some(Target {
-                    asset,
-                    path,
-                    time,
-                    span,
-                })
+                Some(Target::internal(assembly.path_text(cursor)?))
             });
             list.unwrap_or_default()
         };

@@ -112,6 +112,18 @@ pub(super) struct Target {
     pub(super) span: Span,
 }
 
+impl Target {
+    /// A prim of the same layers.
+    pub(super) fn internal(Text { text: path, span }: Text) -> Self {
+        Self {
+            asset: String::new(),
+            path,
+            time: TimeMap::default(),
+            span,
+        }
+    }
+}
+
 impl Keyed for Target {
     fn key(&self) -> (&str, &str) {
         (&self.asset, &self.path)

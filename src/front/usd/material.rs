@@ -2,7 +2,7 @@
 //! of Trowbridge and Reitz (GGX), and the same meaning of metal and roughness.
 
 use super::stage::Prim;
-use super::texture::{Channel, TextureLook, quantized};
+use super::texture::{Channel, TextureLook};
 use super::{Lowering, PrimState};
 use crate::exchange::material::matte;
 use rtc_diag::{clip, clip_path, codes};
@@ -450,7 +450,7 @@ impl Lowering<'_> {
         }
         let channels = looks.map(|look| match look {
             Some(look) => look.file(look.channel.unwrap_or(0), false, 1.0, 0.0),
-            None => Channel::Constant(quantized(1.0)),
+            None => Channel::Constant(u8::MAX),
         });
         let set = uvs.set(&look.primvar);
         self.picture_map(look, channels.to_vec(), false, set)

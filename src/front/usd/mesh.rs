@@ -1,7 +1,7 @@
 //! Meshes (`UsdGeomMesh`): faces become triangles, the parts of each material a mesh of their own.
 //!
 //! Meshes are shared by all prims of the same layers, so that instances cost no more than a place.
-//! Subdivision surfaces are refined by the rules of Catmull and Clark.
+//! Of a subdivision surface the control mesh is shown, with smooth normals.
 
 use super::attribute::Primvar;
 use super::shape::{SolidGeometry, StageShape, VERTEX};
@@ -221,8 +221,9 @@ impl Lowering<'_> {
         let scheme = scheme.unwrap_or_else(|| "catmullClark".to_owned());
         if scheme != "none" {
             let scheme = clip(&scheme);
-            let message =
-                format!("the cage of the surface (`{scheme}`) is shown, with smooth normals");
+            let message = format!(
+                "the control mesh is shown, with smooth normals: `{scheme}` is not subdivided"
+            );
             self.approximate(prim, &message);
         }
         let normals = self.primvar(prim, "primvars:normals", 3);

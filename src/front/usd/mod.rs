@@ -31,13 +31,13 @@ mod text;
 mod texture;
 mod xform;
 
+use crate::exchange::texture::SampledTextures;
 use crate::exchange::transform::Transform;
 use crate::{FrontOptions, UpAxis};
 use layer::Layer;
 use rtc_diag::{Diagnostic, Sink, clip, clip_path, codes};
 use rtc_ir::{
-    EntityKind, Field, ImageId, Lowered, MaterialId, MeshId, Sampled, Scene, SourceSpans,
-    TextureId, ValuePath,
+    EntityKind, Field, ImageId, Lowered, MaterialId, MeshId, Scene, SourceSpans, ValuePath,
 };
 use rtc_source::{FileId, Resource, SourceMap, Span};
 use shape::StageShape;
@@ -165,8 +165,7 @@ struct Lowering<'run> {
     materials: BTreeMap<String, Rc<material::BoundMaterial>>,
     placed_materials: BTreeMap<material::ShownMaterialKey, MaterialId>,
     images: BTreeMap<texture::ChannelsKey, Option<ImageId>>,
-    /// The textures of each image.
-    textures: BTreeMap<u32, Vec<(Sampled, TextureId)>>,
+    textures: SampledTextures,
     meshes: BTreeMap<mesh::PartMeshKey, Option<MeshId>>,
     built: BTreeMap<String, MeshId>,
     cameras: Vec<PlacedCamera>,
@@ -211,7 +210,7 @@ impl<'run> Lowering<'run> {
             materials: BTreeMap::new(),
             placed_materials: BTreeMap::new(),
             images: BTreeMap::new(),
-            textures: BTreeMap::new(),
+            textures: SampledTextures::default(),
             meshes: BTreeMap::new(),
             built: BTreeMap::new(),
             cameras: Vec::new(),
@@ -419,13 +418,13 @@ impl<'run> Lowering<'run> {
     /// Chooses the camera, and reports what was asked for and is not there.
     fn finish(&mut self) {
         self.finish_camera();
-        let rtc_animation = self.options.animation.as_deref();
+        let animation = self.options.animation.as_deref();
         let variant = self
             .options
             .variant
             .as_deref()
             .filter(|_| !self.used_variant);
-        for (entity, name) in [("animation", rtc_animation), ("variant", variant)] {
+        for (entity, name) in [("animation", animation), ("variant", variant)] {
             let Some(name) = name else { continue };
             let message = format!("the stage has no {entity} called `{}`", clip(name));
             let hint = match entity {
@@ -469,17 +468,19 @@ impl<'run> Lowering<'run> {
             let all = Transform::translation(position).after(&turn).after(&scale);
             all.0.iter().all(|column| column.is_finite()).then_some(all)
         };
-        for (number, path) in prototypes.iter().enumerate() {
+        // The instances of each prototype.
+        let mut instances = vec![Vec::new(); prototypes.len()];
+        for (at, index) in indices.iter().enumerate() {
+            let id = ids.as_ref().and_then(|ids| ids.get(at).copied());
+            if let Some(of_one) = instances.get_mut(*index)
+                && !hidden.contains(&id.unwrap_or(at))
+            {
+                of_one.push(at);
+            }
+        }
+        for (path, instances) in prototypes.iter().zip(instances) {
             let shapes = self.prototype_shapes(path, prim, state);
-            for (at, index) in indices.iter().enumerate() {
-                let id = ids
-                    .as_ref()
-                    .and_then(|ids| ids.get(at))
-                    .copied()
-                    .unwrap_or(at);
-                if *index != number || hidden.contains(&id) {
-                    continue;
-                }
+            for at in instances {
                 let Some(local) = place(at) else { continue };
                 let outer = state.to_world.after(&local);
                 for shape in &shapes {

@@ -5,9 +5,7 @@ use super::{Lowering, PrimState};
 use crate::exchange::tessellate;
 use crate::exchange::transform::Transform;
 use rtc_diag::codes;
-use rtc_ir::{
-    Disc, Ellipsoid, EntityKind, Instance, MaterialId, Mesh, MeshId, Quad, Shape, Sphere, Surface,
-};
+use rtc_ir::{Disc, Ellipsoid, EntityKind, MaterialId, Mesh, MeshId, Quad, Shape, Sphere, Surface};
 use rtc_math::{Vec3, cos, sin, unit};
 use rtc_source::{Resource, Span};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -97,7 +95,7 @@ impl Lowering<'_> {
         let is_flat = to_world.determinant() == 0.0 || !to_world.determinant().is_finite();
         Some(match geometry {
             SolidGeometry::Mesh(_) | SolidGeometry::Sphere(_) if is_flat => return None,
-            SolidGeometry::Mesh(mesh) => instance(*mesh, to_world),
+            SolidGeometry::Mesh(mesh) => to_world.instance(*mesh),
             SolidGeometry::Sphere(radius) => match to_world.similarity() {
                 Some(scale) => Shape::Sphere(Sphere {
                     center: origin.to_array(),
@@ -121,7 +119,7 @@ impl Lowering<'_> {
                     None => {
                         let mesh = self.built("disk", span, tessellate::disk)?;
                         let scale = Transform::scale([*radius, -radius, -1.0]);
-                        instance(mesh, &to_world.after(&scale))
+                        to_world.after(&scale).instance(mesh)
                     }
                 }
             }
@@ -263,13 +261,6 @@ impl Lowering<'_> {
             }
         }
     }
-}
-
-fn instance(mesh: MeshId, to_world: &Transform) -> Shape {
-    Shape::Instance(Instance {
-        mesh,
-        world_from_object: to_world.columns(),
-    })
 }
 
 /// The profile of a cylinder or a cone about z with its caps, from the bottom.

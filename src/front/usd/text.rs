@@ -488,16 +488,7 @@ impl<'a> TextReader<'a> {
                 list.edit(keyword, items);
             }
             "inherits" | "specializes" => {
-                let items = self.list(|reader| {
-                    let Text { text: path, span } = reader.path()?;
-                    let (asset, time) = (String::new(), TimeMap::default());
-                    Some(Target {
-                        asset,
-                        path,
-                        time,
-                        span,
-                    })
-                })?;
+                let items = self.list(|reader| Some(Target::internal(reader.path()?)))?;
                 let prim = self.layer.prim_mut(index);
                 let is_inherit = key == "inherits";
                 let list = if is_inherit {

@@ -4,11 +4,12 @@
 use super::Lowering;
 use super::stage::Prim;
 use crate::exchange::Text;
-use crate::exchange::color::{decode, encoded};
+use crate::exchange::color::encoded;
 use crate::pixels;
+use rtc_color::{nearest8, srgb_decoded};
 use rtc_diag::codes;
 use rtc_image::{Opacity, is_radiance};
-use rtc_ir::{EntityKind, Filter, Image, ImageId, Map, Pixels, Sampled, Texture, TextureId, Wrap};
+use rtc_ir::{EntityKind, Filter, Image, ImageId, Map, Pixels, Sampled, TextureId, Wrap};
 use rtc_source::{FileKind, Resource, Span};
 use std::collections::BTreeMap;
 
@@ -125,7 +126,9 @@ impl Lowering<'_> {
             let Channel::File { path, layer, .. } = channel else {
                 continue;
             };
-            if files.contains_key(path) {
+            // Layers in different folders may give different files one name.
+            let key = (*layer, path.clone());
+            if files.contains_key(&key) {
                 continue;
             }
             let text = Text {
@@ -138,7 +141,7 @@ impl Lowering<'_> {
             }
             let decoded = pixels::decode(&bytes, Opacity::Kept, self.map.budget());
             match decoded {
-                Ok(decoded) => drop(files.insert(path.clone(), decoded)),
+                Ok(decoded) => drop(files.insert(key, decoded)),
                 Err(fault) => {
                     let what = format!("the image `{}`", rtc_diag::clip_path(path));
                     let formats = "textures are PNG, JPEG, WebP, EXR or HDR";
@@ -160,13 +163,13 @@ impl Lowering<'_> {
                 Channel::Constant(byte) => targets.for_each(|target| *target = *byte),
                 Channel::File {
                     path,
+                    layer,
                     channel,
                     is_srgb,
                     scale,
                     bias,
-                    ..
                 } => {
-                    let file = &files[path];
+                    let file = &files[&(*layer, path.clone())];
                     let table = table(*is_srgb, [*scale, *bias], *is_color && at < 3);
                     let (w, h) = (file.width as usize, file.height as usize);
                     let size = file.bytes.len() / (w * h);
@@ -219,16 +222,8 @@ impl Lowering<'_> {
             wrap,
             filter: Filter::Linear,
         };
-        let known = self.textures.entry(image.0).or_default();
-        if let Some((_, id)) = known.iter().find(|(other, _)| *other == sampled) {
-            return *id;
-        }
-        let index = self.scene.textures.len();
-        let id = TextureId(u32::try_from(index).unwrap_or(u32::MAX));
-        known.push((sampled.clone(), id));
-        self.scene.textures.push(Texture::Sampled(sampled));
-        self.record(EntityKind::Texture, index, span);
-        id
+        let into = (&mut self.scene, &mut self.source_spans);
+        self.textures.add(sampled, span, into)
     }
 
     /// What a `UsdUVTexture` says of its picture; `None` without a file.
@@ -343,21 +338,11 @@ fn after(outer: [[f64; 3]; 2], [x, y]: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
 fn table(is_srgb: bool, [scale, bias]: [u64; 2], encodes: bool) -> [u8; 256] {
     std::array::from_fn(|byte| {
         let value = byte as f64 / 255.0;
-        let value = if is_srgb { decode(value) } else { value };
+        let value = if is_srgb { srgb_decoded(value) } else { value };
         let value = value * f64::from_bits(scale) + f64::from_bits(bias);
         match encodes {
             true => encoded(value),
-            false => quantized(value),
+            false => nearest8(value),
         }
     })
-}
-
-/// A value from 0 to 1 as a byte.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "clamped"
-)]
-pub(super) fn quantized(value: f64) -> u8 {
-    (value.clamp(0.0, 1.0) * 255.0).round() as u8
 }

@@ -103,7 +103,9 @@ macro_rules! dispatch {
                 request: AttributeRequest,
             ) -> ShadingAttributes {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Intersect>::shading_attributes(shape, ray, at, prim_id, request),)*
+                    $(Self::$Name(shape) => {
+                        <$Name as Intersect>::shading_attributes(shape, ray, at, prim_id, request)
+                    })*
                 }
             }
 

@@ -88,7 +88,8 @@ fn arcs() -> Vec<Repro> {
     let doubling = (0..22).map(|level| {
         let next = format!(
             "#usda 1.0\n(\n defaultPrim = \"p\"\n)\ndef \"p\" {{\n\
-             def \"a\" ( references = @{0}.usda@ ) {{}}\ndef \"b\" ( references = @{0}.usda@ ) {{}}\n}}",
+             def \"a\" ( references = @{0}.usda@ ) {{}}\n\
+             def \"b\" ( references = @{0}.usda@ ) {{}}\n}}",
             level + 1
         );
         (format!("{level}.usda"), next.into_bytes())
@@ -101,7 +102,11 @@ fn arcs() -> Vec<Repro> {
     .chain(doubling)
     .chain([("22.usda".to_owned(), last)]);
     let within = (0..30).map(|n| {
-        format!("class \"c{n}\" ( inherits = [</c{0}>, </d{0}>] ) {{}}\nclass \"d{n}\" ( inherits = [</c{0}>, </d{0}>] ) {{}}\n", n + 1)
+        format!(
+            "class \"c{n}\" ( inherits = [</c{0}>, </d{0}>] ) {{}}\n\
+            class \"d{n}\" ( inherits = [</c{0}>, </d{0}>] ) {{}}\n",
+            n + 1
+        )
     });
     vec![
         Repro {
@@ -195,30 +200,37 @@ fn geometry() -> Vec<Repro> {
         ),
         stage(
             "faces of more corners than numbers count",
-            "def Mesh \"m\" {\nint[] faceVertexCounts = [18446744073709551615, 18446744073709551615]\n\
-             int[] faceVertexIndices = [0, 1, 2]\npoint3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n}"
+            "def Mesh \"m\" {\n\
+             int[] faceVertexCounts = [18446744073709551615, 18446744073709551615]\n\
+             int[] faceVertexIndices = [0, 1, 2]\n\
+             point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n}"
                 .to_owned(),
             None,
         ),
         stage(
             "30 000 subsets of a face",
             format!(
-                "def Mesh \"m\" {{\nint[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]\n\
+                "def Mesh \"m\" {{\nint[] faceVertexCounts = [3]\n\
+                 int[] faceVertexIndices = [0, 1, 2]\n\
                  point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n{}}}",
                 numbered(30_000, |n| format!(
-                    "def GeomSubset \"g{n}\" {{ int[] indices = [0]\nrel material:binding = </m{n}> }}\n"
+                    "def GeomSubset \"g{n}\" {{ int[] indices = [0]\n\
+                     rel material:binding = </m{n}> }}\n"
                 ))
             ),
             None,
         ),
         stage(
             "30 000 cones of their own",
-            numbered(30_000, |n| format!("def Cone \"c{n}\" {{ double height = {n} }}\n")),
+            numbered(30_000, |n| {
+                format!("def Cone \"c{n}\" {{ double height = {n} }}\n")
+            }),
             Some("IO003"),
         ),
         stage(
             "numbers beyond all bounds",
-            "def Sphere \"s\" { double radius = 1e308\ndouble3 xformOp:scale = (1e308, 1e308, 1e308)\n\
+            "def Sphere \"s\" { double radius = 1e308\n\
+             double3 xformOp:scale = (1e308, 1e308, 1e308)\n\
              uniform token[] xformOpOrder = [\"xformOp:scale\"] }"
                 .to_owned(),
             None,
