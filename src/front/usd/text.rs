@@ -119,11 +119,16 @@ impl<'a> TextReader<'a> {
         }
     }
 
+    /// What is not read so far; empty past the end, where a mistake too many leaves the reader.
+    fn rest(&self) -> &'a [u8] {
+        self.bytes.get(self.at..).unwrap_or_default()
+    }
+
     /// The next byte that is no white space and no comment.
     fn peek(&mut self) -> Option<u8> {
         loop {
-            let byte = *self.bytes.get(self.at)?;
-            let rest = &self.bytes[self.at..];
+            let rest = self.rest();
+            let byte = *rest.first()?;
             if byte.is_ascii_whitespace() || matches!(byte, b';' | 0xef | 0xbb | 0xbf) {
                 self.at += 1;
             } else if byte == b'#' || rest.starts_with(b"//") {
@@ -138,7 +143,7 @@ impl<'a> TextReader<'a> {
     }
 
     fn skip_line(&mut self) {
-        let rest = &self.bytes[self.at..];
+        let rest = self.rest();
         self.at += memchr::memchr2(b'\n', b'\r', rest).map_or(rest.len(), |end| end + 1);
     }
 
@@ -158,7 +163,7 @@ impl<'a> TextReader<'a> {
     /// A name, a keyword or a number; empty if there is none.
     fn word(&mut self) -> &'a str {
         self.peek();
-        let rest = &self.bytes[self.at..];
+        let rest = self.rest();
         let length = rest.iter().position(|byte| !is_name(*byte));
         let length = length.unwrap_or(rest.len());
         self.at += length;
@@ -171,12 +176,12 @@ impl<'a> TextReader<'a> {
             return self.mistake("a string is expected here");
         };
         let start = self.at;
-        let is_long = self.bytes[start..].starts_with(&[quote; 3]);
+        let is_long = self.rest().starts_with(&[quote; 3]);
         let mark = if is_long { 3 } else { 1 };
         let mut bytes = Vec::new();
         self.at += mark;
         loop {
-            let rest = &self.bytes[self.at.min(self.bytes.len())..];
+            let rest = self.rest();
             match rest.first() {
                 Some(b'\\') => {
                     bytes.push(match rest.get(1) {
@@ -214,10 +219,10 @@ impl<'a> TextReader<'a> {
     fn between(&mut self, open: u8, close: u8) -> Option<Text> {
         self.expect(open)?;
         let mut start = self.at;
-        let is_long = open == b'@' && self.bytes[start..].starts_with(b"@@");
+        let is_long = open == b'@' && self.rest().starts_with(b"@@");
         let mark: &[u8] = if is_long { b"@@@" } else { &[close] };
         start += if is_long { 2 } else { 0 };
-        let rest = &self.bytes[start..];
+        let rest = self.bytes.get(start..)?;
         let end = memchr::memmem::find(rest, mark);
         let end = end.filter(|end| is_long || !rest[..*end].contains(&b'\n'));
         let Some(end) = end else {
@@ -329,7 +334,7 @@ impl<'a> TextReader<'a> {
             self.skip_value()?;
             return Some(Value::Blocked);
         }
-        if self.bytes[self.at..].starts_with(b"None") {
+        if self.rest().starts_with(b"None") {
             self.word();
             return Some(Value::Blocked);
         }
@@ -765,5 +770,23 @@ impl<'a> TextReader<'a> {
             property.samples = samples;
         }
         Some(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rtc_source::SourceMap;
+
+    /// Every place for the end of a text, and for the last mistake that is kept.
+    #[test]
+    fn no_damaged_text_panics() {
+        let text = include_str!("../../../tests/diagnostics/US001/syntax.usda").repeat(2);
+        let file = SourceMap::default().add("stage.usda", Vec::new());
+        for place in 0..text.len() {
+            for part in [&text[..place], &text[place..]] {
+                let _ = read(file, part.as_bytes(), &Budget::default());
+            }
+        }
     }
 }
