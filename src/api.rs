@@ -5,7 +5,8 @@
 //!
 //! - [`Scene`] is a scene that was read or built; [`Reading`] has the options of reading it.
 //! - [`SceneBuilder`] builds a scene in code, and changes one: [`Camera`], [`Shape`], [`Mesh`],
-//!   [`Material`], [`Texture`], [`Light`], [`Environment`]. [`Tree`] lists the contents of a scene.
+//!   [`Material`], [`Texture`], [`Light`], [`Environment`]. [`SceneContents`] lists
+//!   what a scene contains.
 //! - [`Diagnostic`] is an error, a warning or a note about a scene, with [`Label`]s and [`Hint`]s.
 //! - [`Options`] has the options of rendering, [`Progress`] is its progress, [`Picture`] is the
 //!   result.
@@ -56,4 +57,6 @@ pub use reexports::*;
 pub use scene::Scene;
 pub use shape::{Shape, Transform};
 pub use texture::{Environment, Texture};
-pub use tree::{Object, Tree};
+#[allow(deprecated, reason = "the alias is handed out for one more version")]
+pub use tree::Tree;
+pub use tree::{Object, SceneContents};

@@ -59,17 +59,17 @@
 
 mod api;
 
-#[allow(deprecated, reason = "the alias is handed out for one more version")]
-pub use api::Finding;
 pub use api::{
     Alpha, Aov, Bump, Camera, Diagnostic, Effect, EffectState, Environment, Error, Export, Filter,
     Format, Hint, Label, Light, Location, Material, MaterialId, MaterialRef, Mesh, MeshId, Object,
-    ObjectId, Options, Phong, Picture, Progress, Reading, Scene, SceneBuilder, Severity, Shape,
-    Standard, Statistics, Texture, TextureId, TextureMap, Tone, Transform, Tree, Vertices, Wrap,
-    explain,
+    ObjectId, Options, Phong, Picture, Progress, Reading, Scene, SceneBuilder, SceneContents,
+    Severity, Shape, Standard, Statistics, Texture, TextureId, TextureMap, Tone, Transform,
+    Vertices, Wrap, explain,
 };
 #[cfg(not(target_family = "wasm"))]
 pub use api::{Cost, CostRow, Effort};
+#[allow(deprecated, reason = "the alias is handed out for one more version")]
+pub use api::{Finding, Tree};
 #[cfg(feature = "cli")]
 pub use rtc_cli::run;
 

@@ -60,7 +60,7 @@ fn laid_out_is_the_same_scene() {
 fn the_scenes_of_the_repo_are_laid_out() {
     for path in paths() {
         let mut input = Input::file(&path, Options::default());
-        let is_laid_out = input.lay_out().as_deref() == Ok(input.text().unwrap());
+        let is_laid_out = input.format_text().as_deref() == Ok(input.text().unwrap());
         assert!(is_laid_out, "{}", path.display());
     }
 }

@@ -7,7 +7,7 @@ use rtc::internals::codec::{self, Encoding};
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{self, Lowered, Scene, SourceSpans};
 use rtc::internals::math::ldexp;
-use rtc::internals::pipeline::{self, Input, LayoutError, Options};
+use rtc::internals::pipeline::{self, FormatTextError, Input, Options};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Intersect, WatertightRay, World, camera_ray, image_point};
 use std::path::Path;
@@ -39,13 +39,13 @@ pub(crate) fn makes_the_same_picture_times(path: &Path, powers: impl Iterator<It
 pub(crate) fn is_the_same_laid_out(path: &Path) {
     let options = Options::default;
     let edited = |text: &str| Input::edited(path, text.as_bytes().to_vec(), options());
-    let text = match Input::file(path, options()).lay_out() {
+    let text = match Input::file(path, options()).format_text() {
         Ok(text) => text,
         // It is no YAML, or no scene.
-        Err(LayoutError::Findings | LayoutError::NoScene) => return,
+        Err(FormatTextError::Reported | FormatTextError::NoScene) => return,
         Err(fault) => panic!("{}: {fault:?}", path.display()),
     };
-    let again = edited(&text).lay_out();
+    let again = edited(&text).format_text();
     assert_eq!(again.as_ref(), Ok(&text), "{}", path.display());
     let encoded = |mut input: Input| {
         let loaded = input.load()?;

@@ -128,12 +128,14 @@ const WIDTH: usize = 100;
 impl Diagnostic {
     /// A diagnostic about files, or about a scene that was built.
     pub(super) fn new(found: &diag::Diagnostic, map: &SourceMap, built: Option<&Scene>) -> Self {
+        // An entity of a built scene has a path instead of a position.
         let of_pointer = |scene| path(found.pointer.as_deref()?, scene);
         let path = built.and_then(of_pointer);
         let text = match (&path, &found.primary) {
             (Some(path), None) => diag::one(&found.clone().pointer(path), map, WIDTH),
             _ => diag::one(found, map, WIDTH),
         };
+        // Copy the parts, with spans as lines and columns.
         let diag::Diagnostic {
             code,
             severity,

@@ -3,7 +3,8 @@
 use super::clock::Stopwatch;
 use super::progress::{ProgressCounter, ProgressMeasure};
 use super::{
-    Diagnostic, Effect, Error, Light, Options, Picture, Reading, SceneBuilder, Severity, Tree,
+    Diagnostic, Effect, Error, Light, Options, Picture, Reading, SceneBuilder, SceneContents,
+    Severity,
 };
 use rtc_pipeline::{
     self as pipeline, Input, Loaded, Observer, PictureSetup, RenderSubject, Rounds, Traced,
@@ -125,9 +126,9 @@ impl Scene {
 
     /// The contents of the scene; `None` if it can't be read.
     #[must_use]
-    pub fn tree(&self) -> Option<Tree<'_>> {
+    pub fn tree(&self) -> Option<SceneContents<'_>> {
         let loaded = self.loaded.as_ref()?;
-        Some(Tree::new(&loaded.lowered, self.input.map()))
+        Some(SceneContents::new(&loaded.lowered, self.input.map()))
     }
 
     /// Changes the scene if it is valid after the change; copies of it stay as they are.
@@ -287,6 +288,7 @@ impl Run<'_> {
         subject: &mut RenderSubject,
         is_stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Rendered, pipeline::RenderError> {
+        // Measure exposure and light, and check the limits of memory.
         let stopwatch = Stopwatch::start();
         let observer = |on_step| Observer {
             on_step,
@@ -296,6 +298,7 @@ impl Run<'_> {
         let window = setup.window(&subject.validated.lowered.scene)?;
         setup.check_memory(subject, window)?;
         setup.check_layers()?;
+        // Progress is measured by time, error or pixels.
         let has_goal = setup.goal != Goal::default();
         let measure = match setup.goal.time {
             Some(time) => ProgressMeasure::Time(&stopwatch, time),
@@ -305,6 +308,7 @@ impl Run<'_> {
         let pixels = window.pixels() as u64;
         let counter = ProgressCounter::new(options.on_progress.as_ref(), pixels, measure);
         let on_step = |step| counter.step(step);
+        // Render until the goal is met, or once.
         let order = (window, options.rays.unwrap_or(self.input.rays()));
         let rendered = if has_goal {
             let progress = (&counter, &stopwatch);
@@ -315,6 +319,7 @@ impl Run<'_> {
             (film, Vec::new(), verified.map(|probed| probed.error))
         };
         let counts: &Counts = &rendered.0.counts;
+        // Report the end.
         counter.finish(counts.rays());
         Ok(rendered)
     }

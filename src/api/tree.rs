@@ -30,12 +30,16 @@ use std::sync::OnceLock;
 /// # Ok(())
 /// # }
 /// ```
-pub struct Tree<'a> {
+pub struct SceneContents<'a> {
     lowered: &'a Lowered,
     map: &'a SourceMap,
     /// The bounding box of each mesh.
     boxes: OnceLock<Vec<[Vec3; 2]>>,
 }
+
+/// The former name of [`SceneContents`].
+#[deprecated(since = "0.1.0", note = "use `SceneContents`")]
+pub type Tree<'a> = SceneContents<'a>;
 
 /// An object of a scene: a shape with a material.
 ///
@@ -52,11 +56,11 @@ pub struct Tree<'a> {
 /// ```
 #[derive(Clone, Copy)]
 pub struct Object<'a> {
-    tree: &'a Tree<'a>,
+    tree: &'a SceneContents<'a>,
     index: usize,
 }
 
-impl<'a> Tree<'a> {
+impl<'a> SceneContents<'a> {
     pub(super) fn new(lowered: &'a Lowered, map: &'a SourceMap) -> Self {
         let boxes = OnceLock::new();
         Self {

@@ -18,7 +18,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
         let read = input::read(path, &args.reading)?;
         let mut input = match fix::run(path, read, args, &reporter) {
             Ok(input) => input,
-            Err(Failure::Trouble(message)) => {
+            Err(Failure::Failed(message)) => {
                 reporter::print_message(&format!("error: {message}"));
                 worst = Err(Failure::Unreadable);
                 continue;
@@ -30,7 +30,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
         }
         match input::report_diagnostics(&mut input, &mut reporter) {
             Err(gone @ Failure::ClosedPipe) => return Err(gone),
-            Err(Failure::Findings) if worst.is_err() => {}
+            Err(Failure::Reported) if worst.is_err() => {}
             Err(failure) => worst = Err(failure),
             Ok(()) => {}
         }

@@ -5,7 +5,7 @@ use super::Failure;
 use super::args::{Compile, Emit, Explanation, MessageFormat};
 use super::input;
 use super::interrupt::Interrupt;
-use super::output::{self, Companions, Output};
+use super::output::{self, Output, SidecarFiles};
 use super::report::PlanReport;
 use super::reporter::Reporter;
 use super::simd;
@@ -25,7 +25,7 @@ pub(super) fn run(args: &Compile) -> Result<(), Failure> {
     }
     if !matches!(emit, Emit::Glb | Emit::Gltf) && args.tolerance.is_some() {
         let message = "`--tolerance` is about the meshes of glTF; name the output .glb or .gltf";
-        return Err(Failure::Trouble(message.to_owned()));
+        return Err(Failure::Failed(message.to_owned()));
     }
     let mut reporter = Reporter::beside_result(&args.reporter);
     let outcome = carry_out(args, emit, &mut reporter);
@@ -125,8 +125,8 @@ fn write_sidecar<'f>(
     target: &Path,
     files: impl IntoIterator<Item = (&'f str, &'f [u8])>,
     interrupt: &Interrupt,
-) -> Result<Companions, Failure> {
-    let mut companions = Companions::beside(target);
+) -> Result<SidecarFiles, Failure> {
+    let mut companions = SidecarFiles::beside(target);
     for (name, bytes) in files {
         companions.put(name, bytes, interrupt)?;
     }
@@ -142,7 +142,7 @@ fn carry_out_text(
     let look = OutputTransform::new(FileFormat::Png8, None, None, BackgroundFill::Film, &[]);
     let mut setup = PictureSetup {
         simd: simd::level()?,
-        ..PictureSetup::new(look.map_err(|message| Failure::Trouble(message.to_owned()))?)
+        ..PictureSetup::new(look.map_err(|message| Failure::Failed(message.to_owned()))?)
     };
     let mut subject = input::subject(&mut setup, &mut input, reporter)?;
     let interrupt = Interrupt::listen()?;
@@ -187,7 +187,7 @@ fn write_text(
     let folder = output.sidecar_folder(target);
     let WrittenScene { text, files } =
         emit::course::emit_with_files(scene, folder.as_deref()).map_err(refuse)?;
-    let mut companions = Companions::beside(target);
+    let mut companions = SidecarFiles::beside(target);
     for file in &files {
         let bytes = file.bytes().map_err(refuse)?;
         companions.put(&file.name, &bytes, interrupt)?;
@@ -219,7 +219,7 @@ fn by_extension(output: &Path) -> Result<Emit, Failure> {
         Some("gltf") => Ok(Emit::Gltf),
         Some("xml") => Ok(Emit::Mitsuba),
         Some("pov") => Ok(Emit::Pov),
-        _ => Err(Failure::Trouble(format!(
+        _ => Err(Failure::Failed(format!(
             "unknown format `{}`; use .json, .rtir, .yaml, .glb, .gltf, .xml \
             or .pov, or give `--emit`",
             output.display()

@@ -37,7 +37,7 @@ fn alone(args: &args::Cost, file: &Path) -> Result<(), Failure> {
     if args.gate.is_some() {
         let message = "`--gate` is for a scene and its reference: `rtc cost new.yaml old.yaml \
             --gate 'time<=1.2x'`";
-        return Err(Failure::Trouble(message.to_owned()));
+        return Err(Failure::Failed(message.to_owned()));
     }
     let mut reporter = Reporter::beside_result(&args.reporter);
     let mut input = input::staged(file, &args.reading, &args.stage)?;
@@ -81,7 +81,7 @@ fn carry_out(args: &args::Cost, input: &mut Input, reporter: &mut Reporter) -> R
 
 fn make_folder(folder: &Path) -> Result<(), Failure> {
     fs::create_dir_all(folder)
-        .map_err(|error| Failure::Trouble(format!("can't make `{}`: {error}", folder.display())))
+        .map_err(|error| Failure::Failed(format!("can't make `{}`: {error}", folder.display())))
 }
 
 /// The maps as pictures, and their scales as a page.
@@ -95,7 +95,7 @@ fn write_maps(
     for map in study::maps(study) {
         let name = format!("{}.png", map.name);
         let encoded = Picture::opaque(map.image).encode(FileFormat::Png8);
-        let trouble = |error| Failure::Trouble(format!("can't write `{name}`: {error}"));
+        let trouble = |error| Failure::Failed(format!("can't write `{name}`: {error}"));
         let bytes = encoded.map_err(trouble)?;
         files.push((name, bytes));
     }
@@ -157,7 +157,7 @@ pub(super) fn with_runtime<T>(
     let on_pixel = |_| is_going();
     let runtime = StudyRuntime::new(threads, clock, &on_pixel);
     let runtime =
-        runtime.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
+        runtime.map_err(|error| Failure::Failed(format!("can't start threads: {error}")))?;
     Ok(work(runtime.with_simd(simd)))
 }
 
@@ -177,8 +177,7 @@ fn journal(
     }
     // Noted in no map that matters: the file is written again.
     let bytes = Loader.bytes(file, MAX_BYTES, &SourceMap::default());
-    let bytes =
-        bytes.map_err(|error| Failure::Trouble(format!("`{}`: {error}", file.display())))?;
+    let bytes = bytes.map_err(|error| Failure::Failed(format!("`{}`: {error}", file.display())))?;
     let journal = journal.load(&bytes);
     let journal = journal.map_err(|error| or_restart(unfit(file, &error)))?;
     Ok(Some(journal))

@@ -71,13 +71,13 @@ pub(super) fn man(args: &Man) -> Result<(), Failure> {
         None => Some(rtc),
     };
     let command = command.ok_or_else(|| {
-        Failure::Trouble("there is no such command; `rtc help` lists them".to_owned())
+        Failure::Failed("there is no such command; `rtc help` lists them".to_owned())
     })?;
     // The head of a page is one line.
     let command = command.version(env!("CARGO_PKG_VERSION"));
     let mut page = Vec::new();
     clap_mangen::Man::new(command)
         .render(&mut page)
-        .map_err(|error| Failure::Trouble(error.to_string()))?;
+        .map_err(|error| Failure::Failed(error.to_string()))?;
     output::to_stdout(&page)
 }

@@ -27,7 +27,7 @@ pub(super) fn diff(name: &str, before: &str, after: &str) -> String {
 pub(super) fn write(path: &Path, before: &str, after: &str) -> Result<(), Failure> {
     let written = put(path, before, after);
     let name = path.display();
-    written.map_err(|error| Failure::Trouble(format!("can't write `{name}`: {error}")))
+    written.map_err(|error| Failure::Failed(format!("can't write `{name}`: {error}")))
 }
 
 fn put(path: &Path, before: &str, after: &str) -> io::Result<()> {

@@ -36,7 +36,7 @@ fn list() -> String {
 }
 
 fn unknown(id: &str) -> Failure {
-    Failure::Trouble(format!(
+    Failure::Failed(format!(
         "there is no code `{}`; `rtc explain` lists them",
         clip(id)
     ))

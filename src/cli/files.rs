@@ -89,16 +89,16 @@ fn named(paths: &[PathBuf], is_meant: NameTest, skip_others: bool) -> Result<Sce
         };
         // Keep the scenes among the files that were not found before.
         let new = found.into_iter().filter(|path| known.insert(path.clone()));
-        let (of_scenes, others): (Vec<_>, Vec<_>) = new.partition(|path| looks_like_scene(path));
-        if of_scenes.is_empty() && !others.is_empty() {
+        let (scene_limits, others): (Vec<_>, Vec<_>) = new.partition(|path| looks_like_scene(path));
+        if scene_limits.is_empty() && !others.is_empty() {
             let count = others.len();
-            return Err(Failure::Trouble(format!(
+            return Err(Failure::Failed(format!(
                 "`{}`: there are no scenes among its {count} YAML, JSON and XML files",
                 path.display()
             )));
         }
         skipped += others.len();
-        scenes.extend(of_scenes);
+        scenes.extend(scene_limits);
     }
     Ok(SceneFiles {
         paths: scenes,
@@ -114,7 +114,7 @@ fn is_pattern(path: &Path) -> bool {
 /// The files that fit a pattern, and the scenes below the folders that do: at least one.
 fn fitting(pattern: &Path, is_meant: NameTest) -> Result<Vec<PathBuf>, Failure> {
     let shown = pattern.display();
-    let refused = |message: &str| Failure::Trouble(format!("`{shown}`: {message}"));
+    let refused = |message: &str| Failure::Failed(format!("`{shown}`: {message}"));
     let pattern = FilePattern::new(pattern).map_err(|message| refused(&message))?;
     let mut found = Vec::new();
     for entry in pattern.traverse() {
@@ -203,7 +203,7 @@ impl FilePattern {
 
 /// All scenes below a folder: at least one.
 fn below(folder: &Path, is_meant: NameTest) -> Result<Vec<PathBuf>, Failure> {
-    let refused = |message: &str| Failure::Trouble(format!("`{}`: {message}", folder.display()));
+    let refused = |message: &str| Failure::Failed(format!("`{}`: {message}", folder.display()));
     let mut found = Vec::new();
     let entries = WalkDir::new(folder).sort_by_file_name().into_iter();
     for entry in entries.filter_entry(|entry| !is_hidden(entry)) {

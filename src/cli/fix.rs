@@ -17,12 +17,14 @@ pub(super) fn run(
     let Some(text) = read.text().filter(|_| args.fix || args.diff) else {
         return Ok(read);
     };
+    // Fixing needs a file to write to, unless only the changes are shown.
     let is_file = path.as_os_str() != "-";
     if !is_file && !args.diff {
-        return Err(Failure::Trouble(
+        return Err(Failure::Failed(
             "standard input can't be fixed; give a file, or `--diff`".to_owned(),
         ));
     }
+    // Apply the fixes.
     let project = Project::of(path, &args.reading)?;
     let options = input::options(&args.reading, project.as_ref())?;
     let wish = FixFilter {
@@ -36,6 +38,7 @@ pub(super) fn run(
     if fixed.changes == 0 {
         return Ok(read);
     }
+    // Show the changes, or write the text and go on with it.
     if args.diff {
         output::to_stdout(edit::diff(read.name(), text, &fixed.text).as_bytes())?;
         return Ok(read);

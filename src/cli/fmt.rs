@@ -3,7 +3,7 @@
 use super::args::Fmt;
 use super::reporter::{self, Reporter};
 use super::{Failure, edit, files, input, output};
-use rtc_pipeline::{Input, LayoutError, Options};
+use rtc_pipeline::{FormatTextError, Input, Options};
 use std::path::Path;
 
 /// Formats the files, or lists the unformatted ones.
@@ -14,15 +14,15 @@ pub(super) fn run(args: &Fmt) -> Result<(), Failure> {
     for path in &scenes.paths {
         match one(path, args, &mut reporter) {
             Err(gone @ Failure::ClosedPipe) => return Err(gone),
-            Err(Failure::Trouble(message)) => {
+            Err(Failure::Failed(message)) => {
                 reporter::print_message(&format!("error: {message}"));
                 worst = Err(Failure::Unreadable);
             }
             Err(Failure::Input(message)) => {
                 reporter::print_message(&format!("error: {message}"));
-                worst = worst.and(Err(Failure::Findings));
+                worst = worst.and(Err(Failure::Reported));
             }
-            Err(Failure::Findings) => worst = worst.and(Err(Failure::Findings)),
+            Err(Failure::Reported) => worst = worst.and(Err(Failure::Reported)),
             Err(failure) => worst = Err(failure),
             Ok(()) => {}
         }
@@ -34,9 +34,9 @@ pub(super) fn run(args: &Fmt) -> Result<(), Failure> {
 
 fn one(path: &Path, args: &Fmt, reporter: &mut Reporter) -> Result<(), Failure> {
     let mut input = input::open(path, None, Options::default());
-    let laid_out = input.lay_out();
+    let formatted = input.format_text();
     input::report_diagnostics(&mut input, reporter)?;
-    let text = match laid_out {
+    let text = match formatted {
         Ok(text) => text,
         Err(fault) => return unformatted(&input, fault, reporter.is_quiet()),
     };
@@ -56,18 +56,18 @@ fn one(path: &Path, args: &Fmt, reporter: &mut Reporter) -> Result<(), Failure> 
         }
     }
     match args.check && !is_same {
-        true => Err(Failure::Findings),
+        true => Err(Failure::Reported),
         false => Ok(()),
     }
 }
 
 /// The outcome of a file that is left as it is. The YAML of another program is no mistake, as hooks
 /// name all YAML files of a repository.
-fn unformatted(input: &Input, fault: LayoutError, is_quiet: bool) -> Result<(), Failure> {
+fn unformatted(input: &Input, fault: FormatTextError, is_quiet: bool) -> Result<(), Failure> {
     let name = input.name();
     Err(Failure::Input(match fault {
-        LayoutError::Findings => return Err(Failure::Findings),
-        LayoutError::NoScene => {
+        FormatTextError::Reported => return Err(Failure::Reported),
+        FormatTextError::NoScene => {
             if !is_quiet {
                 reporter::print_message(&format!(
                     "`{name}` is unchanged: it has no key of a scene"
@@ -75,10 +75,10 @@ fn unformatted(input: &Input, fault: LayoutError, is_quiet: bool) -> Result<(), 
             }
             return Ok(());
         }
-        LayoutError::NoText => {
+        FormatTextError::NoText => {
             format!("`{name}` is unchanged: only scene texts, YAML and JSON, are formatted")
         }
-        LayoutError::Differs => {
+        FormatTextError::Differs => {
             format!("`{name}` is unchanged: formatting would change its meaning")
         }
     }))

@@ -1,4 +1,4 @@
-//! Gates: limits of measured values. A command exits with code 1 if one is exceeded.
+//! The limits of `--gate` on measured values. A command exits with code 1 if one is exceeded.
 
 use super::{Failure, reporter};
 use schemars::JsonSchema;
@@ -36,13 +36,13 @@ const OF_SCENES: &Measures = &[
     ("noise", Unit::Ratio),
 ];
 
-/// Limits, as `rmse<=1,share<=0.5%`.
+/// The limits of a `--gate`, as `rmse<=1,share<=0.5%`.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Gates(Vec<Gate>);
+pub(super) struct MeasureLimits(Vec<MeasureLimit>);
 
 /// The limit of a measure.
 #[derive(Clone, Debug, PartialEq)]
-struct Gate {
+struct MeasureLimit {
     measure: &'static str,
     most: f64,
 }
@@ -51,23 +51,23 @@ struct Gate {
 ///
 /// # Errors
 /// If the text is not a gate; the message lists the valid measures.
-pub(super) fn of_pictures(text: &str) -> Result<Gates, String> {
+pub(super) fn picture_limits(text: &str) -> Result<MeasureLimits, String> {
     gates(text, OF_PICTURES)
 }
 
 /// Reads gates of one scene against another as typed.
 ///
 /// # Errors
-/// As [`of_pictures`].
-pub(super) fn of_scenes(text: &str) -> Result<Gates, String> {
+/// As [`picture_limits`].
+pub(super) fn scene_limits(text: &str) -> Result<MeasureLimits, String> {
     gates(text, OF_SCENES)
 }
 
-fn gates(text: &str, measures: &Measures) -> Result<Gates, String> {
+fn gates(text: &str, measures: &Measures) -> Result<MeasureLimits, String> {
     text.split(',')
-        .map(|gate| Gate::read(gate.trim(), measures))
+        .map(|gate| MeasureLimit::read(gate.trim(), measures))
         .collect::<Result<_, _>>()
-        .map(Gates)
+        .map(MeasureLimits)
 }
 
 /// Reports each gate, or in quiet mode only the failed ones; an error if one failed.
@@ -76,11 +76,11 @@ pub(super) fn pass(gates: &[GateResult], is_quiet: bool) -> Result<(), Failure> 
     reported.for_each(|gate| reporter::print_message(&gate.to_string()));
     match gates.iter().all(|gate| gate.passed) {
         true => Ok(()),
-        false => Err(Failure::Findings),
+        false => Err(Failure::Reported),
     }
 }
 
-impl Gate {
+impl MeasureLimit {
     fn read(text: &str, measures: &Measures) -> Result<Self, String> {
         let (name, most) = text.split_once("<=").ok_or_else(|| {
             let first = measures[0].0;
@@ -131,10 +131,10 @@ pub(super) struct GateResult {
     pub(super) passed: bool,
 }
 
-impl Gates {
+impl MeasureLimits {
     /// The gates with their measured values.
     pub(super) fn results(&self, measured: impl Fn(&str) -> f64) -> Vec<GateResult> {
-        let results = |gate: &Gate| {
+        let results = |gate: &MeasureLimit| {
             let (measure, most, value) = (gate.measure, gate.most, measured(gate.measure));
             GateResult {
                 measure,
@@ -167,18 +167,18 @@ mod tests {
     #[test]
     fn gates_are_read() {
         let gates = |limits: &[(&'static str, f64)]| {
-            let gate = |(measure, most): &(&'static str, f64)| Gate {
+            let gate = |(measure, most): &(&'static str, f64)| MeasureLimit {
                 measure,
                 most: *most,
             };
-            Gates(limits.iter().map(gate).collect())
+            MeasureLimits(limits.iter().map(gate).collect())
         };
         assert_eq!(
-            of_pictures("rmse<=1, share <= 0.5%,flip<=2e-2").unwrap(),
+            picture_limits("rmse<=1, share <= 0.5%,flip<=2e-2").unwrap(),
             gates(&[("rmse", 1.0), ("share", 0.005), ("flip", 0.02)])
         );
         assert_eq!(
-            of_scenes("error<=0.5,time<=1.2x,rays<=2").unwrap(),
+            scene_limits("error<=0.5,time<=1.2x,rays<=2").unwrap(),
             gates(&[("error", 0.5), ("time", 1.2), ("rays", 2.0)])
         );
     }
@@ -194,7 +194,7 @@ mod tests {
             ("rmse<=nan", "at least 0"),
             ("rmse<=1,", "is no gate"),
         ] {
-            let error = of_pictures(text).unwrap_err();
+            let error = picture_limits(text).unwrap_err();
             assert!(error.contains(message), "{text}: {error}");
         }
         for (text, message) in [
@@ -202,14 +202,14 @@ mod tests {
             ("time<=10%", "no `%`"),
             ("rmse<=1", "error, time"),
         ] {
-            let error = of_scenes(text).unwrap_err();
+            let error = scene_limits(text).unwrap_err();
             assert!(error.contains(message), "{text}: {error}");
         }
     }
 
     #[test]
     fn a_gate_is_met_up_to_its_limit() {
-        let gates = of_pictures("rmse<=1,max<=3").unwrap();
+        let gates = picture_limits("rmse<=1,max<=3").unwrap();
         let results = gates.results(|name| if name == "rmse" { 1.0 } else { 3.5 });
         assert_eq!(
             results.iter().map(|gate| gate.passed).collect::<Vec<_>>(),

@@ -57,7 +57,8 @@ pub(super) fn options(reading: &Reading, project: Option<&Project>) -> Result<Op
         allow_huge: _,
         trust_project: _,
     } = reading;
-    let typed = reading.levels().map_err(Failure::Trouble)?;
+    // What is typed comes before the settings of the project.
+    let typed = reading.levels().map_err(Failure::Failed)?;
     let levels = project.map_or_else(|| typed.clone(), |own| own.levels(typed.clone()));
     let lent = || project.and_then(Project::asset_root);
     Ok(Options {
@@ -111,10 +112,12 @@ pub(super) fn set_stage(mut input: Input, stage: &args::StageArgs) -> Result<Inp
         ground,
         integrator,
     } = stage;
+    // Read the environment image.
     let environment = match env {
-        Some(path) => input.environment(path).map_err(Failure::Trouble)?,
+        Some(path) => input.environment(path).map_err(Failure::Failed)?,
         None => env_color.map(EnvironmentOverride::Color),
     };
+    // Override the view and the light of the scene.
     input.stage(ViewAndLight {
         view: View {
             eye: *eye,
@@ -142,7 +145,7 @@ pub(super) fn report_diagnostics(
     let sink = input.take_diagnostics();
     let status = match input.is_read() {
         false => Err(Failure::Unreadable),
-        true if sink.has_errors() => Err(Failure::Findings),
+        true if sink.has_errors() => Err(Failure::Reported),
         true => Ok(()),
     };
     reporter.file(input.name(), sink, input.map())?;

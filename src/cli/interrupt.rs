@@ -59,7 +59,7 @@ impl Interrupt {
             }
         };
         listen_for(on_signal)
-            .map_err(|error| Failure::Trouble(format!("can't listen to signals: {error}")))?;
+            .map_err(|error| Failure::Failed(format!("can't listen to signals: {error}")))?;
         Ok(LISTENER.get_or_init(|| Self(state)).clone())
     }
 

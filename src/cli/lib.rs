@@ -91,13 +91,13 @@ Commands to begin with:
 #[derive(Debug)]
 enum Failure {
     /// The input has errors, which were reported.
-    Findings,
+    Reported,
     /// The input can't be used so, for this reason.
     Input(String),
     /// A file could not be read, which was reported.
     Unreadable,
     /// A usage, file or internal error, with its message.
-    Trouble(String),
+    Failed(String),
     /// Ctrl-C, or another signal to stop.
     Interrupted,
     /// The reader of our output closed the pipe.
@@ -108,8 +108,8 @@ impl Failure {
     fn exit_code(&self) -> u8 {
         match self {
             Self::ClosedPipe => 0,
-            Self::Findings | Self::Input(_) => 1,
-            Self::Unreadable | Self::Trouble(_) => 2,
+            Self::Reported | Self::Input(_) => 1,
+            Self::Unreadable | Self::Failed(_) => 2,
             Self::Interrupted => interrupt::exit_code(),
         }
     }
@@ -173,7 +173,7 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     match outcome {
         Ok(()) => 0,
         Err(failure) => {
-            if let Failure::Input(message) | Failure::Trouble(message) = &failure {
+            if let Failure::Input(message) | Failure::Failed(message) = &failure {
                 reporter::print_message(&format!("error: {message}"));
             }
             failure.exit_code()

@@ -21,14 +21,16 @@ pub(super) fn run(args: &Merge) -> Result<(), Failure> {
     let limits = args.reading.limits(|_| ());
     let map = SourceMap::with_limits(limits);
     let mut reporter = Reporter::beside_result(&args.reporter);
+    // Read and merge the shares.
     let merged = merged(args, &map, &mut reporter);
     if merged.is_err() {
         reporter.finish()?;
         return merged.map(drop);
     }
     let merged = merged?;
-    let output = Output::apart_from(&args.output, &map)?;
+    let output = Output::open_unless_read(&args.output, &map)?;
     let interrupt = Interrupt::listen()?;
+    // An incomplete picture remains a part.
     let (shares, count) = merged.shares();
     if args.output.extension().is_some_and(|it| it == "rtp") {
         output.commit(&merged.save(), &interrupt)?;
@@ -36,6 +38,7 @@ pub(super) fn run(args: &Merge) -> Result<(), Failure> {
         return print_result(args, &text);
     }
     refuse_other_kind(args, &merged)?;
+    // Develop the merged film and report what it lacks.
     let (picture, counts, found) = merged.develop().map_err(|error| refused(error, &merged))?;
     let mut sink = Sink::within(&limits);
     found
@@ -43,8 +46,9 @@ pub(super) fn run(args: &Merge) -> Result<(), Failure> {
         .for_each(|diagnostic| sink.push(diagnostic));
     reporter.file(&args.output.display().to_string(), sink, &map)?;
     reporter.finish()?;
+    // Encode and write the picture.
     let bytes = merged.look().encode(&picture, || merged.metadata());
-    let bytes = bytes.map_err(|error| Failure::Trouble(error.to_string()))?;
+    let bytes = bytes.map_err(|error| Failure::Failed(error.to_string()))?;
     output.commit(&bytes, &interrupt)?;
     let [width, height] = [picture.image.width, picture.image.height];
     let rays = progress::rays(counts.rays());
@@ -68,7 +72,7 @@ fn merged(args: &Merge, map: &SourceMap, reporter: &mut Reporter) -> Result<Rend
             None => all = Some(part),
         }
     }
-    all.ok_or_else(|| Failure::Trouble("no parts".to_owned()))
+    all.ok_or_else(|| Failure::Failed("no parts".to_owned()))
 }
 
 /// Audits a part against the scene, which is read in the settings of the first one.
@@ -105,7 +109,7 @@ pub(super) fn read_part(
     map: &SourceMap,
 ) -> Result<RenderShard, Failure> {
     let bytes = Loader.bytes(path, MAX_BYTES, map);
-    let bytes = bytes.map_err(|error| Failure::Trouble(message_of(path, &error)))?;
+    let bytes = bytes.map_err(|error| Failure::Failed(message_of(path, &error)))?;
     part_of(path, &bytes, max_pixels)
 }
 

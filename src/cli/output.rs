@@ -40,11 +40,11 @@ impl Output {
     /// Checks that `path` (`-` is standard output) can be written and is none of the input files,
     /// before a long computation.
     pub(super) fn open(path: &Path, input: &Input) -> Result<Self, Failure> {
-        Self::apart_from(path, input.map())
+        Self::open_unless_read(path, input.map())
     }
 
-    /// The same with the input files of a source map.
-    pub(super) fn apart_from(path: &Path, read: &SourceMap) -> Result<Self, Failure> {
+    /// Opens `path` for writing, unless it is a file that the source map has read.
+    pub(super) fn open_unless_read(path: &Path, read: &SourceMap) -> Result<Self, Failure> {
         if is_stdout(path) {
             return Ok(Self {
                 name: "standard output".to_owned(),
@@ -53,7 +53,7 @@ impl Output {
         }
         let name = format!("`{}`", path.display());
         if read.has_read(path) {
-            return Err(Failure::Trouble(format!(
+            return Err(Failure::Failed(format!(
                 "can't write {name}: it is an input of this run"
             )));
         }
@@ -76,8 +76,9 @@ impl Output {
         self.commit_by(&|out| out.write_all(bytes), interrupt)
     }
 
-    /// The same for a file that is written during the computation; it must be a file.
-    pub(super) fn commit_slowly(
+    /// Lets `write` write the file during the computation, in any order; the file appears under its
+    /// name at the end. Fails if the target is no file.
+    pub(super) fn commit_incrementally(
         self,
         write: &mut dyn FnMut(&mut File) -> io::Result<()>,
         interrupt: &Interrupt,
@@ -86,12 +87,12 @@ impl Output {
             OutputTarget::Stdout | OutputTarget::OutputStream(_) => Err(io::Error::other(
                 "strips need a file to be put together in; give `-o FILE`",
             )),
-            OutputTarget::File(file) => file.write_slowly(write, interrupt),
+            OutputTarget::File(file) => file.write_incrementally(write, interrupt),
         };
         self.reported(written, interrupt)
     }
 
-    /// The same with a result that is written part by part.
+    /// Writes the result with the function `write`; else as [`Self::commit`].
     pub(super) fn commit_by(
         self,
         write: OutputWriter<'_>,
@@ -117,14 +118,14 @@ impl Output {
 }
 
 /// Files that a result needs, in folders beside it: they go again unless they are to be kept.
-pub(super) struct Companions {
+pub(super) struct SidecarFiles {
     folder: PathBuf,
     /// The files and folders that were made, in this order.
     files: Vec<PathBuf>,
     folders: Vec<PathBuf>,
 }
 
-impl Companions {
+impl SidecarFiles {
     /// None so far, beside the result at `path`.
     pub(super) fn beside(path: &Path) -> Self {
         Self {
@@ -184,7 +185,7 @@ impl Companions {
     }
 }
 
-impl Drop for Companions {
+impl Drop for SidecarFiles {
     fn drop(&mut self) {
         // A folder that can't be removed stays: the original error is reported.
         for file in self.files.drain(..) {
@@ -267,7 +268,7 @@ fn failure(name: &str, error: &io::Error) -> Failure {
     if error.kind() == ErrorKind::BrokenPipe {
         return Failure::ClosedPipe;
     }
-    Failure::Trouble(format!("can't write {name}: {error}"))
+    Failure::Failed(format!("can't write {name}: {error}"))
 }
 
 /// Writes to standard output; a closed pipe is no failure.
@@ -284,7 +285,7 @@ fn through_stdout(write: OutputWriter<'_>) -> io::Result<()> {
 /// Refuses to write bytes that are not text to a terminal.
 pub(super) fn refuse_terminal(path: &Path) -> Result<(), Failure> {
     if is_stdout(path) && io::stdout().is_terminal() {
-        return Err(Failure::Trouble(
+        return Err(Failure::Failed(
             "standard output is a terminal; give `-o FILE`, or `-o -` in a pipe".to_owned(),
         ));
     }

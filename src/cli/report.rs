@@ -323,7 +323,7 @@ impl<'scene> Counter<'scene> {
         let plan = Plan::new(self.scene, rules);
         let film = pipeline::render(self.scene, &plan, &job, 0, &|_| true);
         let film =
-            film.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
+            film.map_err(|error| Failure::Failed(format!("can't start threads: {error}")))?;
         Ok(film.ok_or(Failure::Interrupted)?.counts.scaled(all, paths))
     }
 }

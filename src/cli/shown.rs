@@ -11,8 +11,7 @@ const MAX_BYTES: u64 = 1 << 30;
 /// The bytes of a picture file; by them the budget of the run grows.
 pub(super) fn read(path: &Path, map: &SourceMap) -> Result<Vec<u8>, Failure> {
     let bytes = Loader.bytes(path, MAX_BYTES, map);
-    let bytes =
-        bytes.map_err(|error| Failure::Trouble(format!("`{}`: {error}", path.display())))?;
+    let bytes = bytes.map_err(|error| Failure::Failed(format!("`{}`: {error}", path.display())))?;
     map.budget().read(bytes.len());
     Ok(bytes)
 }
@@ -24,7 +23,7 @@ pub(super) fn opened<'b>(
     budget: &Budget,
 ) -> Result<ShownFile<'b>, Failure> {
     let file = ShownFile::open(bytes, budget.limit(Resource::Pixels));
-    file.map_err(|error| Failure::Trouble(format!("`{}` {error}", path.display())))
+    file.map_err(|error| Failure::Failed(format!("`{}` {error}", path.display())))
 }
 
 /// Charges the memory for decoding a file, unless it exceeds the limit.
@@ -44,10 +43,10 @@ pub(super) fn charge(path: &Path, cost: DecodeCost, budget: &Budget) -> Result<(
 /// The picture in a file that was charged.
 pub(super) fn decoded(path: &Path, file: ShownFile<'_>) -> Result<ShownPicture, Failure> {
     let picture = file.decode();
-    picture.map_err(|error| Failure::Trouble(format!("`{}` {error}", path.display())))
+    picture.map_err(|error| Failure::Failed(format!("`{}` {error}", path.display())))
 }
 
 /// The error that the memory exceeds the limit.
 pub(super) fn over_limit(what: &str, fault: &Exceeded) -> Failure {
-    Failure::Trouble(format!("{what}: {fault}; {}", fault.hint()))
+    Failure::Failed(format!("{what}: {fault}; {}", fault.hint()))
 }

@@ -14,7 +14,7 @@ pub(super) fn level() -> Result<SimdLevel, Failure> {
         let there: Vec<_> = all
             .filter(|name| SimdLevel::named(name).is_some())
             .collect();
-        Failure::Trouble(format!(
+        Failure::Failed(format!(
             "RTC_SIMD: this machine has no `{name}`, but {}",
             there.join(", ")
         ))

@@ -35,7 +35,7 @@ impl Views {
         };
         let [first, last] = frames.unwrap_or([1, count]);
         if last > count {
-            return Err(Failure::Trouble(format!(
+            return Err(Failure::Failed(format!(
                 "there is no frame {last}: the turntable has {count}"
             )));
         }
@@ -72,7 +72,7 @@ impl Turntable {
             _ => self.camera.turned(angle, self.axis, self.middle),
         };
         let unsound = || {
-            Failure::Trouble(format!(
+            Failure::Failed(format!(
                 "frame {} can't be seen: its camera is too far away",
                 frame + 1
             ))

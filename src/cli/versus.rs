@@ -48,10 +48,11 @@ fn refuse_others(args: &args::Cost, files: [&Path; 2]) -> Result<(), Failure> {
     } else {
         return Ok(());
     };
-    Err(Failure::Trouble(refused.to_owned()))
+    Err(Failure::Failed(refused.to_owned()))
 }
 
 fn carry_out(args: &args::Cost, files: [&Path; 2], reporter: &mut Reporter) -> Result<(), Failure> {
+    // Validate both scenes; their pictures have one size.
     let [first, second] = files.map(|file| input::staged(file, &args.reading, &args.stage));
     let mut inputs = [first?, second?];
     let [first, second] = &mut inputs;
@@ -65,16 +66,19 @@ fn carry_out(args: &args::Cost, files: [&Path; 2], reporter: &mut Reporter) -> R
             first.0.scene, a[0], a[1], second.0.scene, b[0], b[1]
         )));
     }
+    // The report may replace neither scene.
     let output = Output::open(&args.output, &inputs[0])?;
     if args.output.as_path() != Path::new("-") {
         Output::open(&args.output, &inputs[1])?;
     }
+    // Measure the scenes.
     let (scenes, abouts) = ([&first.1, &second.1], [first.0.clone(), second.0.clone()]);
     let is_going = || !interrupt.is_raised();
     let found = with_runtime(threads(args), &is_going, |runtime| {
         versus(scenes, abouts, args.effort.into(), args.seed, &runtime)
     })?;
     let found = found.map_err(|Stopped| Failure::Interrupted)?;
+    // Compare with the limits and write the report.
     let gates = args.gate.as_ref();
     let results = gates.map_or_else(Vec::new, |gates| {
         gates.results(|name| measure(&found, name))
@@ -110,5 +114,5 @@ fn measure(found: &Versus, name: &str) -> f64 {
 fn json(found: &Versus, gates: &[GateResult]) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(&VersusReport { found, gates });
     text.map(|text| text + "\n")
-        .map_err(|error| Failure::Trouble(error.to_string()))
+        .map_err(|error| Failure::Failed(error.to_string()))
 }

@@ -2,7 +2,7 @@
 //!
 //! Used only for a document that is JSON but not a scene, so its tree holds the node.
 
-use rtc_source::tree::{NodeId, Tree};
+use rtc_source::tree::{NodeId, SyntaxTree};
 
 /// The node at which decoding stopped: its bytes and its JSON pointer, empty for the whole
 /// document.
@@ -27,7 +27,7 @@ pub(super) fn offset(text: &str, line: usize, column: usize) -> usize {
 
 /// The value or key that ends at `read`, or else the first character of the node that starts there.
 /// Without a tree: that character, with the pointer of the whole document.
-pub(super) fn error_node(tree: Option<&Tree<'_>>, text: &str, read: usize) -> ErrorNode {
+pub(super) fn error_node(tree: Option<&SyntaxTree<'_>>, text: &str, read: usize) -> ErrorNode {
     let before = text.get(..read).unwrap_or(text);
     let after = text.get(read..).unwrap_or_default();
     let end = before.trim_end().len();

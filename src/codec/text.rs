@@ -10,7 +10,7 @@ use rtc_ir::{
     Camera, Display, Environment, Image, Light, Material, Mesh, Scene, Settings, Surface, Texture,
     VERSION,
 };
-use rtc_source::tree::{Tree, json};
+use rtc_source::tree::{SyntaxTree, json};
 use rtc_source::{Budget, FileId, Resource};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -164,7 +164,7 @@ const NODE: u64 = 48;
 
 impl<'a> TextSlice<'a> {
     /// The error at which `serde_json` stopped.
-    fn fault(&self, error: &serde_json::Error, tree: Option<&Tree<'_>>) -> Diagnostic {
+    fn fault(&self, error: &serde_json::Error, tree: Option<&SyntaxTree<'_>>) -> Diagnostic {
         let full = error.to_string();
         let what = full
             .rsplit_once(" at line ")
@@ -198,7 +198,7 @@ impl<'a> TextSlice<'a> {
 
     /// The tree of the text, and whether the text is valid JSON; after a syntax error the tree
     /// ends. `None` if it needs too much memory.
-    fn tree(&self, budget: &Budget) -> Option<(Tree<'a>, bool)> {
+    fn tree(&self, budget: &Budget) -> Option<(SyntaxTree<'a>, bool)> {
         let begins_node = |byte: &u8| matches!(*byte, b',' | b':' | b'[' | b'{');
         let nodes = 1 + self.text.bytes().filter(begins_node).count() as u64;
         let cost = nodes

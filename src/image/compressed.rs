@@ -29,6 +29,7 @@ pub(super) fn write(
     strips: &mut StripSource<'_>,
 ) -> io::Result<()> {
     let [width, height] = head.size;
+    // The encoders need the whole picture, so collect its strips.
     let (mut pixels, mut row) = (Vec::new(), Vec::new());
     let mut left = height;
     while left > 0 {
@@ -39,6 +40,7 @@ pub(super) fn write(
             pixels.extend_from_slice(&row);
         }
     }
+    // Encode with the metadata that the format holds.
     let mut bytes = Vec::new();
     match form {
         CompressedForm::Jpeg if head.has_alpha => Err(io::Error::other("a JPEG has no opacity")),

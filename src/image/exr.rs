@@ -123,15 +123,18 @@ fn header(head: &PictureHead, sources: &[(&str, ChannelSource)]) -> Header {
     } = &head.metadata;
     let [width, height] = head.size.map(|side| side as usize);
     let size = (width, height);
+    // Store the metadata as attributes.
     let other = |name, words: &str| {
         let value = (!words.is_empty()).then(|| AttributeValue::Text(text(words)));
         value.map(|value| (text(name), value))
     };
+    // Reserve room for the hash tree, which is known after the pixels.
     let tree = head.has_tiles.then(|| {
         let kind = text(TREE_TYPE);
         let bytes = std::iter::repeat_n(0, MerkleTree::length(head.size)).collect();
         (text(TREE), AttributeValue::Custom { kind, bytes })
     });
+    // Attributes belong to the layer or to the whole image.
     let attributes = LayerAttributes {
         software_name: (!software.is_empty()).then(|| text(software)),
         world_to_camera: *world_to_camera,
@@ -143,6 +146,7 @@ fn header(head: &PictureHead, sources: &[(&str, ChannelSource)]) -> Header {
         other: ordered(other("rtc:scene", scene)),
         ..ImageAttributes::with_size(size)
     };
+    // Each channel has 16 or 32 bits.
     let channels = sources.iter().map(|(name, _)| {
         let kind = if is_half(head.form, name) {
             SampleType::F16

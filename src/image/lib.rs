@@ -159,6 +159,7 @@ impl FileFormat {
     /// Its properties.
     #[must_use]
     pub const fn traits(self) -> FormatTraits {
+        // The traits of PNG and EXR are the base of the others.
         const PNG: FormatTraits = FormatTraits {
             name: "PNG",
             extensions: &["png"],

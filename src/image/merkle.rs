@@ -121,7 +121,7 @@ impl MerkleTree {
         tree
     }
 
-    /// The same without its lowest levels, so that it has fewer nodes.
+    /// The tree without its lowest levels, so that it has at most [`MAX_NODES`] nodes.
     #[must_use]
     pub fn pruned(mut self) -> Self {
         while self.nodes.len() > MAX_NODES {

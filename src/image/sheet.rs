@@ -82,6 +82,7 @@ const INK: f64 = 0.9;
 /// is none. Names that are too long lose their beginning.
 #[must_use]
 pub fn contact_sheet(pictures: &[(String, Option<Image>)]) -> Image {
+    // Lay out the cells in a grid.
     let columns = pictures.len().clamp(1, COLUMNS);
     let rows = pictures.len().div_ceil(columns);
     let size = [columns * CELL[0] + MARGIN, rows * CELL[1] + MARGIN];
@@ -91,6 +92,7 @@ pub fn contact_sheet(pictures: &[(String, Option<Image>)]) -> Image {
             index % columns * CELL[0] + MARGIN,
             index / columns * CELL[1] + MARGIN,
         ];
+        // Draw each picture centred in its cell.
         let mut put = |x: usize, y: usize, color| {
             sheet[(corner[1] + y) * size[0] + corner[0] + x] = color;
         };
@@ -108,6 +110,7 @@ pub fn contact_sheet(pictures: &[(String, Option<Image>)]) -> Image {
             }
             None => (0..width * height).for_each(|at| put(at % width, at / width, [MISSING; 3])),
         }
+        // Write its name below in a bitmap font.
         for (column, letter) in shown_name(name).into_iter().enumerate() {
             let glyph = BASIC_FONTS.get(letter).unwrap_or_default();
             for (y, row) in glyph.into_iter().enumerate() {

@@ -217,6 +217,7 @@ fn size_of(header: &Header) -> [u32; 2] {
 }
 
 fn read_exr(bytes: &[u8]) -> Result<WrittenPicture, DecodeError> {
+    // Read all channels of the first layer.
     let header = header(bytes)?;
     let size = size_of(&header);
     let reader = read()
@@ -230,6 +231,7 @@ fn read_exr(bytes: &[u8]) -> Result<WrittenPicture, DecodeError> {
         .map_err(DecodeError::damaged)?;
     let channels = &image.layer_data.channel_data.list;
     let names = channels.iter().map(|channel| channel.name.to_string());
+    // Concatenate the samples pixel by pixel, channels in the order of the file.
     let mut samples = Vec::new();
     for pixel in 0..size[0] as usize * size[1] as usize {
         for channel in channels {
@@ -240,6 +242,7 @@ fn read_exr(bytes: &[u8]) -> Result<WrittenPicture, DecodeError> {
             }
         }
     }
+    // Read the metadata from the attributes.
     let own = &header.own_attributes;
     let attribute = |name: &str| own.other.get(&Text::from(name));
     let words = |name| match attribute(name) {
@@ -250,6 +253,7 @@ fn read_exr(bytes: &[u8]) -> Result<WrittenPicture, DecodeError> {
         Some(AttributeValue::Custom { bytes, .. }) => MerkleTree::read(bytes),
         _ => None,
     };
+    // The red channel tells the precision; further channels are layers.
     let is_layer = |name: &String| !["R", "G", "B", "A"].contains(&name.as_str());
     let red = header
         .channels

@@ -8,6 +8,7 @@ impl Shape {
     /// Whether a solid given by one formula contains a point; false for other shapes.
     #[must_use]
     pub fn contains(&self, point: Vec3) -> bool {
+        // Compare the distance from the centre or the axis with the radius there.
         match self {
             Shape::Sphere(sphere) => {
                 point.distance(Vec3::from_array(sphere.center)) < sphere.radius

@@ -219,6 +219,7 @@ impl Emitter {
         mut rotate: impl FnMut([f64; 3]) -> [f64; 3],
         scale: f64,
     ) {
+        // Transform positions, directions and distances.
         match self {
             Self::Sun { direction } => *direction = rotate(*direction),
             Self::Point { position, range } => {
@@ -252,6 +253,7 @@ impl Emitter {
     /// The spelling of this emitter in the scene format.
     #[must_use]
     pub fn spelling(&self) -> Spelling<'_> {
+        // Each kind lists its vectors and numbers by their keys.
         let range = self.range().map(|range| ("range", range));
         match self {
             Self::Sun { direction } => Spelling {

@@ -165,6 +165,7 @@ impl fmt::Display for ValuePath {
 }
 
 fn pointer_tail(entity: EntityKind, field: Field) -> &'static str {
+    // Each field has the path of its JSON key.
     match field {
         Field::Whole | Field::Shape(..) | Field::Parameter(_) => "",
         Field::Eye => "/eye",

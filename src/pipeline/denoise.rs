@@ -1,7 +1,7 @@
 //! Denoised pictures and their errors; path tracing only, with at least two samples per pixel.
 
 use super::{PictureSetup, RayCounter, RenderError, RenderSubject, Renderer};
-use rtc_render::{Film, Job, OnPixel};
+use rtc_render::{Film, Job, PixelObserver};
 use rtc_study::{ProbedError, RenderOrder, probe};
 use rtc_valid::{Mode, ValidScene};
 
@@ -26,7 +26,7 @@ impl PictureSetup {
         &self,
         subject: &mut RenderSubject,
         job: &Job,
-        (on_pixel, counter): (&OnPixel<'_>, &RayCounter),
+        (on_pixel, counter): (&PixelObserver<'_>, &RayCounter),
     ) -> Result<Option<Traced>, RenderError> {
         let samples = paths(&subject.validated.scene, "--denoise")?;
         if samples < 2 {
@@ -59,7 +59,7 @@ impl Renderer {
         &self,
         samples: u32,
         (job, order): (&Job, &RenderOrder),
-        (on_pixel, counter): (&OnPixel<'_>, &RayCounter),
+        (on_pixel, counter): (&PixelObserver<'_>, &RayCounter),
     ) -> Option<Traced> {
         self.threads.install(|| {
             let between = || counter.begin_round();

@@ -78,6 +78,7 @@ impl Input {
         folder: &str,
     ) -> Result<Option<ExportedFiles>, String> {
         let (lowered, scene) = (&validated.lowered, &validated.lowered.scene);
+        // IR and text of other renderers are one file.
         let alone = |bytes| ExportedFiles {
             bytes,
             files: BTreeMap::new(),
@@ -90,6 +91,7 @@ impl Input {
         match format {
             ExportFormat::Ir => encoded(Encoding::Json),
             ExportFormat::IrBinary => encoded(Encoding::Binary),
+            // The course format has images and meshes beside it.
             ExportFormat::Text => {
                 let written = emit::course::emit_with_files(scene, Some(folder))?;
                 let file =
@@ -103,6 +105,7 @@ impl Input {
                         .collect::<Result<_, String>>()?,
                 }))
             }
+            // Only the text form of glTF has files beside it.
             ExportFormat::Glb | ExportFormat::Gltf => {
                 let folder = (format == ExportFormat::Gltf).then_some(folder);
                 let Some(asset) = self.gltf(lowered, None, folder) else {

@@ -8,7 +8,7 @@ use rtc_color::luminance;
 use rtc_ir::{Camera, Mode, Scene};
 use rtc_math::{exp, ln, pow};
 use rtc_passes::emissive_surfaces;
-use rtc_render::{Aov, Background, Film, Job, OnPixel, Values};
+use rtc_render::{Aov, Background, Film, Job, PixelObserver, Values};
 use rtc_valid::{ValidScene, revalidate};
 
 /// The side of the small render in pixels, and its paths per pixel.
@@ -43,7 +43,7 @@ impl Renderer {
         scene: &Scene,
         camera: &Camera,
         exposes: bool,
-        on_pixel: &OnPixel<'_>,
+        on_pixel: &PixelObserver<'_>,
     ) -> Option<LightMeasurement> {
         let scene_before = self.world.scene().clone();
         self.change(small(scene, camera));

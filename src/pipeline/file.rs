@@ -101,14 +101,14 @@ impl NewFile {
         write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
         observer: &dyn WriteObserver,
     ) -> io::Result<()> {
-        self.write_slowly(&mut |file| write(file), observer)
+        self.write_incrementally(&mut |file| write(file), observer)
     }
 
     /// The same for a file that is written incrementally, with random access.
     ///
     /// # Errors
     /// An error of the system, or if it was stopped.
-    pub fn write_slowly(
+    pub fn write_incrementally(
         &self,
         write: &mut dyn FnMut(&mut File) -> io::Result<()>,
         observer: &dyn WriteObserver,

@@ -5,13 +5,13 @@ use rtc_codec as codec;
 use rtc_diag as diag;
 use rtc_front::course;
 use rtc_front::{self as front, gltf, mesh, mitsuba, pbrt, usd};
-use rtc_source::tree::yaml::LayoutFault;
+use rtc_source::tree::yaml::FormatTextFault;
 
-/// Why a scene is not formatted.
+/// Why the text of a scene can't be formatted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LayoutError {
-    /// It has errors, which are among the diagnostics.
-    Findings,
+pub enum FormatTextError {
+    /// It has errors, which were reported as diagnostics.
+    Reported,
     /// It is an asset, a mesh or IR.
     NoText,
     /// The text has no top-level key of a scene.
@@ -81,27 +81,27 @@ impl Input {
     ///
     /// # Errors
     /// If it can't be formatted.
-    pub fn lay_out(&mut self) -> Result<String, LayoutError> {
-        let file = self.file_id().ok_or(LayoutError::Findings)?;
+    pub fn format_text(&mut self) -> Result<String, FormatTextError> {
+        let file = self.file_id().ok_or(FormatTextError::Reported)?;
         let (name, bytes) = (self.map().name(file), self.map().bytes(file));
         if let Some(diagnostic) = front::foreign(name, bytes) {
             self.push(diagnostic);
-            return Err(LayoutError::Findings);
+            return Err(FormatTextError::Reported);
         }
         if SourceKind::of(name, bytes) != SourceKind::Scene {
-            return Err(LayoutError::NoText);
+            return Err(FormatTextError::NoText);
         }
         if !course::is_scene_text(bytes) {
-            return Err(LayoutError::NoScene);
+            return Err(FormatTextError::NoScene);
         }
         let mut sink = diag::Sink::default();
-        let laid_out = course::lay_out(file, self.map(), &mut sink);
+        let formatted = course::format_text(file, self.map(), &mut sink);
         for diagnostic in sink.kept() {
             self.push(diagnostic.clone());
         }
-        laid_out.map_err(|error| match error {
-            LayoutFault::Mistakes => LayoutError::Findings,
-            LayoutFault::Differs => LayoutError::Differs,
+        formatted.map_err(|error| match error {
+            FormatTextFault::Mistakes => FormatTextError::Reported,
+            FormatTextFault::Differs => FormatTextError::Differs,
         })
     }
 }

@@ -13,7 +13,7 @@
 //!   be saved, resumed and merged.
 //! - [`PictureAudit`] and [`RenderShard::audit`] render some tiles of a picture, or of a part of
 //!   one, again, and compare.
-//! - [`fix()`] applies suggested fixes; [`Input::lay_out`] formats a text.
+//! - [`fix()`] applies suggested fixes; [`Input::format_text`] formats a text.
 //! - [`NewFile`] writes files atomically; no other code writes files.
 //! - [`trial`] has the entry points of the fuzz targets.
 //!
@@ -53,7 +53,7 @@ pub use exposure::LightMeasurement;
 pub use file::{NewFile, NewFolder, WriteObserver};
 pub use fix::{DiagnosticRef, FixFilter, FixedText, diagnostic_ref, fix};
 pub use input::{Input, Loaded, Provenance, Validated};
-pub use layout::{LayoutError, SourceKind, is_scene};
+pub use layout::{FormatTextError, SourceKind, is_scene};
 pub use output_transform::{Exposure, OutputTransform, ResolvedOutputTransform};
 pub use ray_counter::RayCounter;
 pub use setup::{Observer, PictureSetup, RenderError, RenderSubject, Rounds};
@@ -72,7 +72,8 @@ use rtc_math::BasisFault;
 use rtc_passes::{AppliedViewAndLight, SceneKind, ViewAndLight};
 use rtc_plan::{self as plan, Plan};
 use rtc_render::{
-    self as render, AnyWorld, Aov, Film, FilmError, Job, Mismatch, OnPixel, PartialFilm, SimdLevel,
+    self as render, AnyWorld, Aov, Film, FilmError, Job, Mismatch, PartialFilm, PixelObserver,
+    SimdLevel,
 };
 use rtc_source::{EditedFiles, FileId, SourceMap};
 use rtc_study::{self as study, CheckpointSink, RenderOrder, Stopped, TargetResult, Watch};
@@ -336,7 +337,7 @@ impl Renderer {
     ///
     /// All threads call `on_pixel`, after each pixel and during long ones.
     #[must_use]
-    pub fn render(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
+    pub fn render(&self, job: &Job, on_pixel: &PixelObserver<'_>) -> Option<Film> {
         self.threads.install(|| self.world.render(job, on_pixel))
     }
 
@@ -364,7 +365,7 @@ impl Renderer {
         &self,
         job: &Job,
         samples: Option<Range<u32>>,
-        on_pixel: &OnPixel<'_>,
+        on_pixel: &PixelObserver<'_>,
     ) -> Result<Option<PartialFilm>, FilmError> {
         self.threads
             .install(|| self.world.render_part(job, samples, on_pixel))
@@ -392,7 +393,7 @@ pub fn render(
     plan: &Plan,
     job: &Job,
     threads: usize,
-    on_pixel: &OnPixel<'_>,
+    on_pixel: &PixelObserver<'_>,
 ) -> Result<Option<Film>, ThreadPoolBuildError> {
     Ok(Renderer::new(scene, plan, threads)?.render(job, on_pixel))
 }
@@ -406,7 +407,7 @@ pub fn verify(
     plan: &Plan,
     job: &Job,
     threads: usize,
-    on_pixel: &OnPixel<'_>,
+    on_pixel: &PixelObserver<'_>,
 ) -> Result<Option<Result<Film, Mismatch>>, ThreadPoolBuildError> {
     Ok(Threads::new(threads)?.install(|| render::verify(scene, plan, job, on_pixel)))
 }

@@ -5,7 +5,7 @@ use super::Validated;
 use rtc_diag::{Diagnostic, codes};
 use rtc_image::{FileFormat, RangeClipping};
 use rtc_ir::{EntityKind, Field, ValuePath};
-use rtc_plan::{self as plan, Rule, Symptom};
+use rtc_plan::{self as plan, PrecisionArtifact, Rule};
 use rtc_render::Mismatch;
 use rtc_source::Span;
 
@@ -66,18 +66,18 @@ pub(super) fn imprecise(validated: &Validated, arithmetic: plan::Arithmetic) -> 
     let loss = plan::loss(&validated.scene, arithmetic)?;
     let option = arithmetic.name();
     let (problem, label) = match loss.symptom {
-        Symptom::SelfHit => {
+        PrecisionArtifact::SelfHit => {
             let off = format!(
                 "rays start about {:.0e} off this surface and hit it again",
                 loss.error
             );
             ("surfaces shade or mirror themselves", off)
         }
-        Symptom::Shape => (
+        PrecisionArtifact::Shape => (
             "curved surfaces lose their shape",
             format!("points are about {:.0e} off", loss.error),
         ),
-        Symptom::Skipped => (
+        PrecisionArtifact::Skipped => (
             "rays miss near surfaces",
             "hardly larger than the 1e-5 that rays skip".to_owned(),
         ),
@@ -110,6 +110,7 @@ pub(super) fn out_of_range(
     form: FileFormat,
     arithmetic: plan::Arithmetic,
 ) -> Vec<Diagnostic> {
+    // Report values beyond the range of the file format.
     let names = beyond
         .iter()
         .map(|name| format!("`{name}`"))
@@ -126,6 +127,7 @@ pub(super) fn out_of_range(
             "the file has 3.4e38 there; a smaller scene makes the same picture"
         })
     });
+    // Report pixels that are NaN.
     let unnumbered = (*unnumbered > 0).then(|| {
         let diagnostic = Diagnostic::new(
             &codes::UNNUMBERED,

@@ -27,9 +27,9 @@ const TINY: u32 = 4;
 /// If the text is rejected without an error, or formatting is not idempotent.
 pub fn lower(bytes: &[u8]) {
     let (map, file) = source(bytes);
-    if let Ok(text) = course::lay_out(file, &map, &mut Sink::default()) {
+    if let Ok(text) = course::format_text(file, &map, &mut Sink::default()) {
         let (map, file) = source(text.as_bytes());
-        let again = course::lay_out(file, &map, &mut Sink::default());
+        let again = course::format_text(file, &map, &mut Sink::default());
         assert_eq!(again, Ok(text), "a layout is laid out already");
     }
     let mut sink = Sink::default();

@@ -64,13 +64,13 @@ pub use hidden_maps::{HiddenMap, hidden_maps};
 pub use invisible::invisible_surfaces;
 pub use layer::Layer;
 pub use path::{Caustics, EnvironmentUse, LightUse, PathPlan};
-pub use pixel_classes::{PixelClass, PixelClasses};
-pub use precision::{Loss, MIN_HIT_DISTANCE, Symptom, loss};
+pub use pixel_classes::{PixelClass, PixelClassGrid};
+pub use precision::{MIN_HIT_DISTANCE, PrecisionArtifact, PrecisionLoss, loss};
 pub use rules::{Rule, Rules};
 
 use findings::{Facts, Findings};
 use light::LightFindings;
-use path::PlannedPaths;
+use path::PathPlanning;
 use projection::{ScreenProjection, ScreenRect};
 use rtc_math::{IdTable, Vec3};
 use rtc_valid::{CourseLight, Mode, PathSettings, Projection, Shape, Texture, ValidScene};
@@ -153,7 +153,7 @@ pub struct Plan {
     /// The number of bounces after the first hit that may contribute.
     pub max_depth: u32,
     /// The classes of the pixels.
-    pub pixel_classes: PixelClasses,
+    pub pixel_classes: PixelClassGrid,
     /// The plan of the path integrator, if it is used.
     pub paths: Option<PathPlan>,
     /// The status of each effect.
@@ -211,7 +211,7 @@ impl Plan {
             requested,
         };
         // Classify the pixels.
-        let pixel_classes = PixelClasses::new(&findings, &projection, &screen_rects);
+        let pixel_classes = PixelClassGrid::new(&findings, &projection, &screen_rects);
         Self {
             arithmetic: Arithmetic::Robust,
             rules,
@@ -229,7 +229,7 @@ impl Plan {
 
     /// Plans path tracing.
     fn of_paths(scene: &ValidScene, path: PathSettings, rules: Rules) -> Self {
-        let PlannedPaths {
+        let PathPlanning {
             plan,
             surfaces,
             max_depth,
@@ -244,7 +244,7 @@ impl Plan {
             surfaces,
             constants: vec![None; scene.textures().len()].into(),
             max_depth,
-            pixel_classes: PixelClasses::default(),
+            pixel_classes: PixelClassGrid::default(),
             paths: Some(plan),
             statuses,
         }

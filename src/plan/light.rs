@@ -120,6 +120,7 @@ impl LightFindings {
         } = *pair;
         let mut is_shadowed = false;
         for occluder in facts.occluders() {
+            // A surface may shadow itself, or one behind it as seen from the light.
             let may_cast = if occluder == receiver {
                 !facts.cannot_self_shadow(receiver, visibility.sides[receiver], &source)
             } else {
@@ -127,6 +128,7 @@ impl LightFindings {
                     || facts.surface_bounds[receiver]
                         .may_be_occluded_by(&facts.surface_bounds[occluder], &source)
             };
+            // Note the shadow and its first proof.
             if may_cast {
                 self.occludes[occluder] = true;
                 is_shadowed = true;
@@ -136,6 +138,7 @@ impl LightFindings {
                     receiver,
                 });
             }
+            // Clear the bit of a surface that cannot occlude.
             if let Some(bits) = self.plans[light].occluders.get_mut(receiver)
                 && facts.is_clear(may_cast, occluder, receiver, &source)
             {

@@ -29,9 +29,9 @@ pub enum PixelClass {
     Anything,
 }
 
-/// The classes of the pixels of a picture.
+/// A grid over the picture that tells the class of each pixel.
 #[derive(Clone, Debug, Default)]
-pub struct PixelClasses {
+pub struct PixelClassGrid {
     /// The width of a cell is 2 to this power, in pixels.
     shift: u32,
     /// The number of cells in a row; 0 if no pixel has a known class.
@@ -51,12 +51,13 @@ enum CellContent {
     Anything,
 }
 
-impl PixelClasses {
+impl PixelClassGrid {
     pub(super) fn new(
         findings: &Findings<'_>,
         projection: &ScreenProjection,
         screen_rects: &[ScreenRect],
     ) -> Self {
+        // Without rules or bounds, nothing is known about any pixel.
         let rules = findings.facts.rules;
         let is_wanted = rules.contains(Rule::PixelMiss) || rules.contains(Rule::PixelFlat);
         if !is_wanted || screen_rects.contains(&ScreenRect::Unknown) {
@@ -64,6 +65,7 @@ impl PixelClasses {
         }
         let (mut grid, mut polygons) = (CellGrid::new(findings), Vec::new());
         let flats = findings.has_flat_pixels();
+        // Mark the cells that each surface may cover.
         for (surface, rect) in screen_rects.iter().enumerate() {
             let ScreenRect::Within(rect) = rect else {
                 continue;
@@ -73,6 +75,7 @@ impl PixelClasses {
             } else {
                 None
             };
+            // A cell inside the polygon of one flat surface has its value.
             let mark = polygon.map_or(0, |polygon| {
                 polygons.push(polygon);
                 polygons.len() as i64

@@ -21,7 +21,7 @@ const MAX_SKIPPED_FRACTION: f64 = 1.0 / 100.0;
 
 /// The visible symptom of a precision loss.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Symptom {
+pub enum PrecisionArtifact {
     /// Self-intersection: rays that leave a surface hit it again, so it shadows or reflects itself.
     SelfHit,
     /// Errors of the hit points of a curved surface change its shading.
@@ -32,11 +32,11 @@ pub enum Symptom {
 
 /// The precision loss of an arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Loss {
+pub struct PrecisionLoss {
     /// The surface with the strongest symptom: an index into [`ValidScene::surfaces`].
     pub surface: usize,
     /// The symptom there.
-    pub symptom: Symptom,
+    pub symptom: PrecisionArtifact,
     /// The error of hit points on the surface, in world units.
     pub error: f64,
     /// The ratio of the error to the largest invisible error.
@@ -47,7 +47,7 @@ pub struct Loss {
 
 /// The expected precision loss of a scene with an arithmetic, if it is visible.
 #[must_use]
-pub fn loss(scene: &ValidScene, arithmetic: Arithmetic) -> Option<Loss> {
+pub fn loss(scene: &ValidScene, arithmetic: Arithmetic) -> Option<PrecisionLoss> {
     // Choose the unit roundoff of the arithmetic.
     let unit = match arithmetic {
         Arithmetic::Robust => return None,
@@ -62,13 +62,17 @@ pub fn loss(scene: &ValidScene, arithmetic: Arithmetic) -> Option<Loss> {
         .enumerate()
         .filter_map(|(index, surface)| {
             let measure = HitAccuracy::of(scene, surface);
-            let symptoms = [Symptom::SelfHit, Symptom::Shape, Symptom::Skipped];
+            let symptoms = [
+                PrecisionArtifact::SelfHit,
+                PrecisionArtifact::Shape,
+                PrecisionArtifact::Skipped,
+            ];
             let excess = symptoms.map(|symptom| {
                 measure.excess(symptom, unit, sends_rays(scene, surface, has_shadows))
             });
             let worst = (0..3).max_by(|a, b| excess[*a].total_cmp(&excess[*b]))?;
             let (symptom, excess) = (symptoms[worst], excess[worst]);
-            (excess > 1.0).then(|| Loss {
+            (excess > 1.0).then(|| PrecisionLoss {
                 surface: index,
                 symptom,
                 error: measure.error(unit),
@@ -79,7 +83,7 @@ pub fn loss(scene: &ValidScene, arithmetic: Arithmetic) -> Option<Loss> {
     // Take the worst surface, and count all affected ones.
     losses.reduce(|worst, loss| {
         let surfaces = worst.surfaces + loss.surfaces;
-        Loss {
+        PrecisionLoss {
             surfaces,
             ..if loss.excess > worst.excess {
                 loss
@@ -167,16 +171,18 @@ impl HitAccuracy {
     }
 
     /// The ratio of a symptom to the largest invisible symptom.
-    fn excess(&self, symptom: Symptom, unit: f64, sends_rays: bool) -> f64 {
+    fn excess(&self, symptom: PrecisionArtifact, unit: f64, sends_rays: bool) -> f64 {
         match symptom {
-            Symptom::SelfHit if sends_rays => self.error(unit) / MIN_HIT_DISTANCE,
-            Symptom::Shape if !matches!(self.equation, EquationKind::Linear(_)) => {
+            PrecisionArtifact::SelfHit if sends_rays => self.error(unit) / MIN_HIT_DISTANCE,
+            PrecisionArtifact::Shape if !matches!(self.equation, EquationKind::Linear(_)) => {
                 self.error(unit) / (MAX_INVISIBLE_ERROR * self.size())
             }
-            Symptom::Skipped if sends_rays => {
+            PrecisionArtifact::Skipped if sends_rays => {
                 MIN_HIT_DISTANCE / (MAX_SKIPPED_FRACTION * self.size())
             }
-            Symptom::SelfHit | Symptom::Shape | Symptom::Skipped => 0.0,
+            PrecisionArtifact::SelfHit | PrecisionArtifact::Shape | PrecisionArtifact::Skipped => {
+                0.0
+            }
         }
     }
 }

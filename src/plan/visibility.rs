@@ -114,6 +114,7 @@ impl Visibility {
 impl Facts<'_> {
     /// The surfaces that rays from a reflective surface may hit, if its `sides` are visible.
     fn shown_by(&self, mirror: usize, sides: Sides) -> Vec<usize> {
+        // A smooth mirror reflects along one direction.
         let (bounds, summary) = (&self.surface_bounds[mirror], &self.summaries[mirror]);
         let scatters = summary.refracts || (summary.glossy && summary.has_shading_normals());
         let others = |may_show: &dyn Fn(&SurfaceBounds) -> bool| {
@@ -127,6 +128,7 @@ impl Facts<'_> {
         } else {
             Some(sides)
         };
+        // A plane shows what is on its reflecting side, a convex shape never itself.
         match (bounds.class, one_side) {
             (ShapeClass::Planar(plane), Some(side))
                 if !scatters && self.rules.contains(Rule::MirrorUnreached) =>

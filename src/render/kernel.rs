@@ -1,6 +1,6 @@
 //! The compiled integrators, and the choice of the smallest one with all features of a plan.
 
-use crate::film::heartbeat::OnPixel;
+use crate::film::heartbeat::PixelObserver;
 use crate::film::{Film, Job};
 use crate::frame::picture::Sums;
 use crate::integrator::path::Strategy;
@@ -111,7 +111,7 @@ pub fn choose_for_paths(needed: PathFeatures) -> usize {
 impl<S: Intersect> World<S> {
     /// Renders on the threads of the current pool; see [`super::AnyWorld::render`].
     #[must_use]
-    pub fn render(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
+    pub fn render(&self, job: &Job, on_pixel: &PixelObserver<'_>) -> Option<Film> {
         self.whole(job, |samples, job| self.sum(samples, job, on_pixel))
     }
 
@@ -121,7 +121,7 @@ impl<S: Intersect> World<S> {
         &self,
         strategy: Strategy,
         job: &Job,
-        on_pixel: &OnPixel<'_>,
+        on_pixel: &PixelObserver<'_>,
     ) -> Option<Film> {
         self.whole(job, |samples, job| {
             self.sum_paths(strategy, samples, job, on_pixel)
@@ -134,7 +134,7 @@ impl<S: Intersect> World<S> {
         &self,
         samples: &Range<u32>,
         job: &Job,
-        on_pixel: &OnPixel<'_>,
+        on_pixel: &PixelObserver<'_>,
     ) -> Option<Sums> {
         if let Mode::Path(_) = self.settings.mode {
             return self.sum_paths(Strategy::Mis, samples, job, on_pixel);
@@ -159,14 +159,14 @@ impl<S: Intersect> World<S> {
         strategy: Strategy,
         samples: &Range<u32>,
         job: &Job,
-        on_pixel: &OnPixel<'_>,
+        on_pixel: &PixelObserver<'_>,
     ) -> Option<Sums> {
         self.run_paths(SumPaths(self, strategy, samples, job, on_pixel))
     }
 }
 
 /// Sums the samples of the pixels.
-struct Sum<'run, S>(&'run World<S>, &'run Job, &'run OnPixel<'run>);
+struct Sum<'run, S>(&'run World<S>, &'run Job, &'run PixelObserver<'run>);
 
 impl<S: Intersect> KernelTask for Sum<'_, S> {
     const HAS_KERNELS: bool = S::HAS_KERNELS;
@@ -184,7 +184,7 @@ struct SumPaths<'run, S>(
     Strategy,
     &'run Range<u32>,
     &'run Job,
-    &'run OnPixel<'run>,
+    &'run PixelObserver<'run>,
 );
 
 impl<S: Intersect> KernelTask for SumPaths<'_, S> {

@@ -55,7 +55,7 @@ pub use bsdf::optics::{highlight, reflect, refract};
 pub use bsdf::standard::*;
 pub use bsdf::{Bsdf, BsdfSample, Evaluation, Lobes, dispersed};
 pub use camera::{Camera, Projection, camera_ray, image_point, vogel};
-pub use film::heartbeat::{OnPixel, Step};
+pub use film::heartbeat::{PixelObserver, Step};
 pub use film::partial::{FilmError, PartialFilm};
 pub use film::pixel::BLOCK as SAMPLES_OF_BLOCK;
 pub use film::progressive::{ProgressiveFilm, Replicates};

@@ -8,7 +8,7 @@
 //! - [`Search`] finds the files to which a scene refers: below its folder, its parent folder, or a
 //!   folder that the user allows.
 //! - [`Budget`] and [`Limits`] bound the memory and work of a run, per [`Resource`].
-//! - [`tree`] parses YAML and JSON to a [`tree::Tree`] of nodes with spans, and formats YAML.
+//! - [`tree`] parses YAML and JSON to a [`tree::SyntaxTree`] of nodes with spans, and formats YAML.
 //! - [`EditedFiles`] are texts that an editor has open; they replace files on disk.
 //!
 //! # Guarantees

@@ -191,6 +191,7 @@ impl TimedRender<'_, '_> {
     fn coarse(&self, order: &RenderOrder, complete_after: Duration) -> TargetResult {
         let film = &self.progressive.film;
         let width = film.crop().width as usize;
+        // Find the finest complete block of each pixel.
         let has_samples = |index: usize| film.pixel(index).samples() > 0;
         let corner = |index: usize, block: usize| {
             let (x, y) = (index % width, index / width);
@@ -203,6 +204,7 @@ impl TimedRender<'_, '_> {
                 .unwrap_or(BLOCKS[0])
         };
         let blocks: Vec<_> = (0..film.len()).map(finest).collect();
+        // Without an estimate, the error is unbounded.
         let nothing = ErrorBound {
             error: f64::INFINITY,
             undersampled: None,
@@ -211,6 +213,7 @@ impl TimedRender<'_, '_> {
         let mut reached = self
             .progressive
             .result(nothing, &undersampled, order.values);
+        // Copy the corner of a block to its pixels.
         for (index, block) in blocks.iter().enumerate() {
             reached.image.pixels[index] = reached.image.pixels[corner(index, *block)];
             reached.coverage[index] = reached.coverage[corner(index, *block)];

@@ -4,7 +4,7 @@
 use super::probe::probe;
 use super::target::{Goal, RenderOrder};
 use rtc_color::Tone;
-use rtc_render::{AnyWorld, Crop, Film, Job, OnPixel, Values};
+use rtc_render::{AnyWorld, Crop, Film, Job, PixelObserver, Values};
 use rtc_valid::Mode;
 
 /// The tone curve and exposure of [`Values::Display`] for path tracing.
@@ -17,7 +17,7 @@ pub(super) fn film(
     world: &AnyWorld,
     job: &Job,
     denoise: bool,
-    on_pixel: &OnPixel<'_>,
+    on_pixel: &PixelObserver<'_>,
 ) -> Option<Film> {
     // Render without denoising if that is not requested or not path tracing.
     let paths = match &world.scene().settings().mode {

@@ -268,6 +268,7 @@ fn pruned_reason(parameter: Parameter, scene: &Scene) -> Option<String> {
 }
 
 fn unused_reason(parameter: Parameter, scene: &Scene) -> Option<&'static str> {
+    // List the reasons why the scene does not depend on the parameter.
     let mode = &scene.settings.mode;
     let (phong, paths) = (*mode == Mode::Phong, matches!(mode, Mode::Path(_)));
     let per_path = (paths, "each path takes its own sample");
@@ -327,6 +328,7 @@ fn unused_reason(parameter: Parameter, scene: &Scene) -> Option<&'static str> {
             "every other arithmetic would have a visible loss",
         )],
     };
+    // Tell the first that holds.
     cases
         .iter()
         .find(|(holds, _)| *holds)

@@ -10,7 +10,7 @@ use super::statistics::fisher_quantile;
 use super::target::{RenderOrder, TAIL};
 use rtc_image::around;
 use rtc_math::{GAMMA, fraction, mix};
-use rtc_render::{AnyWorld, DenoisedFilm, Film, OnPixel, ProgressiveFilm};
+use rtc_render::{AnyWorld, DenoisedFilm, Film, PixelObserver, ProgressiveFilm};
 
 /// The estimated error of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,7 +65,7 @@ pub fn probe(
     order: &RenderOrder,
     mut picture: DenoisedFilm,
     samples: u32,
-    on_pixel: &OnPixel<'_>,
+    on_pixel: &PixelObserver<'_>,
 ) -> Option<(Film, ProbedError)> {
     let probabilities = probabilities(&picture, order);
     let probes = Probes::spread(&probabilities, order.seed);

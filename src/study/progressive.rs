@@ -5,7 +5,7 @@ use super::batch::WorkBatch;
 use super::noise::ErrorBound;
 use super::target::{RenderOrder, Samples, TargetResult};
 use super::undersampled::Undersampled;
-use rtc_render::{AnyWorld, FilmError, OnPixel, ProgressiveFilm, Replicates, Tiles, Values};
+use rtc_render::{AnyWorld, FilmError, PixelObserver, ProgressiveFilm, Replicates, Tiles, Values};
 use std::time::Duration;
 
 /// The state of a progressive render.
@@ -88,7 +88,7 @@ impl ProgressiveRender {
     pub(super) fn refine(
         &mut self,
         world: &AnyWorld,
-        on_pixel: &OnPixel<'_>,
+        on_pixel: &PixelObserver<'_>,
         checkpointer: Option<&mut Checkpointer<'_>>,
     ) -> bool {
         let Some(checkpointer) = checkpointer else {

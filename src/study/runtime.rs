@@ -4,7 +4,7 @@ use super::denoised::film;
 use super::journal::{Entry, Journal};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use rtc_plan::Plan;
-use rtc_render::{AnyWorld, Film, Job, OnPixel, SimdLevel, Step};
+use rtc_render::{AnyWorld, Film, Job, PixelObserver, SimdLevel, Step};
 use rtc_valid::ValidScene;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -62,7 +62,7 @@ impl Clock<'_> {
 /// Thread pools, clocks, a stop callback, and the journal.
 pub struct StudyRuntime<'a> {
     clock: Clock<'a>,
-    on_pixel: &'a OnPixel<'a>,
+    on_pixel: &'a PixelObserver<'a>,
     /// The pool for work that is not timed.
     all_threads: ThreadPool,
     /// A pool of one thread for timed work: its processor time does not depend on other load.
@@ -92,7 +92,7 @@ impl<'a> StudyRuntime<'a> {
     pub fn new(
         threads: usize,
         clock: Clock<'a>,
-        on_pixel: &'a OnPixel<'a>,
+        on_pixel: &'a PixelObserver<'a>,
     ) -> Result<Self, ThreadPoolBuildError> {
         let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build();
         Ok(Self {

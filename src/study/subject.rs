@@ -60,7 +60,7 @@ impl<'runtime> Subject<'runtime> {
         }
     }
 
-    /// The same with the first `count` tiles only, at least one.
+    /// The subject with its first `count` tiles only, at least one.
     pub(super) fn keep(&self, count: usize) -> Self {
         let mut reduced = self.clone();
         reduced.tiles.truncate(count.max(1));

@@ -17,7 +17,7 @@ use rtc_color::Tone;
 use rtc_image::Image;
 use rtc_ir::{Pattern, Scene};
 use rtc_render::{
-    AnyWorld, Background, Counts, Crop, Film, Job, OnPixel, ProgressiveFilm, Tiles, Values,
+    AnyWorld, Background, Counts, Crop, Film, Job, PixelObserver, ProgressiveFilm, Tiles, Values,
 };
 use rtc_valid::revalidate;
 use std::time::Duration;
@@ -54,7 +54,7 @@ pub struct RenderOrder {
 /// The callbacks of a render.
 pub struct Watch<'a> {
     /// Called from all threads after each pixel with its rays; false stops the render.
-    pub on_pixel: &'a OnPixel<'a>,
+    pub on_pixel: &'a PixelObserver<'a>,
     /// Whether the user stopped the render, rather than the time budget.
     pub is_stopped: &'a (dyn Fn() -> bool + Sync),
     /// The time since the start of the time budget.
@@ -263,6 +263,7 @@ fn render_unsampled(
     order: &RenderOrder,
     watch: &Watch<'_>,
 ) -> Result<TargetResult, Stopped> {
+    // Render the picture once.
     let job = Job {
         crop: Some(order.crop),
         values: order.values,
@@ -280,6 +281,7 @@ fn render_unsampled(
         coverage,
         counts,
     } = film;
+    // It has no sampling error.
     let exact = PixelQuality {
         error: [0.0; 3],
         samples: 1,

@@ -4,7 +4,7 @@
 use super::scenes::{ball, diffuse, first_light, material, plane, with};
 use super::validated;
 use rtc::internals::ir::{self, Mode, Phong, Scene, Shape, Surface};
-use rtc::internals::plan::{Arithmetic, Loss, MIN_HIT_DISTANCE, Symptom, loss};
+use rtc::internals::plan::{Arithmetic, MIN_HIT_DISTANCE, PrecisionArtifact, PrecisionLoss, loss};
 
 /// The unit of rounding of f32.
 const UNIT: f64 = f32::EPSILON as f64 / 2.0;
@@ -13,7 +13,7 @@ fn one(shape: Shape) -> Scene {
     with(&[(shape, diffuse())])
 }
 
-fn lost(scene: &Scene) -> Option<Loss> {
+fn lost(scene: &Scene) -> Option<PrecisionLoss> {
     loss(&validated(scene), Arithmetic::F32)
 }
 
@@ -121,7 +121,7 @@ fn points_are_off_by_the_rounding_of_their_coordinates_and_of_the_polynomial_ove
         is_near(loss.excess, units * UNIT / MIN_HIT_DISTANCE);
         assert_eq!(
             (loss.symptom, loss.surface, loss.surfaces),
-            (Symptom::SelfHit, 0, 1)
+            (PrecisionArtifact::SelfHit, 0, 1)
         );
     }
     is_near(lost(&instance(DEEP)).unwrap().error, 1990.0 * UNIT);
@@ -161,7 +161,7 @@ fn a_surface_is_skipped_as_a_whole_if_it_is_no_larger_than_what_is_skipped_befor
     };
     let excess = |scene: &Scene, size: f64| {
         let loss = lost(scene).unwrap();
-        assert_eq!(loss.symptom, Symptom::Skipped);
+        assert_eq!(loss.symptom, PrecisionArtifact::Skipped);
         is_near(loss.excess, 100.0 * MIN_HIT_DISTANCE / size);
     };
     excess(&one(triangle(corner(3.0, 4.0), corner(1.0, 0.0))), 5e-4);
@@ -231,7 +231,7 @@ fn round_things_lose_their_shape_by_a_part_of_their_size() {
         lost(&scene)
     };
     let loss = round(2.0).unwrap();
-    assert_eq!(loss.symptom, Symptom::Shape);
+    assert_eq!(loss.symptom, PrecisionArtifact::Shape);
     is_near(loss.excess, (990.0 + 1000.0 * 500.0) * UNIT * 512.0 / 2.0);
     assert!(round(100.0).is_none());
     // The tube of a torus determines its shading.

@@ -5,7 +5,7 @@ use super::scenes::{COURSE, at, course, each, film, read, validated};
 use libtest_mimic::Trial;
 use rtc::internals::color::quantize8;
 use rtc::internals::ir::Scene;
-use rtc::internals::plan::{Arithmetic, Plan, Rules, Symptom, loss};
+use rtc::internals::plan::{Arithmetic, Plan, PrecisionArtifact, Rules, loss};
 use rtc::internals::render::{Film, Job};
 use rtc::internals::valid::ValidScene;
 use std::path::Path;
@@ -63,7 +63,7 @@ fn goes_dark_in_f32_alone(scene: Scene) {
     assert!((0.3..0.7).contains(&share), "{share}");
     let warning = loss(&scene, Arithmetic::F32).unwrap();
     assert!(
-        warning.symptom == Symptom::SelfHit && warning.error > 1.0,
+        warning.symptom == PrecisionArtifact::SelfHit && warning.error > 1.0,
         "{warning:?}"
     );
 }

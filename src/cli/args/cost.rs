@@ -1,6 +1,6 @@
 //! The arguments of `rtc cost`.
 
-use super::super::gate::{Gates, of_scenes};
+use super::super::gate::{MeasureLimits, scene_limits};
 use super::super::parse::interval;
 use super::{Reading, ReporterArgs, StageArgs};
 use clap::{Args, ValueEnum, ValueHint};
@@ -36,8 +36,8 @@ pub(crate) struct Cost {
     ///
     /// It needs a reference. Measures: error (in grey levels, beyond noise), and the ratios time,
     /// rays and noise.
-    #[arg(long, value_name = "GATES", value_parser = of_scenes, help_heading = "Study")]
-    pub(crate) gate: Option<Gates>,
+    #[arg(long, value_name = "GATES", value_parser = scene_limits, help_heading = "Study")]
+    pub(crate) gate: Option<MeasureLimits>,
     /// Write the report to this file; `-` is standard output
     #[arg(
         short,

@@ -1,6 +1,6 @@
 //! The arguments of `rtc diff`.
 
-use super::super::gate::{Gates, of_pictures};
+use super::super::gate::{MeasureLimits, picture_limits};
 use super::{Reading, ReportFormatArgs, ReporterArgs, WantedArgs};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
@@ -39,8 +39,8 @@ pub(crate) struct Diff {
     /// Exit with 1 if a measure exceeds its limit, as `rmse<=1,share<=0.5%`
     ///
     /// Measures: rmse, max, relmse, flip, and share (as `0.5%` or 0.005).
-    #[arg(long, value_name = "GATES", value_parser = of_pictures, help_heading = "Comparison")]
-    pub(crate) gate: Option<Gates>,
+    #[arg(long, value_name = "GATES", value_parser = picture_limits, help_heading = "Comparison")]
+    pub(crate) gate: Option<MeasureLimits>,
     /// Write a PNG map of the perceived difference (FLIP) of each pixel
     #[arg(
         short,

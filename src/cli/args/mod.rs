@@ -22,7 +22,7 @@ pub(super) use fmt::Fmt;
 pub(super) use look::{BackgroundArg, BitDepth, OutputTransformArgs};
 pub(super) use merge::Merge;
 pub(super) use preview::Preview;
-pub(super) use render::{Pruning, Render, SharedByArg};
+pub(super) use render::{PruningArgs, Render, SharedByArg};
 pub(super) use stage::{GroundArg, IntegratorArg, StageArgs};
 pub(super) use wanted::{ArithmeticArg, WantedArgs};
 

@@ -194,7 +194,7 @@ pub(crate) struct Render {
     #[command(flatten)]
     pub(crate) look: OutputTransformArgs,
     #[command(flatten)]
-    pub(crate) pruning: Pruning,
+    pub(crate) pruning: PruningArgs,
     #[command(flatten)]
     pub(crate) stage: StageArgs,
     #[command(flatten)]
@@ -212,7 +212,7 @@ impl Render {
 
 /// The plan rules that are applied.
 #[derive(Debug, Args)]
-pub(crate) struct Pruning {
+pub(crate) struct PruningArgs {
     /// Simulate effects that plan rules remove: all, or those of the named rules
     ///
     /// For example `--no-prune=E-SPEC`.

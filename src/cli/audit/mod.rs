@@ -33,12 +33,13 @@ pub(super) fn run(args: &Audit) -> Result<(), Failure> {
     }
     match result.findings.is_empty() {
         true => Ok(()),
-        false => Err(Failure::Findings),
+        false => Err(Failure::Reported),
     }
 }
 
 /// The report, and the seed of the choice of tiles.
 fn carry_out(args: &Audit, reporter: &mut Reporter) -> Result<(AuditResult, u64), Failure> {
+    // Read the picture and draw the seed that chooses the tiles.
     let map = SourceMap::with_limits(args.reading.limits(|_| ()));
     let bytes = read(&args.picture, &map)?;
     let seed = seed(args.draw.seed)?;
@@ -52,6 +53,7 @@ fn carry_out(args: &Audit, reporter: &mut Reporter) -> Result<(AuditResult, u64)
         reading: &args.reading,
         threads: args.threads.map_or(0, usize::from),
     };
+    // A part of a picture is audited against its own setup.
     if args.picture.extension().is_some_and(|it| it == "rtp") {
         let part = part_of(&args.picture, &bytes, map.budget().limit(Resource::Pixels))?;
         let setup = part
@@ -60,7 +62,8 @@ fn carry_out(args: &Audit, reporter: &mut Reporter) -> Result<(AuditResult, u64)
         let mut audited = scene.validate(setup, reporter)?;
         return Ok((audited.part((&args.picture, &part), draw, reporter)?, seed));
     }
-    let named = |error| Failure::Trouble(format!("`{}` {error}", args.picture.display()));
+    // Decode the picture with its metadata and its hash tree.
+    let named = |error| Failure::Failed(format!("`{}` {error}", args.picture.display()));
     let file = WrittenFile::open(&bytes, map.budget().limit(Resource::Pixels)).map_err(named)?;
     charge(&args.picture, file.cost(), map.budget())?;
     let picture = file.decode().map_err(named)?;
@@ -69,6 +72,7 @@ fn carry_out(args: &Audit, reporter: &mut Reporter) -> Result<(AuditResult, u64)
         Ok(opened) => opened,
         Err(result) => return Ok((result, seed)),
     };
+    // Render the chosen tiles anew and compare them.
     let mut audited = scene.validate(setup, reporter)?;
     let result = audited.observed(draw, reporter, |setup, subject, order, observer| {
         let result = audit.run(setup, subject, order, observer);
@@ -81,7 +85,7 @@ fn carry_out(args: &Audit, reporter: &mut Reporter) -> Result<(AuditResult, u64)
 pub(super) fn refused(path: &Path, error: RenderError) -> Failure {
     match error {
         RenderError::Refused(message) => {
-            Failure::Trouble(format!("`{}` can't be audited: {message}", path.display()))
+            Failure::Failed(format!("`{}` can't be audited: {message}", path.display()))
         }
         error @ (RenderError::Stopped | RenderError::RanOut(_)) => error.into(),
     }
@@ -90,7 +94,7 @@ pub(super) fn refused(path: &Path, error: RenderError) -> Failure {
 /// The seed given, or a random one.
 pub(super) fn seed(given: Option<u64>) -> Result<u64, Failure> {
     let Some(seed) = given else {
-        let none = |error| Failure::Trouble(format!("the system gives no random numbers: {error}"));
+        let none = |error| Failure::Failed(format!("the system gives no random numbers: {error}"));
         return getrandom::u64().map_err(none);
     };
     Ok(seed)

@@ -101,7 +101,7 @@ impl AuditReport {
     pub(super) fn json(&self) -> Result<String, Failure> {
         let text = serde_json::to_string_pretty(self);
         text.map(|text| text + "\n")
-            .map_err(|error| Failure::Trouble(error.to_string()))
+            .map_err(|error| Failure::Failed(error.to_string()))
     }
 
     /// The report for people.

@@ -128,7 +128,8 @@ impl<'a> Commands<'a> {
 /// The output settings that are not part of the scene.
 fn look(args: &Farm) -> Vec<String> {
     let mut arguments = Vec::new();
-    let mut print_message = |flag: &str, value: String| arguments.push(format!("--{flag}={value}"));
+    let mut flag = |name: &str, value: String| arguments.push(format!("--{name}={value}"));
+    // Each setting that is not the default becomes a flag.
     if let Some(Crop {
         x,
         y,
@@ -136,35 +137,33 @@ fn look(args: &Farm) -> Vec<String> {
         height,
     }) = args.wanted.crop
     {
-        print_message("crop", format!("{x},{y},{width},{height}"));
+        flag("crop", format!("{x},{y},{width},{height}"));
     }
     if args.wanted.arithmetic != ArithmeticArg::default() {
-        print_message("arithmetic", name(args.wanted.arithmetic));
+        flag("arithmetic", name(args.wanted.arithmetic));
     }
     if let Some(map) = args.look.tonemap {
-        print_message("tonemap", name(map));
+        flag("tonemap", name(map));
     }
     if let Some(Exposure::Stops(stops)) = args.look.exposure {
-        print_message("exposure", stops.to_string());
+        flag("exposure", stops.to_string());
     }
     match args.look.background {
         BackgroundArg::Fill(BackgroundFill::Film) => {}
         BackgroundArg::Fill(BackgroundFill::Transparent) => {
-            print_message("background", "transparent".to_owned());
+            flag("background", "transparent".to_owned());
         }
         BackgroundArg::Fill(BackgroundFill::Color([r, g, b])) => {
-            print_message("background", format!("{r},{g},{b}"));
+            flag("background", format!("{r},{g},{b}"));
         }
-        BackgroundArg::Color([r, g, b]) => {
-            print_message("background", format!("#{r:02x}{g:02x}{b:02x}"))
-        }
+        BackgroundArg::Color([r, g, b]) => flag("background", format!("#{r:02x}{g:02x}{b:02x}")),
     }
     if !args.look.aov.is_empty() {
         let layers: Vec<String> = args.look.aov.iter().copied().map(name).collect();
-        print_message("aov", layers.join(","));
+        flag("aov", layers.join(","));
     }
     if let Some(bits) = args.look.bits {
-        print_message("bits", name(bits));
+        flag("bits", name(bits));
     }
     arguments
 }

@@ -22,7 +22,7 @@ impl Frames {
         let frames = Self::requested(args)?;
         let count = frames.range().map_or(1, |[first, last]| last - first + 1);
         if args.to == Engine::OpenJd && count > MOST_OF_LIST {
-            return Err(Failure::Trouble(format!(
+            return Err(Failure::Failed(format!(
                 "a job for OpenJD has at most {MOST_OF_LIST} frames; make several, by `--frames`"
             )));
         }
@@ -30,7 +30,7 @@ impl Frames {
     }
 
     fn requested(args: &Farm) -> Result<Self, Failure> {
-        let trouble = |message: &str| Err(Failure::Trouble(message.to_owned()));
+        let trouble = |message: &str| Err(Failure::Failed(message.to_owned()));
         if let Some(views) = Views::new(args.turntable, args.frames)? {
             if args.stage.up.is_some() {
                 return trouble(

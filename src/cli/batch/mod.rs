@@ -23,12 +23,14 @@ use std::path::Path;
 
 /// Compiles the scene, at each moment of an animation, and writes the folder.
 pub(super) fn run(args: &Farm) -> Result<(), Failure> {
+    // Check the names, and read the first scene, before anything is written.
     refuse_name(&args.picture)?;
     let frames = Frames::new(args)?;
     let mut first = Some(staged(args, frames.first_time())?);
     let folder = NewFolder::at(&args.output).map_err(|error| failure(args, &error))?;
     let interrupt = Interrupt::listen()?;
     let mut reporter = Reporter::beside_result(&args.reporter);
+    // Write one scene per frame.
     let mut hashes = Vec::new();
     for (name, time) in frames.scenes() {
         let input = first.take().map_or_else(|| staged(args, time), Ok);
@@ -47,11 +49,13 @@ pub(super) fn run(args: &Farm) -> Result<(), Failure> {
         }
     }
     reporter.finish()?;
+    // Write the descriptions of the job.
     let job = FarmJob::new(args, &frames, &hashes);
     let mut files = job.files().into_iter();
     let written = files.try_for_each(|(name, text)| {
         folder.put(name, &|out| out.write_all(text.as_bytes()), &interrupt)
     });
+    // The folder appears under its name when it is complete.
     let placed = written.and_then(|()| folder.place(&interrupt));
     placed.map_err(|error| stopped_or(args, &error, &interrupt))?;
     if !args.reporter.quiet {
@@ -105,7 +109,7 @@ fn refuse_name(picture: &str) -> Result<(), Failure> {
     if is_name && !is_taken && picture.len() <= 100 && picture.chars().all(is_plain) {
         return Ok(());
     }
-    Err(Failure::Trouble(
+    Err(Failure::Failed(
         "the picture of a job has a name of at most 100 letters, digits, `-`, `_` and `.`, as picture.exr"
             .to_owned(),
     ))
@@ -119,5 +123,5 @@ fn stopped_or(args: &Farm, error: &io::Error, interrupt: &Interrupt) -> Failure 
 }
 
 fn failure(args: &Farm, error: &io::Error) -> Failure {
-    Failure::Trouble(format!("can't make `{}`: {error}", args.output.display()))
+    Failure::Failed(format!("can't make `{}`: {error}", args.output.display()))
 }

@@ -46,7 +46,7 @@ pub(super) fn run(args: &Diff) -> Result<(), Failure> {
                 &files[usize::from(!is_picture)],
                 &files[usize::from(is_picture)],
             );
-            Err(Failure::Trouble(format!(
+            Err(Failure::Failed(format!(
                 "`{picture}` is a picture, and `{scene}` a scene: compare two of a kind, or \
                 render the scene"
             )))
@@ -148,7 +148,7 @@ fn write(
 /// The map of differences as a PNG.
 fn map_file(image: Image) -> Result<Vec<u8>, Failure> {
     let bytes = Picture::opaque(image).encode(FileFormat::Png8);
-    bytes.map_err(|error| Failure::Trouble(error.to_string()))
+    bytes.map_err(|error| Failure::Failed(error.to_string()))
 }
 
 fn measure(found: &Difference, name: &str) -> f64 {
@@ -231,5 +231,5 @@ fn json(
     };
     let text = serde_json::to_string_pretty(&report);
     text.map(|text| text + "\n")
-        .map_err(|error| Failure::Trouble(error.to_string()))
+        .map_err(|error| Failure::Failed(error.to_string()))
 }

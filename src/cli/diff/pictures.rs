@@ -17,7 +17,8 @@ pub(super) fn run(args: &Diff) -> Result<(), Failure> {
     let (new, old) = (read(&args.new, &map)?, read(&args.old, &map)?);
     let open = |path: &Option<_>| {
         let path: Option<&Path> = path.as_deref();
-        path.map(|path| Output::apart_from(path, &map)).transpose()
+        path.map(|path| Output::open_unless_read(path, &map))
+            .transpose()
     };
     let outputs = DiffOutputs {
         map: open(&args.output)?,
@@ -64,7 +65,7 @@ fn fitting(args: &Diff, new: &ShownFile<'_>, old: &ShownFile<'_>) -> Result<(), 
     if new.holds_light() != old.holds_light() {
         let names = [&args.new, &args.old].map(|path| path.display());
         let light = usize::from(old.holds_light());
-        return Err(Failure::Trouble(format!(
+        return Err(Failure::Failed(format!(
             "`{}` holds values of light, and `{}` those of a display: compare two of a kind",
             names[light],
             names[1 - light]
@@ -79,7 +80,7 @@ fn fitting(args: &Diff, new: &ShownFile<'_>, old: &ShownFile<'_>) -> Result<(), 
 
 fn sizes(args: &Diff, [a, b]: [[u32; 2]; 2]) -> Failure {
     let names = [&args.new, &args.old].map(|path| path.display());
-    Failure::Trouble(format!(
+    Failure::Failed(format!(
         "pictures of one size are compared: `{}` has {} × {} pixels, `{}` {} × {}",
         names[0], a[0], a[1], names[1], b[0], b[1]
     ))

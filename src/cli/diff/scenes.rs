@@ -29,7 +29,7 @@ pub(super) fn run(args: &Diff) -> Result<(), Failure> {
         .all(|file| file.as_os_str() == "-")
     {
         let message = "standard input is one scene; give a file for the other";
-        return Err(Failure::Trouble(message.to_owned()));
+        return Err(Failure::Failed(message.to_owned()));
     }
     let mut reporter = Reporter::beside_result(&args.reporter);
     let outcome = carry_out(args, &mut reporter);
@@ -77,7 +77,7 @@ impl DiffSide {
     ) -> Result<Self, Failure> {
         let mut input = input::read(file, &args.reading)?;
         let look = OutputTransform::new(FileFormat::Png8, None, None, BackgroundFill::Film, &[]);
-        let look = look.map_err(|message| Failure::Trouble(message.to_owned()))?;
+        let look = look.map_err(|message| Failure::Failed(message.to_owned()))?;
         let mut setup = PictureSetup {
             overrides: args.wanted.overrides(),
             set: args.wanted.set.clone(),
@@ -108,7 +108,7 @@ impl DiffSide {
         let validated = &mut self.subject.validated;
         let unseen = || {
             let message = "the camera of the new scene can't see the old one";
-            Failure::Trouble(message.to_owned())
+            Failure::Failed(message.to_owned())
         };
         validated.scene = validated.scene.seen_by(camera).ok_or_else(unseen)?;
         validated.lowered.scene.camera = camera.clone();

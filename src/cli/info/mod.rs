@@ -49,8 +49,7 @@ fn carry_out(args: &Info, input: &mut Input, reporter: &mut Reporter) -> Result<
         settings: settings(&validated),
         asset: asset.as_ref().map(InfoAsset::new),
     };
-    let facts =
-        serde_json::to_value(report).map_err(|error| Failure::Trouble(error.to_string()))?;
+    let facts = serde_json::to_value(report).map_err(|error| Failure::Failed(error.to_string()))?;
     let text = match args.format.is_json() {
         true => format!("{facts:#}\n"),
         false => lines(&facts),
@@ -60,6 +59,7 @@ fn carry_out(args: &Info, input: &mut Input, reporter: &mut Reporter) -> Result<
 
 /// The content of the scene itself, without a studio or other additions.
 fn content(scene: &Scene) -> ContentReport {
+    // Count the entities by kind.
     let mut shapes: BTreeMap<&str, usize> = BTreeMap::new();
     let mut lights: BTreeMap<&str, usize> = BTreeMap::new();
     let mut materials: BTreeMap<&str, usize> = BTreeMap::new();
@@ -79,6 +79,7 @@ fn content(scene: &Scene) -> ContentReport {
         let kind = material.phong().map_or("standard", |_| "phong");
         *materials.entry(kind).or_default() += 1;
     }
+    // List the images and the memory of the buffers.
     let images = scene.images.iter().map(|image| ImageReport {
         name: image.name.clone(),
         width: image.width,
@@ -152,6 +153,7 @@ fn settings(validated: &Validated) -> SettingsReport {
     let Scene {
         camera, settings, ..
     } = &validated.lowered.scene;
+    // Find the mode and the samples per pixel.
     let (mode, samples) = match &settings.mode {
         Mode::Phong => ("phong", None),
         Mode::Depth => ("zbuffer", None),
@@ -160,6 +162,7 @@ fn settings(validated: &Validated) -> SettingsReport {
         Mode::Path(path) => ("path", Some(path.samples)),
     };
     let grid = u64::from(settings.supersampling).pow(2);
+    // Plan the picture for the status of each effect.
     let plan = Plan::new(&validated.scene, Rules::ALL);
     let statuses = plan.statuses.iter().filter(|status| status.of.is_none());
     let effects = statuses.map(|status| EffectReport {
@@ -230,10 +233,11 @@ fn lines(facts: &Value) -> String {
     lines.put("images", &format!("{}, {images}", count(&counts["images"])));
     let lights = each(&facts["lights"]);
     lines.put("lights", &format!("{}{lights}", count(&counts["lights"])));
-    lines.put("surrounded", &word(&facts["environment"]));
+    lines.put("environment", &word(&facts["environment"]));
     asset_lines(&facts["asset"], &mut lines);
     for state in ["needed", "pruned", "absent"] {
         let rows = facts["effects"].as_array().into_iter().flatten();
+        // The status of an effect has the key `verdict` in JSON.
         let rows = rows.filter(|row| row["verdict"] == state);
         let names: Vec<_> = rows.map(|row| word(&row["effect"])).collect();
         if !names.is_empty() {
@@ -249,7 +253,7 @@ fn asset_lines(asset: &Value, lines: &mut FactLines) {
     }
     let (version, generator) = (word(&asset["version"]), word(&asset["generator"]));
     lines.put("glTF", format!("{version} {generator}").trim_end());
-    lines.put("holds", each(&asset["counts"]).trim_start_matches(": "));
+    lines.put("contents", each(&asset["counts"]).trim_start_matches(": "));
     for (key, list) in [
         ("extensions", "extensionsUsed"),
         ("required", "extensionsRequired"),

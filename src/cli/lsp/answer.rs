@@ -22,7 +22,7 @@ impl Workspace {
         match method.as_str() {
             method::CODE_ACTION => reply(id, params, |params| self.actions(&params)),
             method::FORMATTING => reply(id, params, |params: TextDocumentParams| {
-                self.laid_out(&params.text_document.uri)
+                self.formatted(&params.text_document.uri)
             }),
             method::HOVER => reply(id, params, |at: TextDocumentPositionParams| {
                 let (document, schema) = self.known(&at.text_document.uri)?;
@@ -88,12 +88,12 @@ impl Workspace {
     }
 
     /// The document as `rtc fmt` formats it.
-    fn laid_out(&self, uri: &DocumentUri) -> Option<Vec<TextEdit>> {
+    fn formatted(&self, uri: &DocumentUri) -> Option<Vec<TextEdit>> {
         let document = self.document(uri)?;
         let (options, _) = document.options(&self.reading).ok()?;
         let bytes = document.text.as_bytes().to_vec();
-        let laid_out = Input::edited(&document.path, bytes, options).lay_out();
-        let text = laid_out.ok()?;
+        let formatted = Input::edited(&document.path, bytes, options).format_text();
+        let text = formatted.ok()?;
         let whole = document.lines(self.columns).range(0, document.text.len());
         let is_same = text == *document.text;
         let edit = (!is_same).then(|| TextEdit::new(whole, text));

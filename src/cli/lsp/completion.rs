@@ -6,7 +6,7 @@ use super::path_at::{PathStep, Vocabulary, path_at};
 use super::protocol::{CompletionItem, CompletionItemKind, InsertTextFormat, Position};
 use super::text::Columns;
 use rtc_front::course;
-use rtc_source::tree::Tree;
+use rtc_source::tree::SyntaxTree;
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 use std::fs;
@@ -106,7 +106,7 @@ fn is_of_word(c: char) -> bool {
 /// The values allowed at a byte of a tree with a placeholder there.
 fn proposed(
     document: &OpenText,
-    tree: &Tree<'_>,
+    tree: &SyntaxTree<'_>,
     offset: usize,
     vocabulary: &Vocabulary,
 ) -> Vec<CompletionItem> {

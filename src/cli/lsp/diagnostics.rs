@@ -27,7 +27,7 @@ pub(super) type FileDiagnostics = (DocumentUri, Vec<EditorDiagnostic>);
 pub(super) fn diagnostics(document: &OpenText, columns: Columns) -> Vec<FileDiagnostics> {
     let mut own = Vec::new();
     let mut others: Vec<FileDiagnostics> = Vec::new();
-    if let Some(CheckedText::Trouble(error_text)) = &document.checked {
+    if let Some(CheckedText::Failed(error_text)) = &document.checked {
         own.push(EditorDiagnostic {
             range: Range::default(),
             severity: DiagnosticSeverity::ERROR,
@@ -150,6 +150,7 @@ pub(super) fn actions(
     columns: Columns,
 ) -> Vec<CodeAction> {
     let lines = document.lines(columns);
+    // An editor that fixes on saving asks for all fixes of the file.
     if let Some(kinds) = only
         && !kinds.contains(&CodeActionKind::QUICKFIX)
     {
@@ -161,6 +162,7 @@ pub(super) fn actions(
     let Some(checked) = document.scene() else {
         return Vec::new();
     };
+    // Collect the fixes of diagnostics that touch the range.
     let atlas = Atlas::new(document, checked, columns);
     let fixes = checked.diagnostics.iter().flat_map(|diagnostic| {
         let (uri, reported) = atlas.diagnostic(diagnostic);

@@ -5,7 +5,7 @@ use super::open_text::OpenText;
 use rtc_ir::{EntityKind, Field, Scene, ValuePath};
 use rtc_math::shortest;
 use rtc_source::Span;
-use rtc_source::tree::{NodeId, Tree};
+use rtc_source::tree::{NodeId, SyntaxTree};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -16,7 +16,7 @@ const MOST: usize = 1000;
 /// value is the written one.
 pub(super) fn value(
     document: &OpenText,
-    tree: &Tree<'_>,
+    tree: &SyntaxTree<'_>,
     [key, value]: [NodeId; 2],
 ) -> Option<String> {
     let checked = document.scene()?;
@@ -66,7 +66,7 @@ fn of(scene: &Scene, path: ValuePath) -> Option<Value> {
     whole.pointer(pointer).cloned()
 }
 
-/// The same with whole numbers as such.
+/// A JSON value whose whole numbers are written as integers, `1` and not `1.0`.
 fn plain(value: Value) -> Value {
     let number = |value: f64| serde_json::from_str(&shortest(value)).ok();
     match value {

@@ -6,7 +6,7 @@ use super::path_at::{PathStep, Vocabulary, path_at};
 use super::protocol::{Hover, MarkupContent, MarkupKind, Position, Range};
 use super::text::Columns;
 use rtc_pipeline::explain_code;
-use rtc_source::tree::Tree;
+use rtc_source::tree::SyntaxTree;
 use serde_json::{Map, Value};
 
 /// The hover text at a position.
@@ -97,8 +97,8 @@ fn facts(schemas: &[&Map<String, Value>]) -> String {
 /// The unit of a value, or of the numbers that it is a list of.
 pub(super) fn unit<'v>(schemas: &[&'v Map<String, Value>]) -> Option<&'v str> {
     let of_items = |schema: &&'v Map<String, Value>| schema.get("items")?.get("x-unit");
-    let own = schemas.iter().find_map(|schema| schema.get("x-unit"));
-    own.or_else(|| schemas.iter().find_map(of_items))?.as_str()
+    let unit = schemas.iter().find_map(|schema| schema.get("x-unit"));
+    unit.or_else(|| schemas.iter().find_map(of_items))?.as_str()
 }
 
 /// The default of a key with its unit, as a scene writes it.
@@ -116,7 +116,7 @@ pub(super) fn plain(value: &Value) -> String {
 }
 
 /// The value of an alias.
-fn aliased(tree: &Tree<'_>, value: rtc_source::tree::NodeId) -> String {
+fn aliased(tree: &SyntaxTree<'_>, value: rtc_source::tree::NodeId) -> String {
     /// The maximum length, in bytes.
     const MOST: usize = 400;
     let target = tree.target(value);
@@ -132,7 +132,7 @@ fn aliased(tree: &Tree<'_>, value: rtc_source::tree::NodeId) -> String {
 fn codes(document: &OpenText, offset: usize) -> Vec<String> {
     let checked = document.scene().into_iter();
     let diagnostics = checked.flat_map(|checked| {
-        let own = |span: rtc_source::Span| {
+        let covers = |span: rtc_source::Span| {
             let (start, end) = (span.start as usize, span.end as usize);
             checked.is_own(span.file) && (start..=end).contains(&offset)
         };
@@ -141,7 +141,7 @@ fn codes(document: &OpenText, offset: usize) -> Vec<String> {
             diagnostic
                 .primary
                 .as_ref()
-                .is_some_and(|label| own(label.span))
+                .is_some_and(|label| covers(label.span))
         })
     });
     let mut texts: Vec<String> = diagnostics

@@ -59,7 +59,7 @@ struct Server {
 
 /// Serves one editor until it sends `exit` or disconnects.
 pub(super) fn run(args: args::Lsp) -> Result<(), Failure> {
-    let trouble = |error: io::Error| Failure::Trouble(format!("lsp: {error}"));
+    let trouble = |error: io::Error| Failure::Failed(format!("lsp: {error}"));
     let mut server = Server {
         inbox: Inbox::of(BufReader::new(io::stdin())).map_err(trouble)?,
         out: io::stdout(),
@@ -126,7 +126,7 @@ impl Server {
                     let _ = wire::refuse(&mut self.out, code, &error_text);
                 }
                 Incoming::Broken(error_text) => {
-                    return Err(Failure::Trouble(format!("lsp: {error_text}")));
+                    return Err(Failure::Failed(format!("lsp: {error_text}")));
                 }
             }
         }

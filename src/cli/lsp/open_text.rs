@@ -13,7 +13,7 @@ use ropey::Rope;
 use rtc_diag::{Diagnostic, Severity};
 use rtc_ir::Lowered;
 use rtc_pipeline::{Input, Options, SourceKind};
-use rtc_source::tree::{Tree, yaml};
+use rtc_source::tree::{SyntaxTree, yaml};
 use rtc_source::{EditedFiles, FileId, SourceMap};
 use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
@@ -42,7 +42,7 @@ pub(super) enum CheckedText {
     /// What `rtc check` finds.
     Read(Box<CheckedScene>),
     /// It could not be checked, for this reason.
-    Trouble(String),
+    Failed(String),
 }
 
 /// A scene that was checked.
@@ -135,7 +135,7 @@ impl OpenText {
     pub(super) fn scene(&self) -> Option<&CheckedScene> {
         match self.checked.as_ref()? {
             CheckedText::Read(scene) => Some(scene.as_ref()),
-            CheckedText::Trouble(_) => None,
+            CheckedText::Failed(_) => None,
         }
     }
 
@@ -147,11 +147,11 @@ impl OpenText {
         let check = AssertUnwindSafe(|| self.checked_anew(reading));
         let checked = match panic::catch_unwind(check) {
             Ok(Ok(scene)) => CheckedText::Read(Box::new(scene)),
-            Ok(Err(Failure::Trouble(message) | Failure::Input(message))) => {
-                CheckedText::Trouble(message)
+            Ok(Err(Failure::Failed(message) | Failure::Input(message))) => {
+                CheckedText::Failed(message)
             }
-            Ok(Err(_)) => CheckedText::Trouble("the scene can't be checked".to_owned()),
-            Err(_) => CheckedText::Trouble(FAULT.to_owned()),
+            Ok(Err(_)) => CheckedText::Failed("the scene can't be checked".to_owned()),
+            Err(_) => CheckedText::Failed(FAULT.to_owned()),
         };
         self.checked = Some(checked);
     }
@@ -193,13 +193,13 @@ impl OpenText {
     }
 
     /// The text as a tree, if it is one of YAML or JSON without mistakes.
-    pub(super) fn tree(&self) -> Option<Tree<'_>> {
+    pub(super) fn tree(&self) -> Option<SyntaxTree<'_>> {
         tree(&self.text)
     }
 }
 
 /// A text as a tree.
-pub(super) fn tree(text: &str) -> Option<Tree<'_>> {
+pub(super) fn tree(text: &str) -> Option<SyntaxTree<'_>> {
     let file = SourceMap::default().add("", Vec::new());
     yaml::parse(file, text.as_bytes(), &mut |_| ())
 }

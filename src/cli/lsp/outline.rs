@@ -11,7 +11,7 @@ use super::protocol::{
     Position, Range, SymbolKind,
 };
 use super::text::{Columns, TextLines};
-use rtc_source::tree::{NodeContent, NodeId, Tree};
+use rtc_source::tree::{NodeContent, NodeId, SyntaxTree};
 
 /// The maximum number of results of one kind.
 const MOST: usize = 5000;
@@ -23,11 +23,11 @@ pub(super) fn symbols(document: &OpenText, columns: Columns) -> Vec<DocumentSymb
     };
     let lines = document.lines(columns);
     let range = |id: NodeId| range(&tree, id, &lines);
-    let symbol = |name: String, kind, whole: Range, own: Range, children| DocumentSymbol {
+    let symbol = |name: String, kind, whole: Range, name_range: Range, children| DocumentSymbol {
         name,
         kind,
         range: whole,
-        selection_range: own,
+        selection_range: name_range,
         children,
     };
     let item = |(at, id): (usize, NodeId)| {
@@ -47,13 +47,13 @@ pub(super) fn symbols(document: &OpenText, columns: Columns) -> Vec<DocumentSymb
 }
 
 /// The name or type of a map.
-fn named(tree: &Tree<'_>, id: NodeId) -> Option<String> {
+fn named(tree: &SyntaxTree<'_>, id: NodeId) -> Option<String> {
     let mut names = ["name", "type", "file"].into_iter();
     let found = names.find_map(|key| tree.text(tree.get(id, key)?));
     found.filter(|name| !name.is_empty()).map(str::to_owned)
 }
 
-fn range(tree: &Tree<'_>, id: NodeId, lines: &TextLines<'_>) -> Range {
+fn range(tree: &SyntaxTree<'_>, id: NodeId, lines: &TextLines<'_>) -> Range {
     let span = tree.span(id);
     lines.range(span.start as usize, span.end as usize)
 }
@@ -88,12 +88,12 @@ pub(super) fn colors(document: &OpenText, columns: Columns) -> Vec<ColorInformat
 }
 
 /// The maps that are written in the text, each once.
-fn maps(tree: &Tree<'_>) -> impl Iterator<Item = NodeId> {
+fn maps(tree: &SyntaxTree<'_>) -> impl Iterator<Item = NodeId> {
     let is_written = |id: &NodeId| tree.is_map(*id) && tree.target(*id) == *id;
     tree.nodes().filter(is_written)
 }
 
-fn number(tree: &Tree<'_>, id: NodeId) -> Option<f32> {
+fn number(tree: &SyntaxTree<'_>, id: NodeId) -> Option<f32> {
     match tree.shape(id) {
         NodeContent::Word(word) => word.parse().ok(),
         NodeContent::Text(_) | NodeContent::List | NodeContent::Map => None,

@@ -1,6 +1,6 @@
 //! The position of a byte in the tree: the keys and items that lead to it, and the schema of each.
 
-use rtc_source::tree::{NodeId, Tree};
+use rtc_source::tree::{NodeId, SyntaxTree};
 use serde_json::{Map, Value};
 
 /// A step from a list or a map to an item.
@@ -27,7 +27,7 @@ impl PathStep {
 }
 
 /// The steps from the root to the node at a byte.
-pub(super) fn path_at(tree: &Tree<'_>, offset: usize) -> Vec<PathStep> {
+pub(super) fn path_at(tree: &SyntaxTree<'_>, offset: usize) -> Vec<PathStep> {
     let holds = |id: NodeId| {
         let span = tree.span(id);
         (span.start as usize..=span.end as usize).contains(&offset)
@@ -73,7 +73,7 @@ impl Vocabulary {
     /// The schemas at the end of a path, without references.
     pub(super) fn at<'v>(
         &'v self,
-        tree: &Tree<'_>,
+        tree: &SyntaxTree<'_>,
         steps: &[PathStep],
     ) -> Vec<&'v Map<String, Value>> {
         let mut here = self.plain(&self.schema, tree, tree.root());
@@ -105,7 +105,7 @@ impl Vocabulary {
     /// The keys of a map: their names and schemas, without deprecated spellings.
     pub(super) fn keys<'v>(
         &'v self,
-        tree: &Tree<'_>,
+        tree: &SyntaxTree<'_>,
         to_map: &[PathStep],
     ) -> Vec<(&'v str, &'v Value)> {
         let mut keys: Vec<(&str, &Value)> = Vec::new();
@@ -126,7 +126,7 @@ impl Vocabulary {
     fn plain<'v>(
         &'v self,
         schema: &'v Value,
-        tree: &Tree<'_>,
+        tree: &SyntaxTree<'_>,
         node: NodeId,
     ) -> Vec<&'v Map<String, Value>> {
         let (mut plain, mut open) = (Vec::new(), vec![schema]);
@@ -156,7 +156,7 @@ impl Vocabulary {
 }
 
 /// Whether a value of a map selects a rule.
-fn is_meant(rule: &Value, tree: &Tree<'_>, node: NodeId) -> bool {
+fn is_meant(rule: &Value, tree: &SyntaxTree<'_>, node: NodeId) -> bool {
     let conditions = rule.pointer("/if/properties").and_then(Value::as_object);
     conditions.is_some_and(|conditions| {
         conditions.iter().all(|(key, value)| {

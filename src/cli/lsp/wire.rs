@@ -86,7 +86,7 @@ impl Inbox {
         let Some(id) = taken_back(&incoming) else {
             return self.waiting.push_back(incoming);
         };
-        let is_meant = |own: &&mut Incoming| match own {
+        let is_meant = |waiting: &&mut Incoming| match waiting {
             Incoming::Message(Message::Request(request)) => request.id == id,
             Incoming::Message(Message::Response(_) | Message::Notification(_))
             | Incoming::Cancelled(_)

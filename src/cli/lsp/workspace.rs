@@ -54,12 +54,14 @@ impl Workspace {
 
     /// A text that is open.
     pub(super) fn document(&self, uri: &DocumentUri) -> Option<&OpenText> {
-        self.documents.iter().find(|own| own.uri == *uri)
+        self.documents.iter().find(|document| document.uri == *uri)
     }
 
     /// A text that is open, to be changed.
     pub(super) fn document_mut(&mut self, uri: &DocumentUri) -> Option<&mut OpenText> {
-        self.documents.iter_mut().find(|own| own.uri == *uri)
+        self.documents
+            .iter_mut()
+            .find(|document| document.uri == *uri)
     }
 
     /// The schema of the format of a document.
@@ -78,14 +80,15 @@ impl Workspace {
 
     /// Applies a notification of the editor, and returns the messages to send; invalid ones are
     /// ignored.
-    pub(super) fn note(&mut self, own: Notification) -> Vec<Message> {
-        let Notification { method, params } = own;
+    pub(super) fn note(&mut self, notification: Notification) -> Vec<Message> {
+        let Notification { method, params } = notification;
         match method.as_str() {
             method::DID_OPEN => self.open(params),
             method::DID_CHANGE => self.change(params),
             method::DID_CLOSE => {
                 let closed: Option<TextDocumentParams> = read(params);
-                return closed.map_or_else(Vec::new, |own| self.close(&own.text_document.uri));
+                return closed
+                    .map_or_else(Vec::new, |params| self.close(&params.text_document.uri));
             }
             // Other files may have changed with one that was saved.
             method::DID_SAVE | method::DID_CHANGE_WATCHED_FILES => {
@@ -97,10 +100,10 @@ impl Workspace {
     }
 
     fn open(&mut self, params: Value) {
-        let Some(DidOpenTextDocumentParams { text_document: own }) = read(params) else {
+        let Some(DidOpenTextDocumentParams { text_document }) = read(params) else {
             return;
         };
-        let document = OpenText::new(own.uri, own.version, own.text);
+        let document = OpenText::new(text_document.uri, text_document.version, text_document.text);
         let path = document.path.clone();
         // The diagnostics sent before stay recorded, to be cleared later.
         let before = self.document_mut(&document.uri);
@@ -131,7 +134,9 @@ impl Workspace {
     fn touch(&mut self, path: &Path) {
         let documents = self.documents.iter_mut();
         documents
-            .filter(|own| own.path != path && own.scene().is_some_and(|it| it.has_read(path)))
+            .filter(|document| {
+                document.path != path && document.scene().is_some_and(|it| it.has_read(path))
+            })
             .for_each(OpenText::forget);
     }
 
@@ -141,8 +146,9 @@ impl Workspace {
             .documents
             .iter()
             .enumerate()
-            .filter(|(own, _)| *own != at);
-        let others = others.map(|(_, own)| (own.path.clone(), Arc::clone(&own.text)));
+            .filter(|(file, _)| *file != at);
+        let others =
+            others.map(|(_, document)| (document.path.clone(), Arc::clone(&document.text)));
         let others = EditedFiles::new(others);
         if let Some(document) = self.documents.get_mut(at) {
             document.others = others;
@@ -151,13 +157,16 @@ impl Workspace {
 
     /// A text that is open, checked as it is.
     pub(super) fn checked(&mut self, uri: &DocumentUri) -> Option<&OpenText> {
-        let at = self.documents.iter().position(|own| own.uri == *uri)?;
+        let at = self
+            .documents
+            .iter()
+            .position(|document| document.uri == *uri)?;
         self.check(at);
         self.documents.get(at)
     }
 
     fn check(&mut self, at: usize) {
-        let is_waiting = |own: &OpenText| own.checked.is_none();
+        let is_waiting = |document: &OpenText| document.checked.is_none();
         if self.documents.get(at).is_some_and(is_waiting) {
             self.hand_others(at);
             if let Some(document) = self.documents.get_mut(at) {
@@ -168,7 +177,11 @@ impl Workspace {
 
     /// Closes a document and clears its diagnostics.
     fn close(&mut self, uri: &DocumentUri) -> Vec<Message> {
-        let Some(at) = self.documents.iter().position(|own| own.uri == *uri) else {
+        let Some(at) = self
+            .documents
+            .iter()
+            .position(|document| document.uri == *uri)
+        else {
             return Vec::new();
         };
         let gone = self.documents.remove(at);
@@ -183,7 +196,7 @@ impl Workspace {
         let at = self
             .documents
             .iter()
-            .position(|own| own.checked.is_none())?;
+            .position(|document| document.checked.is_none())?;
         self.check(at);
         let document = self.documents.get_mut(at)?;
         let found = diagnostics::diagnostics(document, columns);
@@ -199,15 +212,18 @@ impl Workspace {
         files.dedup();
         let publish = |file: DocumentUri| {
             let (mut all, mut known) = (Vec::new(), BTreeSet::new());
-            let reported = self.documents.iter().flat_map(|own| &own.reported);
-            let of_file = reported.filter(|(own, _): &&FileDiagnostics| *own == file);
+            let reported = self
+                .documents
+                .iter()
+                .flat_map(|document| &document.reported);
+            let of_file = reported.filter(|(path, _): &&FileDiagnostics| *path == file);
             for diagnostic in of_file.flat_map(|(_, list)| list) {
                 // A file and the scenes that name it may report the same diagnostic.
                 if known.insert(identity(diagnostic)) {
                     all.push(diagnostic.clone());
                 }
             }
-            let version = self.document(&file).map(|own| own.version);
+            let version = self.document(&file).map(|document| document.version);
             let params = PublishDiagnosticsParams {
                 uri: file,
                 diagnostics: all,
@@ -221,8 +237,13 @@ impl Workspace {
 }
 
 /// The identity of a diagnostic.
-fn identity(own: &EditorDiagnostic) -> (Position, Position, Option<&str>, &str) {
-    (own.range.start, own.range.end, own.code, &own.message)
+fn identity(diagnostic: &EditorDiagnostic) -> (Position, Position, Option<&str>, &str) {
+    (
+        diagnostic.range.start,
+        diagnostic.range.end,
+        diagnostic.code,
+        &diagnostic.message,
+    )
 }
 
 fn read<P: DeserializeOwned>(params: Value) -> Option<P> {

@@ -37,14 +37,14 @@ pub(super) fn run(args: &New) -> Result<(), Failure> {
     files.extend(model.map(|path| (path, MODEL)));
     if let Some((path, _)) = files.iter().find(|(path, _)| exists(path)) {
         let path = path.display();
-        return Err(Failure::Trouble(format!(
+        return Err(Failure::Failed(format!(
             "`{path}` exists, and is not overwritten"
         )));
     }
     let interrupt = Interrupt::listen()?;
     // The model first: without it the scene would name a file that does not exist.
     for (path, text) in files.iter().rev() {
-        let output = Output::apart_from(path, &SourceMap::default())?;
+        let output = Output::open_unless_read(path, &SourceMap::default())?;
         output.commit(text.as_bytes(), &interrupt)?;
     }
     Ok(())

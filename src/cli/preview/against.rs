@@ -23,7 +23,7 @@ const MAX_BYTES: u64 = 1 << 30;
 const PNG_PIXEL: u64 = 32;
 
 /// The reference of a preview.
-pub(super) enum Against {
+pub(super) enum ComparisonReference {
     /// A picture, which is as it is.
     Picture(RenderedPicture),
     /// A scene.
@@ -38,12 +38,13 @@ pub(super) struct OtherScene {
     seen: Option<(ViewSettings, Option<Camera>)>,
 }
 
-impl Against {
+impl ComparisonReference {
     /// The requested reference, if any; a scene is validated, and its diagnostics reported.
     pub(super) fn new(args: &args::Preview) -> Result<Option<Self>, Failure> {
         let Some(path) = &args.against else {
             return Ok(None);
         };
+        // The reference is a picture, a scene, or a commit of the scene.
         if input::is_picture(path) {
             return Ok(Some(Self::Picture(picture(path, &args.reading)?)));
         }
@@ -59,6 +60,7 @@ impl Against {
             }
             None => input::staged(path, &args.reading, &args.stage)?,
         };
+        // Validate the scene now, so that its errors end the command.
         let setup = renderings::setup(args)?;
         let mut scene = ReadScene::read(input, args, setup.threads);
         let mut reporter = Reporter::beside_result(&args.reporter);
@@ -128,7 +130,7 @@ impl OtherScene {
 
 /// The picture in a file, as a PNG.
 fn picture(path: &Path, reading: &args::Reading) -> Result<RenderedPicture, Failure> {
-    let refused = |message: String| Failure::Trouble(format!("`{}`: {message}", path.display()));
+    let refused = |message: String| Failure::Failed(format!("`{}`: {message}", path.display()));
     let map = SourceMap::with_limits(reading.limits(|_| ()));
     let bytes = shown::read(path, &map)?;
     let file = shown::opened(path, &bytes, map.budget())?;

@@ -22,6 +22,7 @@ pub(super) fn render(
     input: &mut Input,
     observer: &Observer<'_>,
 ) -> Result<Option<RenderedPicture>, RenderError> {
+    // Replace the scene by a coarse one.
     let scene = &mut subject.validated.lowered.scene;
     let Crop { width, height, .. } = setup.window(scene)?;
     let (camera, settings) = (scene.camera.clone(), scene.settings.clone());
@@ -35,6 +36,7 @@ pub(super) fn render(
         &options,
         &mut Sink::default(),
     );
+    // Render it in place of the whole scene.
     let rendered = match proof {
         None => Ok(None),
         Some(proof) => {
@@ -50,6 +52,7 @@ pub(super) fn render(
             })
         }
     };
+    // Restore the scene.
     let scene = &mut subject.validated.lowered.scene;
     (scene.camera, scene.settings) = (camera, settings);
     subject.turn();

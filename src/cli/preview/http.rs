@@ -32,7 +32,7 @@ pub(super) struct HttpRequest {
     query: Vec<(String, String)>,
     /// All lines of these names.
     pub(super) hosts: Vec<String>,
-    pub(super) source_spans: Vec<String>,
+    pub(super) sent_origins: Vec<String>,
     pub(super) body: Vec<u8>,
 }
 
@@ -256,6 +256,7 @@ pub(super) fn read_rest(stream: &TcpStream) {
 /// the head has no end yet.
 fn parse(bytes: &[u8]) -> Result<Option<(HttpRequest, usize, usize)>, BadRequest> {
     let refused = BadRequest::Refused;
+    // Parse the head if it is complete.
     let mut lines = [EMPTY_HEADER; MAX_LINES];
     let mut parsed = httparse::Request::new(&mut lines);
     let head = match parsed.parse(bytes) {
@@ -264,6 +265,7 @@ fn parse(bytes: &[u8]) -> Result<Option<(HttpRequest, usize, usize)>, BadRequest
         Ok(Status::Partial) => return Ok(None),
         Err(_) => return Err(refused(400)),
     };
+    // Split the target into path and query.
     let (Some(method), Some(target)) = (parsed.method, parsed.path) else {
         return Err(refused(400));
     };
@@ -278,17 +280,19 @@ fn parse(bytes: &[u8]) -> Result<Option<(HttpRequest, usize, usize)>, BadRequest
             .collect(),
         ..HttpRequest::default()
     };
+    // Keep the headers that guard access and tell the length of the body.
     let mut lengths = Vec::new();
     for line in &*parsed.headers {
         let value = || String::from_utf8_lossy(line.value).trim().to_owned();
         match line.name.to_ascii_lowercase().as_str() {
             "host" => request.hosts.push(value()),
-            "origin" => request.source_spans.push(value()),
+            "origin" => request.sent_origins.push(value()),
             "content-length" => lengths.push(value()),
             "transfer-encoding" => return Err(refused(400)),
             _ => {}
         }
     }
+    // The body needs one valid length within the limit.
     let body = match lengths.as_slice() {
         [] => 0,
         [length] if !length.is_empty() && length.bytes().all(|byte| byte.is_ascii_digit()) => {

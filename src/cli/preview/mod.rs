@@ -38,7 +38,7 @@ mod watch;
 use super::interrupt::{self, Interrupt};
 use super::project::Project;
 use super::{Failure, args, input, output, render, reporter};
-use against::Against;
+use against::ComparisonReference;
 use command::RenderCommand;
 use preview_state::PreviewState;
 use routes::Routes;
@@ -53,16 +53,18 @@ use watch::Watched;
 pub(super) fn run(args: &args::Preview, typed: &[OsString]) -> Result<(), Failure> {
     if args.file.as_os_str() == "-" {
         let message = "standard input can be read only once, so it has no preview; give a file";
-        return Err(Failure::Trouble(message.to_owned()));
+        return Err(Failure::Failed(message.to_owned()));
     }
+    // Prepare the session and the reference.
     Interrupt::listen()?;
-    let against = Against::new(args)?;
+    let against = ComparisonReference::new(args)?;
     let (preview_state, watched) = (
         Arc::new(PreviewState::default()),
         Arc::new(Watched::default()),
     );
     let shown = (Arc::clone(&preview_state), Arc::clone(&watched));
     let session = Session::new(args, RenderCommand::new(typed), shown, against)?;
+    // Open the port and its access token.
     let (listener, port) = serve::bind(args.port)?;
     let auth_guard = AuthGuard::new(port)?;
     let project = Project::of(&args.file, &args.reading)?;
@@ -73,6 +75,7 @@ pub(super) fn run(args: &args::Preview, typed: &[OsString]) -> Result<(), Failur
         preview_state: Arc::clone(&preview_state),
         pen: Mutex::default(),
     };
+    // Answer requests and watch the files on threads of their own.
     serve::begin(
         listener,
         auth_guard,
@@ -81,6 +84,7 @@ pub(super) fn run(args: &args::Preview, typed: &[OsString]) -> Result<(), Failur
     let watch = thread::Builder::new().name("watch".to_owned());
     let watch = watch.spawn(move || watched.run(&preview_state));
     watch.map_err(|error| serve::no_thread(&error))?;
+    // Print the address and render until the end.
     output::to_stdout(format!("{address}\n").as_bytes())?;
     if args.open {
         serve::open(&address);

@@ -46,18 +46,18 @@ impl Session<'_> {
 
     /// Publishes the settings of the scene, if requested.
     pub(super) fn publish_settings(&mut self, work: &Work) {
-        let own = match work.wants_settings {
-            true => self.own(work),
+        let settings = match work.wants_settings {
+            true => self.without_overrides(work),
             false => None,
         };
-        if let Some((setup, scene)) = own {
+        if let Some((setup, scene)) = settings {
             let settings = choice::reported(&scene, &choice::own_setting(&scene, &setup));
             self.preview_state.show(|state| state.settings = settings);
         }
     }
 
-    /// The scene in the current view, with its own values.
-    fn own(&mut self, work: &Work) -> Option<(PictureSetup, Scene)> {
+    /// The scene in the current view, without overridden values.
+    fn without_overrides(&mut self, work: &Work) -> Option<(PictureSetup, Scene)> {
         let scene = self.scene.as_mut()?;
         let view_settings = ViewSettings {
             view_override: work.view_settings.view_override,
@@ -84,7 +84,7 @@ impl Session<'_> {
     /// Publishes the costs of accuracy in the scene, unless a newer request arrives.
     pub(super) fn publish_costs(&mut self, work: &Work) -> Result<(), Failure> {
         self.publish_settings(work);
-        let Some((setup, studied)) = self.own(work) else {
+        let Some((setup, studied)) = self.without_overrides(work) else {
             return Ok(());
         };
         let Some(scene) = &self.scene else {

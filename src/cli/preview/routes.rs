@@ -53,6 +53,7 @@ struct LookOrder {
 impl Routes {
     /// Answers a request that was let in.
     pub(super) fn answer(&self, request: &HttpRequest) -> HttpReply {
+        // GET requests read the state, POST requests change what is wanted.
         match (request.method.as_str(), request.path.as_str()) {
             ("GET", "/") => self.page(),
             ("GET", "/events") => HttpReply::events(Box::new(Subscriber::new(&self.preview_state))),
@@ -201,8 +202,8 @@ fn done(changes: usize) -> HttpReply {
 
 fn put(path: &Path, before: &str, after: &str) -> Result<(), String> {
     edit::write(path, before, after).map_err(|error| match error {
-        Failure::Trouble(message) => message,
-        Failure::Findings
+        Failure::Failed(message) => message,
+        Failure::Reported
         | Failure::Input(_)
         | Failure::Unreadable
         | Failure::Interrupted

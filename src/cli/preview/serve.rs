@@ -50,14 +50,14 @@ impl AuthGuard {
         let knows = request
             .value("token")
             .is_some_and(|token| is_equal(token, &self.token));
-        knows && is_own(host) && request.source_spans.iter().all(is_from_here)
+        knows && is_own(host) && request.sent_origins.iter().all(is_from_here)
     }
 }
 
 /// 128 random bits of the system, in hexadecimal digits.
 pub(super) fn random() -> Result<String, Failure> {
     let mut bits = [0; 16];
-    let none = |error| Failure::Trouble(format!("the system gives no random numbers: {error}"));
+    let none = |error| Failure::Failed(format!("the system gives no random numbers: {error}"));
     getrandom::fill(&mut bits).map_err(none)?;
     Ok(format!("{:032x}", u128::from_ne_bytes(bits)))
 }
@@ -78,7 +78,7 @@ pub(super) fn bind(port: u16) -> Result<(TcpListener, u16), Failure> {
             .local_addr()
             .map(|address| (listener, address.port()))
     });
-    bound.map_err(|error| Failure::Trouble(format!("can't listen on port {port}: {error}")))
+    bound.map_err(|error| Failure::Failed(format!("can't listen on port {port}: {error}")))
 }
 
 /// Answers requests from now on, in threads of their own.
@@ -113,7 +113,7 @@ pub(super) fn begin(
 }
 
 pub(super) fn no_thread(error: &io::Error) -> Failure {
-    Failure::Trouble(format!("can't start threads: {error}"))
+    Failure::Failed(format!("can't start threads: {error}"))
 }
 
 /// The connections that are open.

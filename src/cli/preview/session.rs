@@ -1,7 +1,7 @@
 //! The session: reads the scene, shows its diagnostics, and renders it, coarsely first. A change of
 //! a file or of the view restarts it.
 
-use super::against::Against;
+use super::against::ComparisonReference;
 use super::command::RenderCommand;
 use super::preview_state::{PreviewState, ReadState, ReportedDiagnostic, ViewSettings, Work};
 use super::scene::{self, ReadScene, ShownScene};
@@ -31,7 +31,7 @@ pub(super) struct Session<'a> {
     pub(super) scene: Option<ReadScene>,
     /// The scene as it was rendered last.
     pub(super) shown: Option<ShownScene>,
-    against: Option<Against>,
+    against: Option<ComparisonReference>,
     /// The reading and the view settings of the last costs.
     costed: (u64, ViewSettings),
     /// The last report on the terminal.
@@ -43,10 +43,10 @@ impl<'a> Session<'a> {
         args: &'a args::Preview,
         arguments: RenderCommand,
         (preview_state, watched): (Arc<PreviewState>, Arc<Watched>),
-        against: Option<Against>,
+        against: Option<ComparisonReference>,
     ) -> Result<Self, Failure> {
         let against = match against {
-            Some(Against::Picture(rendering)) => {
+            Some(ComparisonReference::Picture(rendering)) => {
                 preview_state.put_against(rendering, 0);
                 None
             }
@@ -204,7 +204,7 @@ impl<'a> Session<'a> {
             Err(RenderError::RanOut(_) | RenderError::Refused(_)) => return false,
         }
         let camera = &shown.1.validated.lowered.scene.camera;
-        if let Some(Against::Scene(other)) = &mut self.against
+        if let Some(ComparisonReference::Scene(other)) = &mut self.against
             && let Ok(Some(rendering)) = other.glance(camera, &observer)
         {
             self.preview_state.put_against(rendering, work.age);
@@ -214,7 +214,8 @@ impl<'a> Session<'a> {
 
     /// Shows the reference in the current view; false if the session ends.
     fn show_against(&mut self, work: &Work, is_stopped: &(dyn Fn() -> bool + Sync)) -> bool {
-        let (Some(Against::Scene(other)), Some((_, subject))) = (&mut self.against, &self.shown)
+        let (Some(ComparisonReference::Scene(other)), Some((_, subject))) =
+            (&mut self.against, &self.shown)
         else {
             return true;
         };
@@ -245,6 +246,7 @@ impl<'a> Session<'a> {
         let Some(scene) = &mut self.scene else {
             return;
         };
+        // Choose the diagnostics to show.
         let mut found = scene.input.take_diagnostics();
         found.sort();
         let least = match self.args.reporter.verbose {
@@ -259,6 +261,7 @@ impl<'a> Session<'a> {
             .map(|diagnostic| reported(diagnostic, &scene.input))
             .collect();
         scene.input.restore_diagnostics(found);
+        // Describe the camera relative to that of the scene.
         let text = scene.input.text().map(Arc::from);
         let scene_camera = shown.map(|subject| {
             let camera = &subject.validated.lowered.scene.camera;
@@ -272,6 +275,7 @@ impl<'a> Session<'a> {
             }
             scene_camera
         });
+        // Publish all of it at once.
         let (load, arguments) = (self.loads, &self.arguments);
         self.preview_state.show(|state| {
             let read = &mut state.read;
@@ -353,8 +357,8 @@ fn reported(diagnostic: &Diagnostic, input: &Input) -> ReportedDiagnostic {
 
 fn reported_failure(failure: &Failure) -> String {
     match failure {
-        Failure::Input(message) | Failure::Trouble(message) => message.clone(),
-        Failure::Findings | Failure::Unreadable | Failure::Interrupted | Failure::ClosedPipe => {
+        Failure::Input(message) | Failure::Failed(message) => message.clone(),
+        Failure::Reported | Failure::Unreadable | Failure::Interrupted | Failure::ClosedPipe => {
             "the scene can't be read".to_owned()
         }
     }

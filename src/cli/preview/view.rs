@@ -111,13 +111,13 @@ impl SceneCamera {
         camera: &Camera,
         view_override: Option<&ViewOverride>,
         can_write: bool,
-        own: Option<&Self>,
+        previous: Option<&Self>,
     ) -> Self {
         let yfov = || {
             let yfov = camera.yfov().filter(|_| !can_write);
             yfov.map(|yfov| shortest(yfov.to_degrees()))
         };
-        let yfov = own.map_or_else(yfov, |own| own.yfov.clone());
+        let yfov = previous.map_or_else(yfov, |view| view.yfov.clone());
         let flags = view_override.map_or_else(Vec::new, |ViewOverride { eye, center, up }| {
             let view = [("--eye", eye), ("--center", center), ("--up", up)];
             let view = view.map(|(name, value)| (name, comma(*value))).into_iter();

@@ -176,7 +176,7 @@ fn content(
         // Whether a file outside exists is not revealed.
         Err(_) if is_link => Ok(Err(LINK)),
         Err(LoadError::NotRegular) => Ok(Err("it is no regular file")),
-        Err(error) => Err(Failure::Trouble(format!(
+        Err(error) => Err(Failure::Failed(format!(
             "can't read `{}`: {error}",
             path.display()
         ))),

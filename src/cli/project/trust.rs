@@ -30,7 +30,7 @@ pub(super) fn is_listed(folder: &Path) -> Result<bool, Failure> {
     let listed = listed(&file.bytes).ok_or_else(|| {
         let message =
             "the only key is `trusted-projects`, a list of folders, as `[\"/home/me/scenes\"]`";
-        Failure::Trouble(format!("`{}`: {message}", path.display()))
+        Failure::Failed(format!("`{}`: {message}", path.display()))
     })?;
     let holds = |own: &PathBuf| {
         let own = own.canonicalize();

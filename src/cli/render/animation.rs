@@ -19,7 +19,7 @@ const RATE: u16 = 12;
 
 /// The frames per second of an animation; `None` for other outputs.
 pub(super) fn rate(args: &args::Render, output: &Path) -> Result<Option<u16>, Failure> {
-    let refused = |message: &str| Err(Failure::Trouble(message.to_owned()));
+    let refused = |message: &str| Err(Failure::Failed(message.to_owned()));
     match output.extension().is_some_and(is_apng) || is_gif(output) {
         false if args.fps.is_some() => {
             refused("`--fps` is for a turntable in one file; name it .apng or .gif")
@@ -56,7 +56,7 @@ impl RenderSetup {
                 }
             })
         };
-        let written = output.commit_slowly(&mut write, interrupt);
+        let written = output.commit_incrementally(&mut write, interrupt);
         failure.map_or(written, Err)
     }
 
@@ -67,11 +67,13 @@ impl RenderSetup {
         (input, reporter, interrupt): RunContext<'_>,
         file: &mut File,
     ) -> Result<(), FrameError> {
+        // The turntable rotates the camera about the scene.
         let table = Turntable::new(&subject.validated.lowered.scene, self.up, views.count);
         let frames = to_u32(views.shown.len());
         let mut begun: Option<FrameAnimation<'_>> = None;
         let mut file = Some(file);
         for frame in views.shown.clone() {
+            // Render the frame.
             table.turn(&mut subject.validated, frame)?;
             subject.turn();
             let window = self.picture.window(&subject.validated.lowered.scene);
@@ -80,6 +82,7 @@ impl RenderSetup {
             room.map_err(Failure::from)?;
             let run_context = (&mut *input, &mut *reporter, interrupt);
             let (picture, made) = self.take(subject, &self.output, window, run_context)?;
+            // The first frame gives the size of the animation.
             if let Some(file) = file.take() {
                 let head = PictureHead::of(&picture, FileFormat::Png8);
                 begun = Some(match is_gif(&self.output) {
@@ -92,6 +95,7 @@ impl RenderSetup {
             }
             reporter.made(&made);
         }
+        // Report a limit of the format, and end the file.
         if let Some(message) = remark(&self.output).filter(|_| !reporter.is_quiet()) {
             reporter::print_message(message);
         }

@@ -6,7 +6,7 @@ use super::super::output::Output;
 use super::super::progress::RenderProgress;
 use super::super::turntable::{self, Turntable, Views};
 use super::super::{Failure, args, input, interrupt::Interrupt, reporter, reporter::Reporter};
-use super::rendering::{KeptGrowth, workers};
+use super::rendering::{ResumedRender, workers};
 use super::{MadePicture, RenderSetup, halted};
 use rtc_image::Picture;
 use rtc_math::to_u32;
@@ -34,9 +34,9 @@ pub(super) struct Checkpoint {
 pub(crate) fn or_restart(failure: Failure) -> Failure {
     match failure {
         Failure::Input(message) => Failure::Input(format!("{message}; `--restart` starts over")),
-        other @ (Failure::Findings
+        other @ (Failure::Reported
         | Failure::Unreadable
-        | Failure::Trouble(_)
+        | Failure::Failed(_)
         | Failure::Interrupted
         | Failure::ClosedPipe) => other,
     }
@@ -179,7 +179,7 @@ impl RenderSetup {
         saving.checkpoint.try_save(done);
         let developed = done.develop();
         let (picture, counts, found) =
-            developed.map_err(|error| Failure::Trouble(error.to_string()))?;
+            developed.map_err(|error| Failure::Failed(error.to_string()))?;
         found
             .into_iter()
             .for_each(|diagnostic| input.push(diagnostic));
@@ -198,6 +198,7 @@ impl RenderSetup {
         order: (Crop, u64),
         (input, reporter, interrupt): RunContext<'_>,
     ) -> Result<(Picture, MadePicture), Failure> {
+        // Save the film after rounds of samples.
         let begun = done.take_growth();
         let (checkpoint, is_saved) = (saving.checkpoint, AtomicBool::new(false));
         let save = |growth: Vec<u8>| {
@@ -205,12 +206,14 @@ impl RenderSetup {
             part.grow(growth);
             is_saved.store(checkpoint.try_save(&part), Ordering::Relaxed);
         };
-        let kept = KeptGrowth {
+        let kept = ResumedRender {
             begun: &begun,
             every: checkpoint.every,
             save: &save,
         };
+        // Continue from the saved film until the goal is met.
         let rendering = self.approach(subject, order, interrupt, reporter.is_quiet(), Some(kept));
+        // After an error, the last saved state remains.
         let rendering = match rendering {
             Ok(rendering) => rendering,
             Err(error) => {
@@ -220,6 +223,7 @@ impl RenderSetup {
                 return Err(ended(error, input, reporter));
             }
         };
+        // Develop the picture.
         let size = [rendering.image.width, rendering.image.height];
         let work = (rendering.counts, rendering.elapsed);
         let made =
@@ -272,7 +276,7 @@ impl RenderSetup {
 pub(crate) fn ended(error: RenderError, input: &mut Input, reporter: &mut Reporter) -> Failure {
     halted(error, input, reporter)
         .err()
-        .unwrap_or(Failure::Findings)
+        .unwrap_or(Failure::Reported)
 }
 
 /// Whether the picture has a target instead of a number of samples.

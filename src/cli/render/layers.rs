@@ -11,7 +11,7 @@ use std::path::Path;
 /// The destination of the layers of a picture; none if its own file holds them.
 pub(super) struct LayerFiles(Vec<(Aov, Output)>);
 
-/// The same with their bytes.
+/// The destination of each layer with its encoded bytes.
 pub(super) struct EncodedLayers(Vec<(Output, Vec<u8>)>);
 
 impl LayerFiles {

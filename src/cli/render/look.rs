@@ -11,7 +11,7 @@ use std::path::Path;
 
 /// The requested output transform.
 pub(super) fn look(args: &OutputTransformArgs, output: &Path) -> Result<OutputTransform, Failure> {
-    let refused = |message: &str| Failure::Trouble(message.to_owned());
+    let refused = |message: &str| Failure::Failed(message.to_owned());
     let kind = kind(output, args.bits)?;
     let aovs: Vec<Aov> = args.aov.iter().map(|layer| Aov::from(*layer)).collect();
     let tone = args.tonemap.map(Tone::from);
@@ -31,7 +31,7 @@ pub(crate) fn refuse_layers(setup: &PictureSetup) -> Result<(), Failure> {
     if setup.look.kind.is_linear() || setup.look.aovs.is_empty() {
         return Ok(());
     }
-    Err(Failure::Trouble(
+    Err(Failure::Failed(
         "the layers of a PNG are files beside it, where a whole picture is rendered into a file; \
          name the picture .exr, which holds them"
             .to_owned(),
@@ -55,7 +55,7 @@ pub(crate) fn kind(output: &Path, bits: Option<BitDepth>) -> Result<FileFormat, 
             .to_vec();
         names.dedup();
         let last = names.pop().unwrap_or_default();
-        return Err(Failure::Trouble(format!(
+        return Err(Failure::Failed(format!(
             "unknown picture format `{}`; use .{} or .{last}",
             output.display(),
             names.join(", .")
@@ -68,7 +68,7 @@ pub(crate) fn kind(output: &Path, bits: Option<BitDepth>) -> Result<FileFormat, 
             let known: Vec<_> = forms().map(|form| form.traits().bits.to_string()).collect();
             let name = usual.traits().name;
             let known = known.join(" or ");
-            Failure::Trouble(format!(
+            Failure::Failed(format!(
                 "the channels of {name} files have {known} bits, not {wanted}"
             ))
         })

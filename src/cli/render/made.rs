@@ -33,11 +33,11 @@ pub(super) struct Quality {
     pub(super) error: f64,
     /// The largest radiance that no sample may have hit, if there is no bound.
     pub(super) undersampled: Option<f64>,
-    pub(super) known: KnownBy,
+    pub(super) known: EstimateSource,
 }
 
 /// The source of the estimate.
-pub(super) enum KnownBy {
+pub(super) enum EstimateSource {
     /// The picture grew until it was good enough.
     Growing {
         /// If the time was too short for it.
@@ -151,7 +151,7 @@ impl Quality {
         Self {
             error: probed.error,
             undersampled: probed.undersampled,
-            known: KnownBy::Probing {
+            known: EstimateSource::Probing {
                 estimate: probed.estimate,
                 plain: probed.plain,
                 probes: probed.probes,
@@ -163,20 +163,22 @@ impl Quality {
     /// If the time was too short for the picture.
     pub(super) fn coarse(&self) -> Option<CoarsePicture> {
         match self.known {
-            KnownBy::Growing { coarse, .. } => coarse,
-            KnownBy::Probing { .. } => None,
+            EstimateSource::Growing { coarse, .. } => coarse,
+            EstimateSource::Probing { .. } => None,
         }
     }
 
     fn text(&self) -> String {
+        // State the bound of the error.
         let bound = match self.coarse() {
             Some(CoarsePicture { block, .. }) => {
                 format!("no bound: of some blocks of {block} × {block} pixels one was sampled")
             }
             None => bound(self.error, self.undersampled),
         };
+        // Tell how it was estimated.
         match &self.known {
-            KnownBy::Growing {
+            EstimateSource::Growing {
                 samples: Samples { min, mean, most },
                 has_run_out,
                 ends_above,
@@ -192,7 +194,7 @@ impl Quality {
                 };
                 format!("{bound}, {mean:.0} samples per pixel on average, {min} … {most}{end}")
             }
-            KnownBy::Probing {
+            EstimateSource::Probing {
                 estimate,
                 plain,
                 probes,
@@ -223,7 +225,7 @@ impl Quality {
             "unmetWhites": self.undersampled,
         });
         match &self.known {
-            KnownBy::Growing {
+            EstimateSource::Growing {
                 samples: Samples { min, mean, most },
                 has_run_out,
                 ends_above,
@@ -234,7 +236,7 @@ impl Quality {
                 object["ranOut"] = json!(has_run_out);
                 object["endsAbove"] = json!(ends_above);
             }
-            KnownBy::Probing {
+            EstimateSource::Probing {
                 estimate,
                 plain,
                 probes,

@@ -20,20 +20,23 @@ pub(super) struct RenderJob {
 
 /// The scenes and their pictures; `None` of one scene whose picture has a name of its own.
 pub(super) fn jobs(args: &args::Render) -> Result<Option<Vec<RenderJob>>, Failure> {
+    // Find the scenes.
     let found = files::scenes(&args.files, false)?;
     found.report_skipped(args.reporter.quiet);
     let scenes = found.paths;
     let destination = Destination::new(args.output.as_deref());
+    // One file is rendered by itself.
     if scenes == args.files && scenes.len() == 1 && !destination.is_for_many() {
         return match &args.contact_sheet {
             None => Ok(None),
-            Some(_) => Err(Failure::Trouble(
+            Some(_) => Err(Failure::Failed(
                 "`--contact-sheet` is for many scenes; give a folder, a pattern or more of them"
                     .to_owned(),
             )),
         };
     }
-    let refused = |message: &str| Err(Failure::Trouble(message.to_owned()));
+    // Several scenes need a picture of their own each.
+    let refused = |message: &str| Err(Failure::Failed(message.to_owned()));
     if args.part.is_some() || args.checkpoint.is_some() {
         return refused(
             "`--part` and `--checkpoint` are for one scene and a picture of its own name",
@@ -46,6 +49,7 @@ pub(super) fn jobs(args: &args::Render) -> Result<Option<Vec<RenderJob>>, Failur
             scenes.len()
         ));
     }
+    // Name the picture of each scene, and refuse equal names.
     let job = |scene: PathBuf| {
         let output = destination.of(stem(&scene, args)?);
         Ok(RenderJob { scene, output })
@@ -62,7 +66,7 @@ fn refuse_same(jobs: &[RenderJob]) -> Result<(), Failure> {
     for RenderJob { scene, output } in jobs {
         if let Some(other) = taken.insert(output, scene) {
             let [output, other, scene] = [output, other, scene].map(|path| path.display());
-            return Err(Failure::Trouble(format!(
+            return Err(Failure::Failed(format!(
                 "`{output}` would be the picture of both `{other}` and `{scene}`"
             )));
         }
@@ -164,7 +168,7 @@ fn make_folder(output: &Path, made: &mut Vec<PathBuf>) -> Result<(), Failure> {
         return Ok(());
     }
     let trouble =
-        |error: io::Error| Failure::Trouble(format!("can't make `{}`: {error}", folder.display()));
+        |error: io::Error| Failure::Failed(format!("can't make `{}`: {error}", folder.display()));
     fs::create_dir(folder).map_err(trouble)?;
     made.push(folder.to_owned());
     Ok(())
@@ -178,6 +182,7 @@ fn carry_out(
     made: &mut BTreeSet<PathBuf>,
 ) -> Result<(), Failure> {
     let (all, mut failed) = (plans.len(), 0);
+    // Each scene is rendered with its own clock.
     for (number, (scene, plan)) in plans.into_iter().enumerate() {
         if number > 0 {
             plan.clock.restart();
@@ -185,6 +190,7 @@ fn carry_out(
         if interrupt::is_heard() {
             return Err(Failure::Interrupted);
         }
+        // One that fails does not stop the others.
         let output = plan.output.clone();
         match plan.begin(&scene, args, reporter) {
             Ok(()) => {
@@ -192,13 +198,14 @@ fn carry_out(
                 continue;
             }
             Err(end @ (Failure::Interrupted | Failure::ClosedPipe)) => return Err(end),
-            Err(Failure::Findings | Failure::Unreadable) => {}
-            Err(Failure::Input(message) | Failure::Trouble(message)) => {
+            Err(Failure::Reported | Failure::Unreadable) => {}
+            Err(Failure::Input(message) | Failure::Failed(message)) => {
                 reporter::print_message(&format!("error: `{}`: {message}", scene.display()));
             }
         }
         failed += 1;
     }
+    // The exit code tells whether any failed.
     match failed {
         0 => Ok(()),
         _ if interrupt::is_heard() => Err(Failure::Interrupted),

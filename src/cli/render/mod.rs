@@ -71,8 +71,8 @@ impl From<RenderError> for Failure {
     fn from(error: RenderError) -> Self {
         match error {
             RenderError::Stopped => Self::Interrupted,
-            RenderError::RanOut(_) => Self::Findings,
-            RenderError::Refused(message) => Self::Trouble(message),
+            RenderError::RanOut(_) => Self::Reported,
+            RenderError::Refused(message) => Self::Failed(message),
         }
     }
 }
@@ -91,24 +91,27 @@ pub(super) fn run(args: args::Render, typed: &[OsString]) -> Result<(), Failure>
 
 impl RenderSetup {
     fn new(args: &args::Render, typed: &[OsString]) -> Result<Self, Failure> {
+        // Choose the output.
         let part = PartSetup::new(args, typed)?;
         let output = match (&args.output, &part) {
             (Some(output), _) => output.clone(),
             (None, Some(part)) => part.beside_here(args)?,
             (None, None) => beside_here(args)?,
         };
+        // Refuse combinations of flags that can't be written.
         let turntable = Views::new(args.turntable, args.frames)?;
         if turntable.is_some() && output::is_stdout(&output) {
-            return Err(Failure::Trouble(
+            return Err(Failure::Failed(
                 "a turntable is many pictures; give `-o NAME-%04d.png`".to_owned(),
             ));
         }
         output::refuse_terminal(&output)?;
         if args.show && output::is_stdout(&output) {
-            return Err(Failure::Trouble(
+            return Err(Failure::Failed(
                 "`--show` takes standard output; give the picture a name by `-o`".to_owned(),
             ));
         }
+        // Find the goal and the format of the picture.
         let goal = Goal {
             error: args.target_error,
             time: args.time_budget,
@@ -117,6 +120,7 @@ impl RenderSetup {
         let still = rate.map(|_| animation::still(&output));
         let picture = part.as_ref().map_or(output.as_path(), PartSetup::picture);
         let picture = still.as_deref().unwrap_or(picture);
+        // Flags come before the settings of the project.
         let requested = args.wanted.overrides();
         let settled = project::picture(args.file(), &args.reading, goal)?;
         let picture = PictureSetup {
@@ -130,6 +134,7 @@ impl RenderSetup {
             ..wanted(&args.wanted, &args.look, picture)?
         };
         picture.check_layers()?;
+        // Layers need files beside the picture.
         let is_one_file = args.strips.is_some()
             || rate.is_some()
             || part.is_some()
@@ -171,6 +176,7 @@ impl RenderSetup {
     }
 
     fn carry_out(&mut self, input: &mut Input, reporter: &mut Reporter) -> Result<(), Failure> {
+        // Validate the scene with the overrides.
         let subject = match input.load() {
             Some(loaded) => self.picture.validate(loaded, input),
             None => Ok(None),
@@ -182,12 +188,14 @@ impl RenderSetup {
                 return Err(error.into());
             }
         };
+        // Report flags that have no effect.
         let scene = &subject.validated.lowered.scene;
         let idle = suggest::idle(&self.requested, &scene.settings.mode);
         idle.filter(|_| !reporter.is_quiet())
             .into_iter()
             .for_each(reporter::print_message);
         self.picture.window(scene)?;
+        // Measure exposure and light.
         let interrupt = Interrupt::listen()?;
         let observer = Observer {
             on_step: &|_| (),
@@ -195,6 +203,7 @@ impl RenderSetup {
         };
         self.picture.light(&mut subject, input, &observer)?;
         input::report_diagnostics(input, reporter)?;
+        // Render with a checkpoint, as an animation, a turntable, a part or a picture.
         if let Some(checkpoint) = &self.checkpoint {
             let mut saving = Saving::begin(checkpoint, &self.output, input)?;
             let run_context = (input, reporter, &interrupt);
@@ -287,6 +296,7 @@ impl RenderSetup {
         window: Crop,
         (input, reporter, interrupt): RunContext<'_>,
     ) -> Result<(Picture, MadePicture), Failure> {
+        // Render once, or until the goal is met.
         let quiet = reporter.is_quiet();
         let rendering = match self.picture.goal {
             Goal {
@@ -298,6 +308,7 @@ impl RenderSetup {
             }
         };
         let rendering = rendering.map_err(|error| ended(error, input, reporter))?;
+        // Develop the film into the picture.
         let coarse = rendering.coarse();
         let size = [rendering.image.width, rendering.image.height];
         let work = (rendering.counts, rendering.elapsed);
@@ -307,6 +318,7 @@ impl RenderSetup {
         let picture = self
             .picture
             .develop(subject, film, &rendering.pixels, input, &is_stopped)?;
+        // Report what the time budget did not allow.
         let time = self.picture.goal.time;
         let found = self.clock.stop(time, (coarse, window));
         found
@@ -343,7 +355,7 @@ pub(super) fn set_stage(
 }
 
 /// The rules that may leave something out.
-fn rules(args: &args::Pruning, goal: Goal) -> Rules {
+fn rules(args: &args::PruningArgs, goal: Goal) -> Rules {
     // The error that is promised counts no other one.
     let is_exact = !args.approx || goal != Goal::default();
     let all = if is_exact {
@@ -387,5 +399,5 @@ fn stem<'a>(file: &'a Path, args: &'a args::Render) -> Result<&'a OsStr, Failure
         Some(file)
     };
     let stem = name.and_then(Path::file_stem);
-    stem.ok_or_else(|| Failure::Trouble("no name for the picture; give `-o FILE`".to_owned()))
+    stem.ok_or_else(|| Failure::Failed("no name for the picture; give `-o FILE`".to_owned()))
 }

@@ -22,7 +22,7 @@ impl PartSetup {
         let Some([index, count]) = args.part else {
             return Ok(None);
         };
-        let trouble = |message: &str| Err(Failure::Trouble(message.to_owned()));
+        let trouble = |message: &str| Err(Failure::Failed(message.to_owned()));
         if has_goal(args) {
             return trouble(
                 "a part can't estimate the error of the whole picture; set its samples with \
@@ -79,6 +79,7 @@ impl RenderSetup {
         reporter: &mut Reporter,
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
+        // Count the pixels of the share.
         let (window, output) = self.ready(subject, &self.output, input)?;
         let ShardPlan {
             by, first, count, ..
@@ -92,6 +93,7 @@ impl RenderSetup {
             on_step: &|step| progress.step(step),
             is_stopped: &|| interrupt.is_raised(),
         };
+        // Render the share and save its film.
         let order = (part.shares, window, input.rays());
         let made = self.picture.part(subject, order, &observer);
         let elapsed = progress.finish();

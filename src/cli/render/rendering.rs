@@ -4,7 +4,7 @@
 use super::super::progress::RenderProgress;
 use super::super::{Failure, input, interrupt::Interrupt, output::Output, reporter::Reporter};
 use super::budget::PictureClock;
-use super::made::{KnownBy, Quality, error};
+use super::made::{EstimateSource, Quality, error};
 use super::{MadePicture, RenderSetup, halted};
 use rtc_image::Image;
 use rtc_pipeline::{Input, Observer, PictureSetup, RayCounter, RenderError, RenderSubject, Traced};
@@ -57,7 +57,7 @@ impl Rendered {
             quality: Some(Quality {
                 error,
                 undersampled,
-                known: KnownBy::Growing {
+                known: EstimateSource::Growing {
                     coarse,
                     samples,
                     has_run_out,
@@ -74,14 +74,14 @@ impl Rendered {
 }
 
 /// The saved state of a picture with a target, and its checkpointer.
-pub(super) struct KeptGrowth<'a> {
+pub(super) struct ResumedRender<'a> {
     /// `None` if there is none.
     pub(super) begun: &'a [u8],
     pub(super) every: Duration,
     pub(super) save: &'a (dyn Fn(Vec<u8>) + Sync),
 }
 
-impl<'a> KeptGrowth<'a> {
+impl<'a> ResumedRender<'a> {
     fn into_keep(
         self,
         order: &RenderOrder,
@@ -150,8 +150,9 @@ impl RenderSetup {
         (window, rays): (Crop, u64),
         interrupt: &Interrupt,
         quiet: bool,
-        kept: Option<KeptGrowth<'_>>,
+        kept: Option<ResumedRender<'_>>,
     ) -> Result<Rendered, RenderError> {
+        // Order the picture with what remains of the time.
         let setup = &self.picture;
         let time = setup
             .goal
@@ -161,9 +162,11 @@ impl RenderSetup {
         let progress = RenderProgress::start(0, quiet);
         let begun = self.clock.begun();
         let elapsed = || begun.elapsed();
+        // Resume from a saved state.
         let keep = kept.map(|kept| kept.into_keep(&order, setup.threads, &elapsed));
         let keep = keep.transpose()?;
         let begun = keep.as_ref().and_then(|keep| keep.resumed_from.as_ref());
+        // Watch the limit of rays, the interrupt and the progress.
         let left = rays.saturating_sub(begun.map_or(0, ProgressiveRender::rays));
         let meter = RayCounter::new(left, window);
         let observer = Observer {
@@ -182,12 +185,14 @@ impl RenderSetup {
                 progress.round(state.pixels, state.error.map_or_else(String::new, error));
             },
         };
+        // Sample until the goal is met.
         let reached = setup.renderer(subject);
         let reached = reached.map(|(validated, renderer)| {
             renderer.approach(&validated.lowered.scene, &order, &watch, keep)
         });
         let ran_out = subject.ran_out(&meter, &observer);
         let elapsed = progress.finish();
+        // A limit ends the picture, or fails it if nothing is complete.
         let (reached, has_run_out) = match (reached?, ran_out) {
             (Ok(reached), None) => (reached, false),
             (Ok(reached), Some(_)) => (reached, true),
@@ -209,6 +214,7 @@ impl RenderSetup {
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
         let setup = &self.picture;
+        // Only one strip is in memory at a time.
         setup.check_strips(subject)?;
         let window = setup.window(&subject.validated.lowered.scene)?;
         let strip = PictureSetup::first_strip(window, rows);
@@ -219,6 +225,7 @@ impl RenderSetup {
             on_step: &|step| progress.step(step),
             is_stopped: &|| interrupt.is_raised(),
         };
+        // Render strip by strip into the file.
         let order = (window, strip, input.rays());
         let mut rendered = None;
         let mut write = |file: &mut File| {
@@ -227,8 +234,9 @@ impl RenderSetup {
             rendered = Some(done);
             is_done.then_some(()).ok_or(ErrorKind::Other.into())
         };
-        let written = output.commit_slowly(&mut write, interrupt);
+        let written = output.commit_incrementally(&mut write, interrupt);
         let elapsed = progress.finish();
+        // Report the end.
         let counts = match rendered {
             Some(Ok(counts)) => counts,
             Some(Err(error)) => return halted(error, input, reporter),

@@ -25,7 +25,7 @@ impl Sheet {
     /// A sheet of the pictures of these renders, which are not made yet. It is none of them.
     pub(super) fn new(path: &Path, plans: &[(PathBuf, RenderSetup)]) -> Result<Self, Failure> {
         let name = path.display();
-        let refused = |message: String| Err(Failure::Trouble(message));
+        let refused = |message: String| Err(Failure::Failed(message));
         if !path
             .extension()
             .is_some_and(|extension| extension.eq_ignore_ascii_case("png"))
@@ -41,7 +41,7 @@ impl Sheet {
                 "`{name}` would be the contact sheet and another file"
             ));
         }
-        let output = Output::apart_from(path, &SourceMap::default())?;
+        let output = Output::open_unless_read(path, &SourceMap::default())?;
         let pictures = plans.iter().map(|(_, plan)| plan.output.clone());
         Ok(Self {
             output,
@@ -66,7 +66,7 @@ impl Sheet {
         });
         let sheet = contact_sheet(&pictures.collect::<Vec<_>>());
         let bytes = Picture::opaque(sheet).encode(FileFormat::Png8);
-        let bytes = bytes.map_err(|error| Failure::Trouble(error.to_string()))?;
+        let bytes = bytes.map_err(|error| Failure::Failed(error.to_string()))?;
         self.output.commit(&bytes, &Interrupt::listen()?)
     }
 }

@@ -16,7 +16,7 @@ const WIDEST: u32 = 400;
 
 /// Prints the picture of a file, as wide as the terminal at most.
 pub(super) fn show(path: &Path) -> Result<(), Failure> {
-    let trouble = |message: String| Failure::Trouble(format!("`{}`: {message}", path.display()));
+    let trouble = |message: String| Failure::Failed(format!("`{}`: {message}", path.display()));
     let bytes = Loader.bytes(path, MAX_BYTES, &SourceMap::default());
     let bytes = bytes.map_err(|error| trouble(error.to_string()))?;
     let picture = ShownPicture::read(&bytes, u64::MAX);

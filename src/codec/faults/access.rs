@@ -162,11 +162,13 @@ impl<'n, 't> Variant<'n, 't> {
         expected: &dyn Expected,
     ) -> Self {
         let (notes, tree) = (at.notes, at.notes.tree);
+        // The first variant stands in for a broken value.
         let first = Self {
             name: variants.first().copied().unwrap_or_default(),
             content: NodeReader::placeholder(notes),
             bare: None,
         };
+        // A variant is a text, or a map with its name as only key.
         let Some(node) = at.at else { return first };
         let kind = tree.kind(node);
         let mut pairs = tree.pairs(node);
@@ -191,6 +193,7 @@ impl<'n, 't> Variant<'n, 't> {
                 return first;
             }
         };
+        // The name must be that of a variant.
         let text = tree.text(name).unwrap_or_default();
         if variants.contains(&text) {
             return Self {

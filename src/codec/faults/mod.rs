@@ -11,7 +11,7 @@ mod reader;
 use error::NodeError;
 use reader::NodeReader;
 use rtc_source::Span;
-use rtc_source::tree::{NodeId, Tree};
+use rtc_source::tree::{NodeId, SyntaxTree};
 use serde::de::DeserializeOwned;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -35,7 +35,7 @@ pub(super) struct TextFault {
 }
 
 /// All errors of decoding a tree as a `T`.
-pub(super) fn all<T: DeserializeOwned>(tree: &Tree<'_>) -> Vec<TextFault> {
+pub(super) fn all<T: DeserializeOwned>(tree: &SyntaxTree<'_>) -> Vec<TextFault> {
     let mut notes = Notes::new(tree);
     notes.find_required::<T>();
     for _ in 0..MAX_RUNS {
@@ -50,7 +50,7 @@ pub(super) fn all<T: DeserializeOwned>(tree: &Tree<'_>) -> Vec<TextFault> {
         .collect()
 }
 
-fn fault(tree: &Tree<'_>, at: NodeId, what: String, part: FaultPart) -> TextFault {
+fn fault(tree: &SyntaxTree<'_>, at: NodeId, what: String, part: FaultPart) -> TextFault {
     let Span { file, start, end } = tree.span(at);
     let (start, end) = match part {
         FaultPart::Whole => (start, end),
@@ -80,7 +80,7 @@ type FieldNames = &'static [&'static str];
 
 /// The state of error collection.
 struct Notes<'t> {
-    tree: &'t Tree<'t>,
+    tree: &'t SyntaxTree<'t>,
     found: RefCell<BTreeMap<(NodeId, String), FaultPart>>,
     /// Nodes that can't be decoded and are replaced by placeholders.
     rejected: BTreeSet<NodeId>,
@@ -89,7 +89,7 @@ struct Notes<'t> {
 }
 
 impl<'t> Notes<'t> {
-    fn new(tree: &'t Tree<'t>) -> Self {
+    fn new(tree: &'t SyntaxTree<'t>) -> Self {
         Self {
             tree,
             found: RefCell::default(),

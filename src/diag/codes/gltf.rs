@@ -147,7 +147,7 @@ super::codes! { GL:
     GLTF_COMPRESSED = "GL047", Error, "compressed geometry of a glTF asset cannot be decompressed";
     GLTF_CHOSEN = "GL048", Error, "the scene has no camera, animation or variant of that name";
     GLTF_STILL = "GL049", Warning, "`--time` is given for a scene without animations";
-    GLTF_NEARLY = "GL050", Note, "the glTF file only approximates the scene";
+    GLTF_APPROXIMATED = "GL050", Note, "the glTF file only approximates the scene";
     GLTF_OWN_WORDS = "GL051", Note, "a value is written to `extras.rtc`, because glTF cannot hold \
         it";
     GLTF_UNSAID = "GL052", Warning, "a value cannot be written to glTF and is left out";

@@ -13,5 +13,5 @@ super::codes! { SC:
     SPELLING = "SC010", Note, "the file uses other spellings than the canonical ones";
     NO_EFFECT = "SC011", Note, "a key has no effect with the other settings";
     ASSUMED = "SC012", Warning, "a value is missing and is assumed";
-    TWO_READINGS = "SC013", Warning, "other programs read this key differently";
+    KEY_READ_DIFFERENTLY = "SC013", Warning, "other programs read this key differently";
 }

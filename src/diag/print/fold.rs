@@ -11,14 +11,14 @@ const EACH: usize = 3;
 const LINES: usize = 6;
 
 /// A diagnostic that is printed, and the equal ones that are not.
-pub(super) struct Fold<'a> {
+pub(super) struct FoldedDiagnostic<'a> {
     pub(super) first: &'a Diagnostic,
     pub(super) others: Vec<&'a Diagnostic>,
 }
 
 /// Each diagnostic by itself.
-pub(super) fn none<'a>(found: &[&'a Diagnostic]) -> Vec<Fold<'a>> {
-    let alone = |first: &&'a Diagnostic| Fold {
+pub(super) fn none<'a>(found: &[&'a Diagnostic]) -> Vec<FoldedDiagnostic<'a>> {
+    let alone = |first: &&'a Diagnostic| FoldedDiagnostic {
         first,
         others: Vec::new(),
     };
@@ -26,7 +26,7 @@ pub(super) fn none<'a>(found: &[&'a Diagnostic]) -> Vec<Fold<'a>> {
 }
 
 /// Equal diagnostics folded into the first of them if there are more than [`EACH`].
-pub(super) fn equal<'a>(found: &[&'a Diagnostic]) -> Vec<Fold<'a>> {
+pub(super) fn equal<'a>(found: &[&'a Diagnostic]) -> Vec<FoldedDiagnostic<'a>> {
     let key = |diagnostic: &'a Diagnostic| {
         (
             diagnostic.code.id,
@@ -38,17 +38,17 @@ pub(super) fn equal<'a>(found: &[&'a Diagnostic]) -> Vec<Fold<'a>> {
     for diagnostic in found {
         *counts.entry(key(diagnostic)).or_insert(0_usize) += 1;
     }
-    let mut folds: Vec<Fold<'a>> = Vec::new();
+    let mut folds: Vec<FoldedDiagnostic<'a>> = Vec::new();
     let mut indices = BTreeMap::new();
     for diagnostic in found {
         match indices.get(&key(diagnostic)) {
             Some(index) if counts[&key(diagnostic)] > EACH => {
-                let fold: &mut Fold<'a> = &mut folds[*index];
+                let fold: &mut FoldedDiagnostic<'a> = &mut folds[*index];
                 fold.others.push(diagnostic);
             }
             _ => {
                 indices.insert(key(diagnostic), folds.len());
-                folds.push(Fold {
+                folds.push(FoldedDiagnostic {
                     first: diagnostic,
                     others: Vec::new(),
                 });
@@ -58,7 +58,7 @@ pub(super) fn equal<'a>(found: &[&'a Diagnostic]) -> Vec<Fold<'a>> {
     folds
 }
 
-impl Fold<'_> {
+impl FoldedDiagnostic<'_> {
     /// The number of the folded diagnostics and their lines; `None` if there are none.
     pub(super) fn note(&self, map: &SourceMap) -> Option<String> {
         if self.others.is_empty() {

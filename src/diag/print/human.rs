@@ -1,7 +1,7 @@
 //! For people: the source with its marks, in the style of rustc. The one file that names
 //! `annotate-snippets`.
 
-use super::fold::Fold;
+use super::fold::FoldedDiagnostic;
 use super::location::SourceLocation;
 use super::text::{clean, clean_except};
 use super::window::{self, SourceWindow};
@@ -17,7 +17,11 @@ use rtc_source::SourceMap;
 type Mark<'a> = (&'a Label, AnnotationKind);
 
 /// One diagnostic, with the number of equal ones, and an empty line.
-pub(super) fn diagnostic(fold: &Fold<'_>, map: &SourceMap, options: &PrintOptions) -> String {
+pub(super) fn diagnostic(
+    fold: &FoldedDiagnostic<'_>,
+    map: &SourceMap,
+    options: &PrintOptions,
+) -> String {
     let renderer = if options.color {
         Renderer::styled()
     } else {
@@ -46,7 +50,7 @@ pub(super) fn summary(name: &str, found: &[&Diagnostic], hidden: usize) -> Strin
     format!("{more}{}: {}{explain}\n", clean(name), counts(found))
 }
 
-fn report<'a>(fold: &Fold<'a>, map: &'a SourceMap) -> Vec<Group<'a>> {
+fn report<'a>(fold: &FoldedDiagnostic<'a>, map: &'a SourceMap) -> Vec<Group<'a>> {
     let diagnostic = fold.first;
     let Diagnostic {
         code,

@@ -20,7 +20,7 @@ mod window;
 mod tests;
 
 use super::{Diagnostic, Severity, Sink, codes};
-use fold::Fold;
+use fold::FoldedDiagnostic;
 use rtc_source::SourceMap;
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
@@ -58,7 +58,7 @@ pub fn one(found: &Diagnostic, map: &SourceMap, width: usize) -> String {
         least: Severity::Note,
         max: 1,
     };
-    let alone = Fold {
+    let alone = FoldedDiagnostic {
         first: found,
         others: Vec::new(),
     };
@@ -118,12 +118,14 @@ impl Printer {
 
     /// The text for the diagnostics of the file `name`; empty if none is printed.
     pub fn file(&mut self, name: &str, mut sink: Sink, map: &SourceMap) -> String {
+        // Keep what the options show, in the order of the text.
         sink.sort();
         let visible = |diagnostic: &&Diagnostic| {
             let is_shown = diagnostic.severity <= self.options.least;
             self.format.is_for_programs() || is_shown || self.shows_settings(diagnostic)
         };
         let found: Vec<&Diagnostic> = sink.kept().iter().filter(visible).collect();
+        // Fold equal diagnostics for people, and cap the number of all.
         let folds = match self.format {
             Format::Human => fold::equal(&found),
             Format::Short | Format::Json | Format::Sarif | Format::Github => fold::none(&found),
@@ -132,6 +134,7 @@ impl Printer {
         let printed: usize = shown.iter().map(|fold| 1 + fold.others.len()).sum();
         let hidden = found.len() - printed + sink.dropped();
         self.omitted += hidden;
+        // Print in the format.
         let each = |one: &dyn Fn(&Diagnostic) -> String| {
             shown.iter().map(|fold| one(fold.first)).collect()
         };
@@ -152,6 +155,7 @@ impl Printer {
                 String::new()
             }
         };
+        // Remember the settings and add what comes at the end.
         let settings = found
             .iter()
             .find(|diagnostic| diagnostic.code.id == codes::SETTINGS_READ.id);
@@ -186,13 +190,13 @@ impl Printer {
 
 /// At most `max` diagnostics: errors before warnings before notes, of each severity the first ones.
 /// Their order stays.
-fn cap(found: Vec<Fold<'_>>, max: usize) -> Vec<Fold<'_>> {
+fn cap(found: Vec<FoldedDiagnostic<'_>>, max: usize) -> Vec<FoldedDiagnostic<'_>> {
     let mut order: Vec<usize> = (0..found.len()).collect();
     order.sort_by_key(|&index| found[index].first.severity);
     order.truncate(max);
     order.sort_unstable();
     let mut wanted = order.into_iter().peekable();
-    let is_wanted = |(index, _): &(usize, Fold<'_>)| wanted.next_if_eq(index).is_some();
+    let is_wanted = |(index, _): &(usize, FoldedDiagnostic<'_>)| wanted.next_if_eq(index).is_some();
     let kept = found.into_iter().enumerate().filter(is_wanted);
     kept.map(|(_, fold)| fold).collect()
 }

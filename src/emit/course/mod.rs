@@ -72,6 +72,7 @@ fn write<'s>(scene: &'s Scene, names: FileNames<'s>) -> Result<WrittenScene<'s>,
         environment,
         display,
     } = scene;
+    // Write the camera, the settings, the lights and the objects.
     let mut text = SceneWriter {
         text: String::new(),
         finite: true,
@@ -88,6 +89,7 @@ fn write<'s>(scene: &'s Scene, names: FileNames<'s>) -> Result<WrittenScene<'s>,
     }
     text.lights(lights)?;
     text.objects(scene)?;
+    // The format has no way to write NaN or infinity.
     if !text.finite {
         return Err("a number of the scene is not finite".to_owned());
     }
@@ -155,12 +157,14 @@ impl<'s> SceneWriter<'s> {
         } else {
             self.line(0, "Objects:");
         }
+        // Surfaces of one solid or mesh become one object.
         let mut materials = MaterialNames::of(scene)?;
         let mut index = 0;
         while let Some(surface) = scene.surfaces.get(index) {
             let parts = &scene.surfaces[index..][..parts_of_one(&scene.surfaces[index..])];
             let name = scene.names.get(index).filter(|name| !name.is_empty());
             index += parts.len();
+            // Write the shape.
             if let Shape::Csg(csg) = &surface.shape {
                 self.csg(csg, parts, scene, &mut materials)?;
                 if name.is_none() {
@@ -169,6 +173,7 @@ impl<'s> SceneWriter<'s> {
             } else {
                 self.shape(&surface.shape, scene)?;
             }
+            // Write the name and the material.
             match (name, &surface.shape) {
                 (Some(name), Shape::Instance(_)) => {
                     self.line(4, &format!("label: {}", quoted(name)))

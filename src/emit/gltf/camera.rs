@@ -5,7 +5,7 @@ use super::document::{self, Index, Node};
 use super::writer::{GltfWriter, extras, single};
 use rtc_ir::{Camera, EntityKind, Field, Lens, Projection, ValuePath};
 use rtc_math::{Vec3, atan2, length, unit};
-use serde_json::{Map as Block, Value, json};
+use serde_json::{Map as JsonObject, Value, json};
 
 /// The near plane, as a fraction of the distance to the plane of focus.
 const NEAR: f64 = 1e-3;
@@ -61,10 +61,10 @@ impl GltfWriter<'_> {
         distance: f64,
         shift: [f64; 2],
         lens: &Lens,
-    ) -> Block<String, Value> {
+    ) -> JsonObject<String, Value> {
         let path = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
         let [width, height] = self.scene.camera.size;
-        let mut rtc_extras = Block::new();
+        let mut rtc_extras = JsonObject::new();
         let mut insert = |key: &str, value| {
             rtc_extras.insert(key.to_owned(), value);
         };

@@ -20,7 +20,7 @@ pub(super) const ARRAY_BUFFER: u32 = 34962;
 /// Buffer view target: vertex indices.
 pub(super) const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 /// Sampler filter: nearest.
-pub(super) const MIN_HIT_DISTANCE: u32 = 9728;
+pub(super) const NEAREST_FILTER: u32 = 9728;
 /// Sampler filter: linear.
 pub(super) const LINEAR: u32 = 9729;
 /// Sampler filter: linear with linear mipmapping.

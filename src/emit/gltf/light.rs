@@ -6,7 +6,7 @@ use super::writer::{GltfWriter, extras, lit};
 use rtc_diag::codes;
 use rtc_ir::{Emitter, EntityKind, Field, Light, Photometry, PointLight, Punctual, ValuePath};
 use rtc_math::{Basis, Vec3, unit};
-use serde_json::{Map as Block, Value, json};
+use serde_json::{Map as JsonObject, Value, json};
 
 /// A light in terms of glTF.
 struct GltfLight {
@@ -15,7 +15,7 @@ struct GltfLight {
     range: Option<f64>,
     /// The inner and the outer angle.
     angles: Option<[f64; 2]>,
-    rtc_extras: Block<String, Value>,
+    rtc_extras: JsonObject<String, Value>,
     /// The transform from the light, which points along its −z axis, to the world.
     columns: [[f64; 3]; 4],
 }
@@ -52,26 +52,28 @@ impl GltfWriter<'_> {
             .in_extras("a light without falloff, with its radius,", path);
         let message = "a light without falloff becomes a point light that is equally bright at the centre of \
              the scene";
-        self.reporter.report(&codes::GLTF_NEARLY, message, path);
+        self.reporter
+            .report(&codes::GLTF_APPROXIMATED, message, path);
         let rtc_extras = json!({ "color": color, "radius": radius });
         GltfLight {
             kind: "point",
             intensity: light.intensity_at(middle.to_array()),
             range: None,
             angles: None,
-            rtc_extras: Block::from_iter([("point".to_owned(), rtc_extras)]),
+            rtc_extras: JsonObject::from_iter([("point".to_owned(), rtc_extras)]),
             columns: placed(*position),
         }
     }
 
     fn punctual(&mut self, light: &Punctual, middle: Vec3, path: ValuePath) -> GltfLight {
         let Punctual { emitter, intensity } = light;
+        // glTF has directional, point and spot lights that shine along -z.
         let light = |kind, columns| GltfLight {
             kind,
             intensity: *intensity,
             range: emitter.range(),
             angles: None,
-            rtc_extras: Block::new(),
+            rtc_extras: JsonObject::new(),
             columns,
         };
         match emitter {
@@ -93,6 +95,7 @@ impl GltfWriter<'_> {
                     pointing_from(*position, direction.map(|component| -component), None),
                 )
             },
+            // A photometric light becomes a uniform point light of its mean intensity.
             Emitter::Photometric {
                 position,
                 direction,
@@ -121,7 +124,8 @@ impl GltfWriter<'_> {
         } = photometry;
         self.reporter.in_extras("how a lamp was measured", path);
         let message = "an IES light becomes a uniform point light";
-        self.reporter.report(&codes::GLTF_NEARLY, message, path);
+        self.reporter
+            .report(&codes::GLTF_APPROXIMATED, message, path);
         let mean = candela.iter().sum::<f64>() / (candela.len().max(1) as f64);
         let rtc_extras = json!({
             "name": name,
@@ -132,7 +136,7 @@ impl GltfWriter<'_> {
         });
         GltfLight {
             intensity: light.intensity.map(|channel| channel * mean),
-            rtc_extras: Block::from_iter([("photometry".to_owned(), rtc_extras)]),
+            rtc_extras: JsonObject::from_iter([("photometry".to_owned(), rtc_extras)]),
             ..light
         }
     }

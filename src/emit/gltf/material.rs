@@ -9,7 +9,7 @@ use rtc_ir::{
     Alpha, Bump, EntityKind, Field, Map, Material, MaterialId, MeshId, Phong, Standard, ValuePath,
 };
 use rtc_tables as standard;
-use serde_json::{Map as Block, Value, json};
+use serde_json::{Map as JsonObject, Value, json};
 
 /// A material of the scene, on meshes with or without each set of texture coordinates. Maps of a
 /// missing set have no effect and are dropped.
@@ -25,7 +25,7 @@ impl GltfWriter<'_> {
         }
         let path = ValuePath::new(EntityKind::Material, id.0 as usize, Field::Whole);
         let (mut standard, rtc_extras) = match &self.scene.materials[id.0 as usize] {
-            Material::Standard(standard) => ((**standard).clone(), Block::new()),
+            Material::Standard(standard) => ((**standard).clone(), JsonObject::new()),
             Material::Phong(phong) => {
                 let rtc_extras = self.phong(phong, key.1[0], path);
                 (approximate_phong(phong), rtc_extras)
@@ -44,7 +44,7 @@ impl GltfWriter<'_> {
 
     fn standard(&mut self, standard: &Standard, path: ValuePath) -> document::Material {
         let pbr_metallic_roughness = self.metallic_roughness(standard, path);
-        let mut blocks = Block::new();
+        let mut blocks = JsonObject::new();
         self.blocks(standard, &mut blocks, path);
         self.other_blocks(standard, &mut blocks, path);
         let (alpha_mode, alpha_cutoff) = match standard.alpha {
@@ -96,7 +96,7 @@ impl GltfWriter<'_> {
     fn other_blocks(
         &mut self,
         standard: &Standard,
-        blocks: &mut Block<String, Value>,
+        blocks: &mut JsonObject<String, Value>,
         path: ValuePath,
     ) {
         let strength = strength(standard.emissive);
@@ -129,7 +129,7 @@ impl GltfWriter<'_> {
     fn iridescence(
         &mut self,
         standard: &Standard,
-        blocks: &mut Block<String, Value>,
+        blocks: &mut JsonObject<String, Value>,
         path: ValuePath,
     ) {
         let default = Standard::default();
@@ -166,7 +166,7 @@ impl GltfWriter<'_> {
         }
     }
 
-    fn block(&mut self, name: &'static str, block: Value, blocks: &mut Block<String, Value>) {
+    fn block(&mut self, name: &'static str, block: Value, blocks: &mut JsonObject<String, Value>) {
         self.root.extensions_used.insert(name);
         blocks.insert(name.to_owned(), block);
     }
@@ -199,11 +199,11 @@ macro_rules! extensions {
             fn blocks(
                 &mut self,
                 standard: &Standard,
-                blocks: &mut Block<String, Value>,
+                blocks: &mut JsonObject<String, Value>,
                 path: ValuePath,
             ) {
                 $(
-                    let mut block = Block::new();
+                    let mut block = JsonObject::new();
                     $(if let Some(value) = written!($kind, standard.$field, self, path) {
                         block.insert($key.to_owned(), value);
                     })*
@@ -233,7 +233,7 @@ impl GltfWriter<'_> {
         phong: &Phong,
         has_uvs: bool,
         path: ValuePath,
-    ) -> Block<String, Value> {
+    ) -> JsonObject<String, Value> {
         let Phong {
             color,
             ka,
@@ -250,10 +250,13 @@ impl GltfWriter<'_> {
             normal_map,
             bump,
         } = phong;
+        // Report the approximation; the extras keep the exact parameters.
         let message = "Phong's model becomes the metallic-roughness material that comes nearest";
-        self.reporter.report(&codes::GLTF_NEARLY, message, path);
+        self.reporter
+            .report(&codes::GLTF_APPROXIMATED, message, path);
         self.reporter
             .in_extras("the Phong parameters of a material", path);
+        // Write the parameters.
         let mut rtc_extras = json!({
             "color": color,
             "ka": ka,
@@ -270,6 +273,7 @@ impl GltfWriter<'_> {
         if *fresnel {
             rtc_extras["fresnel"] = json!(true);
         }
+        // Write the textures if the mesh has coordinates.
         let bump_map = bump.as_ref().map(|Bump { texture, .. }| *texture);
         let maps = [
             ("colorMap", color_map),
@@ -290,6 +294,6 @@ impl GltfWriter<'_> {
         if let Some(Bump { height, .. }) = bump.as_ref().filter(|_| has_uvs) {
             rtc_extras["bumpHeight"] = (*height).into();
         }
-        Block::from_iter([("phong".to_owned(), rtc_extras)])
+        JsonObject::from_iter([("phong".to_owned(), rtc_extras)])
     }
 }

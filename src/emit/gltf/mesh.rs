@@ -190,7 +190,8 @@ impl GltfWriter<'_> {
                 .all(is_exact)
             {
                 let message = "the vertices of a mesh are rounded to the 32-bit floats of glTF";
-                self.reporter.report(&codes::GLTF_NEARLY, message, path);
+                self.reporter
+                    .report(&codes::GLTF_APPROXIMATED, message, path);
             }
         }
         Some(vectors)

@@ -41,7 +41,7 @@ pub struct GltfAsset {
 
 const FORMAT: TargetFormat = TargetFormat {
     name: "glTF",
-    approximated: &codes::GLTF_NEARLY,
+    approximated: &codes::GLTF_APPROXIMATED,
     has: |_, _| false,
 };
 

@@ -3,13 +3,13 @@
 use super::writer::{GltfWriter, extras, number};
 use rtc_color::Tone;
 use rtc_ir::{Display, EntityKind, Environment, Field, Pixels, Settings, ValuePath};
-use serde_json::{Map as Block, Value, json};
+use serde_json::{Map as JsonObject, Value, json};
 
 impl GltfWriter<'_> {
     /// Writes the settings, unless they are the defaults for glTF, the display settings and the
     /// environment.
     pub(super) fn settings(&mut self) {
-        let mut rtc_extras = Block::new();
+        let mut rtc_extras = JsonObject::new();
         if self.scene.settings != Settings::paths() {
             let path = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
             self.reporter.in_extras("how the picture is made", path);
@@ -31,7 +31,11 @@ impl GltfWriter<'_> {
         self.root.extras = extras(rtc_extras);
     }
 
-    fn environment(&mut self, environment: &Environment, rtc_extras: &mut Block<String, Value>) {
+    fn environment(
+        &mut self,
+        environment: &Environment,
+        rtc_extras: &mut JsonObject<String, Value>,
+    ) {
         let Environment {
             radiance,
             image,
@@ -60,9 +64,9 @@ impl GltfWriter<'_> {
 }
 
 /// The fields of the text form; the mode is its word, with its parameters apart.
-fn settings(settings: &Settings) -> Block<String, Value> {
+fn settings(settings: &Settings) -> JsonObject<String, Value> {
     let Ok(Value::Object(mut fields)) = serde_json::to_value(settings) else {
-        return Block::new();
+        return JsonObject::new();
     };
     if let Some(Value::Object(mode)) = fields.get("mode").cloned() {
         for (word, parameters) in mode {

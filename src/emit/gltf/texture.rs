@@ -1,7 +1,7 @@
 //! Writes textures: images as PNG, samplers, and texture references.
 
 use super::document::{
-    CLAMP_TO_EDGE, Image, Index, LINEAR, LINEAR_MIPMAP_LINEAR, MIN_HIT_DISTANCE, MIRRORED_REPEAT,
+    CLAMP_TO_EDGE, Image, Index, LINEAR, LINEAR_MIPMAP_LINEAR, MIRRORED_REPEAT, NEAREST_FILTER,
     REPEAT, Sampler, Texture, TextureInfo,
 };
 use super::writer::{GltfWriter, number};
@@ -67,7 +67,8 @@ impl GltfWriter<'_> {
         let (source, wrap, filter) = match &self.scene.textures[id.0 as usize] {
             ir::Texture::Uv => {
                 let message = "the colours (u, 0, v) become a picture of them";
-                self.reporter.report(&codes::GLTF_NEARLY, message, path);
+                self.reporter
+                    .report(&codes::GLTF_APPROXIMATED, message, path);
                 (self.uv_image(), [Wrap::Clamp; 2], Filter::Linear)
             }
             ir::Texture::Image(image) => (
@@ -95,7 +96,7 @@ impl GltfWriter<'_> {
         let [wrap_s, wrap_t] = wrap.map(wrapping);
         let [mag_filter, min_filter] = match filter {
             Filter::Linear => [LINEAR, LINEAR_MIPMAP_LINEAR],
-            Filter::Nearest => [MIN_HIT_DISTANCE, MIN_HIT_DISTANCE],
+            Filter::Nearest => [NEAREST_FILTER, NEAREST_FILTER],
         };
         let key = [wrap_s, wrap_t, mag_filter];
         if let Some(known) = self.samplers.get(&key) {
@@ -183,7 +184,10 @@ impl GltfWriter<'_> {
                 &codes::GLTF_UNSAID,
                 "a pattern in space becomes the mean of its colours",
             ),
-            false => (&codes::GLTF_NEARLY, "a pattern becomes a picture of it"),
+            false => (
+                &codes::GLTF_APPROXIMATED,
+                "a pattern becomes a picture of it",
+            ),
         };
         self.reporter.report(code, message, path);
         self.png(png_bytes([side; 2], false, &pixels), "pattern")

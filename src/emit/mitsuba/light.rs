@@ -87,11 +87,13 @@ impl MitsubaWriter<'_> {
         profile: &Profile,
         path: ValuePath,
     ) -> Option<()> {
+        // Mitsuba's spot projects a bitmap onto a plane, so its angle is limited.
         if outer > WIDEST {
             let message = "a spot is written without what shines more than 85° from its axis";
             self.reporter.unsupported(message, path);
         }
         let cutoff = outer.min(WIDEST);
+        // Sample the profile in directions through the pixels of the plane.
         let basis = Basis::around(unit(Vec3::from_array(direction)).unwrap_or(Vec3::Z));
         let reach = sin(cutoff.to_radians()) / cos(cutoff.to_radians());
         let at = |index: u32| ((f64::from(index) + 0.5) / f64::from(PROFILE) * 2.0 - 1.0) * reach;
@@ -101,6 +103,7 @@ impl MitsubaWriter<'_> {
             [profile.factor(to); 3]
         };
         let places = (0..PROFILE).flat_map(|y| (0..PROFILE).map(move |x| (x, y)));
+        // Write the factors as a bitmap beside the scene.
         let picture = Picture::opaque(Radiances {
             width: PROFILE,
             height: PROFILE,
@@ -110,6 +113,7 @@ impl MitsubaWriter<'_> {
         let encoded = encoded.map(|bytes| (bytes, "exr"));
         let file = self.beside("spot", encoded.map_err(|fault| fault.to_string()), path)?;
         self.shines = true;
+        // Write the emitter with its bitmap.
         self.line(1, r#"<emitter type="spot">"#);
         let position = Vec3::from_array(position);
         self.placed([basis.tangent, basis.bitangent, basis.normal, position]);

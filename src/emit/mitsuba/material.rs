@@ -132,6 +132,7 @@ impl MitsubaWriter<'_> {
         plugin: Plugin,
         path: ValuePath,
     ) -> Option<()> {
+        // A mask applies the opacity.
         let id = format!(r#" id="{}""#, variant.id());
         let cut = opacity(material, variant.has_opacity);
         let (depth, id) = match &cut {
@@ -142,6 +143,7 @@ impl MitsubaWriter<'_> {
             self.line(1, &format!(r#"<bsdf type="mask" id="{}">"#, variant.id()));
             self.slot(2, "opacity", opacity, path)?;
         }
+        // A partly transmissive material blends layers with glass.
         let is_mixed = plugin == Plugin::Layered && material.transmission > 0.0;
         if is_mixed {
             self.line(depth, &format!(r#"<bsdf type="blendbsdf"{id}>"#));
@@ -160,6 +162,7 @@ impl MitsubaWriter<'_> {
         } else {
             self.two_sided(depth, &id, variant, (plugin, material), path)?;
         }
+        // Close the mask and write the interior medium.
         if depth == 2 {
             self.line(1, "</bsdf>");
         }
@@ -447,6 +450,7 @@ fn is_glass(material: &Standard) -> bool {
 
 /// The features of a material that are not written.
 fn missing_features(material: &Standard) -> Vec<&'static str> {
+    // List the features that no plugin has, with the condition that the material uses them.
     let set = uv_set(material);
     let has = |maps: &[&Option<Map>]| maps.iter().any(|map| map.is_some());
     let parts = [

@@ -38,6 +38,7 @@ pub fn emit(
     budget: &Budget,
     sink: &mut Sink,
 ) -> Option<ExportedScene> {
+    // Replace shapes that Mitsuba lacks by meshes.
     let mut reporter = ExportReporter::new(source_spans, sink);
     let scene = &with_meshes(scene, &FORMAT, None, budget, &mut reporter)?;
     let mut writer = MitsubaWriter {
@@ -52,6 +53,7 @@ pub fn emit(
         bitmaps: BTreeMap::new(),
         shines: false,
     };
+    // Write the elements of the scene.
     writer.line(0, r#"<scene version="3.0.0">"#);
     writer.settings();
     writer.camera();
@@ -60,6 +62,7 @@ pub fn emit(
     writer.materials()?;
     writer.surfaces()?;
     writer.line(0, "</scene>");
+    // Warn about a scene without light.
     writer.reporter.shines(writer.shines)?;
     Some(ExportedScene {
         text: writer.text,

@@ -276,6 +276,7 @@ impl MitsubaWriter<'_> {
     /// The file of a mesh, which is written once for each set of texture coordinates and each
     /// factor of its colours.
     fn file_of(&mut self, id: MeshId, variant: MaterialVariant, path: ValuePath) -> Option<String> {
+        // Choose the texture coordinates that the material uses.
         let mesh = &self.scene.meshes[id.0 as usize];
         let material = variant.standard(self.scene);
         let set = uv_set(&material);
@@ -284,12 +285,14 @@ impl MitsubaWriter<'_> {
             (Some(_), 0) => &mesh.uvs,
             (Some(_), _) => &mesh.second_uvs,
         };
+        // Mitsuba applies vertex colours or a texture.
         let is_colored = variant.has_colors || variant.has_opacity;
         let shows_colors = is_colored && material.base_color_map.is_none();
         if is_colored && !shows_colors {
             let message = "the colours of the corners of a mesh are left out beside a texture";
             self.reporter.unsupported(message, path);
         }
+        // Equal attributes share a file.
         let key = MeshFileKey {
             mesh: id.0,
             set: (!uvs.is_empty()).then_some(set),
@@ -298,6 +301,7 @@ impl MitsubaWriter<'_> {
         if let Some(name) = self.meshes.get(&key) {
             return Some(name.clone());
         }
+        // Write the attributes as PLY.
         let colored = (0..mesh.colors.len()).map(|at| corner(&material, mesh.colors.at(at)));
         let colors = if shows_colors {
             colored.collect()

@@ -89,6 +89,7 @@ impl MitsubaWriter<'_> {
         slot: MaterialValue<'_>,
         path: ValuePath,
     ) -> Option<()> {
+        // A slot holds a bitmap, a vertex attribute, a colour or a number.
         match slot {
             MaterialValue { map: Some(map), .. } => {
                 return self.bitmap(depth, name, map, slot, path);
@@ -135,6 +136,7 @@ impl MitsubaWriter<'_> {
         }: MaterialValue<'_>,
         path: ValuePath,
     ) -> Option<()> {
+        // Encode each texture and channel once.
         let picture = TexturePicture::new(self.scene, map.texture);
         let key = format!("{} {channel:?} {factor:?}", map.texture.0);
         let file = match self.bitmaps.get(&key) {
@@ -148,6 +150,7 @@ impl MitsubaWriter<'_> {
             }
         };
         self.bitmaps.insert(key, file.clone());
+        // Write the sampler.
         self.line(depth, &format!(r#"<texture type="bitmap" name="{name}">"#));
         self.value(depth + 1, "string", "filename", &file);
         if channel.coding() == Coding::Linear {
@@ -166,6 +169,7 @@ impl MitsubaWriter<'_> {
             Wrap::Mirror => self.value(depth + 1, "string", "wrap_mode", "mirror"),
             Wrap::Clamp => self.value(depth + 1, "string", "wrap_mode", "clamp"),
         }
+        // Write the transform of the coordinates.
         let [[a, b, c], [d, e, f]] = picture.rows(map);
         if [[a, b, c], [d, e, f]] != [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]] {
             let rows = [

@@ -117,6 +117,7 @@ impl PovWriter<'_> {
 
     /// A shape without its closing brace; `None` if POV-Ray has no such shape.
     fn shape_text(&self, shape: &Shape, material: MaterialId) -> Option<String> {
+        // Write the primitive up to its modifiers, which follow.
         Some(match shape {
             Shape::Sphere(Sphere { center, radius, .. }) => {
                 format!("sphere {{ {}, {}", vector(*center), shortest(*radius))

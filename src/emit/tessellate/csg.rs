@@ -313,7 +313,7 @@ mod tests {
         let whole = 4.0 * PI / 3.0;
         let format = TargetFormat {
             name: "test",
-            approximated: &codes::GLTF_NEARLY,
+            approximated: &codes::GLTF_APPROXIMATED,
             has: |_, _| false,
         };
         let budget = Budget::default();

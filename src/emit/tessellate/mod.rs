@@ -209,6 +209,7 @@ impl Tessellator<'_> {
     }
 
     fn report(&self, shape: &Shape, path: ValuePath, reporter: &mut ExportReporter<'_>) {
+        // Say what replaces the shape and how exactly.
         let format = self.format.name;
         let side = || shortest(2.0 * side(self.around));
         let message = match shape.kind() {

@@ -40,7 +40,7 @@ impl Lowering {
             && self.scene.settings.ambient == Ambient::Once;
         if let (true, true, Some(span)) = (is_assumed, self.shows_ambient(), scene.lights.span) {
             let message = || "the ambient light of a JSON scene is added once".to_owned();
-            context.report(&codes::TWO_READINGS, span, message, |d| {
+            context.report(&codes::KEY_READ_DIFFERENTLY, span, message, |d| {
                 d.at(
                     span,
                     "some programs add it for each light, times its colour",

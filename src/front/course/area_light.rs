@@ -58,11 +58,13 @@ impl Lowering {
         else {
             return false;
         };
+        // The sides of the rectangle span the plane across its direction.
         let direction = direction
             .read()
             .map_or(Vec3::NEG_Y, |direction| direction.value.0.into());
         let [along_width, along_height] = sides(direction);
         let Cells([columns, rows]) = cells.value;
+        // A point light at the centre of each cell has an equal part of the colour.
         let count = f64::from(columns) * f64::from(rows);
         let center = Vec3::from_array(position.value.0);
         for row in 0..rows {
@@ -78,6 +80,7 @@ impl Lowering {
                     color: color.value.0.map(|channel| channel / count),
                     radius: 0.0,
                 }));
+                // Record the origin of each value.
                 for (field, span) in [
                     (Field::Whole, light.span),
                     (Field::Position, position.span),

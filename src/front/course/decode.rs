@@ -7,7 +7,7 @@ use super::suggestion;
 use crate::FrontOptions;
 use rtc_diag::clip;
 use rtc_diag::{Code, Diagnostic, Severity, Sink, codes};
-use rtc_source::tree::{NodeContent, NodeId, Tree};
+use rtc_source::tree::{NodeContent, NodeId, SyntaxTree};
 use rtc_source::{Budget, Resource, Span};
 use serde_json::Value as Json;
 use std::collections::BTreeSet;
@@ -53,7 +53,7 @@ impl<T> Spanned<T> {
 }
 
 /// Three numbers with their span.
-pub(super) type Numbers = Spanned<[f64; 3]>;
+pub(super) type SpannedVector = Spanned<[f64; 3]>;
 
 /// A value that aliases and merge keys may repeat: its node, and the value when it is decoded
 /// first.
@@ -175,7 +175,7 @@ const MAX_REMEMBERED: usize = 10_000;
 
 /// The state of decoding one tree, with its diagnostics.
 pub(super) struct Context<'a> {
-    pub(super) tree: &'a Tree<'a>,
+    pub(super) tree: &'a SyntaxTree<'a>,
     pub(super) options: &'a FrontOptions,
     pub(super) key: ValueKey<'a>,
     /// The entries of the maps being read, innermost last.
@@ -200,7 +200,7 @@ pub(super) struct Context<'a> {
 
 impl<'a> Context<'a> {
     pub(super) fn new(
-        tree: &'a Tree<'a>,
+        tree: &'a SyntaxTree<'a>,
         options: &'a FrontOptions,
         budget: &Budget,
         sink: &'a mut Sink,

@@ -216,6 +216,7 @@ fn point_or_spot(
 
 /// Reports keys without effect on a light of this type.
 fn report_unused(light: &Light, kind: LightKind, is_physical: bool, context: &mut Context<'_>) {
+    // The keys of the light decide its kind, not its declared type.
     if let FieldOutcome::Read(declared) = light.kind
         && declared.value != kind
     {
@@ -226,6 +227,7 @@ fn report_unused(light: &Light, kind: LightKind, is_physical: bool, context: &mu
                     `height`";
         no_effect(declared.span, message, hint, context);
     }
+    // Report each key that has an effect on other kinds only.
     if kind != LightKind::Point || is_physical {
         let message =
             "the `radius` of the light has no effect: only a point with a `color` has one";

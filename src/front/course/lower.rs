@@ -218,6 +218,7 @@ impl Lowering {
         let size = image_size
             .ok()
             .map_or(camera::DEFAULT_SIZE, |size| size.value);
+        // `Camera` wins over `CameraEye` and its companions, and these over `Eye`.
         match (camera, look, eye) {
             (FieldOutcome::Absent, FieldOutcome::Absent, FieldOutcome::Absent) => {
                 report_no_camera(context)
@@ -233,6 +234,7 @@ impl Lowering {
             | (_, FieldOutcome::Broken, _)
             | (.., FieldOutcome::Broken) => {}
         }
+        // Report the keys that lose.
         if let (false, FieldOutcome::Read(look)) = (camera.is_absent(), look) {
             report_ignored_camera("CameraEye", "Camera", look[0].span, context);
         }
@@ -261,6 +263,7 @@ impl Lowering {
             invisible: _,
             mut source_spans,
         } = self;
+        // Record the origin of the assets that are still to be read.
         for PendingAsset {
             target,
             path: _,
@@ -271,6 +274,7 @@ impl Lowering {
                 source_spans.record(path, *span);
             }
         }
+        // Hand on the scene with what later steps complete.
         source_spans.finish();
         UnfinishedScene {
             lowered: Lowered {

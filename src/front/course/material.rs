@@ -167,12 +167,14 @@ impl Lowering {
         span: Option<Span>,
         context: &mut Context<'_>,
     ) -> Option<MaterialId> {
+        // The texture replaces an absent colour.
         let color = match (&value.color, &value.texture) {
             (FieldOutcome::Read(color), _) => *color,
             (FieldOutcome::Absent, _) => Spanned::without_span(Color([1.0; 3])),
             (FieldOutcome::Broken, _) => return None,
         };
         let mut phong = self.phong(value, color.value);
+        // `isTransparent` is an older key for refraction.
         let mut glass = value.kt.span;
         let mut is_clear = false;
         match glass_setting(value) {
@@ -189,8 +191,10 @@ impl Lowering {
             Some(_) => {}
             None => report_index_without_weight(value, context),
         }
+        // Report what has no effect.
         self.report_mirror(value, context);
         self.dependent.record_material(value, phong.ks);
+        // Add the material with its origins.
         let lets_through = phong.kt > 0.0;
         let id = self.add_material(ir::Material::Phong(phong));
         if let (true, Some(span)) = (lets_through, glass) {
@@ -219,6 +223,7 @@ impl Lowering {
             is_transparent: _,
             glossy_samples,
         } = material;
+        // Convert the refraction and look up the textures.
         let (kt, eta) = refraction(kt.value.0, eta.value.0);
         ir::Phong {
             color: color.0,
@@ -255,7 +260,7 @@ impl Lowering {
         let ks = specular(&material.ks);
         if shows && ks.value.0 > 0.0 && material.kr.is_absent() {
             let message = || "`type: default` mirrors by `ks` here".to_owned();
-            context.report(&codes::TWO_READINGS, span, message, |d| {
+            context.report(&codes::KEY_READ_DIFFERENTLY, span, message, |d| {
                 d.at(span, "no mirror in some programs")
                     .also(ks.span, "the weight of the mirror image")
                     .hint("a `ks` of 0 has no reflection and no highlight")
@@ -306,6 +311,7 @@ impl Lowering {
             is_transparent: _,
             glossy_samples,
         } = material;
+        // Record the origin of each number.
         for (field, span) in [
             (Field::Whole, span),
             (Field::Color, color),
@@ -320,6 +326,7 @@ impl Lowering {
         ] {
             self.record_span(EntityKind::Material, id.0 as usize, field, span);
         }
+        // Record the origin of each texture.
         for (field, file) in [
             (Field::ColorMap, texture),
             (Field::SpecularMap, specular_map),

@@ -20,7 +20,7 @@
 //! 4. [`assets::load`] reads the files that the scene names and completes the scene.
 //!
 //! [`schema()`] (JSON Schema), [`page()`] (Markdown) and the decoder come from the same
-//! declarations, so they cannot disagree. [`lay_out`] formats a text without decoding it.
+//! declarations, so they cannot disagree. [`format_text`] formats a text without decoding it.
 //!
 //! What callers may rely on:
 //!
@@ -72,7 +72,7 @@ mod value;
 mod variant;
 mod view_size;
 
-pub use layout::lay_out;
+pub use layout::format_text;
 pub use lower::{UnfinishedScene, lower};
 pub use page::page;
 pub use recognize::is_scene_text;

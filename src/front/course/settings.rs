@@ -202,6 +202,7 @@ impl Lowering {
         let light_samples = light_samples
             .ok()
             .unwrap_or(Spanned::without_span(Count(1)));
+        // Report what has no effect, and lower the settings.
         report_unused(scene, context);
         let one_eye = Spanned::without_span(NonNegative(0.0));
         let stereo = scene
@@ -221,6 +222,7 @@ impl Lowering {
             background: scene.background.read().map(|color| color.value.0),
             ..ir::Settings::default()
         };
+        // Record the origin of each value.
         self.record_span(EntityKind::Settings, 0, Field::Mode, mode.span);
         self.record_span(EntityKind::Settings, 0, Field::Stereo, stereo.span);
         let background = scene.background.read().and_then(|color| color.span);
@@ -348,7 +350,7 @@ fn report_unused(scene: &Scene, context: &mut Context<'_>) {
     // Gooch shading: programs differ about shadows.
     if let (Mode::Gooch, true, Some(span)) = (mode.value, shadows.value, shadows.span) {
         let message = || "`gooch` casts no shadows here".to_owned();
-        context.report(&codes::TWO_READINGS, span, message, |d| {
+        context.report(&codes::KEY_READ_DIFFERENTLY, span, message, |d| {
             d.at(span, "in some programs a shadow removes the highlight")
                 .also(mode.span, "the mode")
                 .hint("`RenderMode: phong` has shadows; `Shadows: false` turns them off")

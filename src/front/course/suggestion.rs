@@ -4,19 +4,21 @@
 use super::decode::ValueKey;
 use super::expression;
 use rtc_math::shortest;
-use rtc_source::tree::{NodeContent, NodeId, Tree};
+use rtc_source::tree::{NodeContent, NodeId, SyntaxTree};
 
 /// A hint for a value of the wrong type, and the replacement if it is known. `what` describes the
 /// expected value.
 pub(super) fn suggest(
-    tree: &Tree<'_>,
+    tree: &SyntaxTree<'_>,
     key: ValueKey<'_>,
     node: NodeId,
     what: &str,
 ) -> Option<(String, Option<String>)> {
+    // Find the type that the key expects.
     let takes_triple = what.contains("list of three numbers");
     let takes_pair = what.contains("list of two whole numbers");
     let takes_number = !takes_triple && !takes_pair && what.contains("number");
+    // Suggest how the value is written in that type.
     match tree.shape(node) {
         NodeContent::Map if what == "a list" => {
             let hint = "each item of a list begins with a dash: `- type: sphere`";

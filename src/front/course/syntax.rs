@@ -6,6 +6,7 @@ use rtc_source::tree::yaml::{MAX_DEPTH, Mistake, Separator};
 
 /// The diagnostic for a syntax error.
 pub(super) fn diagnostic(mistake: Mistake<'_>) -> Diagnostic {
+    // Each kind of syntax error has its code and its hint.
     match mistake {
         Mistake::Utf16 { span } => utf16(span),
         Mistake::NotUtf8 { byte, span } => not_utf8(byte, span),

@@ -82,6 +82,7 @@ fn report(
     context: &mut Context<'_>,
 ) {
     let Record { name, variants, .. } = record;
+    // The variants are in conflict, or none is complete.
     let missing = missing(record, present);
     let (code, message) = match missing.as_slice() {
         [] => (
@@ -93,12 +94,14 @@ fn report(
             format!("the {name} needs {}", missing.join(" or ")),
         ),
     };
+    // A misspelled key may be the cause.
     let in_variants =
         |field: &&FieldDeclaration| variants.iter().any(|variant| variant.contains(&field.name));
     let candidates = record.fields.iter().filter(in_variants);
     let candidates =
         candidates.flat_map(|field| field.spellings.iter().copied().flatten().copied());
     let cause = context.typo_for(&candidates.collect::<Vec<_>>(), first_typo);
+    // Show the keys of each variant.
     let alternatives: Vec<_> = variants
         .iter()
         .map(|variant| keys(record, variant))

@@ -128,6 +128,7 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut As
             continue;
         };
         if let Some(view) = accessor.view {
+            // The stride of the view must hold an element.
             let stride = doc.views.get(view).and_then(|view| view.stride);
             if let Some(stride) = stride.filter(|stride| *stride < layout.size()) {
                 let message = format!(
@@ -142,6 +143,7 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut As
                     message,
                 );
             }
+            // All elements lie within the view.
             let bytes = (stride.unwrap_or(layout.packed()) as u64).saturating_mul(count as u64 - 1);
             let place = (view, accessor.offset, layout.component.size());
             fits(
@@ -152,6 +154,7 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut As
                 report,
             );
         }
+        // Sparse accessors replace some elements by those of other views.
         if let Some(sparse) = &accessor.sparse {
             check_sparse(doc, sparse, (layout, count), purposes, report);
         }
@@ -214,6 +217,7 @@ fn bound(list: NodeId, key: &str, layout: ElementLayout, report: &mut AssetRepor
         );
         return report.add(&codes::GLTF_TYPE, "TYPE_MISMATCH", list, message);
     }
+    // A bound has one number per component.
     let items: Vec<NodeId> = report.json.items(list).collect();
     if items.is_empty() && layout.component == Component::F32 {
         return report.repair(
@@ -237,6 +241,7 @@ fn bound(list: NodeId, key: &str, layout: ElementLayout, report: &mut AssetRepor
             message,
         );
     }
+    // Each is a value of the component type.
     for item in items {
         let Some(number) = report.json.number(item) else {
             let message = format!(
@@ -284,6 +289,7 @@ fn fits(
     };
     let code = &codes::GLTF_ACCESSOR;
     let place = report.json.at_or(at, "byteOffset");
+    // Offsets are multiples of the component size, in the view and in the buffer.
     if !offset.is_multiple_of(size) {
         let message =
             format!("the offset {offset} is not a multiple of {size}, the size of a component");
@@ -304,6 +310,7 @@ fn fits(
         let alias = "ACCESSOR_TOTAL_OFFSET_ALIGNMENT";
         report.repair(code, alias, at, &message, UNALIGNED);
     }
+    // The last element ends within the view.
     let end = bytes.saturating_add(offset as u64);
     let length = holder.length.unwrap_or(0);
     if end > length as u64 {
@@ -322,6 +329,7 @@ fn check_sparse(
     purposes: &mut Purposes,
     report: &mut AssetReport<'_, '_>,
 ) {
+    // No more elements are replaced than there are.
     if sparse.count > count {
         let at = report.json.at_or(sparse.at, "count");
         let message = format!(
@@ -335,6 +343,7 @@ fn check_sparse(
             message,
         );
     }
+    // The views of indices and values are tightly packed.
     let (indices, values) = (
         report.json.at_or(sparse.at, "indices"),
         report.json.at_or(sparse.at, "values"),
@@ -356,6 +365,7 @@ fn check_sparse(
             );
         }
     }
+    // The indices and the values lie within their views.
     let ((view, offset, component), of) = (sparse.indices, sparse.count as u64);
     let size = component.size();
     fits(

@@ -145,9 +145,11 @@ fn check_sampler(
         let Some((index, accessor)) = accessor::find(doc, index, report) else {
             continue;
         };
+        // Record how the sampler uses each accessor and its view.
         let at = report.json.at_or(sampler.at, key);
         usages.set(index, usage, at, report);
         purposes.set(accessor.view, Purpose::Other, at, report);
+        // Keyframes are tightly packed.
         if accessor
             .view
             .and_then(|view| doc.views.get(view))
@@ -161,6 +163,7 @@ fn check_sampler(
                 message,
             );
         }
+        // The input holds times, which must increase.
         if usage == Usage::Times {
             check_times(accessor, sampler, at, report);
             if accessor.layout.is_some_and(is_time) {
@@ -180,6 +183,7 @@ fn check_times(
     at: NodeId,
     report: &mut AssetReport<'_, '_>,
 ) {
+    // Times are scalars in f32.
     if !accessor.layout.is_some_and(is_time) {
         let found = accessor
             .layout
@@ -192,6 +196,7 @@ fn check_times(
             message,
         );
     }
+    // Their bounds give the duration.
     if !accessor.has_bounds() {
         report.repair(
             &codes::GLTF_FORMAT,
@@ -201,6 +206,7 @@ fn check_times(
             "they are computed",
         );
     }
+    // A cubic spline needs two keyframes.
     if sampler.interpolation == Interpolation::Cubic && accessor.count == Some(1) {
         let message = "a cubic spline needs at least 2 keyframes, and this has 1".to_owned();
         report.add(

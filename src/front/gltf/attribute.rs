@@ -77,6 +77,7 @@ impl Semantic {
 
 /// Checks the names of the attributes of a primitive, and that none is missing.
 pub(super) fn check_names(primitive: &Primitive, report: &mut AssetReport<'_, '_>) {
+    // Each name is that of a semantic, or starts with an underscore.
     let semantics: Vec<Semantic> = primitive
         .attributes
         .iter()
@@ -98,6 +99,7 @@ pub(super) fn check_names(primitive: &Primitive, report: &mut AssetReport<'_, '_
             message,
         );
     }
+    // Positions are needed, and tangents need normals.
     let has = |semantic| semantics.contains(&semantic);
     let at = report.json.at_or(primitive.at, "attributes");
     if !primitive.attributes.is_empty() && !has(Semantic::Position) {
@@ -119,6 +121,7 @@ pub(super) fn check_names(primitive: &Primitive, report: &mut AssetReport<'_, '_
             message,
         );
     }
+    // The sets of one semantic are numbered from 0.
     check_sets(&semantics, at, report);
 }
 
@@ -174,6 +177,7 @@ pub(super) fn check_format(
     report: &mut AssetReport<'_, '_>,
 ) {
     let semantic = Semantic::of(&attribute.name);
+    // Bounds of positions are required by the specification.
     if semantic == Semantic::Position && !accessor.has_bounds() {
         report.repair(
             &codes::GLTF_FORMAT,
@@ -183,6 +187,7 @@ pub(super) fn check_format(
             "they are computed",
         );
     }
+    // The element type must be known.
     let Some(layout) = accessor.layout else {
         if !matches!(semantic, Semantic::Custom | Semantic::None) {
             let message = format!(
@@ -194,6 +199,7 @@ pub(super) fn check_format(
         }
         return;
     };
+    // The semantic allows certain element types; quantization adds some.
     let quantized = doc.uses("KHR_mesh_quantization");
     if !allows(semantic, layout, quantized, in_target) {
         let message = format!(
@@ -271,6 +277,7 @@ pub(super) fn check_place(
     if !report.is_part(view.at) {
         return;
     }
+    // Vertex data is aligned to four bytes.
     if !is_aligned(accessor, view.stride) {
         report.repair(
             &codes::GLTF_ACCESSOR,
@@ -280,6 +287,7 @@ pub(super) fn check_place(
             UNALIGNED,
         );
     }
+    // A view that several attributes share needs a stride.
     if view.stride.is_none()
         && *streams.entry(index).or_insert(attribute.accessor) != attribute.accessor
     {

@@ -39,6 +39,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
         let fields = Fields::new(report.json, *camera);
         let (perspective, orthographic) =
             (fields.object("perspective"), fields.object("orthographic"));
+        // A camera has exactly one projection, which its type names.
         if fields.has("perspective") && fields.has("orthographic") {
             let message = "a camera must be either perspective or orthographic".to_owned();
             report.add(&codes::GLTF_TOGETHER, "ONE_OF_MISMATCH", *camera, message);
@@ -49,6 +50,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
                 report.add(&codes::GLTF_MISSING, "UNDEFINED_PROPERTY", *camera, message);
             }
         }
+        // The far plane is behind the near plane.
         for part in [perspective, orthographic].into_iter().flatten() {
             if let (Some(near), Some(far)) = (part.number("znear"), part.number("zfar"))
                 && far <= near
@@ -63,6 +65,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
                 );
             }
         }
+        // Check the numbers of each projection.
         if let Some(part) = perspective {
             check_perspective(part, report);
         }

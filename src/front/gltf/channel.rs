@@ -81,6 +81,7 @@ pub(super) fn check_pointers(
         let Some(target) = Fields::new(report.json, channel.at).object("target") else {
             continue;
         };
+        // The path `pointer` needs its extension.
         let path = target.node("path");
         if let Some(at) = path.filter(|path| !is_used && report.json.is(*path, "pointer")) {
             let message = format!(
@@ -89,6 +90,7 @@ pub(super) fn check_pointers(
             );
             report.add(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", at, message);
         }
+        // With the extension, the path must be `pointer`.
         let Some(extension) = target.extension(POINTER).filter(|_| is_used) else {
             continue;
         };
@@ -100,12 +102,14 @@ pub(super) fn check_pointers(
             let alias = "KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_PATH";
             report.add(&codes::GLTF_TOGETHER, alias, at, message);
         }
+        // The pointer names a property that can be animated.
         let named = channel.pointer.as_deref();
         if named.is_some_and(|named| pointer::resolve(doc, report.json, named).is_none()) {
             let message =
                 "the property of the pointer is not supported, so it is not animated".to_owned();
             report.add(&codes::GLTF_MATERIAL_ODD, "", extension.at, message);
         }
+        // It replaces the node.
         if target.has("node") {
             let message = "the channel has both a pointer and a node".to_owned();
             let alias = "KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_NODE";
@@ -122,7 +126,9 @@ pub(super) fn check(
     links: &mut AnimationLinks<'_>,
     report: &mut AssetReport<'_, '_>,
 ) {
+    // Check what the channel animates.
     check_target(doc, channel, report);
+    // Find its sampler.
     let Some(index) = channel.sampler else { return };
     let at = report.json.at_or(channel.at, "sampler");
     let Some(sampler) = animation.samplers.get(index) else {
@@ -136,6 +142,7 @@ pub(super) fn check(
     let (Some((output, accessor)), Some(path)) = (output, channel.path) else {
         return;
     };
+    // Rotations are unit quaternions; the tangents of a cubic spline are not.
     if path == Path::Rotation {
         let constraint = match sampler.interpolation {
             Interpolation::Cubic => AccessorConstraint::CubicRotations,
@@ -143,6 +150,7 @@ pub(super) fn check(
         };
         links.2.add(output, constraint, at);
     }
+    // The path allows certain element types.
     if !accessor.layout.is_some_and(|layout| allows(path, layout)) {
         let found = accessor
             .layout
@@ -155,6 +163,7 @@ pub(super) fn check(
             message,
         );
     }
+    // There is one keyframe per time, or three for a cubic spline.
     let times = sampler.input.and_then(|input| doc.accessors.get(input));
     let times = times.and_then(|times| times.count);
     if let (Some(times), Some(count)) = (times, accessor.count) {
@@ -221,12 +230,14 @@ fn allows(path: Path, layout: ElementLayout) -> bool {
 }
 
 fn check_target(doc: &Document<'_>, channel: &Channel, report: &mut AssetReport<'_, '_>) {
+    // Find the animated node.
     let node = channel
         .node
         .and_then(|node| doc.nodes.get(node))
         .filter(|node| report.is_part(node.at));
     let Some(node) = node else { return };
     let at = report.json.at_or(channel.at, "target");
+    // The node must have the animated property, and the animation an effect.
     match channel.path {
         Some(Path::Translation | Path::Rotation | Path::Scale) => {
             if matches!(node.transform, Transform::Matrix(_)) {

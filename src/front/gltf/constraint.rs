@@ -60,6 +60,7 @@ pub(super) fn check_constraint(
 ) {
     let components = elements.layout.components();
     match constraint {
+        // Normals and tangents are unit vectors.
         AccessorConstraint::Unit if components >= 3 => {
             let off =
                 |_: usize, element: &[f64]| (length(elements, &element[..3]) - 1.0).abs() > UNIT_3;
@@ -72,6 +73,7 @@ pub(super) fn check_constraint(
                 report,
             );
         }
+        // The handedness of a tangent is 1 or -1.
         AccessorConstraint::Sign if components == 4 => {
             let off = |_: usize, element: &[f64]| elements.fraction(element[3]).abs() - 1.0 != 0.0;
             report_violations(
@@ -83,6 +85,7 @@ pub(super) fn check_constraint(
                 report,
             );
         }
+        // Colours and weights are fractions.
         AccessorConstraint::Clamped if elements.layout.component.range().is_none() => {
             let off = |_: usize, element: &[f64]| {
                 element.iter().any(|number| *number < 0.0 || *number > 1.0)
@@ -96,6 +99,7 @@ pub(super) fn check_constraint(
                 report,
             );
         }
+        // Rotations are unit quaternions; of three cubic elements only the middle one is a value.
         AccessorConstraint::Rotations | AccessorConstraint::CubicRotations if components == 4 => {
             let counts = |at: usize| constraint == AccessorConstraint::Rotations || at % 3 == 1;
             let off = |at: usize, element: &[f64]| {
@@ -104,6 +108,7 @@ pub(super) fn check_constraint(
             let alias = "ACCESSOR_ANIMATION_SAMPLER_OUTPUT_NON_NORMALIZED_QUATERNION";
             report_violations(elements, off, alias, "are not of length 1", at, report);
         }
+        // Times, indices and matrices have their own checks.
         AccessorConstraint::Times => times(elements, at, report),
         AccessorConstraint::Below(count, mode) => indices(elements, (count, mode), at, report),
         AccessorConstraint::Affine if components == 16 => affine(elements, at, report),
@@ -192,6 +197,7 @@ fn indices(
     report: &mut AssetReport<'_, '_>,
 ) {
     const TRIANGLES: u64 = 4;
+    // The greatest value of the type restarts a primitive.
     let (mut beyond, mut restart, mut degenerate) = (None, None, 0_usize);
     let greatest = elements
         .layout
@@ -201,6 +207,7 @@ fn indices(
     #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
     let limit = count as f64;
     let mut corners = [-1.0; 3];
+    // Test each index, and each triangle for equal corners.
     elements.each(|at, element| {
         let index = element[0];
         if index - greatest == 0.0 {
@@ -213,6 +220,7 @@ fn indices(
         let [a, b, c] = corners;
         degenerate += usize::from(at % 3 == 2 && ((a - b) * (b - c) * (c - a) == 0.0));
     });
+    // Report the first index of each kind, and the number of degenerate triangles.
     if let Some((place, index)) = beyond {
         let message = format!("index {place} is {index}, but there are only {count} vertices");
         report.add(&codes::GLTF_INDEX, "ACCESSOR_INDEX_OOB", at, message);

@@ -127,6 +127,7 @@ impl Scan<'_> {
     fn header(&mut self) -> Option<()> {
         let code = &codes::GLB_HEADER;
         let size = self.bytes.len();
+        // The first four bytes must be the magic number.
         if size >= MAGIC.len() && !self.bytes.starts_with(MAGIC) {
             let found = String::from_utf8_lossy(&self.bytes[..4])
                 .escape_debug()
@@ -139,12 +140,14 @@ impl Scan<'_> {
             );
             return None;
         }
+        // The header holds the version and the length of the file.
         let (Some(version), Some(length)) = (self.word(4), self.word(8)) else {
             let message =
                 format!("the file ends within its header, after {size} of {HEADER} bytes");
             self.add(code, "GLB_UNEXPECTED_END_OF_HEADER", size..size, message);
             return None;
         };
+        // Only version 2 of the container is read.
         if version == 1 {
             let diagnostic = Diagnostic::new(code, "the file is a `.glb` of glTF 1.0");
             let diagnostic = diagnostic.at(self.span(4..8), "the version").hint(CONVERT);
@@ -160,6 +163,7 @@ impl Scan<'_> {
             );
             return None;
         }
+        // The length must leave room for the JSON chunk.
         if length <= HEADER {
             let message = format!(
                 "the length in the header is {length} bytes, so there is no room for a JSON chunk"
@@ -175,11 +179,13 @@ impl Scan<'_> {
         let (declared, size) = (self.word(8).unwrap_or(0), self.bytes.len());
         let mut at = HEADER;
         while at != size {
+            // Bytes after the declared length are no chunk.
             if at == declared {
                 let message = format!("{} bytes after the last chunk are ignored", size - declared);
                 self.add(&codes::GLB_EXTRA, "GLB_EXTRA_DATA", declared..size, message);
                 return true;
             }
+            // A chunk starts with its length and its type.
             let (Some(length), Some(kind)) =
                 (self.word(at), self.bytes.get(at + 4..at + CHUNK_HEADER))
             else {
@@ -194,6 +200,7 @@ impl Scan<'_> {
             };
             let kind = [kind[0], kind[1], kind[2], kind[3]];
             let start = at + CHUNK_HEADER;
+            // Its data may end after the file, which is then truncated.
             let end = start.saturating_add(length);
             self.chunk(kind, at, start..end.min(size), end, declared);
             if end > size {
@@ -212,6 +219,7 @@ impl Scan<'_> {
             }
             at = self.next_chunk(end);
         }
+        // The chunks must end at the declared length.
         if at != declared {
             let message =
                 format!("the length in the header is {declared} bytes, but the file has {at}");

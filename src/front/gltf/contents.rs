@@ -92,6 +92,7 @@ fn sparse(elements: &AccessorReader<'_>, accessor: &Accessor, report: &mut Asset
         .as_ref()
         .map_or(accessor.at, |sparse| sparse.at);
     let at = report.json.at_or(at, "indices");
+    // Sparse indices must increase strictly.
     let all = || (0..indices.len()).filter_map(|place| indices.get(place));
     if let Some((place, _)) = all()
         .zip(all().skip(1))
@@ -109,6 +110,7 @@ fn sparse(elements: &AccessorReader<'_>, accessor: &Accessor, report: &mut Asset
             message,
         );
     }
+    // Each must be the index of an element.
     if let Some((place, index)) = all()
         .enumerate()
         .find(|(_, index)| *index >= elements.count)
@@ -245,10 +247,12 @@ fn bound(
     found: f64,
     report: &mut AssetReport<'_, '_>,
 ) {
+    // A declared bound that equals the computed one is right.
     let declared = all[component];
     if declared.total_cmp(&found).is_eq() || declared - found == 0.0 {
         return;
     }
+    // Otherwise the values of the elements replace it.
     let is_min = key == "min";
     let (mismatch, out) = if is_min {
         ("ACCESSOR_MIN_MISMATCH", "ACCESSOR_ELEMENT_OUT_OF_MIN_BOUND")
@@ -264,6 +268,7 @@ fn bound(
         shortest(found)
     );
     report.repair(&codes::GLTF_BOUNDS, mismatch, at, &message, BOUNDS);
+    // Count the elements that lie outside the declared bound.
     let beyond = beyond.get_or_insert_with(|| count_beyond(elements, all, is_min))[component];
     if beyond > 0 {
         let message = format!(

@@ -12,7 +12,7 @@ use super::node::Node;
 use super::primitive::Primitive;
 use super::skin::Skin;
 use super::texture::{Texture, TextureSampler};
-use rtc_source::tree::{NodeId, Tree};
+use rtc_source::tree::{NodeId, SyntaxTree};
 use std::collections::BTreeSet;
 
 /// An asset.
@@ -58,7 +58,7 @@ const VALUE: u64 = 40;
 const PLACED: usize = 256;
 
 /// Bytes that the parts of an asset take. An item of a list counts as a part, whatever it is.
-pub(super) fn cost(json: &Tree<'_>) -> u64 {
+pub(super) fn cost(json: &SyntaxTree<'_>) -> u64 {
     let count = |map: NodeId, key| json.list(map, key).count();
     let inner = |key, part| {
         json.list(json.root(), key)
@@ -86,7 +86,7 @@ pub(super) fn cost(json: &Tree<'_>) -> u64 {
 
 impl Document<'_> {
     /// Reads the parts; buffers are still empty.
-    pub(super) fn read(json: &Tree<'_>, is_glb: bool) -> Self {
+    pub(super) fn read(json: &SyntaxTree<'_>, is_glb: bool) -> Self {
         fn each<'t, 's: 't, T>(
             root: Fields<'t, 's>,
             key: &str,
@@ -95,12 +95,14 @@ impl Document<'_> {
             root.objects(key).map(read).collect()
         }
         let root = Fields::new(json, json.root());
+        // Lights exist only if the asset declares their extension.
         let texts = json
             .list(json.root(), "extensionsUsed")
             .filter_map(|item| json.text(item));
         let extensions: BTreeSet<String> = texts.map(str::to_owned).collect();
         let has_lights = extensions.contains("KHR_lights_punctual");
         let lights = root.extension("KHR_lights_punctual").filter(|_| has_lights);
+        // Read each array of the root object.
         Self {
             buffers: each(root, "buffers", Buffer::read),
             views: each(root, "bufferViews", BufferView::read),

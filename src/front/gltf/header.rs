@@ -4,7 +4,7 @@ use super::field::Fields;
 use super::report::{AssetReport, shown};
 use super::schema;
 use rtc_diag::codes;
-use rtc_source::tree::{NodeId, NodeKind, Tree};
+use rtc_source::tree::{NodeId, NodeKind, SyntaxTree};
 use std::collections::BTreeSet;
 
 /// Prefixes of extensions that the registry of Khronos knows, beside those of Khronos and of
@@ -71,7 +71,7 @@ pub(super) const CONVERT: &str =
 
 /// The evidence that an asset is glTF 1.0: its version, which may be a number there, a profile, or
 /// entities with names instead of numbers.
-fn of_first_version(json: &Tree<'_>) -> Option<NodeId> {
+fn of_first_version(json: &SyntaxTree<'_>) -> Option<NodeId> {
     let root = json.root();
     let version = json.at(root, &["asset", "version"]);
     let is_declared = |at: &NodeId| match json.text(*at) {
@@ -117,6 +117,7 @@ pub(super) fn check_version(report: &mut AssetReport<'_, '_>) -> bool {
     let Some((at, (major, minor))) = version(asset, "version") else {
         return false;
     };
+    // The major version must be 2; a higher minor version is compatible.
     if major != 2 {
         let message = format!("the asset is glTF {major}.{minor}; rtc reads glTF 2.0");
         report.add(
@@ -134,6 +135,7 @@ pub(super) fn check_version(report: &mut AssetReport<'_, '_>) -> bool {
             message,
         );
     }
+    // The minimum version may not exceed the version, or glTF 2.0.
     let Some((at, least)) = version(asset, "minVersion") else {
         return major == 2;
     };

@@ -27,6 +27,7 @@ pub(super) fn check(
     joints: usize,
     report: &mut AssetReport<'_, '_>,
 ) {
+    // Pair the joints and weights of each set.
     let part = |accessor: usize| {
         let accessor = doc.accessors.get(accessor)?;
         AccessorReader::of(doc, accessor)
@@ -36,6 +37,7 @@ pub(super) fn check(
         .into_iter()
         .map_while(|[joints, weights]| Some([part(joints)?, part(weights)?]));
     let sets: Vec<[AccessorReader<'_>; 2]> = sets.collect();
+    // Sets of different lengths are reported elsewhere.
     let count = sets.first().map_or(0, |[joints, _]| joints.count);
     if sets
         .iter()
@@ -44,10 +46,12 @@ pub(super) fn check(
     {
         return;
     }
+    // Charge the work before any vertex is read.
     let work = (count as u64).saturating_mul(sets.len() as u64);
     if !report.charge(Resource::Vertices, work, at, "the skin") {
         return;
     }
+    // Collect the influences of each vertex over all sets.
     let mut found = Influences::default();
     #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
     let joints = joints as f64;
@@ -108,6 +112,7 @@ impl Influences {
             idle,
         } = self;
         let skin = &codes::GLTF_SKIN;
+        // List each violation with its first vertex.
         for (code, place, alias, set, what) in [
             (
                 skin,
@@ -145,6 +150,7 @@ impl Influences {
                 "uses a joint with weight 0",
             ),
         ] {
+            // Report those that were found.
             let Some(vertex) = place else { continue };
             let place = report.json.at(at, &["attributes", set]);
             let at = place.unwrap_or(at);

@@ -10,6 +10,7 @@ use rtc_math::shortest;
 pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     for light in &doc.lights {
         let fields = Fields::new(report.json, *light);
+        // A spot light needs its cone angles.
         if fields.is("type", "spot") && !fields.has("spot") {
             let message = "the light has no `spot`".to_owned();
             report.add(
@@ -19,6 +20,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
                 message,
             );
         }
+        // Properties of other kinds of light have no effect.
         if let Some(at) = fields
             .node("range")
             .filter(|_| fields.is("type", "directional"))
@@ -30,6 +32,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
             let message = "only a spot light may have `spot`".to_owned();
             report.add(&codes::GLTF_REMARK, "EXTRA_PROPERTY", at, message);
         }
+        // The outer cone must enclose the inner cone.
         let Some(spot) = fields.object("spot") else {
             continue;
         };

@@ -5,14 +5,15 @@ use super::field::Fields;
 use super::report::AssetReport;
 use rtc_diag::codes;
 use rtc_math::shortest;
-use rtc_source::tree::{NodeId, NodeKind, Tree};
+use rtc_source::tree::{NodeId, NodeKind, SyntaxTree};
 
 /// Each texture of a material with its set of texture coordinates.
 pub(super) fn texture_coordinates(
     doc: &Document<'_>,
-    json: &Tree<'_>,
+    json: &SyntaxTree<'_>,
     material: NodeId,
 ) -> Vec<(NodeId, u64)> {
+    // Textures are in the material, its metallic-roughness part and its used extensions.
     let parts = json.at(material, &["pbrMetallicRoughness"]).into_iter();
     let is_used = |key: NodeId| json.text(key).is_some_and(|name| doc.uses(name));
     let extensions = json
@@ -31,6 +32,7 @@ pub(super) fn texture_coordinates(
             continue;
         }
         let fields = Fields::new(json, at);
+        // `KHR_texture_transform` may override the set of a texture.
         let transform = fields
             .extension("KHR_texture_transform")
             .filter(|_| doc.uses("KHR_texture_transform"));
@@ -156,11 +158,13 @@ fn check_iridescence(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut As
     let Some(film) = extension(doc, fields, "KHR_materials_iridescence") else {
         return;
     };
+    // The texture interpolates between the two thicknesses.
     let [least, most] = [
         film.number_or("iridescenceThicknessMinimum", 100.0),
         film.number_or("iridescenceThicknessMaximum", 400.0),
     ];
     let texture = film.has("iridescenceThicknessTexture");
+    // Without a texture, the film has its maximum thickness.
     if let Some(at) = film
         .node("iridescenceThicknessMinimum")
         .filter(|_| !texture)
@@ -169,6 +173,7 @@ fn check_iridescence(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut As
         let alias = "KHR_MATERIALS_IRIDESCENCE_THICKNESS_RANGE_WITHOUT_TEXTURE";
         report.add(&codes::GLTF_REMARK, alias, at, message);
     }
+    // With one, the range must not be empty or reversed.
     if texture && least > most {
         let [least, most] = [least, most].map(shortest);
         let message =

@@ -67,9 +67,11 @@ pub(super) fn check(
     report: &mut AssetReport<'_, '_>,
 ) {
     for mesh in &doc.meshes {
+        // Check each primitive by itself.
         for primitive in &mesh.primitives {
             primitive::check(doc, primitive, links, report);
         }
+        // All primitives have as many morph targets as the first.
         let targets = mesh.targets();
         for primitive in mesh
             .primitives
@@ -88,6 +90,7 @@ pub(super) fn check(
                 message,
             );
         }
+        // There is one weight per morph target.
         if !mesh.weights.is_empty() && mesh.weights.len() != targets {
             let at = report.json.at_or(mesh.at, "weights");
             let message = format!(

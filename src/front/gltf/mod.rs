@@ -78,7 +78,7 @@ use report::AssetReport;
 use resource::Resources;
 use rtc_diag::{Diagnostic, Severity, Sink, codes};
 use rtc_ir::Lowered;
-use rtc_source::tree::{Tree, json};
+use rtc_source::tree::{SyntaxTree, json};
 use rtc_source::{FileId, Resource, Search, SourceMap, Span};
 use usage::Usages;
 
@@ -145,6 +145,7 @@ pub fn lower(
     sink: &mut Sink,
 ) -> Option<Lowered> {
     let bytes = map.bytes(file);
+    // Find the JSON text in the file and parse it.
     let parts = parts(file, map, options.lenient, sink)?;
     let (base, text) = text(file, bytes, &parts, options.lenient, sink)?;
     let tree = match json::parse(file, base, text) {
@@ -159,6 +160,7 @@ pub fn lower(
         }
     };
     check_keys(&tree, options.lenient, sink);
+    // Charge the nodes before the document is built.
     let mut report = AssetReport::new(&tree, sink, options, map.budget());
     let root = tree.root();
     let is_small = report.charge(Resource::Nodes, tree.count() as u64, root, "the asset")
@@ -166,13 +168,16 @@ pub fn lower(
     if !is_small {
         return None;
     }
+    // Check the document by the schema and its links.
     let doc = shape(&tree, parts.is_glb, &mut report).filter(|_| parts.is_whole)?;
     let folder = map.folder(file);
+    // Load images and buffers, and check the accessors by their contents.
     let search = Search::new(folder, options.asset_root.as_deref())
         .with_parent(folder, options.home.as_deref());
     let chunk = parts.bin.map(|range| &bytes[range]);
     let resources = Resources::new(search, map);
     let doc = fill(doc, chunk, resources, options.threads, &mut report);
+    // Lower only an asset without errors.
     let lowered = (!report.has_errors()).then(|| lower::lower(&doc, options, &mut report));
     lowered.filter(|_| !report.has_errors())
 }
@@ -245,7 +250,7 @@ fn not_json(span: Span, message: &str) -> Diagnostic {
         .alias("INVALID_JSON")
 }
 
-fn check_keys(tree: &Tree<'_>, is_lenient: bool, sink: &mut Sink) {
+fn check_keys(tree: &SyntaxTree<'_>, is_lenient: bool, sink: &mut Sink) {
     for (first, second) in tree.duplicate_keys() {
         let code = &codes::GLTF_KEY_TWICE;
         let are_equal = tree.are_alike(*first, *second);
@@ -271,7 +276,7 @@ fn check_keys(tree: &Tree<'_>, is_lenient: bool, sink: &mut Sink) {
 
 /// Checks the JSON of an asset. Of an asset that is not glTF 2 only the header is checked.
 fn shape<'s>(
-    tree: &'s Tree<'s>,
+    tree: &'s SyntaxTree<'s>,
     is_glb: bool,
     report: &mut AssetReport<'_, 's>,
 ) -> Option<Document<'s>> {

@@ -5,7 +5,7 @@ use super::field::Fields;
 use super::report::AssetReport;
 use rtc_diag::codes;
 use rtc_math::unit;
-use rtc_source::tree::{NodeId, Tree};
+use rtc_source::tree::{NodeId, SyntaxTree};
 use std::collections::BTreeSet;
 
 /// The tolerance of the length of a rotation.
@@ -119,6 +119,7 @@ pub(super) struct NodeHierarchy {
 
 /// Checks each node, and that they form trees.
 pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> NodeHierarchy {
+    // Check each node by itself; a joint may be empty.
     let joints: BTreeSet<usize> = doc
         .skins
         .iter()
@@ -132,8 +133,9 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> Nod
             check_empty(node, report);
         }
     }
+    // Each node has at most one parent.
     let mut parents = vec![None; doc.nodes.len()];
-    let index_at = |at: NodeId, json: &Tree<'_>| usize::try_from(json.integer(at)?).ok();
+    let index_at = |at: NodeId, json: &SyntaxTree<'_>| usize::try_from(json.integer(at)?).ok();
     for (index, node) in doc.nodes.iter().enumerate() {
         for at in report.json.list(node.at, "children") {
             let Some(child) = index_at(at, report.json) else {
@@ -150,6 +152,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> Nod
             }
         }
     }
+    // Scenes list roots only.
     let roots = roots(doc, &parents, report);
     for scene in &doc.scenes {
         for at in report.json.list(scene.at, "nodes") {
@@ -182,14 +185,16 @@ fn roots(
     enum NodeState {
         New,
         OnWay,
-        CheckedSkins(Option<usize>),
+        Finished(Option<usize>),
     }
+    // Follow the parents of each node up to a root or a node of known root.
     let mut states = vec![NodeState::New; parents.len()];
     for start in 0..parents.len() {
         let (mut path, mut at): (Vec<usize>, usize) = (Vec::new(), start);
         let root = loop {
             match states[at] {
-                NodeState::CheckedSkins(root) => break root,
+                NodeState::Finished(root) => break root,
+                // The path met itself: its nodes form a cycle.
                 NodeState::OnWay => {
                     let first = path.iter().position(|node| *node == at).unwrap_or(0);
                     for node in &path[first..] {
@@ -213,11 +218,12 @@ fn roots(
                 }
             }
         };
+        // All nodes of the path have this root.
         path.into_iter()
-            .for_each(|node| states[node] = NodeState::CheckedSkins(root));
+            .for_each(|node| states[node] = NodeState::Finished(root));
     }
     let root = |state: &NodeState| {
-        if let NodeState::CheckedSkins(root) = state {
+        if let NodeState::Finished(root) = state {
             *root
         } else {
             None
@@ -231,6 +237,7 @@ fn check_transform(node: &Node, report: &mut AssetReport<'_, '_>) {
         Transform::Matrix(matrix) => {
             let at = report.json.at_or(node.at, "matrix");
             let fields = Fields::new(report.json, node.at);
+            // A matrix excludes the separate transforms.
             if ["translation", "rotation", "scale"]
                 .iter()
                 .any(|key| fields.numbers(key).is_some())
@@ -240,6 +247,7 @@ fn check_transform(node: &Node, report: &mut AssetReport<'_, '_>) {
                     .to_owned();
                 report.add(&codes::GLTF_TOGETHER, "NODE_MATRIX_TRS", at, message);
             }
+            // The matrix must be affine and invertible.
             if matrix == IDENTITY {
                 let message = "the matrix is the identity, which is the default".to_owned();
                 report.add(&codes::GLTF_REMARK, "NODE_MATRIX_DEFAULT", at, message);
@@ -264,6 +272,7 @@ fn check_transform(node: &Node, report: &mut AssetReport<'_, '_>) {
             rotation,
             scale: _,
         } => {
+            // A rotation is a unit quaternion.
             let length = rotation.iter().map(|part| part * part).sum::<f64>().sqrt();
             if (length - 1.0).abs() > UNIT {
                 let at = report.json.at_or(node.at, "rotation");
@@ -308,6 +317,7 @@ fn is_sheared(matrix: &[f64; 16]) -> bool {
 fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut AssetReport<'_, '_>) {
     let mesh = node.mesh.and_then(|mesh| doc.meshes.get(mesh));
     let fields = Fields::new(report.json, node.at);
+    // Weights need a mesh with as many morph targets.
     if let Some(at) = fields.node("weights").filter(|_| !node.weights.is_empty()) {
         if node.mesh.is_none() {
             let message = "the node has `weights` but no mesh".to_owned();
@@ -323,6 +333,7 @@ fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut AssetReport<'_, '_>)
             report.add(&codes::GLTF_COUNT, "NODE_WEIGHTS_INVALID", at, message);
         }
     }
+    // A skin needs a mesh.
     if let Some(at) = fields
         .node("skin")
         .filter(|_| node.skin.is_some() && node.mesh.is_none())
@@ -330,6 +341,7 @@ fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut AssetReport<'_, '_>)
         let message = "the node has a `skin` but no mesh".to_owned();
         report.add(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
     }
+    // A skinned mesh and a skin belong together.
     match (mesh, node.skin.and_then(|skin| doc.skins.get(skin))) {
         (Some(mesh), Some(_)) if mesh.is_skinned() == Some(false) => {
             let message = "the node has a skin, but its mesh has no `JOINTS_0`".to_owned();

@@ -3,7 +3,7 @@
 
 use super::channel::Path;
 use super::document::Document;
-use rtc_source::tree::{NodeId, NodeKind, Tree};
+use rtc_source::tree::{NodeId, NodeKind, SyntaxTree};
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
@@ -146,7 +146,7 @@ pub(super) fn of_node(pointer: &str) -> Option<(usize, Path)> {
 /// one, or an object that the asset has not.
 pub(super) fn resolve(
     doc: &Document<'_>,
-    json: &Tree<'_>,
+    json: &SyntaxTree<'_>,
     pointer: &str,
 ) -> Option<AnimatedProperty> {
     let part = |list: &[NodeId], at: usize| list.get(at).copied();

@@ -80,6 +80,7 @@ impl Primitive {
 pub(super) fn check(
     doc: &Document<'_>,
     primitive: &Primitive,
+    // Record how each attribute uses its accessor and its view.
     links: &mut MeshLinks<'_>,
     report: &mut AssetReport<'_, '_>,
 ) {
@@ -95,9 +96,11 @@ pub(super) fn check(
         links
             .purposes
             .set(accessor.view, Purpose::Vertices, attribute.at, report);
+        // Check the format and layout of its elements.
         attribute::check_format(doc, attribute, accessor, false, report);
         attribute::check_place(doc, attribute, accessor, links.streams, report);
         attribute::add_constraints(attribute, accessor, links.constraints);
+        // All attributes have as many elements as the first.
         match vertices {
             None => vertices = accessor.count,
             Some(first) if accessor.count != Some(first) => {
@@ -116,6 +119,7 @@ pub(super) fn check(
             Some(_) => {}
         }
     }
+    // Check what refers to the vertices.
     check_indices(doc, (primitive, vertices), links, report);
     check_targets(doc, primitive, links, report);
     check_material(doc, primitive, links, report);
@@ -130,6 +134,7 @@ fn check_indices(
 ) {
     let indices = accessor::find(doc, primitive.indices, report);
     if let Some((index, accessor)) = indices {
+        // Record how the indices use their accessor and their view.
         let at = report.json.at_or(primitive.at, "indices");
         links.usages.set(index, Usage::Indices, at, report);
         links
@@ -148,6 +153,7 @@ fn check_indices(
                 message,
             );
         }
+        // Indices are unsigned integers below the number of vertices.
         let is_index = |layout: ElementLayout| {
             layout.component.is_index() && layout.components() == 1 && !layout.normalized
         };
@@ -170,6 +176,7 @@ fn check_indices(
             );
         }
     }
+    // The indices, or else the vertices, fill whole primitives.
     let count = if primitive.indices.is_some() {
         indices.and_then(|(_, indices)| indices.count)
     } else {
@@ -204,6 +211,7 @@ fn fills(mode: u64, count: usize) -> bool {
 fn check_targets(
     doc: &Document<'_>,
     primitive: &Primitive,
+    // Record how each displacement uses its accessor and its view.
     links: &mut MeshLinks<'_>,
     report: &mut AssetReport<'_, '_>,
 ) {
@@ -217,8 +225,10 @@ fn check_targets(
         links
             .purposes
             .set(accessor.view, Purpose::Vertices, attribute.at, report);
+        // Check the format and layout of its elements.
         attribute::check_format(doc, attribute, accessor, true, report);
         attribute::check_place(doc, attribute, accessor, links.streams, report);
+        // It displaces an attribute of the primitive with as many elements.
         let Some(base) = primitive.find(&attribute.name) else {
             let message = format!(
                 "the morph target has `{}`, which the primitive lacks",
@@ -276,6 +286,7 @@ fn check_material(
 
 /// Checks that tangents are present where the material uses them, and absent elsewhere.
 fn check_tangents(doc: &Document<'_>, primitive: &Primitive, report: &mut AssetReport<'_, '_>) {
+    // A normal map or anisotropy needs tangents.
     let material = primitive
         .material
         .and_then(|material| doc.materials.get(material));
@@ -287,6 +298,7 @@ fn check_tangents(doc: &Document<'_>, primitive: &Primitive, report: &mut AssetR
             .iter()
             .find(|attribute| attribute.name == name)
     };
+    // Other materials ignore them.
     if let Some(tangent) = find("TANGENT").filter(|_| !is_needed) {
         let message = "the material has no normal map, so the tangents have no effect".to_owned();
         report.add(
@@ -296,6 +308,7 @@ fn check_tangents(doc: &Document<'_>, primitive: &Primitive, report: &mut AssetR
             message,
         );
     }
+    // Missing tangents are generated from the coordinates of the normal map.
     let (Some(material), true) = (material, is_needed) else {
         return;
     };

@@ -3,13 +3,13 @@
 
 use crate::FrontOptions;
 use rtc_diag::{Code, Diagnostic, Severity, Sink, codes};
-use rtc_source::tree::{NodeId, NodeKind, Tree};
+use rtc_source::tree::{NodeId, NodeKind, SyntaxTree};
 use rtc_source::{Budget, Exceeded, Resource};
 
 /// Collects the diagnostics of one asset.
 pub(super) struct AssetReport<'r, 's> {
     /// The text that they are about.
-    pub(super) json: &'r Tree<'s>,
+    pub(super) json: &'r SyntaxTree<'s>,
     sink: &'r mut Sink,
     options: &'r FrontOptions,
     /// The remaining budget of the run.
@@ -20,7 +20,7 @@ pub(super) struct AssetReport<'r, 's> {
 
 impl<'r, 's> AssetReport<'r, 's> {
     pub(super) fn new(
-        json: &'r Tree<'s>,
+        json: &'r SyntaxTree<'s>,
         sink: &'r mut Sink,
         options: &'r FrontOptions,
         budget: &'r Budget,
@@ -160,7 +160,7 @@ impl<'r, 's> AssetReport<'r, 's> {
 }
 
 fn diagnostic(
-    json: &Tree<'_>,
+    json: &SyntaxTree<'_>,
     (code, severity): (&'static Code, Severity),
     alias: &'static str,
     at: NodeId,

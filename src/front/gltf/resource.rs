@@ -194,6 +194,7 @@ impl<'m> Resources<'m> {
         at: NodeId,
         report: &mut AssetReport<'_, '_>,
     ) -> Option<Bytes<'static>> {
+        // Report a file that is absent or outside the permitted folders.
         let found = match found {
             Ok(found) => found,
             Err(Missing::Outside(_)) => {
@@ -225,6 +226,7 @@ impl<'m> Resources<'m> {
                 return None;
             }
         };
+        // Read a file once, whatever names it has.
         let identity = found.identity();
         if let Some(bytes) = identity
             .as_ref()
@@ -232,6 +234,7 @@ impl<'m> Resources<'m> {
         {
             return Some(Rc::clone(bytes));
         }
+        // Load the file within the budget.
         match Loader.found(&found, MAX_BYTES, self.map) {
             Ok(bytes) => {
                 report.budget.read(bytes.len());

@@ -41,11 +41,13 @@ pub(super) fn check(
     (purposes, usages, constraints): (&mut Purposes, &mut Usages, &mut AccessorConstraints),
     report: &mut AssetReport<'_, '_>,
 ) {
+    // Check each skin by itself.
     let order = JointOrder::new(doc, hierarchy);
     for skin in &doc.skins {
         check_tree(doc, skin, hierarchy, &order, report);
         check_matrices(doc, skin, (purposes, usages, constraints), report);
     }
+    // Check each node with a mesh and a skin.
     let mut scene_trees = SceneTrees::new(doc, hierarchy);
     let mut done = CheckedSkins::default();
     for (index, node) in doc.nodes.iter().enumerate() {
@@ -62,10 +64,12 @@ pub(super) fn check(
             continue;
         };
         check_node((index, node), hierarchy, report);
+        // One scene contains the mesh and its joints.
         if scene_trees.differ(hierarchy.roots[index], of) {
             let message = "the scene contains the mesh but not its joints".to_owned();
             report.add(&codes::GLTF_SKIN, "NODE_SKIN_NO_SCENE", node.at, message);
         }
+        // Check the joints and weights of each mesh once per number of joints.
         if done.meshes.insert((at, skin.joints.len())) {
             for primitive in &mesh.primitives {
                 let accessors: Vec<[usize; 2]> = primitive.influences().collect();
@@ -222,6 +226,7 @@ fn check_matrices(
     let Some((index, accessor)) = accessor::find(doc, skin.matrices, report) else {
         return;
     };
+    // Record how the skin uses the accessor and its view.
     let at = report.json.at_or(skin.at, "inverseBindMatrices");
     usages.set(index, Usage::InverseBindMatrices, at, report);
     purposes.set(accessor.view, Purpose::InverseBindMatrices, at, report);
@@ -239,6 +244,7 @@ fn check_matrices(
             message,
         );
     }
+    // The elements are affine matrices in f32.
     let is_matrix = |layout: ElementLayout| {
         layout.columns == 4 && layout.component == Component::F32 && !layout.normalized
     };
@@ -251,6 +257,7 @@ fn check_matrices(
         let message = format!("the inverse bind matrices are {found}; they must be mat4 of f32");
         report.add(&codes::GLTF_FORMAT, "SKIN_IBM_INVALID_FORMAT", at, message);
     }
+    // There is one matrix per joint.
     if let Some(count) =
         Some(accessor.count.unwrap_or(0)).filter(|count| *count < skin.joints.len())
     {

@@ -56,6 +56,7 @@ impl TextureSampler {
 /// Checks that the images of textures have the required formats.
 pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     for texture in &doc.textures {
+        // A wrong media type is reported; the data tell the real one.
         let faulty = |report: &mut AssetReport<'_, '_>, at, found: &str, wanted: &str| {
             let message = format!(
                 "the media type of the image is {}; it must be {wanted}",
@@ -69,11 +70,13 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
                 "the type is read from the data",
             );
         };
+        // The core specification allows PNG and JPEG.
         let core = [ImageCoding::Png.media(), ImageCoding::Jpeg.media()];
         if let Some(found) = media(doc, texture.source).filter(|found| !core.contains(found)) {
             let at = report.json.at_or(texture.at, "source");
             faulty(report, at, found, "image/png or image/jpeg");
         }
+        // Each extension allows one more format.
         let replacements = [
             ("EXT_texture_webp", texture.webp, ImageCoding::WebP.media()),
             (

@@ -109,6 +109,7 @@ fn data(rest: &str) -> Result<Uri, UriFault> {
     let (head, body) = rest.split_once(',').ok_or(UriFault::Malformed(
         "a data URI needs a comma before its data",
     ))?;
+    // The head is a media type with parameters.
     let mut parameters = head.split(';');
     let media = parameters
         .next()
@@ -121,6 +122,7 @@ fn data(rest: &str) -> Result<Uri, UriFault> {
     if !media.is_empty() && !is_media {
         return Err(UriFault::Malformed("its media type has no slash"));
     }
+    // The last parameter tells the encoding.
     let mut parameters: Vec<&str> = parameters.collect();
     let is_base64 = parameters
         .last()
@@ -131,6 +133,7 @@ fn data(rest: &str) -> Result<Uri, UriFault> {
             "a parameter of its media type has no value",
         ));
     }
+    // The body is Base64 or percent-encoded.
     let bytes = if is_base64 {
         let escaped = body.contains('%');
         let text = if escaped {

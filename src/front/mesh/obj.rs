@@ -143,10 +143,12 @@ impl Check {
             (Lines::new(bytes), Vec::new(), CornerCounts::default());
         let mut group = 0;
         while lines.next(&mut words) {
+            // Count the corner data so far: negative indices refer to them.
             let (head, rest) = (words[0], &words[1..]);
             if let Some(part) = part_of(&head) {
                 so_far[part] += 1;
             }
+            // Add the primitive of the line.
             let outcome = match head.bytes {
                 b"f" | b"fo" if rest.len() >= 3 => self.face(rest, so_far, group),
                 b"f" | b"fo" => Err(head.fault("faces need three corners", "the first one")),
@@ -170,6 +172,7 @@ impl Check {
                 }
                 _ => Ok(()),
             };
+            // Keep the first fault and the number of all.
             if let Err(fault) = outcome {
                 self.not_drawn.get_or_insert((fault, 0)).1 += 1;
             }

@@ -144,6 +144,7 @@ fn body<'a>(
     faults: &mut Vec<WordFault>,
 ) {
     let (mut positions, mut normals, mut tints) = (Vec::new(), Vec::new(), Tints::default());
+    // Read a position per line, with a normal and a colour if declared.
     for _ in 0..head.vertices.value {
         let words = match reader.line(&head.vertices) {
             Ok(words) => words,
@@ -162,6 +163,7 @@ fn body<'a>(
             return;
         }
     }
+    // Store the attributes, and read a polygon per line.
     let mesh = &mut content.parsed.mesh;
     (mesh.positions, mesh.normals) = (positions.into(), normals.into());
     mesh.colors = tints.column();

@@ -141,11 +141,13 @@ impl<'a> PlyReader<'a> {
     }
 
     fn faces(&mut self, element: &PlyElement<'_>) -> Result<(), WordFault> {
+        // Find the properties that are colour channels.
         let channels: Vec<_> = element.properties.iter().map(vertex::channel).collect();
         for _ in 0..element.count {
             let (mut color, mut is_sound) = ([0.0, 0.0, 0.0, 1.0], true);
             let (mut has_color, mut corners) = (false, 0);
             let mut uvs = Vec::new();
+            // Read the corners, coordinates and colour of a row.
             for (property, channel) in element.properties.iter().zip(&channels) {
                 match (property.length, channel) {
                     (Some(length), _) if property.is_corners() => {
@@ -164,6 +166,7 @@ impl<'a> PlyReader<'a> {
                     _ => self.body.skip(property, element)?,
                 }
             }
+            // Report what does not fit.
             if self.body.end_row() {
                 self.long += 1;
                 let body = &self.body;
@@ -171,6 +174,7 @@ impl<'a> PlyReader<'a> {
                 self.parsed
                     .skip(|| body.line_fault(message, "the first such line"));
             }
+            // Keep a sound face with at least three corners.
             if !is_sound || corners < 3 {
                 self.polygons.discard_polygon();
             }

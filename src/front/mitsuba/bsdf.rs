@@ -37,6 +37,7 @@ impl<'run> Lowering<'run> {
         radiance: [f64; 3],
         flip: bool,
     ) -> Option<MaterialId> {
+        // Find the BSDF of the shape.
         let is_bsdf = |node: &&'run Node| match node.tag.as_str() {
             "bsdf" => true,
             "ref" => self.refers_to(node, "bsdf"),
@@ -44,10 +45,12 @@ impl<'run> Lowering<'run> {
         };
         let node = shape.children.iter().find(is_bsdf);
         let node = node.and_then(|node| self.resolve(node));
+        // Shapes with one BSDF and one emission share a material.
         let key = (node.map(|node| node.span), radiance.map(f64::to_bits), flip);
         if let Some(known) = self.materials.get(&key) {
             return *known;
         }
+        // Lower it, and add the emission.
         let standard = match node {
             Some(node) => self.standard(node, flip, 0),
             None => Some(matte([0.5; 3])),
@@ -69,10 +72,12 @@ impl<'run> Lowering<'run> {
 
     /// A BSDF as a standard material; `None` for `null`.
     fn standard(&mut self, node: &'run Node, flip: bool, depth: usize) -> Option<Standard> {
+        // Nesting is bounded.
         if depth >= MAX_DEPTH {
             self.unsupported(node, "it is nested too deep, and grey replaces it");
             return Some(matte([0.5; 3]));
         }
+        // Each plugin becomes the standard material nearest to it.
         Some(match node.plugin.text.as_str() {
             "diffuse" | "lambertian" => {
                 self.ignored(node, &["reflectance"]);
@@ -375,6 +380,7 @@ impl<'run> Lowering<'run> {
 
     /// A texture as a map; `None` for one that is not supported.
     fn texture(&mut self, node: &'run Node, flip: bool) -> Option<Map> {
+        // Find the image and the filter.
         let (image, filter) = match node.plugin.text.as_str() {
             "bitmap" => {
                 self.ignored(
@@ -402,12 +408,14 @@ impl<'run> Lowering<'run> {
                 return None;
             }
         };
+        // Read the wrap mode and the transform of the coordinates.
         let wrap = match node.string("wrap_mode").map(|name| name.text.as_str()) {
             Some("mirror") => Wrap::Mirror,
             Some("clamp") => Wrap::Clamp,
             _ => Wrap::Repeat,
         };
         let rows = rows(node, flip);
+        // Add the texture.
         self.scene.textures.push(Texture::Sampled(Sampled {
             image,
             wrap: [wrap; 2],

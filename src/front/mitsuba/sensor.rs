@@ -71,6 +71,7 @@ impl<'run> Lowering<'run> {
 
     /// The first sensor; further ones are other views of the same scene.
     pub(super) fn sensor(&mut self, node: &'run Node) {
+        // Only the first sensor is used.
         if self.has_sensor {
             self.approximate(
                 node.span,
@@ -80,6 +81,7 @@ impl<'run> Lowering<'run> {
         }
         self.has_sensor = true;
         self.record(EntityKind::Camera, 0, node.span);
+        // The film gives the size, the sampler the samples.
         let film = node.children.iter().find(|child| child.tag == "film");
         let size = film.map_or(SIZE, |film| self.film(film));
         if let Some(sampler) = node.children.iter().find(|child| child.tag == "sampler") {
@@ -88,6 +90,7 @@ impl<'run> Lowering<'run> {
                 path.samples = samples;
             }
         }
+        // Lower the camera and report parameters that have no effect.
         let mut used = vec![
             "to_world",
             "near_clip",
@@ -117,6 +120,7 @@ impl<'run> Lowering<'run> {
             }
         };
         self.ignored(node, &used);
+        // A degenerate transform has no view.
         match camera {
             Some(camera) => self.scene.camera = camera,
             None => {

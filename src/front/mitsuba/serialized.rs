@@ -45,6 +45,7 @@ impl From<Exceeded> for Fault {
 
 /// The mesh with this index, from 0. Its memory is charged before it is taken.
 pub(super) fn read(bytes: &[u8], index: u32, budget: &Budget) -> Result<Mesh, Fault> {
+    // Find the mesh in the file.
     let (start, end) = range(bytes, index)?;
     let bytes = bytes
         .get(start..end)
@@ -52,6 +53,7 @@ pub(super) fn read(bytes: &[u8], index: u32, budget: &Budget) -> Result<Mesh, Fa
     if !bytes.starts_with(&MAGIC) {
         return Err(Fault::Damaged("a mesh does not begin with the bytes 1c 04"));
     }
+    // Read the header; the rest is compressed.
     let version = match bytes.get(2..4) {
         Some(&[version @ (3 | 4), 0]) => version,
         _ => return Err(Fault::Damaged("its version is neither 3 nor 4")),
@@ -61,6 +63,7 @@ pub(super) fn read(bytes: &[u8], index: u32, budget: &Budget) -> Result<Mesh, Fa
     if version == 4 {
         stream.skip_name()?;
     }
+    // Charge the memory before it is taken.
     let (vertices, triangles) = (stream.u64()?, stream.u64()?);
     let numbers =
         3 + if flags & HAS_NORMALS != 0 { 3 } else { 0 } + if flags & HAS_UVS != 0 { 2 } else { 0 };
@@ -70,6 +73,7 @@ pub(super) fn read(bytes: &[u8], index: u32, budget: &Budget) -> Result<Mesh, Fa
         Resource::Memory,
         memory.saturating_add(triangles.saturating_mul(12)),
     )?;
+    // Read the attributes that the flags declare.
     let is_double = flags & IS_DOUBLE != 0;
     let positions = stream.column::<3>(vertices, is_double)?;
     let normals = match flags & HAS_NORMALS {
@@ -83,6 +87,7 @@ pub(super) fn read(bytes: &[u8], index: u32, budget: &Budget) -> Result<Mesh, Fa
     if flags & HAS_COLORS != 0 {
         stream.column::<3>(vertices, is_double)?;
     }
+    // Read the triangles.
     let mut corners = Vec::new();
     for _ in 0..triangles {
         let mut corner = || match vertices > u64::from(u32::MAX) {

@@ -188,6 +188,7 @@ impl<'run> Lowering<'run> {
 /// Removes the vertex normals of the meshes of some surfaces. A mesh that other surfaces share is
 /// copied.
 pub(super) fn flatten(scene: &mut Scene, flat: &BTreeSet<usize>) {
+    // Find the meshes that smooth surfaces share.
     let mesh_of = |surface: &Surface| match &surface.shape {
         Shape::Instance(instance) => Some(instance.mesh),
         _ => None,
@@ -199,6 +200,7 @@ pub(super) fn flatten(scene: &mut Scene, flat: &BTreeSet<usize>) {
         .filter(|(index, _)| !flat.contains(index))
         .filter_map(|(_, surface)| mesh_of(surface).map(|mesh| mesh.0))
         .collect();
+    // Remove the normals of flat surfaces.
     let mut copies = BTreeMap::new();
     for index in flat {
         let Some(MeshId(mesh)) = scene.surfaces.get(*index).and_then(mesh_of) else {
@@ -210,6 +212,7 @@ pub(super) fn flatten(scene: &mut Scene, flat: &BTreeSet<usize>) {
         if found.normals.is_empty() {
             continue;
         }
+        // A mesh that is smooth elsewhere is copied first.
         if !smooth.contains(&mesh) {
             found.normals = Column::default();
             continue;

@@ -195,6 +195,7 @@ type Element<'d, 'i> = roxmltree::Node<'d, 'i>;
 
 impl XmlReader<'_> {
     fn file(&mut self, file: FileId) -> Option<Node> {
+        // The file must be UTF-8 without a DTD.
         let Some(text) = self.map.text(file).map(str::to_owned) else {
             let message = "the scene is not UTF-8 text";
             let span = Span::new(file, 0, 0);
@@ -215,6 +216,7 @@ impl XmlReader<'_> {
                 return None;
             }
         };
+        // Charge the elements before they are read.
         let nodes = document.descendants().count() as u64;
         let budget = self.map.budget();
         let charged = budget
@@ -225,6 +227,7 @@ impl XmlReader<'_> {
                 .push(over_limit("the scene", &fault).at(Span::new(file, 0, 0), ""));
             return None;
         }
+        // The root element is a scene of a known version.
         let root = document.root_element();
         if !root.has_tag_name(super::ROOT) {
             let message = format!("the root element is `<{}>`", clip(root.tag_name().name()));
@@ -349,6 +352,7 @@ impl XmlReader<'_> {
             self.missing(file, element, "`filename`");
             return Vec::new();
         };
+        // The number and the depth of included files are bounded.
         self.files += 1;
         if self.depth >= MAX_DEPTH || self.files > MAX_FILES {
             let message = format!(
@@ -359,6 +363,7 @@ impl XmlReader<'_> {
             self.sink.push(diagnostic.at(path.span, ""));
             return Vec::new();
         }
+        // Find and read the file.
         let found = match self.search.find(&path.text, &SCENES) {
             Ok(found) => found,
             Err(_) => {
@@ -377,6 +382,7 @@ impl XmlReader<'_> {
                 return Vec::new();
             }
         };
+        // Read it as part of this scene.
         let included = self.map.add_found(&found, bytes);
         let version = self.version;
         self.depth += 1;
@@ -389,6 +395,7 @@ impl XmlReader<'_> {
 
     /// An attribute with its parameters replaced.
     fn attribute(&mut self, file: FileId, element: Element<'_, '_>, name: &str) -> Option<Text> {
+        // An attribute without parameters is used as it stands.
         let attribute = element.attribute_node(name)?;
         let range = attribute.range_value();
         let span = Span::new(file, offset(range.start), offset(range.end));
@@ -397,6 +404,7 @@ impl XmlReader<'_> {
             let text = text.to_owned();
             return Some(Text { text, span });
         }
+        // Replace each parameter by its value.
         let mut filled = String::new();
         let mut rest = text;
         while let Some(at) = rest.find('$') {
@@ -428,6 +436,7 @@ impl XmlReader<'_> {
             rest = &after[parameter.len()..];
         }
         filled.push_str(rest);
+        // Charge the expanded text.
         let budget = self.map.budget();
         if let Err(fault) = budget.charge(Resource::Memory, filled.len() as u64) {
             self.sink
@@ -479,6 +488,7 @@ impl XmlReader<'_> {
 
     /// The value of a property with one attribute.
     fn value(&mut self, file: FileId, element: Element<'_, '_>, kind: &str) -> Option<Value> {
+        // Find the text of the value.
         let attribute = match kind {
             "spectrum" if element.has_attribute("filename") => "filename",
             _ => "value",
@@ -487,6 +497,7 @@ impl XmlReader<'_> {
             self.missing(file, element, "`value`");
             return None;
         };
+        // Parse it by the type of the element.
         let parsed = match kind {
             "float" | "integer" => value::number(&text.text).map(Value::Number),
             "boolean" => match text.text.as_str() {
@@ -509,6 +520,7 @@ impl XmlReader<'_> {
                 return None;
             }
         };
+        // Report a value of another type.
         if parsed.is_none() {
             let message = match kind {
                 "blackbody" => "blackbody spectra are not supported".to_owned(),

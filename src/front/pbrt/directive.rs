@@ -141,6 +141,7 @@ impl Lowering<'_> {
     }
 
     fn directive(&mut self, token: PbrtToken) {
+        // A directive begins with a word.
         let Text { text: name, span } = self.reader().text(token);
         if token.kind != PbrtTokenKind::Word {
             let message = match token.kind {
@@ -150,6 +151,7 @@ impl Lowering<'_> {
             self.report(&codes::PBRT_SYNTAX, span, message);
             return self.skip_arguments();
         }
+        // Transforms, attributes and files are handled here, plugins apart.
         match name.as_str() {
             "Identity" => self.transform_by(|_| Transform::IDENTITY),
             "Translate" => self.translate(span),
@@ -183,6 +185,7 @@ impl Lowering<'_> {
 
     /// The directives with a name and parameters.
     fn plugin_directive(&mut self, name: &str, span: Span) {
+        // The other directives name a plugin with parameters.
         match name {
             "ColorSpace" => {
                 if let Some(space) = self.argument(name, span)

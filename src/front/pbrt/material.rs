@@ -201,7 +201,9 @@ impl Lowering<'_> {
     }
 
     fn coated_conductor(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
+        // A metal under a clear coat approximates the layered material.
         self.nearest(plugin, "the layers of ");
+        // Read the roughness of both layers.
         let names = [
             "conductor.roughness",
             "conductor.uroughness",
@@ -215,6 +217,7 @@ impl Lowering<'_> {
         ];
         let coat = self.alpha(plugin, parameters, names, 0.0);
         let names = ["conductor.eta", "conductor.k"];
+        // The index of refraction gives the colour of the metal.
         let Channel { color, map } = self.conductor_color(plugin, parameters, names);
         parameters.skip(&[
             "interface.eta",
@@ -224,6 +227,7 @@ impl Lowering<'_> {
             "albedo",
             "g",
         ]);
+        // The coat has the geometric mean of its two roughnesses.
         rough(
             Standard {
                 base_color: opaque(color),

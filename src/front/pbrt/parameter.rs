@@ -231,6 +231,7 @@ fn parameter(
     reader: &mut TokenReader,
     head: PbrtToken,
 ) -> Result<PluginParameter, Box<Diagnostic>> {
+    // A parameter has a type and a name in one string.
     let Text { text, span } = reader.text(head);
     let mut words = text.split_ascii_whitespace();
     let (Some(kind), Some(name), None) = (words.next(), words.next(), words.next()) else {
@@ -246,6 +247,7 @@ fn parameter(
         let diagnostic = Diagnostic::new(&codes::PBRT_IGNORED, message).at(span, "is ignored");
         return Err(Box::new(diagnostic));
     };
+    // Its values follow.
     let (values, count, refused) = values(reader, kind);
     let mistake = |message: String, at: Span| {
         let diagnostic = Diagnostic::new(&codes::PBRT_VALUE, message).at(at, "the wrong value");
@@ -256,6 +258,7 @@ fn parameter(
         let message = format!("`{}` is not a value of `{}`", clip(&word.text), clip(&text));
         return mistake(message, word.span);
     }
+    // Their number must fit the type.
     match values {
         ParameterValues::Numbers(_) if !kind.fits(count) => {
             let numbers = match count {

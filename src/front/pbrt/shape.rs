@@ -517,6 +517,7 @@ impl Lowering<'_> {
         parameters: &Parameters,
         material: &LoweredMaterial,
     ) -> Option<Geometry> {
+        // Read the vertices, the triangles and the attributes.
         let Some(positions) = parameters.tuples::<3>("P") else {
             self.mistake(plugin.span, "the mesh has no vertices `P`");
             return None;
@@ -526,8 +527,10 @@ impl Lowering<'_> {
         let normals = self.per_vertex::<3>(parameters, &["N"], vertices);
         let uvs = self.per_vertex::<2>(parameters, &["uv", "st"], vertices);
         parameters.skip(&["S", "discarddegenerateUVs", "faceIndices"]);
+        // Charge the memory before it is taken.
         let more = triangles.len().saturating_sub(vertices) as u64;
         self.charge(Resource::Memory, 12 * more, plugin.span)?;
+        // A mesh without coordinates has those of pbrt, one triangle at a time.
         let needs_uvs = uvs.is_empty() && material.has_maps();
         let mesh = match needs_uvs {
             true => {

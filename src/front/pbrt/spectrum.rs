@@ -88,6 +88,7 @@ impl Lowering<'_> {
         name: &'static str,
         convert: impl Fn(&[(f64, f64)]) -> Option<[f64; 3]>,
     ) -> Option<[f64; 3]> {
+        // A spectrum in a file is converted from its samples.
         let parameter = parameters.get(name)?;
         let numbers = match &parameter.values {
             ParameterValues::Numbers(numbers) => numbers.as_slice(),
@@ -98,6 +99,7 @@ impl Lowering<'_> {
             }
             _ => return None,
         };
+        // Other values are converted by the type of the parameter.
         match (parameter.kind, numbers) {
             (ParameterType::Float | ParameterType::Integer, [grey, ..]) => Some([*grey; 3]),
             (ParameterType::Rgb | ParameterType::Tuple(3), [r, g, b, ..]) => Some([*r, *g, *b]),

@@ -50,6 +50,7 @@ impl Lowering<'_> {
         property: &PropertySpec,
         between: Between,
     ) -> Option<Value> {
+        // Decode the time samples of a binary layer.
         let unpacked = property.packed_samples.and_then(|packed| {
             let layer = &self.layers[opinion.layer];
             let bytes = self.map.bytes(layer.file);
@@ -66,6 +67,7 @@ impl Lowering<'_> {
         if samples.is_empty() {
             return self.stored(opinion, property.value.as_ref()?);
         }
+        // Find the samples around the time.
         let time = opinion.time.local(self.time);
         let after = samples.partition_point(|(sample, _)| *sample <= time);
         let (start, first) = &samples[after.saturating_sub(1)];
@@ -73,6 +75,7 @@ impl Lowering<'_> {
         let (Some((end, next)), true) = (samples.get(after), after > 0) else {
             return Some(value);
         };
+        // Interpolate numbers between them.
         let Value::Numbers(mut numbers) = value else {
             return Some(value);
         };

@@ -32,6 +32,7 @@ pub(super) fn is_binary(bytes: &[u8]) -> bool {
 /// # Errors
 /// If it is damaged, or exceeds a limit.
 pub(super) fn read(file: FileId, bytes: &[u8], budget: &Budget) -> Result<Layer, LayerFault> {
+    // The header holds the version and the position of the table of contents.
     let header = bytes.get(..88).ok_or(CUT)?;
     let version = (header[8], header[9]);
     if version < (0, 4) || version.0 > 0 {
@@ -40,6 +41,7 @@ pub(super) fn read(file: FileId, bytes: &[u8], budget: &Budget) -> Result<Layer,
     let mut contents = Cursor { bytes, at: 16 };
     let start = contents.u64().ok_or(CUT)?;
     let mut contents = Cursor::new(bytes, start).ok_or(CUT)?;
+    // The table of contents lists the sections.
     let mut sections = BTreeMap::new();
     for _ in 0..contents.count(32).ok_or(CUT)? {
         let name = contents.take(16).ok_or(CUT)?;
@@ -55,6 +57,7 @@ pub(super) fn read(file: FileId, bytes: &[u8], budget: &Budget) -> Result<Layer,
             .and_then(|(_, start)| Cursor::new(bytes, *start))
             .ok_or(CUT)
     };
+    // Read tokens, strings and paths.
     let tokens = tokens(section(b"TOKENS")?, budget)?;
     let mut cursor = section(b"STRINGS")?;
     let count = cursor.count(4).ok_or(CUT)?;
@@ -70,6 +73,7 @@ pub(super) fn read(file: FileId, bytes: &[u8], budget: &Budget) -> Result<Layer,
         strings,
         paths,
     };
+    // Read the fields and the sets of fields.
     let mut fields = section(b"FIELDS")?;
     let count = fields.count(0).ok_or(CUT)?;
     let names = fields.indices(count, budget)?;
@@ -84,11 +88,13 @@ pub(super) fn read(file: FileId, bytes: &[u8], budget: &Budget) -> Result<Layer,
     let mut sets = section(b"FIELDSETS")?;
     let count = sets.count(0).ok_or(CUT)?;
     let sets = sets.indices(count, budget)?;
+    // Read the specs: a path, a set of fields and a kind.
     let mut specs = section(b"SPECS")?;
     let count = specs.count(0).ok_or(CUT)?;
     let columns = [(); 3].map(|()| specs.indices(count, budget));
     let [paths, starts, kinds] = columns;
     let (paths, starts, kinds) = (paths?, starts?, kinds?);
+    // Assemble prims and properties from the specs.
     let mut assembly = Assembly {
         bytes,
         budget,
@@ -268,6 +274,7 @@ impl Assembly<'_> {
         const ROOT: u32 = 7;
         const RELATIONSHIP: u32 = 8;
         const VARIANT: u32 = 10;
+        // Store the fields in the property, prim or stage of the path.
         let entry = *self.tables.paths.get(path as usize).ok_or(BAD)?;
         match kind {
             ATTRIBUTE | RELATIONSHIP => {
@@ -394,6 +401,7 @@ impl Assembly<'_> {
     }
 
     fn prim_field(&mut self, prim: u32, name: u32, value: u64) {
+        // Decode the value by the name of the field.
         let paths = |assembly: &Self| {
             let list = assembly.list(value, |cursor| {
                 Some(Target::internal(assembly.path_text(cursor)?))

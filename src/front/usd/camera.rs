@@ -15,6 +15,7 @@ const LENS_SAMPLES: u32 = 2;
 impl Lowering<'_> {
     /// Chooses the camera: the one that is asked for by its path, name or index, or else the first.
     pub(super) fn finish_camera(&mut self) {
+        // Choose the camera by path, name or index, or the first one.
         let cameras = std::mem::take(&mut self.cameras);
         let wanted = self.options.camera.as_deref();
         let chosen = match wanted {
@@ -24,6 +25,7 @@ impl Lowering<'_> {
             }),
             None => cameras.iter().enumerate().next(),
         };
+        // Report a camera that does not exist.
         if let (Some(wanted), None) = (wanted, &chosen) {
             let message = format!("the stage has no camera called `{}`", clip(wanted));
             let names: Vec<_> = cameras
@@ -37,6 +39,7 @@ impl Lowering<'_> {
             self.sink
                 .push(Diagnostic::new(&codes::GLTF_CHOSEN, message).hint(hint));
         }
+        // Use its view if it has a volume.
         if let Some((_, camera)) = chosen {
             if let Some(view) = self.view(camera) {
                 let span = self.span_of(&camera.prim);
@@ -49,6 +52,7 @@ impl Lowering<'_> {
                 "the camera has no volume: another view takes its place",
             );
         }
+        // Otherwise look at the bounding sphere of the scene.
         let ball = self.scene.bounding_sphere().unwrap_or(BoundingSphere {
             center: Vec3::ZERO,
             radius: 1.0,

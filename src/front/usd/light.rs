@@ -207,6 +207,7 @@ impl Lowering<'_> {
         cone: Option<f64>,
         intensity: [f64; 3],
     ) {
+        // Without a cone the light is a point.
         let position = state.to_world.point(Vec3::ZERO).to_array();
         let Some(cone) = cone else {
             return self.punctual(
@@ -218,6 +219,7 @@ impl Lowering<'_> {
                 intensity,
             );
         };
+        // With one it is a spot along the local -z axis.
         self.approximate(
             prim,
             "a spot of no extent takes the place of a light with a cone",
@@ -225,6 +227,7 @@ impl Lowering<'_> {
         let Some(direction) = unit(state.to_world.vector(Vec3::NEG_Z)) else {
             return;
         };
+        // The softness widens the falloff inwards from the cone.
         let softness = self
             .light_number(prim, "shaping:cone:softness", 0.0)
             .clamp(0.0, 1.0);

@@ -63,6 +63,7 @@ impl Lowering<'_> {
         is_constant: bool,
         span: Span,
     ) -> Option<MaterialId> {
+        // The colour and opacity of the prim show if no shader replaces them.
         let shown = |color: [f64; 3]| color.map(|channel| channel.clamp(0.0, 1.0));
         let color = lowered.shows_color.then(|| match is_constant {
             true => shown(state.color.unwrap_or([GREY; 3])),
@@ -72,6 +73,7 @@ impl Lowering<'_> {
             .shows_color
             .then(|| state.opacity.unwrap_or(1.0).clamp(0.0, 1.0));
         let opacity = opacity.filter(|_| is_constant);
+        // Prims with equal values share a material.
         let key = (
             lowered.path.clone(),
             is_double_sided,
@@ -81,6 +83,7 @@ impl Lowering<'_> {
         if let Some(known) = self.placed_materials.get(&key) {
             return Some(*known);
         }
+        // Complete the material with these values.
         self.charge(Resource::Memory, MATERIAL_BYTES, span)?;
         let mut standard = lowered.standard.clone();
         standard.double_sided = is_double_sided;
@@ -113,6 +116,7 @@ impl Lowering<'_> {
         if path.is_empty() {
             return lowered;
         }
+        // Find the material and its surface shader.
         const INSTEAD: &str = "the colour of the prim takes its place";
         let Some(prim) = self.prim_at(path) else {
             let message = format!("there is no material `{}`: {INSTEAD}", clip_path(path));
@@ -134,6 +138,7 @@ impl Lowering<'_> {
             self.unsupported(&prim, what, INSTEAD);
             return lowered;
         };
+        // Only the preview surface is supported.
         let id = self.shader_id(&shader).unwrap_or_default();
         if id != "UsdPreviewSurface" {
             self.unsupported(&shader, &format!("the shader `{}`", clip(&id)), INSTEAD);
@@ -142,6 +147,7 @@ impl Lowering<'_> {
         if self.node(&prim, "outputs:volume").is_some() {
             self.unsupported(&prim, "the volume", "it is left out");
         }
+        // Lower its inputs.
         lowered.shows_color = false;
         self.preview(&shader, &mut lowered);
         lowered
@@ -192,6 +198,7 @@ impl Lowering<'_> {
         default: [f64; 3],
         lowered: &mut BoundMaterial,
     ) -> ColorInput {
+        // An input without a connection is a constant.
         let name = format!("inputs:{name}");
         let Some((node, output)) = self.node(shader, &name) else {
             let source = self.value_source(shader, &name);
@@ -201,6 +208,7 @@ impl Lowering<'_> {
                 look: None,
             };
         };
+        // Otherwise a texture or a primvar reader supplies it.
         let id = self.shader_id(&node).unwrap_or_default();
         match id.as_str() {
             "UsdUVTexture" => {
@@ -350,6 +358,7 @@ impl Lowering<'_> {
         standard: &mut Standard,
         uvs: &mut PrimvarSets,
     ) {
+        // Combine the textures of colour and opacity into one image.
         let constant = diffuse.color.map(|channel| channel.clamp(0.0, 1.0));
         let alpha = opacity.0.clamp(0.0, 1.0);
         let look = diffuse.look.as_ref().or(opacity.1.as_ref());
@@ -366,6 +375,7 @@ impl Lowering<'_> {
             let set = uvs.set(&look.primvar);
             self.picture_map(look, channels, true, set)
         });
+        // A texture replaces the constant factor.
         let [r, g, b] = if diffuse.look.is_some() && map.is_some() {
             [1.0; 3]
         } else {

@@ -48,9 +48,11 @@ impl Lowering<'_> {
         if !state.is_shown {
             return;
         }
+        // Split the mesh by the materials of its subsets.
         let span = self.span_of(prim);
         let is_double_sided = self.flag(prim, "doubleSided").unwrap_or(false);
         let parts = self.parts(prim, state);
+        // Colours that vary are stored in the mesh, constant ones in the material.
         let color = self.primvar(prim, "primvars:displayColor", 3);
         let opacity = self.primvar(prim, "primvars:displayOpacity", 1);
         let varies = |primvar: &Option<Primvar>| {
@@ -67,6 +69,7 @@ impl Lowering<'_> {
         for (index, part) in parts.into_iter().enumerate() {
             let lowered = self.bound_material(&part.state);
             let shows_colors = has_colors && lowered.shows_color;
+            // Instances of a prim share the meshes.
             let key = (prim.key(), index, lowered.uv_names.clone(), shows_colors);
             let mesh = match self.meshes.get(&key) {
                 Some(known) => *known,
@@ -87,6 +90,7 @@ impl Lowering<'_> {
                     mesh
                 }
             };
+            // Add the part with its material.
             let is_constant = !shows_colors;
             let Some(mesh) = mesh else { continue };
             let is_clear = opacity.is_some() && shows_colors;
@@ -111,6 +115,7 @@ impl Lowering<'_> {
     /// The faces of each material: those of subsets, and the rest.
     fn parts(&mut self, prim: &Prim, state: &PrimState) -> Vec<Part> {
         let (mut parts, mut taken) = (Vec::new(), BTreeSet::new());
+        // Each face belongs to the first subset with a material that has it.
         for name in self.child_names(prim) {
             let Some(subset) = self.child(prim, &name) else {
                 continue;
@@ -136,6 +141,7 @@ impl Lowering<'_> {
                 state,
             });
         }
+        // The other faces have the material of the prim.
         if parts.is_empty() {
             return vec![Part {
                 faces: None,
@@ -157,6 +163,7 @@ impl Lowering<'_> {
 
     /// The faces of a mesh; `None` if they are not sound, which is reported.
     fn faces(&mut self, prim: &Prim) -> Option<Faces> {
+        // Read the points and the vertex lists of the faces.
         let numbers = self.numbers(prim, "points").unwrap_or_default();
         let counts = self.indices(prim, "faceVertexCounts").unwrap_or_default();
         let corners = self.indices(prim, "faceVertexIndices").unwrap_or_default();
@@ -166,12 +173,14 @@ impl Lowering<'_> {
             .iter()
             .map(|point| Vec3::from_array(*point));
         let points: Vec<Vec3> = points.collect();
+        // Sum the counts to find where each face starts.
         let mut starts = vec![0];
         let mut end = 0_usize;
         for count in &counts {
             end = end.saturating_add(*count);
             starts.push(end);
         }
+        // Check that indices and counts agree.
         let wrong = match () {
             () if points.is_empty() || counts.is_empty() => Some("has no faces"),
             () if end != corners.len() => Some("has more or fewer corners than its faces"),
@@ -192,6 +201,7 @@ impl Lowering<'_> {
             self.report(&codes::USD_UNSUPPORTED, span, message);
             return None;
         }
+        // Read the orientation and the holes.
         let is_left_handed = self.text(prim, "orientation").as_deref() == Some("leftHanded");
         let holes = self
             .indices(prim, "holeIndices")
@@ -216,6 +226,7 @@ impl Lowering<'_> {
         uv_names: &[String; 2],
         colors: [Option<&Primvar>; 2],
     ) -> Option<MeshId> {
+        // Subdivision surfaces show their control mesh.
         let span = self.span_of(prim);
         let scheme = self.text(prim, "subdivisionScheme");
         let scheme = scheme.unwrap_or_else(|| "catmullClark".to_owned());
@@ -226,6 +237,7 @@ impl Lowering<'_> {
             );
             self.approximate(prim, &message);
         }
+        // Read the primvars of the vertices.
         let normals = self.primvar(prim, "primvars:normals", 3);
         let normals = normals.or_else(|| self.primvar(prim, "normals", 3));
         let uvs = uv_names.each_ref().map(|name| match name.as_str() {
@@ -239,6 +251,7 @@ impl Lowering<'_> {
             color: column(colors[0], 3),
             opacity: column(colors[1], 1),
         };
+        // Charge the corners before they are built.
         let count = faces.starts.len() - 1;
         let chosen: Vec<usize> = match chosen {
             Some(chosen) => chosen
@@ -255,8 +268,10 @@ impl Lowering<'_> {
         self.charge(Resource::Vertices, corners, span)?;
         let most = corners.max(faces.points.len() as u64);
         self.charge(Resource::Memory, VERTEX * most, span)?;
+        // Triangulate the faces.
         let cut = cut(faces, &chosen, columns.are_apart());
         let is_smooth = scheme != "none" && columns.normals.is_none();
+        // Build the mesh, with smooth normals if it has none.
         let (mut mesh, vertices) = columns.mesh(faces, cut);
         if is_smooth {
             mesh.normals = smooth_normals(faces, &vertices);
@@ -395,10 +410,12 @@ fn cut(faces: &Faces, chosen: &[usize], are_apart: bool) -> CutFaces {
     let mut clipper = EarClipper::new(faces.corners.len());
     let mut ring: Vec<u32> = Vec::new();
     for face in chosen {
+        // Skip holes and degenerate faces.
         let range = faces.starts[*face]..faces.starts[face + 1];
         if range.len() < 3 || faces.holes.contains(face) {
             continue;
         }
+        // Make the vertices of the face; faces share them unless a primvar differs per corner.
         ring.clear();
         for corner in range {
             let point = faces.corners[corner];
@@ -417,6 +434,7 @@ fn cut(faces: &Faces, chosen: &[usize], are_apart: bool) -> CutFaces {
             }
             ring.push(index);
         }
+        // Clip ears, and reverse the order of a left-handed mesh.
         let position = |at: usize| faces.points[made.vertices[ring[at] as usize].point].to_array();
         let triangles = &mut made.triangles;
         clipper.cut(ring.len(), position, |[a, b, c]| {

@@ -183,6 +183,7 @@ impl<'run> Lowering<'run> {
         options: &'run FrontOptions,
         sink: &'run mut Sink,
     ) -> Self {
+        // All tables are empty before the root layer is read.
         Self {
             scene: crate::gltf::empty(),
             source_spans: SourceSpans::default(),

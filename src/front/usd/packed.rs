@@ -91,6 +91,7 @@ impl<'a> Cursor<'a> {
         most: usize,
         budget: &Budget,
     ) -> Result<Vec<u8>, LayerFault> {
+        // Check the declared size against the greatest ratio of LZ4.
         let mut packed = self.take(packed).ok_or(CUT)?;
         if most
             > packed
@@ -102,9 +103,11 @@ impl<'a> Cursor<'a> {
         }
         charge(budget, most as u64)?;
         let mut unpacked = vec![0; most];
+        // The first byte is the number of chunks; 0 means one without a length.
         let damaged = LayerFault::Damaged("a block of it cannot be unpacked");
         let (chunks, rest) = packed.split_first().ok_or(CUT)?;
         packed = rest;
+        // Unpack chunk by chunk.
         let mut length = 0;
         for _ in 0..(*chunks).max(1) {
             let mut block = packed;
@@ -418,12 +421,15 @@ impl CrateTables {
         if packed & PAYLOAD == 0 {
             return Some(Vec::new());
         }
+        // Read the count and whether the array is compressed.
         let (mut cursor, count) = self.array_start(bytes, packed)?;
         let size = number.size();
         let is_packed = packed & COMPRESSED != 0 && count >= MIN_COMPRESSED && width == 1;
+        // Plain arrays are copied.
         if !is_packed {
             let total = count.checked_mul(width)?;
             let raw = cursor.take(total.checked_mul(size)?)?;
+            // Compressed integers are deltas; compressed floats are integers or indices of a table.
             charge(budget, 8 * total as u64).ok()?;
             return Some(
                 raw.chunks_exact(size)

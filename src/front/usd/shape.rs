@@ -91,8 +91,10 @@ impl Lowering<'_> {
         to_world: &Transform,
         span: Span,
     ) -> Option<Shape> {
+        // A singular transform makes solids invisible.
         let Transform([x, y, z, origin]) = to_world;
         let is_flat = to_world.determinant() == 0.0 || !to_world.determinant().is_finite();
+        // Shapes that a transform distorts become another shape or a mesh.
         Some(match geometry {
             SolidGeometry::Mesh(_) | SolidGeometry::Sphere(_) if is_flat => return None,
             SolidGeometry::Mesh(mesh) => to_world.instance(*mesh),

@@ -419,6 +419,7 @@ impl Lowering<'_> {
 
     /// Adds the chosen variant of each set.
     fn variants(&mut self, node: &mut Node, known: &mut Selections, arcs: usize) {
+        // Collect the variant sets of all specs of the prim.
         let mut sets = BTreeSet::new();
         for (layer, prim, _) in &node.specs {
             let variants = &self.layers[*layer].prim(*prim).variants;
@@ -428,6 +429,7 @@ impl Lowering<'_> {
             return;
         }
         for set in sets {
+            // The selection of the user comes before that of the layers.
             let wanted = self.options.variant.as_deref();
             let wanted = wanted.and_then(|wanted| wanted.split_once('='));
             let wanted = wanted.filter(|(wanted, _)| *wanted == set);
@@ -442,6 +444,7 @@ impl Lowering<'_> {
             let Some(choice) = wanted.or_else(choice) else {
                 continue;
             };
+            // Collect the specs of the chosen variant.
             let specs = node.specs.iter().filter_map(|(layer, prim, time)| {
                 let variants = self.layers[*layer].prim(*prim).variants.get(&set)?;
                 Some((*layer, *variants.get(&choice)?, *time))
@@ -450,6 +453,7 @@ impl Lowering<'_> {
             if specs.is_empty() || self.charge_node().is_none() {
                 continue;
             }
+            // Compose them as a child with its own arcs.
             let mut variant = Node {
                 stack: node.stack,
                 path: Rc::clone(&node.path),

@@ -171,6 +171,7 @@ impl<'a> TextReader<'a> {
     }
 
     fn string(&mut self) -> Option<String> {
+        // One or three quotes delimit the string.
         let quote = self.peek().filter(|byte| matches!(byte, b'"' | b'\''));
         let Some(quote) = quote else {
             return self.mistake("a string is expected here");
@@ -178,6 +179,7 @@ impl<'a> TextReader<'a> {
         let start = self.at;
         let is_long = self.rest().starts_with(&[quote; 3]);
         let mark = if is_long { 3 } else { 1 };
+        // Read to the same delimiter, with escapes.
         let mut bytes = Vec::new();
         self.at += mark;
         loop {
@@ -330,6 +332,7 @@ impl<'a> TextReader<'a> {
     fn value(&mut self) -> Option<Value> {
         let (mut numbers, mut texts) = (Vec::new(), Vec::new());
         let mut depth = 0;
+        // Dictionaries and `None` have no value here.
         if self.peek() == Some(b'{') {
             self.skip_value()?;
             return Some(Value::Blocked);
@@ -338,6 +341,7 @@ impl<'a> TextReader<'a> {
             self.word();
             return Some(Value::Blocked);
         }
+        // Read numbers and texts through nested brackets.
         loop {
             match self.peek() {
                 Some(b'[' | b'(') if depth < MAX_BRACKETS => {
@@ -481,6 +485,7 @@ impl<'a> TextReader<'a> {
     }
 
     fn prim_entry(&mut self, index: u32, keyword: &str, key: &str, start: usize) -> Option<()> {
+        // Composition arcs are edited, by the keyword, in the list of the prim.
         match key {
             "references" | "payload" => {
                 let items = self.list(Self::target)?;
@@ -690,6 +695,7 @@ impl<'a> TextReader<'a> {
 
     /// An attribute or a relationship; `first` is its first word.
     fn property(&mut self, index: u32, first: &'a str, start: usize) -> Option<()> {
+        // Read the keywords before the type.
         let mut keyword = "";
         let mut word = first;
         loop {
@@ -709,6 +715,7 @@ impl<'a> TextReader<'a> {
             return self.mistake("the name of a property is expected here");
         }
         let (name, suffix) = full.split_once('.').unwrap_or((full, ""));
+        // Store the property with its value.
         self.spend(PROPERTY + name.len() as u64);
         let span = self.span(start);
         let properties = &mut self.layer.prim_mut(index).properties;
@@ -784,7 +791,8 @@ mod tests {
         let text = include_str!("../../../tests/diagnostics/US001/syntax.usda").repeat(2);
         let file = SourceMap::default().add("stage.usda", Vec::new());
         for place in 0..text.len() {
-            for part in [&text[..place], &text[place..]] {
+            let (before, after) = text.split_at(place);
+            for part in [before, after] {
                 let _ = read(file, part.as_bytes(), &Budget::default());
             }
         }

@@ -228,10 +228,12 @@ impl Lowering<'_> {
 
     /// What a `UsdUVTexture` says of its picture; `None` without a file.
     pub(super) fn texture_look(&mut self, texture: &Prim, output: &str) -> Option<TextureLook> {
+        // Find the image file.
         let (file, name) = self.value_source(texture, "inputs:file")?;
         let (path, layer) = self
             .asset(&file, &name)
             .filter(|(path, _)| !path.text.is_empty())?;
+        // Read how texel values are scaled and decoded.
         let four = |lowering: &Self, name: &str, default: [f64; 4]| {
             lowering.vector::<4>(texture, name).unwrap_or(default)
         };
@@ -247,6 +249,7 @@ impl Lowering<'_> {
             Some("raw") => Some(false),
             _ => None,
         };
+        // Read how the image goes on beyond its edges.
         let wrap = ["inputs:wrapS", "inputs:wrapT"].map(|name| {
             match self.text(texture, name).as_deref() {
                 Some("clamp") => Wrap::Clamp,
@@ -261,6 +264,7 @@ impl Lowering<'_> {
                 _ => Wrap::Repeat,
             }
         });
+        // Read the texture coordinates and the output channel.
         let (primvar, rows) = self.texture_coordinates(texture);
         let channel = "rgba"
             .find(output.strip_prefix("outputs:").unwrap_or(output))

@@ -34,19 +34,23 @@ pub(super) struct Planes {
 
 impl Planes {
     pub(super) fn new(halves: [NoisyHalf<'_>; 2], exact: &[Guide]) -> Self {
+        // Pad each row so that filters read past its ends.
         let image = halves[0].image;
         let size = [image.width as usize, image.height as usize];
         let stride = (size[0] + 2 * BORDER).next_multiple_of(super::solve::LANES) + BORDER;
         let shape = PlaneShape { size, stride };
+        // Copy each half into planes of colour and guides.
         let [a, b] = halves.map(|NoisyHalf { image, guides }| Half {
             color: shape.planes(|index| image.pixels[index].map(|value| value as f32)),
             shown: shape.planes(|index| image.pixels[index].map(|value| compress(value) as f32)),
             guides: shape.planes(|index| guides[index].map(|value| value as f32)),
         });
+        // Half the squared difference of the halves estimates the variance of a pixel.
         let squares: PixelPlanes<3> = std::array::from_fn(|c| {
             let pairs = a.shown[c].iter().zip(&b.shown[c]);
             pairs.map(|(a, b)| (a - b) * (a - b) * 0.5).collect()
         });
+        // Average it over 3 x 3 pixels inside the picture.
         let [inside] = shape.planes(|_| [1.0]);
         let variance = shape.planes(|index| {
             let near = shape.at(index);

@@ -82,11 +82,13 @@ pub(super) fn setup(
     layers: &[Aov],
 ) -> Result<PictureSetup, RenderError> {
     let refused = |words: String| RenderError::Refused(words);
+    // Parse the settings that the picture claims.
     let claim: Claim = serde_json::from_str(settings)
         .map_err(|_| refused("its settings are not those of this program".to_owned()))?;
     if let Some(words) = claim.obstacle() {
         return Err(refused(words.to_owned()));
     }
+    // Restore the output transform.
     let tone = claim.tonemap.as_deref();
     let tone = tone.and_then(|name| Tone::ALL.into_iter().find(|tone| tone.name() == name));
     let exposure = Exposure::Stops(claim.exposure);
@@ -96,6 +98,7 @@ pub(super) fn setup(
         ClaimedBackground::Word(_) | ClaimedBackground::Film => BackgroundFill::Film,
     };
     let look = OutputTransform::new(form, tone, Some(exposure), background, layers);
+    // Restore the plan's rules and the sampling.
     let rules = match claim.approx {
         true => Rules::ALL.with(Rule::Cut),
         false => Rules::ALL,

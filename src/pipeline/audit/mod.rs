@@ -16,7 +16,7 @@ use rtc_image::{
     tile_count,
 };
 use rtc_math::{mix, to_u32};
-use rtc_render::{AnyWorld, Aov, Background, Crop, Job, OnPixel, PartialFilm, Tiles, Values};
+use rtc_render::{AnyWorld, Aov, Background, Crop, Job, PartialFilm, PixelObserver, Tiles, Values};
 use rtc_study::least_faults;
 use rtc_valid::Mode;
 use std::ops::Range;
@@ -276,6 +276,7 @@ impl<'p> PictureAudit<'p> {
         let Self { picture, tree } = self;
         let (mut hashes, mut differing) = (Vec::new(), None);
         let mut parts = [Vec::new(), Vec::new()];
+        // Render each area of the tiles anew.
         let areas = stretches(picture.size, tiles);
         for area in &areas {
             let made = anew.picture(*area, observer)?;
@@ -283,6 +284,7 @@ impl<'p> PictureAudit<'p> {
             let stated = picture.part(corner, [area.width, area.height]);
             let own = samples(&made, picture.form);
             let pixel = own.len() / area.pixels();
+            // Find the first sample that differs.
             let first = stated.iter().zip(&own).position(|(a, b)| a != b);
             let is_other = first.is_some() || stated.len() != own.len();
             let place = |byte| {
@@ -294,6 +296,7 @@ impl<'p> PictureAudit<'p> {
             parts[1].extend(own);
             hashes.extend(made.tiles);
         }
+        // The node of the hash tree must be that of the new tiles.
         let with_place = |finding| AuditFinding {
             tile: Some(node as u64),
             area: areas.first().copied(),
@@ -305,6 +308,7 @@ impl<'p> PictureAudit<'p> {
             let finding = finding(AuditSubject::Values, tree.nodes()[node], hash);
             return Ok(Some(with_place(finding)));
         }
+        // The samples in the file must be the new ones too.
         Ok(differing.map(|_| {
             let [stated, own] = parts.map(|samples| TileHash::of_tile(&samples));
             with_place(finding(AuditSubject::Samples, stated, own))
@@ -443,7 +447,7 @@ impl<'s> TileMaker<'s> {
         &self,
         area: Crop,
         observer: &Observer<'_>,
-        render: impl FnOnce(&OnPixel<'_>) -> Option<T>,
+        render: impl FnOnce(&PixelObserver<'_>) -> Option<T>,
     ) -> Result<T, RenderError> {
         let counter = RayCounter::new(self.rays, area);
         let made = render(&|step| {

@@ -19,7 +19,7 @@ use std::ops::Range;
 
 /// The part of a scene that remains in the plan.
 #[derive(Clone)]
-pub(super) struct PlanBuilder<'scene> {
+pub(super) struct PathPlanBuilder<'scene> {
     pub(super) scene: &'scene ValidScene,
     pub(super) path: PathSettings,
     /// The punctual lights.
@@ -83,7 +83,7 @@ pub(super) struct AppliedRule {
     pub(super) places: Vec<ValuePath>,
 }
 
-impl PlanBuilder<'_> {
+impl PathPlanBuilder<'_> {
     /// Applies a rule; `None` if it changes nothing.
     pub(super) fn apply(&mut self, rule: Rule, item: &'static PathRule) -> Option<AppliedRule> {
         let before = Effect::OF_PATHS.map(|effect| self.requires(effect));
@@ -155,6 +155,7 @@ impl PlanBuilder<'_> {
 
     /// Whether an effect is still required.
     pub(super) fn requires(&self, effect: Effect) -> bool {
+        // An effect is required if the remaining scene can show it.
         match effect {
             Effect::Surfaces => self.surfaces.contains(&true),
             Effect::Supersampling => self.path.samples.get() > 1,
@@ -331,6 +332,7 @@ pub(super) fn is_transmissive(m: &Standard) -> bool {
 /// Whether a material requires an effect; false for effects that do not depend on materials.
 pub(super) fn material_requires(m: &Standard, effect: Effect) -> bool {
     let is_nonzero = |weight: UnitInterval| weight > UnitInterval::ZERO;
+    // A material shows an effect if its weight is not zero.
     match effect {
         Effect::Emission => !m.unlit && m.emissive != Vec3::ZERO,
         Effect::Unlit => m.unlit,

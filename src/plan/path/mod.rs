@@ -2,12 +2,12 @@
 //!
 //! - [`facts`]: facts before any rule: the surfaces of each material and their texture coordinates.
 //! - [`texture`]: the values of a texture within a rectangle of texture coordinates.
-//! - [`builder`]: the [`PlanBuilder`], the part of the scene that remains in the plan.
+//! - [`builder`]: the [`PathPlanBuilder`], the part of the scene that remains in the plan.
 //! - [`rules`]: the rules, each with its name, its statement and its proof.
 //! - [`status`]: the status of each effect, derived from the builder before and after the rules.
 //! - [`caustics`]: whether and how the caustics of a scene are found.
 //!
-//! Rules work on a [`PlanBuilder`] that starts with everything the scene requires. An effect is
+//! Rules work on a [`PathPlanBuilder`] that starts with everything the scene requires. An effect is
 //! absent if the scene does not require it, pruned if a rule removed it, and needed otherwise. So
 //! each status agrees with the work of the integrator.
 //!
@@ -33,7 +33,7 @@ use super::layer::Layer;
 use super::projection::{ScreenProjection, ScreenRect};
 use super::rules::{PATH_RULES, Rules};
 use super::surface_bounds::surface_bounds;
-use builder::{AppliedRule, PlanBuilder};
+use builder::{AppliedRule, PathPlanBuilder};
 use facts::MaterialUses;
 use rtc_math::{IdTable, Vec3};
 use rtc_valid::{
@@ -42,7 +42,8 @@ use rtc_valid::{
 };
 use texture::TextureValues;
 
-/// The work of the path integrator.
+/// What the path integrator does: the simplified materials, lights and environment. Scene
+/// preparation reads it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathPlan {
     /// The simplified material for each material of the scene.
@@ -68,8 +69,8 @@ impl PathPlan {
     }
 }
 
-/// The scene after the rules.
-pub(super) struct PlannedPaths {
+/// The result of planning path tracing: the plan, and what the rules removed beside it.
+pub(super) struct PathPlanning {
     pub(super) plan: PathPlan,
     /// For each surface, whether it is in the world.
     pub(super) surfaces: Vec<bool>,
@@ -79,7 +80,7 @@ pub(super) struct PlannedPaths {
 }
 
 /// Plans path tracing of a scene.
-pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> PlannedPaths {
+pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> PathPlanning {
     // Gather the facts.
     let (uses, surface_bounds, textures) = (
         MaterialUses::of(scene),
@@ -102,7 +103,7 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Plan
         }
     };
     // Start with everything that the scene requires.
-    let requested = PlanBuilder {
+    let requested = PathPlanBuilder {
         scene,
         path,
         uses: &uses,
@@ -145,7 +146,7 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Plan
         last_ray: reduced.last_ray,
         materials: reduced.materials,
     };
-    PlannedPaths {
+    PathPlanning {
         plan,
         surfaces: reduced.surfaces,
         max_depth: reduced.max_depth,
@@ -155,7 +156,7 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Plan
 
 /// Applies the rules until none changes anything. Every change removes something, so the loop
 /// terminates.
-fn apply(builder: &mut PlanBuilder<'_>, rules: Rules) -> Vec<AppliedRule> {
+fn apply(builder: &mut PathPlanBuilder<'_>, rules: Rules) -> Vec<AppliedRule> {
     let mut applied = Vec::new();
     loop {
         let before = applied.len();
@@ -171,7 +172,7 @@ fn apply(builder: &mut PlanBuilder<'_>, rules: Rules) -> Vec<AppliedRule> {
 }
 
 /// The features that the integrator needs.
-fn features(builder: &PlanBuilder<'_>, rules: Rules) -> PathFeatures {
+fn features(builder: &PathPlanBuilder<'_>, rules: Rules) -> PathFeatures {
     if rules == Rules::NONE {
         return PathFeatures::EVERYTHING;
     }

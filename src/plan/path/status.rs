@@ -1,6 +1,6 @@
-//! The status of each effect of path tracing, derived from the final [`PlanBuilder`].
+//! The status of each effect of path tracing, derived from the final [`PathPlanBuilder`].
 
-use super::builder::{AppliedRule, PlanBuilder, material_requires};
+use super::builder::{AppliedRule, PathPlanBuilder, material_requires};
 use crate::effect::{Effect, EffectState, EffectStatus};
 use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_valid::{MaterialId, Standard};
@@ -10,8 +10,8 @@ const MAX_FACTS: usize = 3;
 
 /// The status of each effect that path tracing may have.
 pub(super) fn statuses(
-    requested: &PlanBuilder<'_>,
-    reduced: &PlanBuilder<'_>,
+    requested: &PathPlanBuilder<'_>,
+    reduced: &PathPlanBuilder<'_>,
     applied: &[AppliedRule],
 ) -> Vec<EffectStatus> {
     Effect::OF_PATHS
@@ -22,8 +22,8 @@ pub(super) fn statuses(
 
 fn status(
     effect: Effect,
-    requested: &PlanBuilder<'_>,
-    reduced: &PlanBuilder<'_>,
+    requested: &PathPlanBuilder<'_>,
+    reduced: &PathPlanBuilder<'_>,
     applied: &[AppliedRule],
 ) -> EffectStatus {
     // Needed if still required; pruned if a rule removed it; otherwise absent.
@@ -99,7 +99,7 @@ fn absence(effect: Effect) -> &'static str {
     }
 }
 
-impl PlanBuilder<'_> {
+impl PathPlanBuilder<'_> {
     /// The reason why the picture needs an effect, and the scene values that require it.
     fn need(&self, effect: Effect) -> (String, Vec<ValuePath>) {
         let materials: Vec<_> = self.materials_with(effect).map(material).collect();
@@ -114,6 +114,7 @@ impl PlanBuilder<'_> {
     fn need_of_scene(&self, effect: Effect) -> (String, Vec<ValuePath>) {
         let at = |entity, field| vec![ValuePath::new(entity, 0, field)];
         let reason_at = |reason: &str, entity| (reason.to_owned(), at(entity, Field::Whole));
+        // Tell what in the scene requires the effect.
         match effect {
             Effect::Surfaces => {
                 let reduced = self

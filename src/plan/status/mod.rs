@@ -17,7 +17,7 @@ mod mirror;
 mod picture;
 
 use super::effect::{Effect, EffectState, EffectStatus};
-use super::pixel_classes::PixelClasses;
+use super::pixel_classes::PixelClassGrid;
 use super::rules::Rule;
 use super::{Findings, MaterialSummary};
 use rtc_ir::{EntityKind, Field, ValuePath};
@@ -28,7 +28,10 @@ use rtc_valid::{CourseLightId, Light, Material, Mode};
 const MAX_DETAILS: usize = 24;
 
 /// The status of each effect, followed by those of single entities.
-pub(super) fn statuses(findings: &Findings<'_>, pixel_classes: &PixelClasses) -> Vec<EffectStatus> {
+pub(super) fn statuses(
+    findings: &Findings<'_>,
+    pixel_classes: &PixelClassGrid,
+) -> Vec<EffectStatus> {
     let mut all = picture::buffers(findings, pixel_classes);
     all.extend(light::statuses(findings));
     all.extend(mirror::statuses(findings));

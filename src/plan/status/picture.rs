@@ -2,14 +2,17 @@
 
 use super::{camera, first_n, settings};
 use crate::effect::{Effect, EffectStatus};
-use crate::pixel_classes::PixelClasses;
+use crate::pixel_classes::PixelClassGrid;
 use crate::rules::Rule;
 use crate::{Findings, MaterialSummary};
 use rtc_ir::Field;
 use rtc_valid::{Mode, Pattern};
 
 /// Depth and normal buffers, and the surfaces in the world.
-pub(super) fn buffers(findings: &Findings<'_>, pixel_classes: &PixelClasses) -> Vec<EffectStatus> {
+pub(super) fn buffers(
+    findings: &Findings<'_>,
+    pixel_classes: &PixelClassGrid,
+) -> Vec<EffectStatus> {
     let buffer = |effect, is_shown: bool, reason: &str| {
         let facts = vec![settings(Field::Mode)];
         if is_shown {
@@ -28,7 +31,7 @@ pub(super) fn buffers(findings: &Findings<'_>, pixel_classes: &PixelClasses) -> 
     ]
 }
 
-fn surfaces(findings: &Findings<'_>, pixel_classes: &PixelClasses) -> EffectStatus {
+fn surfaces(findings: &Findings<'_>, pixel_classes: &PixelClassGrid) -> EffectStatus {
     // List the surfaces that no ray can hit.
     let count = findings.facts.surface_bounds.len();
     let is_left_out = |surface: usize| {
@@ -271,11 +274,15 @@ pub(super) fn lens(findings: &Findings<'_>) -> EffectStatus {
 }
 
 /// Samples per pixel.
-pub(super) fn supersampling(findings: &Findings<'_>, pixel_classes: &PixelClasses) -> EffectStatus {
+pub(super) fn supersampling(
+    findings: &Findings<'_>,
+    pixel_classes: &PixelClassGrid,
+) -> EffectStatus {
     let effect = Effect::Supersampling;
     let settings_of_scene = findings.facts.scene.settings();
     let factor = settings_of_scene.supersampling.get();
     let facts = vec![settings(Field::Supersampling)];
+    // One sample per pixel needs no supersampling.
     if factor == 1 {
         let reason = if settings_of_scene.pattern == Pattern::Grid {
             "a factor of 1"
@@ -293,9 +300,11 @@ pub(super) fn supersampling(findings: &Findings<'_>, pixel_classes: &PixelClasse
             facts,
         );
     }
+    // Without a visible surface, all samples are the background.
     if findings.visible().next().is_none() && findings.facts.rules.contains(Rule::PixelMiss) {
         return EffectStatus::pruned(effect, Rule::PixelMiss, "no surface is visible", facts);
     }
+    // Otherwise each pixel has a grid of samples.
     let mut reason = format!(
         "a factor of {factor}: {} rays per pixel",
         u64::from(factor) * u64::from(factor)

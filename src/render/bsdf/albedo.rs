@@ -26,7 +26,7 @@ const ENTRIES: usize = ROUGHNESSES * COSINES;
 static STORED: [u8; 3 * 8 * ENTRIES] = *include_bytes!("albedo.bin");
 
 /// The tables.
-pub(super) struct Tables {
+pub(super) struct AlbedoTables {
     /// The terms of the albedo in f0 and in f90.
     specular: Vec<[f64; 2]>,
     sheen: Vec<[f64; 2]>,
@@ -58,12 +58,12 @@ impl Split {
 }
 
 /// The tables, read at the first call.
-pub(super) fn tables() -> &'static Tables {
-    static TABLES: LazyLock<Tables> = LazyLock::new(Tables::new);
+pub(super) fn tables() -> &'static AlbedoTables {
+    static TABLES: LazyLock<AlbedoTables> = LazyLock::new(AlbedoTables::new);
     &TABLES
 }
 
-impl Tables {
+impl AlbedoTables {
     fn new() -> Self {
         let numbers = STORED.as_chunks().0.iter().copied();
         let numbers = numbers.map(f64::from_le_bytes).collect::<Vec<_>>();

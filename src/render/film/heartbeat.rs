@@ -20,14 +20,14 @@ pub struct Step {
 }
 
 /// The observer of a render, called from all its threads; false means stop.
-pub type OnPixel<'a> = dyn Fn(Step) -> bool + Sync + 'a;
+pub type PixelObserver<'a> = dyn Fn(Step) -> bool + Sync + 'a;
 
 /// Steps of work between two calls: less than a millisecond in simple scenes.
 const EVERY: u32 = 1 << 12;
 
 /// The calls of one thread to the observer.
 pub(crate) struct Heartbeat<'run> {
-    on_pixel: &'run OnPixel<'run>,
+    on_pixel: &'run PixelObserver<'run>,
     pixel: [u32; 2],
     /// The rays of this thread reported so far.
     reported: u64,
@@ -39,7 +39,7 @@ pub(crate) struct Heartbeat<'run> {
 }
 
 impl<'run> Heartbeat<'run> {
-    pub(crate) fn new(on_pixel: &'run OnPixel<'run>) -> Self {
+    pub(crate) fn new(on_pixel: &'run PixelObserver<'run>) -> Self {
         Self {
             on_pixel,
             pixel: [0; 2],

@@ -138,19 +138,19 @@ impl Add for PixelSum {
 }
 
 /// The samples, added one after the other: pictures of the course.
-pub(crate) struct InOrder {
+pub(crate) struct SequentialAccumulator {
     values: Values,
     sum: PixelSum,
 }
 
-impl InOrder {
+impl SequentialAccumulator {
     pub(crate) fn new(values: Values) -> Self {
         let sum = PixelSum::default();
         Self { values, sum }
     }
 }
 
-impl Accumulator for InOrder {
+impl Accumulator for SequentialAccumulator {
     type Sample = Sample;
     type PixelState = PixelSum;
 
@@ -176,7 +176,7 @@ pub const BLOCK: u32 = 16;
 /// path-traced pictures. The sum of any 2^k aligned blocks is one node of the tree, whichever
 /// process adds it.
 #[derive(Default)]
-pub(crate) struct InBlocks {
+pub(crate) struct BlockAccumulator {
     block: Vec3,
     tree: SumTree,
     hits: u32,
@@ -191,7 +191,7 @@ struct SumTree {
     blocks: u32,
 }
 
-impl Accumulator for InBlocks {
+impl Accumulator for BlockAccumulator {
     type Sample = Sample;
     type PixelState = PixelSum;
 
@@ -267,7 +267,7 @@ mod tests {
     #[test]
     fn blocks_are_added_along_a_binary_tree() {
         for samples in [1, 15, 16, 17, 48, 49, 64, 112, 1000] {
-            let mut sums = InBlocks::default();
+            let mut sums = BlockAccumulator::default();
             let sample = |index| Sample {
                 radiance: radiance(index),
                 hit: index % 2 == 0,
@@ -282,14 +282,17 @@ mod tests {
 
     #[test]
     fn a_pixel_without_samples_is_black() {
-        assert_eq!(InOrder::new(Values::Display).close().mean(), [0.0; 3]);
-        assert_eq!(InBlocks::default().close().mean(), [0.0; 3]);
+        assert_eq!(
+            SequentialAccumulator::new(Values::Display).close().mean(),
+            [0.0; 3]
+        );
+        assert_eq!(BlockAccumulator::default().close().mean(), [0.0; 3]);
     }
 
     #[test]
     fn only_what_is_displayed_is_clamped_sample_by_sample() {
         for (values, mean) in [(Values::Display, 0.5), (Values::Linear, 1.0)] {
-            let mut sums = InOrder::new(values);
+            let mut sums = SequentialAccumulator::new(values);
             for value in [3.0, -1.0] {
                 sums.add(
                     &id(),

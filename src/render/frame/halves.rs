@@ -2,7 +2,7 @@
 //! from additional camera rays.
 
 use super::{Selection, run};
-use crate::film::heartbeat::OnPixel;
+use crate::film::heartbeat::PixelObserver;
 use crate::film::tiled::Tiled;
 use crate::film::{Counts, Film, Job};
 use crate::frame::picture::sample_ranges;
@@ -36,7 +36,7 @@ impl<S: Intersect> World<S> {
         &self,
         samples: &(dyn Fn(usize) -> Range<u32> + Sync),
         job: &Job,
-        on_pixel: &OnPixel<'_>,
+        on_pixel: &PixelObserver<'_>,
     ) -> Option<(Vec<Guide>, Counts)> {
         let lights = Lights::new(self, Strategy::Mis);
         let make_integrator = || Box::new(FirstHitsOfPaths::new(self, &lights, on_pixel)) as _;
@@ -60,7 +60,7 @@ impl AnyWorld {
         &self,
         samples: u32,
         job: &Job,
-        on_pixel: &OnPixel<'_>,
+        on_pixel: &PixelObserver<'_>,
         between: &dyn Fn(),
     ) -> Option<DenoisedFilm> {
         // Render both halves of the samples.
@@ -99,7 +99,7 @@ impl AnyWorld {
         &self,
         ranges: &[Range<u32>; 2],
         job: &Job,
-        on_pixel: &OnPixel<'_>,
+        on_pixel: &PixelObserver<'_>,
         between: &dyn Fn(),
     ) -> Option<([Vec<Guide>; 3], Counts)> {
         let (first, a) = self.guides(&|_| ranges[0].clone(), job, on_pixel)?;

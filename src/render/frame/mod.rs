@@ -135,6 +135,6 @@ fn on_all_threads(work: &(dyn Fn() + Sync)) {
 }
 
 /// A thread that panicked leaves no inconsistent state here.
-fn locked<T>(own: &Mutex<T>) -> MutexGuard<'_, T> {
-    own.lock().unwrap_or_else(PoisonError::into_inner)
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -2,9 +2,11 @@
 //! Layers (AOVs) trace the same camera rays, to their first hits.
 
 use super::{MakeIntegrator, Selection, run};
-use crate::film::heartbeat::OnPixel;
+use crate::film::heartbeat::PixelObserver;
 use crate::film::partial::{FilmError, FilmLayout, PartialFilm, Summation};
-use crate::film::pixel::{Accumulator, InBlocks, InOrder, PixelSum, SampleRanges};
+use crate::film::pixel::{
+    Accumulator, BlockAccumulator, PixelSum, SampleRanges, SequentialAccumulator,
+};
 use crate::film::tiled::Tiled;
 use crate::film::{Counts, Crop, Film, Job};
 use crate::integrator::aov::{Aov, AovAccumulator, CameraHit, FirstHits};
@@ -25,7 +27,11 @@ pub(crate) type Sums = (Tiled<PixelSum>, Counts);
 
 impl<S: Intersect> World<S> {
     /// Sums all samples of pixels with the features `F`; `None` if `on_pixel` said stop.
-    pub(crate) fn sum_with<const F: u32>(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Sums> {
+    pub(crate) fn sum_with<const F: u32>(
+        &self,
+        job: &Job,
+        on_pixel: &PixelObserver<'_>,
+    ) -> Option<Sums> {
         if let Mode::Depth = self.settings.mode {
             return self.sum_distances(job, on_pixel);
         }
@@ -38,7 +44,7 @@ impl<S: Intersect> World<S> {
             let is_blank = self.plan.pixel_classes.class_of(pixel) == PixelClass::Nothing;
             let samples = if is_blank { 0 } else { samples };
             (
-                InOrder::new(job.values),
+                SequentialAccumulator::new(job.values),
                 sample_ranges(job, 0..limited(job, samples)),
             )
         };
@@ -55,11 +61,14 @@ impl<S: Intersect> World<S> {
         strategy: Strategy,
         samples: &Range<u32>,
         job: &Job,
-        on_pixel: &OnPixel<'_>,
+        on_pixel: &PixelObserver<'_>,
     ) -> Option<Sums> {
         let lights = Lights::new(self, strategy);
         let open = |_: [u32; 2], _: usize, _: &PixelSum| {
-            (InBlocks::default(), sample_ranges(job, samples.clone()))
+            (
+                BlockAccumulator::default(),
+                sample_ranges(job, samples.clone()),
+            )
         };
         let make_integrator = || {
             let tracer = PathTracer::<S, F>::new(self, &lights, strategy, on_pixel);
@@ -71,7 +80,7 @@ impl<S: Intersect> World<S> {
     }
 
     /// Distances of the complete picture: the brightness of a pixel depends on all of them.
-    fn sum_distances(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Sums> {
+    fn sum_distances(&self, job: &Job, on_pixel: &PixelObserver<'_>) -> Option<Sums> {
         let open = |pixel: [u32; 2], _: usize, _: &PixelSum| {
             let is_blank = self.plan.pixel_classes.class_of(pixel) == PixelClass::Nothing;
             (
@@ -186,7 +195,7 @@ impl<S: Intersect> World<S> {
         &self,
         wanted: &[Aov],
         job: &Job,
-        on_pixel: &OnPixel<'_>,
+        on_pixel: &PixelObserver<'_>,
     ) -> Option<Layers> {
         if let Mode::Path(samples) = self.settings.mode {
             let lights = Lights::new(self, Strategy::Mis);

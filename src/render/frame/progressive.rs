@@ -1,7 +1,7 @@
 //! Progressive pictures: each pixel takes the requested samples that its replicates lack.
 
 use super::{MakeIntegrator, Selection, run_tiles};
-use crate::film::heartbeat::OnPixel;
+use crate::film::heartbeat::PixelObserver;
 use crate::film::pixel::Sample;
 use crate::film::progressive::{ProgressiveFilm, Replicates};
 use crate::integrator::path::{PathTracer, Strategy};
@@ -22,7 +22,7 @@ impl<S: Intersect> World<S> {
         &self,
         film: &mut ProgressiveFilm,
         wanted: &SampleRange<'_>,
-        on_pixel: &OnPixel<'_>,
+        on_pixel: &PixelObserver<'_>,
     ) -> bool {
         if let Mode::Path(_) = self.settings.mode {
             return self.run_paths(GrowPaths(self, film, wanted, on_pixel));
@@ -36,7 +36,7 @@ struct Grow<'run, S>(
     &'run World<S>,
     &'run mut ProgressiveFilm,
     &'run SampleRange<'run>,
-    &'run OnPixel<'run>,
+    &'run PixelObserver<'run>,
 );
 
 impl<S: Intersect> KernelTask for Grow<'_, S> {
@@ -56,7 +56,7 @@ struct GrowPaths<'run, S>(
     &'run World<S>,
     &'run mut ProgressiveFilm,
     &'run SampleRange<'run>,
-    &'run OnPixel<'run>,
+    &'run PixelObserver<'run>,
 );
 
 impl<S: Intersect> KernelTask for GrowPaths<'_, S> {

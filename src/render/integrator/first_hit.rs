@@ -3,7 +3,7 @@
 
 use super::Integrator;
 use crate::camera::grid::Grid;
-use crate::film::heartbeat::{Heartbeat, OnPixel};
+use crate::film::heartbeat::{Heartbeat, PixelObserver};
 use crate::film::pixel::{Accumulator, PixelSum, SampleId};
 use crate::film::{Counts, Seeds};
 use crate::shape::geometry::Intersect;
@@ -19,7 +19,7 @@ pub(crate) struct Depth<'run, S> {
 }
 
 impl<'run, S: Intersect> Depth<'run, S> {
-    pub(crate) fn new(world: &'run World<S>, on_pixel: &'run OnPixel<'run>) -> Self {
+    pub(crate) fn new(world: &'run World<S>, on_pixel: &'run PixelObserver<'run>) -> Self {
         Self {
             world,
             heartbeat: Heartbeat::new(on_pixel),

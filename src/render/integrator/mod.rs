@@ -60,6 +60,7 @@ pub(crate) trait Integrator<'run> {
     fn render(&mut self, tile: &mut dyn FilmTile<Self::Sample>) -> bool {
         while let Some((pixel, ranges)) = tile.next() {
             self.heartbeat().begin(pixel);
+            // Each stream of a pixel has its own sample indices.
             for (stream, samples) in (0..).map_while(|k| ranges.stream(k)) {
                 let mut id = SampleId {
                     pixel,
@@ -73,6 +74,7 @@ pub(crate) trait Integrator<'run> {
                         return false;
                     }
                     id.index = index;
+                    // Take a full vector of samples at once where the integrator can.
                     if left.len() + 1 >= LANES
                         && let Some(samples) = self.samples(&id)
                     {
@@ -85,6 +87,7 @@ pub(crate) trait Integrator<'run> {
                     }
                     let sample = self.sample(&id);
                     tile.add(&id, sample);
+                    // All samples of a uniform pixel have the value of the first.
                     if self.is_uniform() {
                         for index in left.by_ref() {
                             id.index = index;
@@ -93,6 +96,7 @@ pub(crate) trait Integrator<'run> {
                     }
                 }
             }
+            // Finish the pixel and tell the observer.
             tile.close();
             let rays = self.counts().rays();
             if !self.heartbeat().done(rays) {

@@ -81,6 +81,7 @@ impl<'world> MaterialPoint<'world> {
         channel: Option<usize>,
         multiple: bool,
     ) -> StandardParameters {
+        // Start with a diffuse surface that may transmit.
         let m = self.material;
         let mut standard = StandardParameters {
             base_color: self.base_color(),
@@ -102,6 +103,7 @@ impl<'world> MaterialPoint<'world> {
             diffuse_transmission: None,
             multiple_scattering: multiple,
         };
+        // Add microfacets and layers if the plan keeps them.
         if can::<F>(MICROFACETS) {
             self.reflect(&mut standard, channel);
         }

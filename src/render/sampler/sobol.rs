@@ -11,9 +11,9 @@ use rtc_math::mix;
 
 /// A pair of dimensions: 2·g is the first one of group g, 2·g + 1 the second one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Pair(u32);
+pub(crate) struct SobolPair(u32);
 
-impl Pair {
+impl SobolPair {
     /// The position in the pixel.
     pub(crate) const FILM: Self = Self(0);
     /// The position on the lens.
@@ -89,7 +89,7 @@ impl Sobol {
 
     /// A pair of numbers of this path, both from 0 to 1 − 2⁻³².
     #[inline]
-    pub(crate) fn pair(&self, pair: Pair) -> [f64; 2] {
+    pub(crate) fn pair(&self, pair: SobolPair) -> [f64; 2] {
         let group = u64::from(pair.0 / 2);
         let [film, lens] = [self.seeds.pixel, self.seeds.lens];
         let bits = match group {
@@ -143,7 +143,12 @@ fn spread(mut x: u32) -> u32 {
 mod tests {
     use super::*;
 
-    const PAIRS: [Pair; 4] = [Pair::FILM, Pair::LENS, Pair(5), Pair(12)];
+    const PAIRS: [SobolPair; 4] = [
+        SobolPair::FILM,
+        SobolPair::LENS,
+        SobolPair(5),
+        SobolPair(12),
+    ];
 
     /// Asserts that points, a power of two of them, are in [0, 1) and fill all elementary
     /// intervals.
@@ -210,7 +215,7 @@ mod tests {
                 [u32::MAX; 2],
             ];
             let first = |pixel| {
-                Sobol::in_picture(pixel, samples - 1, Seeds::NONE, samples).pair(Pair::FILM)
+                Sobol::in_picture(pixel, samples - 1, Seeds::NONE, samples).pair(SobolPair::FILM)
             };
             let mut first_light_of_surface = pixels.map(first).map(|pair| pair.map(f64::to_bits));
             first_light_of_surface.sort_unstable();
@@ -228,8 +233,9 @@ mod tests {
         // The covariance of two dimensions of different groups vanishes as that of random numbers
         // does.
         let (n, at) = (4096, |k| Sobol::new([0, 0], k, Seeds::NONE));
-        let product =
-            |k| (at(k).pair(Pair::FILM)[0] - 0.5) * (at(k).pair(Pair::direction(0))[0] - 0.5);
+        let product = |k| {
+            (at(k).pair(SobolPair::FILM)[0] - 0.5) * (at(k).pair(SobolPair::direction(0))[0] - 0.5)
+        };
         let covariance = (0..n).map(product).sum::<f64>() / f64::from(n);
         assert!(
             covariance.abs() < 8.0 / 12.0 / f64::from(n).sqrt(),
@@ -241,14 +247,14 @@ mod tests {
     fn no_two_uses_share_a_pair() {
         let uses = (0..9).flat_map(|k| {
             [
-                Pair::light(k),
-                Pair::direction(k),
-                Pair::russian_roulette(k),
-                Pair::lobe(k),
+                SobolPair::light(k),
+                SobolPair::direction(k),
+                SobolPair::russian_roulette(k),
+                SobolPair::lobe(k),
             ]
         });
         let mut uses = uses
-            .chain([Pair::FILM, Pair::LENS])
+            .chain([SobolPair::FILM, SobolPair::LENS])
             .map(|pair| pair.0)
             .collect::<Vec<_>>();
         let count = uses.len();

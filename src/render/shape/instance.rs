@@ -10,7 +10,7 @@ use crate::shape::corners::{blend, corner_values, handedness, interpolate};
 use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, LocalRay, ShadingAttributes};
 use crate::shape::mesh::{BaselineMesh, PreparedMesh};
-use crate::shape::tie::{self, Nearest, Tie};
+use crate::shape::tie::{self, NearHits, Nearest};
 use crate::shape::triangle::{self, BaselineTriangle, Triangle, WatertightRay};
 use rtc_math::{Bounds, Vec3, cross, unit};
 use std::sync::Arc;
@@ -115,7 +115,7 @@ impl Instance {
     /// Breaks the tie between the roots as close as the one at `t`.
     #[cold]
     fn resolve(&self, ray: &Ray, watertight: &WatertightRay, t: f64) -> Option<(f64, u32)> {
-        let mut tie = Tie::new();
+        let mut tie = NearHits::new();
         self.visit_roots(ray, watertight, t, &mut |t, prim_id| {
             tie.add(
                 t,
@@ -233,6 +233,7 @@ impl Intersect for Instance {
         prim_id: u32,
         request: AttributeRequest,
     ) -> ShadingAttributes {
+        // Equal normals and no coordinates need no barycentric weights.
         let triangle = self.mesh.triangle(prim_id);
         let mesh = &self.mesh.attributes;
         let corners = self.mesh.corners(prim_id);
@@ -252,12 +253,14 @@ impl Intersect for Instance {
                 .origin,
             ),
         };
+        // Interpolate the normal and transform it to world space.
         let unit = |normal| unit(Vec3::from_array(normal)).unwrap_or(Vec3::ZERO);
         let normal = normals.map(|[a, b, c]| {
             let even = unit(a);
             let mean = || even * weights[0] + unit(b) * weights[1] + unit(c) * weights[2];
             self.normal_to_world(if is_even { even } else { mean() })
         });
+        // Interpolate what was requested.
         let uvs = if request == AttributeRequest::NONE {
             None
         } else {

@@ -1,7 +1,7 @@
 //! A mesh in object space, prepared once for all its instances.
 
 use crate::accel::simd::SimdLevel;
-use crate::accel::wide::{Builders, Wide};
+use crate::accel::wide::{Builders, WideBvh};
 use crate::shape::baseline::real::Real;
 use crate::shape::geometry::LocalRay;
 use crate::shape::plane::Normal;
@@ -44,7 +44,7 @@ pub struct PreparedMesh {
     /// What its BVH is searched with.
     simd: SimdLevel,
     /// Built when a ray first needs it: the triangles of most meshes are in the BVH of their world.
-    hierarchy: OnceLock<Option<Wide>>,
+    hierarchy: OnceLock<Option<WideBvh>>,
 }
 
 impl PreparedMesh {
@@ -144,10 +144,11 @@ impl PreparedMesh {
     }
 
     /// The BVH of the triangles, if there are any.
-    pub(crate) fn hierarchy(&self) -> Option<&Wide> {
+    pub(crate) fn hierarchy(&self) -> Option<&WideBvh> {
         let vertices = |item: u32| self.vertices(item);
         let build = || {
-            let mut hierarchy = Wide::build(Builders::One, self.simd, self.count(), 0.0, vertices)?;
+            let mut hierarchy =
+                WideBvh::build(Builders::One, self.simd, self.count(), 0.0, vertices)?;
             if !self.prepared_triangles.is_empty() {
                 hierarchy.forget_corners();
             }

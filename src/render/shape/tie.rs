@@ -72,13 +72,13 @@ impl<K: Copy + Ord> Nearest<K> {
 }
 
 /// All hits that may be the closest.
-pub(crate) struct Tie<K> {
+pub(crate) struct NearHits<K> {
     hits: Vec<(f64, f64, K)>,
     /// The least upper end of their intervals.
     bound: f64,
 }
 
-impl<K: Copy + Ord> Tie<K> {
+impl<K: Copy + Ord> NearHits<K> {
     /// None yet.
     pub(crate) fn new() -> Self {
         Self {
@@ -128,7 +128,7 @@ mod tests {
         // The first overlaps the second, and the second the third, which is certainly the nearest.
         let hits = [(5.0, 1.0, 0), (4.0, 0.5, 1), (3.3, 0.3, 2), (4.2, 0.1, 3)];
         for order in orders(&hits) {
-            let mut tie = Tie::new();
+            let mut tie = NearHits::new();
             order
                 .iter()
                 .for_each(|(t, error, key)| tie.add(*t, *error, *key));

@@ -1,7 +1,7 @@
 //! A world of any shape set and arithmetic, built once for several renders.
 
 use crate::accel::simd::SimdLevel;
-use crate::film::heartbeat::OnPixel;
+use crate::film::heartbeat::PixelObserver;
 use crate::film::partial::{FilmError, PartialFilm};
 use crate::film::progressive::ProgressiveFilm;
 use crate::film::{Counts, Film, Job};
@@ -94,7 +94,7 @@ impl AnyWorld {
     ///
     /// `on_pixel` is called from all threads, after each pixel and within long ones.
     #[must_use]
-    pub fn render(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
+    pub fn render(&self, job: &Job, on_pixel: &PixelObserver<'_>) -> Option<Film> {
         each!(self, world => world.render(job, on_pixel))
     }
 
@@ -108,7 +108,7 @@ impl AnyWorld {
         &self,
         job: &Job,
         samples: Option<Range<u32>>,
-        on_pixel: &OnPixel<'_>,
+        on_pixel: &PixelObserver<'_>,
     ) -> Result<Option<PartialFilm>, FilmError> {
         each!(self, world => {
             world.part(job, samples, |samples, job| world.sum(samples, job, on_pixel))
@@ -119,7 +119,12 @@ impl AnyWorld {
     ///
     /// `on_pixel` is called from all threads after each pixel.
     #[must_use]
-    pub fn layers(&self, wanted: &[Aov], job: &Job, on_pixel: &OnPixel<'_>) -> Option<Layers> {
+    pub fn layers(
+        &self,
+        wanted: &[Aov],
+        job: &Job,
+        on_pixel: &PixelObserver<'_>,
+    ) -> Option<Layers> {
         let unpruned = self.unpruned();
         let world = unpruned.as_ref().unwrap_or(self);
         each!(world, world => world.layers(wanted, job, on_pixel))
@@ -138,7 +143,7 @@ impl AnyWorld {
         &self,
         samples: &Range<u32>,
         job: &Job,
-        on_pixel: &OnPixel<'_>,
+        on_pixel: &PixelObserver<'_>,
     ) -> Option<Film> {
         each!(self, world => world.whole(job, |_, job| world.sum(samples, job, on_pixel)))
     }
@@ -157,7 +162,7 @@ impl AnyWorld {
         &self,
         samples: &(dyn Fn(usize) -> Range<u32> + Sync),
         job: &Job,
-        on_pixel: &OnPixel<'_>,
+        on_pixel: &PixelObserver<'_>,
     ) -> Option<(Vec<Guide>, Counts)> {
         each!(self, world => world.guides(samples, job, on_pixel))
     }
@@ -171,7 +176,7 @@ impl AnyWorld {
         &self,
         film: &mut ProgressiveFilm,
         wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
-        on_pixel: &OnPixel<'_>,
+        on_pixel: &PixelObserver<'_>,
     ) -> bool {
         each!(self, world => world.grow(film, wanted, on_pixel))
     }
@@ -179,6 +184,11 @@ impl AnyWorld {
 
 /// Renders a scene as planned; see [`AnyWorld::render`].
 #[must_use]
-pub fn render(scene: &ValidScene, plan: &Plan, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
+pub fn render(
+    scene: &ValidScene,
+    plan: &Plan,
+    job: &Job,
+    on_pixel: &PixelObserver<'_>,
+) -> Option<Film> {
     AnyWorld::prepare(scene, plan).render(job, on_pixel)
 }

@@ -2,7 +2,7 @@
 
 use super::{Surface, SurfaceId, SurfacePrimitive};
 use crate::accel::simd::SimdLevel;
-use crate::accel::wide::{Builders, Candidate, MOST, Wide};
+use crate::accel::wide::{Builders, Candidate, MOST, WideBvh};
 use crate::ray::Ray;
 use crate::shape::geometry::{Intersect, LocalRay};
 use crate::shape::mesh::MAX_PREPARED;
@@ -14,7 +14,7 @@ use rtc_valid::{self as valid, MAX_MESH_TRIANGLES, ValidScene};
 pub(super) struct FlattenedInstances {
     /// The surfaces in their order, and the number of the first triangle of each.
     starts: Vec<(SurfaceId, u32)>,
-    pub(super) hierarchy: Wide,
+    pub(super) hierarchy: WideBvh,
 }
 
 /// A mesh with several instances is flattened if its instances have at most this many triangles
@@ -138,7 +138,7 @@ impl FlattenedInstances {
             let (surface, prim_id) = key(&starts, item);
             surfaces[surface].shape.corners(prim_id).unwrap_or_default()
         };
-        let mut hierarchy = Wide::build(Builders::All, simd, count, error_bound, corners)?;
+        let mut hierarchy = WideBvh::build(Builders::All, simd, count, error_bound, corners)?;
         // World-space corners are those of a mesh only if it is not transformed; few are prepared.
         if count <= MAX_PREPARED || !ids.iter().all(|surface| shape(*surface).is_in_place()) {
             hierarchy.forget_corners();

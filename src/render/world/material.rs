@@ -160,6 +160,7 @@ pub(super) fn standard(
     plan: &PathPlan,
 ) -> StandardMaterial {
     let m = material;
+    // Resolve each factor and its map to a texture slot.
     let slots = Slots {
         index,
         textures,
@@ -173,6 +174,7 @@ pub(super) fn standard(
     } else {
         slots.tint(m.emissive, m.emissive_map.as_ref())
     };
+    // Absent layers have no slots.
     StandardMaterial {
         request: slots.request(m),
         has_shading_map: shading_maps(m).any(|map| slots.is_looked_up(map)),

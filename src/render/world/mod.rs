@@ -34,7 +34,7 @@ use crate::material::standard::StandardMaterial;
 use crate::ray::Ray;
 use crate::shape::Shape;
 use crate::shape::geometry::Intersect;
-use crate::shape::tie::{CLOSE, Nearest, Tie};
+use crate::shape::tie::{CLOSE, NearHits, Nearest};
 use crate::shape::triangle::WatertightRay;
 use alpha::AlphaTested;
 use flattened::{FlattenedInstances, FlattenedRay};
@@ -231,7 +231,8 @@ impl<S: Intersect> World<S> {
         from: SurfacePrimitive,
         t: f64,
     ) -> Option<(f64, SurfacePrimitive)> {
-        let (mut tie, watertight) = (Tie::new(), WatertightRay::new(ray));
+        let (mut tie, watertight) = (NearHits::new(), WatertightRay::new(ray));
+        // Collect all roots near `t` with their error bounds.
         let mut add = |t: f64, surface: SurfaceId, prim_id: u32| {
             tie.add(
                 t,
@@ -245,12 +246,14 @@ impl<S: Intersect> World<S> {
                 add(t, surface, prim_id)
             });
         };
+        // Visit the objects that the ray may hit there.
         let objects = &self.objects;
         objects.unbounded.iter().for_each(|surface| visit(*surface));
         objects.bvh.traverse(ray, t, |item, _| {
             visit(objects.bounded[item as usize]);
             t
         });
+        // Visit the triangles of flattened instances.
         if S::FLATTENS
             && let Some(flattened) = &self.flattened
         {
@@ -263,6 +266,7 @@ impl<S: Intersect> World<S> {
             };
             flattened.hierarchy.traverse(ray, t, &mut visit);
         }
+        // Choose the nearest root, by surface and primitive among equals.
         tie.first()
     }
 

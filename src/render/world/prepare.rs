@@ -30,6 +30,7 @@ impl<S: Prepare> World<S> {
     /// the same.
     #[must_use]
     pub fn prepare_at(scene: &ValidScene, plan: &Plan, simd: SimdLevel) -> Self {
+        // Prepare textures, lights and the materials that the plan needs.
         let textures = Textures::new(scene);
         let lights = light::lights_for(scene, plan, &textures);
         let (surfaces, phongs, standards) = match &plan.paths {
@@ -49,6 +50,7 @@ impl<S: Prepare> World<S> {
                 (surfaces, IdTable::default(), prepared.collect())
             }
         };
+        // Build the hierarchies over the surfaces.
         let Lookup {
             objects,
             casters,

@@ -85,6 +85,7 @@ pub(super) fn camera(camera: &valid::Camera) -> Camera {
         lens,
         projection,
     } = *camera;
+    // A pinhole takes one lens sample.
     let lens_radius = lens.radius.get();
     let camera = Camera {
         eye,
@@ -106,6 +107,7 @@ pub(super) fn camera(camera: &valid::Camera) -> Camera {
         },
         eyes: None,
     };
+    // A stereo camera has two eyes at a distance.
     match projection {
         valid::Projection::Stereo(distance) => camera.with_eyes(distance),
         valid::Projection::Perspective | valid::Projection::Orthographic => camera,

@@ -3,7 +3,7 @@
 use super::World;
 use super::any::render;
 use super::shape::Prepare;
-use crate::film::heartbeat::OnPixel;
+use crate::film::heartbeat::PixelObserver;
 use crate::film::{Crop, Film, Job};
 use crate::frame::verify::{Mismatch, Verify, first_difference};
 use crate::shape::Shape;
@@ -20,7 +20,7 @@ pub fn verify(
     scene: &ValidScene,
     plan: &Plan,
     job: &Job,
-    on_pixel: &OnPixel<'_>,
+    on_pixel: &PixelObserver<'_>,
 ) -> Option<Result<Film, Mismatch>> {
     let planned = render(scene, plan, job, on_pixel)?;
     let (naive, verify) = match plan.arithmetic {
@@ -41,7 +41,7 @@ fn naively<S: Prepare>(
     scene: &ValidScene,
     plan: &Plan,
     job: &Job,
-    on_pixel: &OnPixel<'_>,
+    on_pixel: &PixelObserver<'_>,
 ) -> Option<(Film, Verify)> {
     let mut world = World::<S>::prepare(
         scene,
@@ -60,7 +60,7 @@ fn blame(
     job: &Job,
     pixel: [u32; 2],
     color: [f64; 3],
-    on_pixel: &OnPixel<'_>,
+    on_pixel: &PixelObserver<'_>,
 ) -> Option<Mismatch> {
     let [x, y] = pixel;
     let crop = Some(Crop {

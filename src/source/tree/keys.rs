@@ -1,6 +1,6 @@
 //! The keys of maps: duplicate keys, and sorted keys of large maps.
 
-use super::{NodeId, Tree};
+use super::{NodeId, SyntaxTree};
 use std::collections::BTreeMap;
 
 /// Maps up to this size are searched linearly; the keys of larger ones are sorted.
@@ -28,14 +28,14 @@ impl KeyIndex {
 }
 
 /// The first of the sorted keys with this text.
-pub(super) fn search(tree: &Tree<'_>, sorted: &[NodeId], text: &str) -> Option<NodeId> {
+pub(super) fn search(tree: &SyntaxTree<'_>, sorted: &[NodeId], text: &str) -> Option<NodeId> {
     let is_before = |key: &NodeId| tree.text(*key).is_some_and(|found_text| found_text < text);
     let first = *sorted.get(sorted.partition_point(is_before))?;
     tree.is(first, text).then_some(first)
 }
 
 /// Collects the keys of a map that was just closed.
-pub(super) fn close(tree: &mut Tree<'_>, map: NodeId) {
+pub(super) fn close(tree: &mut SyntaxTree<'_>, map: NodeId) {
     let texts = || {
         let keys = tree.pairs(map).map(|(key, _)| key);
         keys.filter_map(|key| Some((tree.text(key)?, key)))

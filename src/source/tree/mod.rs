@@ -1,11 +1,11 @@
 //! The spanned tree: a YAML or JSON text as one flat vector of nodes with spans.
 //!
 //! # Overview
-//! - [`yaml::parse`] and [`json::parse`] make a [`Tree`]; [`yaml::layout`] formats YAML.
-//! - A [`NodeId`] is an index into the nodes. [`Tree::kind`] is the type of a node ([`NodeKind`]),
-//!   [`Tree::shape`] its type and text, [`Tree::span`] its position in the file.
-//! - [`Tree::get`], [`Tree::pairs`] and [`Tree::items`] navigate maps and lists.
-//! - Of JSON, [`Tree::pointer`] is the JSON pointer of a node.
+//! - [`yaml::parse`] and [`json::parse`] make a [`SyntaxTree`]; [`yaml::layout`] formats YAML.
+//! - A [`NodeId`] is an index into the nodes. [`SyntaxTree::kind`] is the type of a node
+//!   ([`NodeKind`]), [`SyntaxTree::shape`] its type and text, [`SyntaxTree::span`] its position in the file.
+//! - [`SyntaxTree::get`], [`SyntaxTree::pairs`] and [`SyntaxTree::items`] navigate maps and lists.
+//! - Of JSON, [`SyntaxTree::pointer`] is the JSON pointer of a node.
 //!
 //! # Representation
 //! Nodes are in the order of the text. A list or map stores where its descendants end, so nothing
@@ -16,7 +16,7 @@ pub mod json;
 mod keys;
 mod pointer;
 
-impl<'s> Tree<'s> {
+impl<'s> SyntaxTree<'s> {
     /// The text after a span, up to the end of its line.
     #[must_use]
     pub fn rest_of_line(&self, span: Span) -> &'s str {
@@ -51,7 +51,7 @@ impl<'s> Tree<'s> {
 
     /// Whether another tree is equal: the same nodes with the same texts and the same aliases.
     #[must_use]
-    pub fn is_equivalent(&self, other: &Tree<'_>) -> bool {
+    pub fn is_equivalent(&self, other: &SyntaxTree<'_>) -> bool {
         let is_same = |id: NodeId| {
             let (mine, theirs) = (self.node(id), other.node(id));
             let has_link = matches!(mine.syntax, Syntax::List | Syntax::Map | Syntax::Alias);
@@ -76,7 +76,7 @@ use pointer::PointerStep;
 use rtc_math::to_u32;
 use std::ops::Range;
 
-/// The index of a node in a [`Tree`].
+/// The index of a node in a [`SyntaxTree`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct NodeId(u32);
 
@@ -162,7 +162,7 @@ pub enum NodeContent<'t> {
 
 /// A parsed text. Offsets are relative to the text, spans to the file.
 #[derive(Debug)]
-pub struct Tree<'s> {
+pub struct SyntaxTree<'s> {
     source: &'s str,
     /// The offset of the text in its file.
     base: u32,
@@ -176,7 +176,7 @@ pub struct Tree<'s> {
     keys: KeyIndex,
 }
 
-impl<'s> Tree<'s> {
+impl<'s> SyntaxTree<'s> {
     /// A tree without nodes for a text that starts `base` bytes into its file.
     fn new(file: FileId, base: u32, source: &'s str) -> Self {
         Self {

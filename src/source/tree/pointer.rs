@@ -1,6 +1,6 @@
 //! JSON pointers of the nodes of a JSON tree, for diagnostics.
 
-use super::{NodeId, NodeKind, Tree};
+use super::{NodeId, NodeKind, SyntaxTree};
 
 /// The parent of a node and its index there.
 #[derive(Clone, Copy, Debug)]
@@ -16,7 +16,7 @@ pub(super) struct PointerStep {
 const LONG_STEP: usize = 256;
 const LONG_POINTER: usize = 512;
 
-impl Tree<'_> {
+impl SyntaxTree<'_> {
     fn step(&self, id: NodeId) -> PointerStep {
         let root = PointerStep { parent: 0, slot: 0 };
         self.steps.get(id.0 as usize).copied().unwrap_or(root)

@@ -3,7 +3,7 @@
 use super::*;
 use crate::SourceMap;
 
-fn with<R>(text: &str, look: impl FnOnce(&Tree<'_>) -> R) -> R {
+fn with<R>(text: &str, look: impl FnOnce(&SyntaxTree<'_>) -> R) -> R {
     let mut map = SourceMap::default();
     let file = map.add("t", text.as_bytes().to_vec());
     let tree = yaml::parse(file, map.bytes(file), &mut |mistake| panic!("{mistake:?}")).unwrap();

@@ -133,12 +133,14 @@ fn times(study: &Study) -> String {
 }
 
 fn cells(row: &StudyRow, used: &[Parameter], fraction: f64) -> Vec<String> {
+    // Mark the row of the Pareto front, the scene's own setting, and bounds.
     let star = if row.front { "★" } else { "" };
     let own = if row.is_scene_setting { " own" } else { "" };
     let limit = if row.is_resolved { "" } else { "≤ " };
     let parameters = used
         .iter()
         .map(|parameter| parameter.cell(row.setting.get(*parameter)));
+    // Format the measured columns.
     let measured = [
         table::count(row.rays.all() as f64 / fraction),
         format!(

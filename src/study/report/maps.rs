@@ -17,6 +17,7 @@ pub(super) fn section(study: &Study) -> String {
     if maps.is_empty() {
         return String::new();
     }
+    // Draw the colour bar and one figure per map.
     let scale: Vec<_> = (0..STEPS)
         .map(|step| f64::from(step) / f64::from(STEPS - 1))
         .collect();
@@ -40,6 +41,7 @@ pub(super) fn section(study: &Study) -> String {
              <figcaption>{label}</figcaption></figure>"
         );
     }
+    // Explain the areas that were not rendered.
     let hatched = match study.part.tiles {
         0 => "",
         _ => " Hatched grey was not rendered.",

@@ -192,6 +192,7 @@ fn width(parameter: Parameter) -> usize {
 }
 
 fn line(row: &StudyRow, used: &[Parameter], (columns, fraction): (&[usize], f64)) -> String {
+    // Write the mark of the Pareto front and the parameters.
     let mut line = String::from(if row.front { "*" } else { " " });
     used.iter().for_each(|parameter| {
         write_cell(
@@ -200,6 +201,7 @@ fn line(row: &StudyRow, used: &[Parameter], (columns, fraction): (&[usize], f64)
             width(*parameter),
         )
     });
+    // Write the measured columns that were chosen.
     let limit = if row.is_resolved { "" } else { "≤" };
     let cells = [
         count(row.rays.all() as f64 / fraction),
@@ -285,9 +287,11 @@ pub(super) fn reference(study: &Study) -> String {
 pub(super) fn parameter_line(report: &ParameterReport, bounces: Option<&MoreBounces>) -> String {
     let name = report.parameter.name();
     let last = report.levels.last().map_or(0, |level| level.value);
+    // Tell why a parameter is not used.
     if let Some(reason) = &report.not_applicable {
         return format!("{name}: not used by this scene: {reason}");
     }
+    // Tell its fitted power law, or why there is none.
     match (&report.law, report.parameter, bounces) {
         (Some(law), parameter, _) => {
             let samples = if parameter == Parameter::Supersampling {

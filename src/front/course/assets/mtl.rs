@@ -178,7 +178,10 @@ impl MeshFile {
             mirrors.next()
         };
         if let Some(span) = libraries.iter().find_map(definition) {
-            let note = Diagnostic::new(&codes::TWO_READINGS, "the `Ks` of an MTL is a mirror too");
+            let note = Diagnostic::new(
+                &codes::KEY_READ_DIFFERENTLY,
+                "the `Ks` of an MTL is a mirror too",
+            );
             let note = note.severity(Severity::Note);
             loader.sink.push(
                 note.at(span, "only a highlight in some programs")

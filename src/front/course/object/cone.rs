@@ -2,7 +2,7 @@
 //! axis, which the cylinder has too.
 
 use super::Lower;
-use crate::course::decode::{Context, Numbers, SharedValue, Spanned};
+use crate::course::decode::{Context, SharedValue, Spanned, SpannedVector};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Positive};
@@ -23,7 +23,7 @@ pub(super) struct AxisKeys<'o> {
 
 impl AxisKeys<'_> {
     /// The centre of the base and the vector from it to the top.
-    pub(super) fn base_and_up(&self) -> Option<(Numbers, Numbers)> {
+    pub(super) fn base_and_up(&self) -> Option<(SpannedVector, SpannedVector)> {
         let Self {
             position,
             up,

@@ -321,6 +321,7 @@ impl Expression {
 fn half_spaces(surfaces: &[ir::Surface]) -> Option<Vec<Solid>> {
     /// A corner may be so far outside, of the size of the polyhedron.
     const SLACK: f64 = 1e-9;
+    // All faces must be triangles.
     let corners = |surface: &ir::Surface| {
         let Shape::Triangle(triangle) = &surface.shape else {
             return None;
@@ -328,6 +329,7 @@ fn half_spaces(surfaces: &[ir::Surface]) -> Option<Vec<Solid>> {
         Some(triangle.vertices.map(Vec3::from_array))
     };
     let faces: Vec<_> = surfaces.iter().map(corners).collect::<Option<_>>()?;
+    // Collect the planes of the faces, each once.
     let mut planes: Vec<(Vec3, Vec3)> = Vec::new();
     for [a, b, c] in &faces {
         let normal = unit(cross(*b - *a, *c - *a))?;
@@ -338,6 +340,7 @@ fn half_spaces(surfaces: &[ir::Surface]) -> Option<Vec<Solid>> {
             planes.push((*a, normal));
         }
     }
+    // The solid is convex if no corner is outside of a plane.
     let [a, ..] = faces.first()?;
     let points = || faces.iter().flatten();
     let size = points().fold(0.0, |most: f64, point| most.max(point.distance(*a)));
@@ -350,6 +353,7 @@ fn half_spaces(surfaces: &[ir::Surface]) -> Option<Vec<Solid>> {
             normal: normal.to_array(),
         })
     };
+    // It then is the intersection of half-spaces.
     let is_polyhedron = planes.len() >= 4 && planes.iter().all(holds);
     is_polyhedron.then(|| planes.iter().map(solid).collect())
 }
@@ -388,6 +392,7 @@ impl OperandPlacement {
     }
 
     fn place(&self, solid: &mut Solid) {
+        // Transform points, directions and lengths of the solid.
         match solid {
             Solid::Sphere(ir::Sphere {
                 center,

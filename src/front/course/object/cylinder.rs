@@ -3,7 +3,7 @@
 use super::Lower;
 use super::cone::AxisKeys;
 
-use crate::course::decode::{Context, Numbers, SharedValue, Spanned};
+use crate::course::decode::{Context, SharedValue, Spanned, SpannedVector};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Positive, Real};
@@ -76,7 +76,7 @@ impl Lower for Cylinder {
 }
 
 /// The centre of the base, the direction to the top, and the height.
-fn axis(cylinder: &Cylinder) -> Option<(Numbers, Numbers, Spanned<f64>)> {
+fn axis(cylinder: &Cylinder) -> Option<(SpannedVector, SpannedVector, Spanned<f64>)> {
     let Cylinder {
         kind: _,
         position,
@@ -90,6 +90,7 @@ fn axis(cylinder: &Cylinder) -> Option<(Numbers, Numbers, Spanned<f64>)> {
         material: _,
         shadow: _,
     } = cylinder;
+    // The older form rotates the axis about its middle.
     if let (
         FieldOutcome::Read(middle),
         FieldOutcome::Read(height),
@@ -105,6 +106,7 @@ fn axis(cylinder: &Cylinder) -> Option<(Numbers, Numbers, Spanned<f64>)> {
             height.map(|height| height.0),
         ));
     }
+    // The common form has a base, a direction and a height.
     if let (
         FieldOutcome::Read(position),
         FieldOutcome::Read(direction),
@@ -117,6 +119,7 @@ fn axis(cylinder: &Cylinder) -> Option<(Numbers, Numbers, Spanned<f64>)> {
             height.map(|height| height.0),
         ));
     }
+    // The other forms give the vector from base to top.
     let axis_keys = AxisKeys {
         position,
         up,

@@ -3,7 +3,7 @@
 use super::quad::EDGES;
 use super::triangle::CORNERS;
 use super::{Lower, report_negative};
-use crate::course::decode::{Context, Numbers, SharedValue, Spanned};
+use crate::course::decode::{Context, SharedValue, Spanned, SpannedVector};
 use crate::course::keyword::Keyword;
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
@@ -104,6 +104,7 @@ impl Lower for BoundedPlane {
         let Some(props) = lowering.surface_props(kind, material, shadow, context) else {
             return;
         };
+        // A bounded plane is a disc or a square.
         match outline.value {
             Outline::Circle => {
                 let shape = ir::Disc {
@@ -118,6 +119,7 @@ impl Lower for BoundedPlane {
                 ];
                 lowering.add_surface(&props, ir::Shape::Disc(shape), &value_spans);
             }
+            // A square of size 0 is invisible.
             Outline::Square if radius.value.0 == 0.0 => lowering.invisible(radius.span),
             Outline::Square if radius.value.0 < 0.0 => report_negative(radius, "radius", context),
             Outline::Square => {
@@ -164,7 +166,7 @@ fn report_oblique(normal: &Spanned<Vector>, context: &mut Context<'_>) {
 }
 
 /// The point and the normal of a plane, from the variant that is given.
-fn center_and_normal(plane: &Plane) -> Option<(Numbers, Numbers)> {
+fn center_and_normal(plane: &Plane) -> Option<(SpannedVector, SpannedVector)> {
     let Plane {
         kind: _,
         equation,
@@ -176,9 +178,11 @@ fn center_and_normal(plane: &Plane) -> Option<(Numbers, Numbers)> {
         material: _,
         shadow: _,
     } = plane;
+    // An equation comes first.
     if let FieldOutcome::Read(equation) = equation {
         return Some(plane_of_equation(equation));
     }
+    // Other forms are three points, a point with a normal, a distance or two edges.
     match (corners, position, normal, distance, edges) {
         (FieldOutcome::Read(corners), ..) => Some(plane_of_points(corners)),
         (_, FieldOutcome::Read(position), FieldOutcome::Read(normal), ..) => {
@@ -204,7 +208,7 @@ fn center_and_normal(plane: &Plane) -> Option<(Numbers, Numbers)> {
 }
 
 /// A point and the normal of the plane a·x + b·y + c·z + d = 0.
-fn plane_of_equation([a, b, c, d]: &[Spanned<Real>; 4]) -> (Numbers, Numbers) {
+fn plane_of_equation([a, b, c, d]: &[Spanned<Real>; 4]) -> (SpannedVector, SpannedVector) {
     let normal = Vec3::new(a.value.0, b.value.0, c.value.0);
     // The validator rejects a normal of length 0.
     let point = unit(normal).map_or(Vec3::ZERO, |n| n * (-d.value.0 / length(normal)));
@@ -229,14 +233,14 @@ fn report_sign(plane: &Plane, context: &mut Context<'_>) {
     if let (Some(span), true) = (d.span, d.value.0 != 0.0) {
         let message = || "a plane of four numbers is that of a·x + b·y + c·z + d = 0".to_owned();
         let other = shortest(-d.value.0);
-        context.report(&codes::TWO_READINGS, span, message, |d| {
+        context.report(&codes::KEY_READ_DIFFERENTLY, span, message, |d| {
             d.at(span, "on the other side of the origin in some programs")
                 .hint(format!("a·x + b·y + c·z = d is meant by `d: {other}`"))
         });
     }
 }
 
-fn plane_of_points(corners: &[Spanned<Point>; 3]) -> (Numbers, Numbers) {
+fn plane_of_points(corners: &[Spanned<Point>; 3]) -> (SpannedVector, SpannedVector) {
     let [a, b, c] = corners.map(|corner| Vec3::from_array(corner.value.0));
     let span = corners[0]
         .span
@@ -260,7 +264,10 @@ fn cross(first: Vec3, second: Vec3) -> [f64; 3] {
     first.cross(second).to_array()
 }
 
-fn plane_at_distance(normal: &Spanned<Vector>, distance: &Spanned<Real>) -> (Numbers, Numbers) {
+fn plane_at_distance(
+    normal: &Spanned<Vector>,
+    distance: &Spanned<Real>,
+) -> (SpannedVector, SpannedVector) {
     // The validator rejects a normal of length 0.
     let direction = unit(Vec3::from_array(normal.value.0)).unwrap_or(Vec3::ZERO);
     (

@@ -3,7 +3,7 @@
 use super::solid::UNIT_SQUARE;
 use super::triangle::VERTICES;
 use super::{Lower, SurfaceProps};
-use crate::course::decode::{Context, Numbers, SharedValue, Spanned};
+use crate::course::decode::{Context, SharedValue, Spanned, SpannedVector};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::record::{FieldOutcome, Spellings, keys, record};
@@ -80,7 +80,7 @@ impl Lower for Quad {
 impl Lowering {
     /// Adds two triangles instead of a quad, which share the diagonal from its first corner to its
     /// third.
-    fn add_two_triangles(&mut self, props: &SurfaceProps, corners: &[Numbers; 4]) {
+    fn add_two_triangles(&mut self, props: &SurfaceProps, corners: &[SpannedVector; 4]) {
         for at in [[0, 1, 2], [0, 2, 3]] {
             let triangle = ir::Triangle {
                 vertices: at.map(|k| corners[k].value),
@@ -94,14 +94,14 @@ impl Lowering {
 
 /// Whether four corners that are not coplanar span a curved patch. Reports it if the file does not
 /// say.
-fn is_curved(quad: &Quad, corners: &[Numbers; 4], context: &mut Context<'_>) -> bool {
+fn is_curved(quad: &Quad, corners: &[SpannedVector; 4], context: &mut Context<'_>) -> bool {
     if let FieldOutcome::Read(curved) = quad.curved {
         return curved.value;
     }
     if let Some(span) = corners[3].span {
         let message =
             || "the corners of the quad are not coplanar: it becomes two triangles".to_owned();
-        context.report(&codes::TWO_READINGS, span, message, |d| {
+        context.report(&codes::KEY_READ_DIFFERENTLY, span, message, |d| {
             d.at(span, "a curved patch in some programs")
                 .hint("`curved: true` makes a patch, `curved: false` two triangles")
         });
@@ -110,7 +110,7 @@ fn is_curved(quad: &Quad, corners: &[Numbers; 4], context: &mut Context<'_>) -> 
 }
 
 /// The corners in order around the quad.
-fn corners(quad: &Quad) -> Option<[Numbers; 4]> {
+fn corners(quad: &Quad) -> Option<[SpannedVector; 4]> {
     let Quad {
         kind: _,
         corners,
@@ -165,7 +165,7 @@ fn corners_to_swap(corners: &[Vec3; 4]) -> Option<[usize; 2]> {
 }
 
 /// Reports crossing edges; with `--lenient` swaps the corners.
-fn report_crossed(corners: &mut [Numbers; 4], [a, b]: [usize; 2], context: &mut Context<'_>) {
+fn report_crossed(corners: &mut [SpannedVector; 4], [a, b]: [usize; 2], context: &mut Context<'_>) {
     const WHICH: [&str; 4] = ["first", "second", "third", "fourth"];
     let (first, second) = (corners[a].span, corners[b].span);
     let lenient = context.options.lenient;

@@ -106,7 +106,7 @@ fn report_size_as_factor(size: f64, span: Option<Span>) -> Diagnostic {
         "the `size` of a mesh is a factor, as in `scale: {}`",
         shortest(size)
     );
-    Diagnostic::new(&codes::TWO_READINGS, message)
+    Diagnostic::new(&codes::KEY_READ_DIFFERENTLY, message)
         .severity(Severity::Note)
         .at(span, "times as large as in its file")
         .hint("in some programs it is the size of the mesh; that is written `fit`")
@@ -115,7 +115,7 @@ fn report_size_as_factor(size: f64, span: Option<Span>) -> Diagnostic {
 fn report_size_as_fit(size: f64, half: f64, span: Option<Span>) -> Diagnostic {
     let (size, half) = (shortest(size), shortest(half));
     let message = format!("`size: {size}` is taken as the size of the mesh, not as a factor");
-    Diagnostic::new(&codes::TWO_READINGS, message)
+    Diagnostic::new(&codes::KEY_READ_DIFFERENTLY, message)
         .at(span, "as a factor it would hide the view")
         .hint(format!(
             "`fit: {half}` is the size that is shown, `scale: {size}` the factor"

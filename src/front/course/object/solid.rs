@@ -366,7 +366,9 @@ fn box_corners(add_box: &Cuboid, context: &mut Context<'_>) -> Option<([Vec3; 8]
         material: _,
         shadow: _,
     } = add_box;
+    // Bit k of a corner's index tells its end of axis k.
     let end = |index: usize, axis: usize| (index >> axis) & 1;
+    // One form has a corner and its edges.
     if let (FieldOutcome::Read(corner), FieldOutcome::Read([up, side]), FieldOutcome::Read(depth)) =
         (position, edges, depth)
     {
@@ -375,6 +377,7 @@ fn box_corners(add_box: &Cuboid, context: &mut Context<'_>) -> Option<([Vec3; 8]
         let depth = depth.value.edge(up_edge, side_edge);
         return Some((box_from_edges(corner, [side_edge, up_edge, depth]), up.span));
     }
+    // The others have two opposite corners, or a centre with a rotation.
     match (extremes, position, dimension) {
         (FieldOutcome::Read(ends), ..) => {
             let corner = |index| {

@@ -201,7 +201,7 @@ fn report_two_radii(
         }
     };
     let message = || format!("`innerRadius` is read as {first}, `outerRadius` as {second}");
-    context.report(&codes::TWO_READINGS, span, message, |d| {
+    context.report(&codes::KEY_READ_DIFFERENTLY, span, message, |d| {
         d.at(span, first).also(outer.span, second).hint(hint)
     });
 }

@@ -29,10 +29,12 @@ impl Lowering<'_, '_, '_> {
     /// Adds the camera to the scene: the requested one, by its name, that of its node, or its
     /// index.
     pub(super) fn camera(&mut self, wanted: Option<&str>) {
+        // Find the requested camera, or the first one that shows anything.
         let chosen = match wanted {
             Some(name) => self.find_camera(name).and_then(|seen| self.camera_of(seen)),
             None => self.cameras.iter().find_map(|seen| self.camera_of(seen)),
         };
+        // Without one, look at the bounding sphere of the scene.
         match chosen {
             Some((at, camera)) => {
                 self.source_spans.record(

@@ -16,12 +16,14 @@ impl Lowering<'_, '_, '_> {
         let intensity = fields.number_or("intensity", 1.0);
         let position = world.translation.to_array();
         let backward = unit(world.z_axis).unwrap_or(Vec3::ZERO);
+        // A light with the extras of rtc keeps exactly what they hold.
         if let Some(measured) = fields
             .rtc_extras()
             .and_then(|extras| light_extras(extras, world))
         {
             return self.add_light(light, measured);
         }
+        // A punctual light shines along its local -z axis.
         let range = fields.number("range").filter(|range| *range > 0.0);
         let emitter = match fields.text("type").as_deref() {
             Some("directional") if backward != Vec3::ZERO => Emitter::Sun {
@@ -47,6 +49,7 @@ impl Lowering<'_, '_, '_> {
             }
             _ => return,
         };
+        // The radiant or luminous intensity scales the colour.
         let color = fields
             .vector_or("color", [1.0; 3])
             .map(|channel| channel * intensity);

@@ -13,7 +13,7 @@ use rtc_ir::{
     Standard, ValuePath,
 };
 use rtc_math::to_u32;
-use rtc_source::tree::Tree;
+use rtc_source::tree::SyntaxTree;
 use std::collections::BTreeMap;
 
 /// What became of the materials of the asset.
@@ -27,14 +27,14 @@ pub(super) struct Materials {
     /// The sets of texture coordinates that materials look at, where these are not the first two.
     uv_sets: BTreeMap<u32, TexCoordSets>,
     /// The materials of points and lines, by that of their primitive and whether they have normals.
-    of_strokes: BTreeMap<(u32, bool), MaterialId>,
+    point_and_line_materials: BTreeMap<(u32, bool), MaterialId>,
 }
 
 /// The material that a primitive has in a variant.
 pub(super) fn chosen(
     primitive: &Primitive,
     variant: Option<usize>,
-    json: &Tree<'_>,
+    json: &SyntaxTree<'_>,
 ) -> Option<usize> {
     let variant = variant?;
     let mappings = Fields::new(json, primitive.at).extension("KHR_materials_variants")?;
@@ -52,7 +52,7 @@ impl Materials {
             default: None,
             textures: LoweredTextures::new(doc),
             uv_sets: BTreeMap::new(),
-            of_strokes: BTreeMap::new(),
+            point_and_line_materials: BTreeMap::new(),
         }
     }
 
@@ -61,8 +61,9 @@ impl Materials {
         self.uv_sets.get(&material.0).copied().unwrap_or_default()
     }
 
-    /// The material for the points and lines of a material, and whether its emission was removed.
-    pub(super) fn of_strokes(
+    /// The material for points and lines whose primitives have `material`, and whether its emission
+    /// was removed.
+    pub(super) fn point_and_line_material(
         &mut self,
         material: MaterialId,
         is_lit: bool,
@@ -74,9 +75,12 @@ impl Materials {
         };
         let loses_light = !is_lit && !extension.unlit && extension.emissive != [0.0; 3];
         let next = MaterialId(to_u32(scene.materials.len()));
-        let id = *self.of_strokes.entry((material.0, is_lit)).or_insert(next);
+        let id = *self
+            .point_and_line_materials
+            .entry((material.0, is_lit))
+            .or_insert(next);
         if id == next {
-            let stroked = Standard {
+            let copy = Standard {
                 double_sided: true,
                 unlit: extension.unlit || !is_lit,
                 normal_map: None,
@@ -84,8 +88,7 @@ impl Materials {
                 anisotropy: 0.0,
                 ..(**extension).clone()
             };
-            let stroked = ir::Material::Standard(Box::new(stroked));
-            scene.materials.push(stroked);
+            scene.materials.push(ir::Material::Standard(Box::new(copy)));
         }
         (id, loses_light)
     }
@@ -124,6 +127,7 @@ impl Materials {
         source_spans: &mut SourceSpans,
         report: &mut AssetReport<'_, '_>,
     ) -> MaterialId {
+        // Each material is lowered once.
         let known = material.map_or(self.default, |material| self.made[material]);
         if let Some(known) = known {
             return known;
@@ -141,6 +145,7 @@ impl Materials {
                     source_spans,
                     report,
                 };
+                // A Phong material is stored in extras.
                 if let Some(phong) = reader.phong(fields) {
                     let place =
                         ValuePath::new(EntityKind::Material, scene.materials.len(), Field::Whole);
@@ -152,6 +157,7 @@ impl Materials {
                 reader.material(fields)
             }
         };
+        // Two sets of texture coordinates at most remain in a material.
         let (sets, lost) = TexCoordSets::choose(&mut standard);
         if sets != TexCoordSets::default() {
             self.uv_sets.insert(id.0, sets);
@@ -165,6 +171,7 @@ impl Materials {
             let at = doc.materials[material];
             report.add(&codes::GLTF_MATERIAL_ODD, "", at, message);
         }
+        // Record the origin and store the material.
         if let Some(material) = material {
             let place = ValuePath::new(EntityKind::Material, scene.materials.len(), Field::Whole);
             source_spans.record(place, report.json.span(doc.materials[material]));
@@ -202,6 +209,7 @@ impl MaterialReader<'_, '_, '_, '_> {
             extension.number_or("emissiveStrength", 1.0)
         });
         let normal = fields.object("normalTexture");
+        // Read the metallic-roughness model of the core specification.
         let mut standard = Standard {
             name: fields.name(),
             base_color: pbr
@@ -226,6 +234,7 @@ impl MaterialReader<'_, '_, '_, '_> {
             unlit: extension(fields, "unlit").is_some(),
             ..Standard::default()
         };
+        // Extensions replace parameters of it or add layers.
         self.specular_glossiness(fields, &mut standard);
         self.extensions(fields, &mut standard);
         let coat =

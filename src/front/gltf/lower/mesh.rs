@@ -179,16 +179,19 @@ pub(super) fn charge(
         uv_sets,
     } = wanted;
     let (vertices, corners) = (vertices_of(doc, primitive), corners(doc, primitive));
+    // Strips and fans have one triangle per corner at most.
     let triangles = match primitive.mode.cmp(&TRIANGLES) {
         Ordering::Less => 0,
         Ordering::Equal => corners / 3,
         Ordering::Greater => corners,
     };
+    // Missing tangents are generated for each corner.
     let tangents = if *needs_tangents && primitive.find("TANGENT").is_none() {
         3 * triangles
     } else {
         0
     };
+    // Morph targets and joints move every vertex once each.
     let targets = primitive
         .targets
         .iter()
@@ -200,6 +203,7 @@ pub(super) fn charge(
         .map_or(0, |_| primitive.influences().count() as u64);
     let is_moved = targets + sets > 0;
     let vertex = vertex(primitive, *uv_sets) + if is_moved { MOVED } else { 0 };
+    // Charge work and memory before the mesh is built.
     let work = vertices
         .saturating_mul(1 + targets + sets)
         .saturating_add(corners + TANGENT * tangents);

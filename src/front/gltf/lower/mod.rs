@@ -220,7 +220,7 @@ impl Lowering<'_, '_, '_> {
                 let target = (&mut self.scene, &mut self.source_spans);
                 let made = (&made, self.meshes.key(&made));
                 let made = self.strokes.make(doc, made, &places, target, self.report);
-                let material = self.material_of_strokes(primitive, material);
+                let material = self.point_and_line_material(primitive, material);
                 for (id, world) in made {
                     self.surface(id, world, material, &node.name, node.at);
                 }
@@ -290,9 +290,15 @@ impl Lowering<'_, '_, '_> {
 
     /// The material of points or lines: seen from all sides, and without normals unlit (glTF 2.0,
     /// section 3.9.6).
-    fn material_of_strokes(&mut self, primitive: &Primitive, material: MaterialId) -> MaterialId {
+    fn point_and_line_material(
+        &mut self,
+        primitive: &Primitive,
+        material: MaterialId,
+    ) -> MaterialId {
         let is_lit = primitive.find("NORMAL").is_some();
-        let (id, loses_light) = self.materials.of_strokes(material, is_lit, &mut self.scene);
+        let (id, loses_light) =
+            self.materials
+                .point_and_line_material(material, is_lit, &mut self.scene);
         if loses_light {
             let message =
                 "points and lines without normals show their colour; their emission is ignored";

@@ -54,6 +54,7 @@ pub(super) fn pose(
     options: &FrontOptions,
     report: &mut AssetReport<'_, '_>,
 ) -> Pose {
+    // Start with the transforms and weights at rest.
     let nodes = doc.nodes.iter().enumerate();
     let weights = nodes
         .filter(|(_, node)| !node.weights.is_empty())
@@ -63,6 +64,7 @@ pub(super) fn pose(
         weights: weights.collect(),
         animated: AnimatedValues::new(),
     };
+    // Evaluate each channel of the chosen animation at the time.
     if let Some(animation) = chosen(doc, options, report) {
         let time = options.time.unwrap_or(0.0);
         for channel in &animation.channels {
@@ -72,12 +74,14 @@ pub(super) fn pose(
             let Some(keys) = sampler.and_then(|sampler| Keys::of(doc, sampler)) else {
                 continue;
             };
+            // A pointer animates any property.
             let pointer = channel.pointer.as_deref();
             if let Some(property) =
                 pointer.and_then(|pointer| pointer::resolve(doc, report.json, pointer))
             {
                 pose.animate_property(&property, (&keys, time), channel.at, report);
             }
+            // Any other channel animates a node.
             let (Some(node), Some(path)) = (channel.node, channel.path) else {
                 continue;
             };

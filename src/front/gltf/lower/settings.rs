@@ -74,6 +74,7 @@ impl Lowering<'_, '_, '_> {
         let accessor = doc.accessors.get(accessor)?;
         let elements = AccessorReader::of(doc, accessor)?;
         let count = elements.count as u64;
+        // The elements are rows of `width` RGB pixels in f32.
         let size = extras.integer("width").and_then(|width| {
             let height = count
                 .checked_div(width)
@@ -88,6 +89,7 @@ impl Lowering<'_, '_, '_> {
                 .add(&codes::GLTF_ACCESSOR, "", extras.at, message.to_owned());
             return None;
         };
+        // Charge the memory before it is taken.
         let kind = Pixels::Rgb32f;
         let bytes = count.saturating_mul(kind.bytes() as u64);
         if !self
@@ -99,6 +101,7 @@ impl Lowering<'_, '_, '_> {
         let place = ValuePath::new(EntityKind::Image, self.scene.images.len(), Field::Whole);
         self.source_spans
             .record(place, self.report.json.span(extras.at));
+        // Copy the pixels as 32-bit floats.
         let mut pixels = Vec::with_capacity(elements.count * kind.bytes());
         #[expect(
             clippy::cast_possible_truncation,

@@ -55,16 +55,19 @@ impl StrokeMeshes {
         let (mut shown, mut source) = (Vec::new(), None);
         for at in 0..places.count() {
             let world = places.at(at);
+            // Instances of one linear part share a mesh, as glyphs have a fixed size.
             let turn = world.matrix3.to_cols_array().map(f64::to_bits);
             let known = self.known.get(&(key, turn)).copied();
             let made = match known {
                 Some(known) => known,
                 None => {
+                    // Charge before the vertices are read.
                     let Some(solid) = charge(doc, wanted, source.is_some(), report) else {
                         return shown;
                     };
                     let source = source.get_or_insert_with(|| Source::read(doc, wanted));
                     let made = source.as_ref().and_then(|source| {
+                        // Build a thin solid for each point or line.
                         let (mesh, offsets, _) =
                             thin_glyphs(&source.mesh, &source.ends, world, solid)?;
                         let place =
@@ -79,6 +82,7 @@ impl StrokeMeshes {
                     made
                 }
             };
+            // Place the mesh by the translation of its first vertex.
             shown.extend(made.map(|(id, first)| {
                 let anchor = world.transform_point3(first);
                 (id, DAffine3::from_translation(anchor))

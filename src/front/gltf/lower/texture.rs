@@ -23,7 +23,7 @@ pub(super) struct LoweredTextures {
 /// The OpenGL codes of wrap modes, and of the nearest filter.
 const CLAMP: u64 = 33071;
 const MIRROR: u64 = 33648;
-const MIN_HIT_DISTANCE: u64 = 9728;
+const NEAREST_FILTER: u64 = 9728;
 
 impl LoweredTextures {
     pub(super) fn new(doc: &Document<'_>) -> Self {
@@ -87,10 +87,12 @@ impl LoweredTextures {
         source_spans: &mut SourceSpans,
         report: &mut AssetReport<'_, '_>,
     ) -> Option<TextureId> {
+        // Each texture is lowered once.
         if let Some(known) = self.textures.get(index)? {
             return *known;
         }
         let texture = &doc.textures[index];
+        // Prefer the compressed image of an extension to that of the core.
         let mut images = [texture.ktx2, texture.webp, texture.source]
             .into_iter()
             .flatten();
@@ -105,17 +107,18 @@ impl LoweredTextures {
             let message = message.to_owned();
             report.add(&codes::GLTF_MATERIAL_ODD, "", texture.at, message);
         }
+        // The sampler gives wrap modes and the filter.
         let sampler = texture
             .sampler
             .and_then(|sampler| doc.samplers.get(sampler));
         let wrap = sampler.map_or([Wrap::Repeat; 2], |sampler| sampler.wrap.map(wrap));
-        let is_nearest =
-            sampler.is_some_and(|sampler| sampler.mag_filter == Some(MIN_HIT_DISTANCE));
+        let is_nearest = sampler.is_some_and(|sampler| sampler.mag_filter == Some(NEAREST_FILTER));
         let filter = if is_nearest {
             Filter::Nearest
         } else {
             Filter::Linear
         };
+        // Store the texture with its origin.
         let id = image.map(|image| {
             let at = scene.textures.len();
             source_spans.record(

@@ -15,6 +15,7 @@ pub(super) fn worlds(
     scene_from_file: Option<[Vec3; 3]>,
 ) -> Vec<DAffine3> {
     let count = doc.nodes.len();
+    // The roots are the nodes that are no child.
     let mut is_child = vec![false; count];
     for child in doc
         .nodes
@@ -26,12 +27,14 @@ pub(super) fn worlds(
     }
     let mut worlds: Vec<DAffine3> = (0..count).map(|node| pose.local(node)).collect();
     let mut open: Vec<usize> = (0..count).filter(|node| !is_child[*node]).collect();
+    // The axes of the asset are turned into those of the scene.
     if let Some([x, y, z]) = scene_from_file {
         let turn = DAffine3::from_cols(x, y, z, Vec3::ZERO);
         for root in &open {
             worlds[*root] = turn * worlds[*root];
         }
     }
+    // Multiply down the hierarchy: `world_from_child = world_from_parent * parent_from_child`.
     while let Some(node) = open.pop() {
         for child in doc.nodes[node]
             .children

@@ -79,6 +79,7 @@ pub(super) fn triangles(bytes: &[u8], count: usize) -> Result<Vec<u32>, Fault> {
 impl Triangles<'_> {
     fn triangle(&mut self, code: u8, table: &[u8]) -> Result<[u32; 3], Fault> {
         let (high, low) = (code >> 4, code & 15);
+        // The triangle shares a recent edge and adds one corner.
         if high < 15 {
             let [a, b] = self.edges.get(high);
             let c = self.on_edge(low)?;
@@ -86,6 +87,7 @@ impl Triangles<'_> {
             self.edges.push([a, c]);
             return Ok([a, b, c]);
         }
+        // Otherwise it has three corners of its own; a table or a byte tells how they are coded.
         let pair = if low < 14 {
             table[usize::from(low)]
         } else {
@@ -98,6 +100,7 @@ impl Triangles<'_> {
         if low < 14 && (z == 15 || w == 15) {
             return Err("the table of triangles is damaged");
         }
+        // Each corner is the next new vertex, a recent one, or an explicit delta.
         let a = self.corner(if low == 15 { 15 } else { 0 })?;
         let b = self.corner(z)?;
         let c = self.corner(w)?;
@@ -107,6 +110,7 @@ impl Triangles<'_> {
                 self.corners.push(corner);
             }
         }
+        // Its edges become the most recent ones.
         for edge in [[b, a], [c, b], [a, c]] {
             self.edges.push(edge);
         }

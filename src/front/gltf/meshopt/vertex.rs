@@ -22,11 +22,13 @@ pub(super) fn decode(bytes: &[u8], count: usize, stride: usize) -> Result<Vec<u8
     if !stride.is_multiple_of(4) || stride == 0 || stride > BLOCK_ELEMENTS {
         return Err("the stride is not a multiple of 4 up to 256");
     }
+    // The first byte holds the version.
     let version = match bytes.first() {
         Some(0xa0) => 0,
         Some(0xa1) => 1,
         _ => return Err("the first byte does not mark attributes"),
     };
+    // The tail holds the first element, and in version 1 the mode of each channel.
     let tail = if version == 0 {
         stride
     } else {
@@ -47,6 +49,7 @@ pub(super) fn decode(bytes: &[u8], count: usize, stride: usize) -> Result<Vec<u8
     let mut reader = Reader {
         bytes: &bytes[1..end],
     };
+    // Decode blocks of elements: each is the previous one plus deltas.
     let mut last = baseline.to_vec();
     let mut decoded = Vec::with_capacity(count * stride);
     let block = ((BLOCK_BYTES / stride) & !(GROUP - 1)).min(BLOCK_ELEMENTS);
@@ -56,6 +59,7 @@ pub(super) fn decode(bytes: &[u8], count: usize, stride: usize) -> Result<Vec<u8
         read_block(&mut reader, version, (elements, stride), &mut deltas)?;
         for element in 0..elements {
             for (channel, mode) in channels.iter().enumerate() {
+                // A channel is four bytes, whose deltas are stored in planes.
                 let delta = [0, 1, 2, 3]
                     .map(|byte| deltas[(4 * channel + byte) * BLOCK_ELEMENTS + element]);
                 let bytes = &mut last[4 * channel..4 * channel + 4];
@@ -65,6 +69,7 @@ pub(super) fn decode(bytes: &[u8], count: usize, stride: usize) -> Result<Vec<u8
             decoded.extend_from_slice(&last);
         }
     }
+    // All bytes before the tail must be consumed.
     if reader.bytes.is_empty() {
         Ok(decoded)
     } else {

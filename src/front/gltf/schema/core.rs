@@ -8,7 +8,7 @@ use super::{FACTOR, FREE, IndexTarget, Key, Object, POSITIVE, SIGNED, UNIT, opti
 
 /// The greatest number a property takes that has no other bound: up to it floats hold every whole
 /// number.
-const MANY: u64 = (1 << 53) - 1;
+const MAX_INTEGER: u64 = (1 << 53) - 1;
 const NAME: Key = optional("name", Text);
 
 pub(super) static ROOT: Object = Object {
@@ -49,13 +49,13 @@ static ACCESSOR: Object = Object {
     keys: &[
         NAME,
         optional("bufferView", Index(IndexTarget::BufferViews)),
-        optional("byteOffset", Integer(0, MANY)),
+        optional("byteOffset", Integer(0, MAX_INTEGER)),
         required(
             "componentType",
             Choice(&[5120, 5121, 5122, 5123, 5125, 5126]),
         ),
         optional("normalized", Boolean),
-        required("count", Integer(1, MANY)),
+        required("count", Integer(1, MAX_INTEGER)),
         required(
             "type",
             Keyword(&["SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"]),
@@ -69,7 +69,7 @@ static ACCESSOR: Object = Object {
 static SPARSE: Object = Object {
     name: "sparse part",
     keys: &[
-        required("count", Integer(1, MANY)),
+        required("count", Integer(1, MAX_INTEGER)),
         required("indices", One(&SPARSE_INDICES)),
         required("values", One(&SPARSE_VALUES)),
     ],
@@ -79,7 +79,7 @@ static SPARSE_INDICES: Object = Object {
     name: "sparse indices",
     keys: &[
         required("bufferView", Index(IndexTarget::BufferViews)),
-        optional("byteOffset", Integer(0, MANY)),
+        optional("byteOffset", Integer(0, MAX_INTEGER)),
         required("componentType", Choice(&[5121, 5123, 5125])),
     ],
 };
@@ -88,7 +88,7 @@ static SPARSE_VALUES: Object = Object {
     name: "sparse values",
     keys: &[
         required("bufferView", Index(IndexTarget::BufferViews)),
-        optional("byteOffset", Integer(0, MANY)),
+        optional("byteOffset", Integer(0, MAX_INTEGER)),
     ],
 };
 
@@ -97,7 +97,7 @@ static BUFFER: Object = Object {
     keys: &[
         NAME,
         optional("uri", Text),
-        required("byteLength", Integer(1, MANY)),
+        required("byteLength", Integer(1, MAX_INTEGER)),
     ],
 };
 
@@ -106,8 +106,8 @@ static BUFFER_VIEW: Object = Object {
     keys: &[
         NAME,
         required("buffer", Index(IndexTarget::Buffers)),
-        optional("byteOffset", Integer(0, MANY)),
-        required("byteLength", Integer(1, MANY)),
+        optional("byteOffset", Integer(0, MAX_INTEGER)),
+        required("byteLength", Integer(1, MAX_INTEGER)),
         optional("byteStride", Integer(4, 252)),
         optional("target", Choice(&[34962, 34963])),
     ],
@@ -182,7 +182,7 @@ pub(super) static TEXTURE_INFO: Object = Object {
     name: "texture info",
     keys: &[
         required("index", Index(IndexTarget::Textures)),
-        optional("texCoord", Integer(0, MANY)),
+        optional("texCoord", Integer(0, MAX_INTEGER)),
     ],
 };
 
@@ -190,7 +190,7 @@ pub(super) static NORMAL_TEXTURE: Object = Object {
     name: "texture info",
     keys: &[
         required("index", Index(IndexTarget::Textures)),
-        optional("texCoord", Integer(0, MANY)),
+        optional("texCoord", Integer(0, MAX_INTEGER)),
         optional("scale", Number(FREE)),
     ],
 };
@@ -199,7 +199,7 @@ static OCCLUSION_TEXTURE: Object = Object {
     name: "texture info",
     keys: &[
         required("index", Index(IndexTarget::Textures)),
-        optional("texCoord", Integer(0, MANY)),
+        optional("texCoord", Integer(0, MAX_INTEGER)),
         optional("strength", Number(UNIT)),
     ],
 };

@@ -57,10 +57,11 @@ const FROM_ONE: Bounds = Bounds {
     max: f64::INFINITY,
     above: false,
 };
-const MANY: u64 = (1 << 53) - 1;
+/// The largest integer such that it and all smaller ones are exact in f64.
+const MAX_INTEGER: u64 = (1 << 53) - 1;
 
 /// An extension whose objects occur in one kind of object.
-const fn known(
+const fn extension(
     name: &'static str,
     places: &'static [(&'static str, &'static Object)],
 ) -> Extension {
@@ -68,47 +69,47 @@ const fn known(
 }
 
 static EXTENSIONS: &[Extension] = &[
-    known("EXT_mesh_gpu_instancing", &[("node", &INSTANCING)]),
-    known(
+    extension("EXT_mesh_gpu_instancing", &[("node", &INSTANCING)]),
+    extension(
         "EXT_meshopt_compression",
         &[("buffer view", &MESHOPT), ("buffer", &FALLBACK)],
     ),
-    known("EXT_texture_webp", &[("texture", &SOURCE)]),
-    known(
+    extension("EXT_texture_webp", &[("texture", &SOURCE)]),
+    extension(
         "KHR_animation_pointer",
         &[("channel target", &ANIMATION_POINTER)],
     ),
-    known("KHR_draco_mesh_compression", &[("primitive", &DRACO)]),
-    known(
+    extension("KHR_draco_mesh_compression", &[("primitive", &DRACO)]),
+    extension(
         "KHR_lights_punctual",
         &[("asset", &LIGHTS), ("node", &LIGHT_REFERENCE)],
     ),
-    known(
+    extension(
         "KHR_materials_emissive_strength",
         &[("material", &EMISSIVE_STRENGTH)],
     ),
-    known("KHR_materials_iridescence", &[("material", &IRIDESCENCE)]),
-    known(
+    extension("KHR_materials_iridescence", &[("material", &IRIDESCENCE)]),
+    extension(
         "KHR_materials_pbrSpecularGlossiness",
         &[("material", &SPECULAR_GLOSSINESS)],
     ),
-    known("KHR_materials_unlit", &[("material", &UNLIT)]),
-    known(
+    extension("KHR_materials_unlit", &[("material", &UNLIT)]),
+    extension(
         "KHR_materials_variants",
         &[("asset", &VARIANTS), ("primitive", &VARIANT_MAPPINGS)],
     ),
-    known("KHR_mesh_quantization", &[]),
-    known(
+    extension("KHR_mesh_quantization", &[]),
+    extension(
         "KHR_meshopt_compression",
         &[("buffer view", &MESHOPT), ("buffer", &FALLBACK)],
     ),
-    known("KHR_node_visibility", &[("node", &VISIBILITY)]),
-    known("KHR_texture_basisu", &[("texture", &SOURCE)]),
-    known(
+    extension("KHR_node_visibility", &[("node", &VISIBILITY)]),
+    extension("KHR_texture_basisu", &[("texture", &SOURCE)]),
+    extension(
         "KHR_texture_transform",
         &[("texture info", &TEXTURE_TRANSFORM)],
     ),
-    known(
+    extension(
         "MSFT_lod",
         &[("node", &NODE_LEVELS), ("material", &MATERIAL_LEVELS)],
     ),
@@ -171,10 +172,10 @@ const fn object(keys: &'static [Key]) -> Object {
 static INSTANCING: Object = object(&[required("attributes", Attributes)]);
 static MESHOPT: Object = object(&[
     required("buffer", Index(IndexTarget::Buffers)),
-    optional("byteOffset", Integer(0, MANY)),
-    required("byteLength", Integer(1, MANY)),
+    optional("byteOffset", Integer(0, MAX_INTEGER)),
+    required("byteLength", Integer(1, MAX_INTEGER)),
     required("byteStride", Integer(2, 256)),
-    required("count", Integer(1, MANY)),
+    required("count", Integer(1, MAX_INTEGER)),
     required("mode", Keyword(&["ATTRIBUTES", "TRIANGLES", "INDICES"])),
     optional(
         "filter",
@@ -246,5 +247,5 @@ static TEXTURE_TRANSFORM: Object = object(&[
     optional("offset", Numbers(&[2], FREE)),
     optional("rotation", Number(FREE)),
     optional("scale", Numbers(&[2], FREE)),
-    optional("texCoord", Integer(0, MANY)),
+    optional("texCoord", Integer(0, MAX_INTEGER)),
 ]);

@@ -22,10 +22,12 @@ pub(crate) fn traverse(is_known: bool, report: &mut AssetReport<'_, '_>) -> BTre
         return BTreeSet::new();
     }
     let json = report.json;
+    // Only declared extensions are checked.
     let declared = json
         .list(root, "extensionsUsed")
         .filter_map(|item| json.text(item));
     let declared = declared.map(str::to_owned).collect();
+    // Mark each item of the root arrays as unused until a reference is found.
     let slot = |item| {
         if json.kind(item) == NodeKind::Map {
             Slot::Unused
@@ -40,6 +42,7 @@ pub(crate) fn traverse(is_known: bool, report: &mut AssetReport<'_, '_>) -> BTre
         list.map_or_else(Vec::new, |list| json.items(list).map(slot).collect())
     });
     let present = TARGETS.map(|(_, path)| path.len() == 1 || json.at(root, &path[..2]).is_some());
+    // Visit the objects of the document with an explicit stack.
     let mut traverse = Walk {
         report,
         declared,
@@ -51,6 +54,7 @@ pub(crate) fn traverse(is_known: bool, report: &mut AssetReport<'_, '_>) -> BTre
     while let Some((node, object)) = traverse.open.pop() {
         traverse.object(node, object);
     }
+    // Report items that nothing refers to.
     if is_known {
         traverse.report_unused();
     }
@@ -162,6 +166,7 @@ impl Walk<'_, '_, '_> {
         for (key, value) in json.pairs(node) {
             let name = json.text(key).unwrap_or_default();
             let is_object = self.expect(value, NodeKind::Map, name);
+            // An extension must be declared in the root object.
             if !self.declared.contains(name) {
                 let message = format!(
                     "the extension `{}` is not listed in `extensionsUsed`",
@@ -175,9 +180,11 @@ impl Walk<'_, '_, '_> {
                 }
                 self.declared.insert(name.to_owned());
             }
+            // Extensions that rtc does not know are ignored.
             let Some(extension) = extension::find(name) else {
                 continue;
             };
+            // A known one is checked as an object of its owner.
             let place = extension
                 .places
                 .iter()
@@ -236,6 +243,7 @@ impl Walk<'_, '_, '_> {
 
     /// Follows the reference at `node` to the `index` in `target`.
     pub(super) fn follow(&mut self, node: NodeId, target: IndexTarget, index: u64) {
+        // Find the root array that the index refers to.
         let Some(at) = TARGETS.iter().position(|(entry, _)| *entry == target) else {
             return;
         };
@@ -244,6 +252,7 @@ impl Walk<'_, '_, '_> {
             return;
         }
         let (count, target) = (self.slots[at].len(), path[path.len() - 1]);
+        // Mark the item as used, or report that it does not exist.
         match usize::try_from(index)
             .ok()
             .and_then(|index| self.slots[at].get_mut(index))

@@ -132,6 +132,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PlyHead<'_>, WordFault> {
     let (mut lines, mut words) = (Lines::new(bytes), Vec::new());
     let (mut elements, mut form, mut textures) = (Vec::new(), None, None);
     while lines.next(&mut words) {
+        // Each line declares the format, an element or a property of the last element.
         match (words[0].bytes, &words[1..]) {
             (b"comment", [word, rest @ ..]) if word.bytes.eq_ignore_ascii_case(b"texturefile") => {
                 if let Some(file) = name(rest, bytes) {
@@ -147,6 +148,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PlyHead<'_>, WordFault> {
                 };
                 element.properties.push(property(&words[0], rest)?);
             }
+            // The body starts after this line.
             (b"end_header", _) => {
                 let form = form
                     .ok_or_else(|| words[0].fault("the header has no `format`", "it ends here"))?;

@@ -47,6 +47,7 @@ impl<'a> CodedStreams<'a> {
         canvas: ImageSize,
         is_animation: bool,
     ) -> Result<Self, DecodeError> {
+        // Find the chunks of the file and of its first frame.
         let chunks = chunks(bytes);
         let frame = chunks.iter().find(|chunk| chunk.kind == b"ANMF");
         let within: Vec<_> = frame.map_or_else(Vec::new, |frame| {
@@ -54,12 +55,14 @@ impl<'a> CodedStreams<'a> {
             let second = first.and_then(|first| Chunk::at(bytes, first.end));
             first.into_iter().chain(second).collect()
         });
+        // Of an animation, only the first frame is read.
         if is_animation {
             let size = frame.and_then(|frame| frame_size(frame.contents));
             let size =
                 size.ok_or_else(|| DecodeError::Damaged("a picture has no header".to_owned()))?;
             return Ok(Self::moving(size, &within));
         }
+        // The image data is lossless, or lossy with a separate alpha plane.
         let first = |kind: &[u8; 4]| {
             let mut all = chunks.iter().chain(&within);
             all.find(|chunk| chunk.kind == kind)

@@ -181,6 +181,7 @@ fn lengths(bits: &mut BitReader<'_>, alphabet: u16) -> Option<Vec<u8>> {
     const ORDER: [usize; 19] = [
         17, 18, 0, 1, 2, 3, 4, 5, 16, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15,
     ];
+    // Read the prefix code of the code lengths.
     let mut of_lengths = [0; ORDER.len()];
     let count = 4 + bits.read(4)? as usize;
     for at in ORDER.get(..count)? {
@@ -188,6 +189,7 @@ fn lengths(bits: &mut BitReader<'_>, alphabet: u16) -> Option<Vec<u8>> {
     }
     let code = PrefixCode::of(&of_lengths)?;
     let alphabet = usize::from(alphabet);
+    // Read how many symbols follow.
     let mut left = if bits.flag()? {
         let width = 2 + 2 * bits.read(3)?;
         2 + bits.read(width)? as usize
@@ -197,6 +199,7 @@ fn lengths(bits: &mut BitReader<'_>, alphabet: u16) -> Option<Vec<u8>> {
     if left > alphabet {
         return None;
     }
+    // Decode the lengths: 16 repeats the last one, 17 and 18 repeat zero.
     let mut lengths = Vec::with_capacity(alphabet);
     let mut last = 8;
     while lengths.len() < alphabet && left > 0 {

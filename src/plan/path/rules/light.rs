@@ -2,7 +2,7 @@
 
 use super::PathRule;
 use crate::margin::{MARGIN, OrientedPlane, Sides};
-use crate::path::builder::{EnvironmentUse, LightUse, PlanBuilder, is_transmissive};
+use crate::path::builder::{EnvironmentUse, LightUse, PathPlanBuilder, is_transmissive};
 use crate::path::facts::is_delta;
 use crate::surface_bounds::{ShapeClass, SurfaceBounds};
 use rtc_image::Texels;
@@ -54,9 +54,9 @@ pub(crate) const CONSTANT_ENVIRONMENT: PathRule = PathRule {
 
 /// Reduces an environment whose image has a property; returns its path if that changed it.
 fn reduce_environment(
-    builder: &mut PlanBuilder<'_>,
+    builder: &mut PathPlanBuilder<'_>,
     rest: EnvironmentUse,
-    has: impl Fn(&PlanBuilder<'_>, ImageId) -> bool,
+    has: impl Fn(&PathPlanBuilder<'_>, ImageId) -> bool,
 ) -> Vec<ValuePath> {
     let image = builder.scene.environment().image;
     let is_all = builder.environment == EnvironmentUse::All;
@@ -131,7 +131,7 @@ pub(crate) const SINGLE_CONVEX: PathRule = PathRule {
 
 /// Reduces lights; returns the paths of the changed ones.
 fn reduce_lights(
-    builder: &mut PlanBuilder<'_>,
+    builder: &mut PathPlanBuilder<'_>,
     rest: LightUse,
     which: impl Fn(&PunctualId) -> bool,
 ) -> Vec<ValuePath> {
@@ -142,7 +142,7 @@ fn reduce_lights(
 }
 
 /// Whether the only surface of a scene certainly does not shadow itself.
-fn casts_no_self_shadow(builder: &PlanBuilder<'_>, surface: usize) -> bool {
+fn casts_no_self_shadow(builder: &PathPlanBuilder<'_>, surface: usize) -> bool {
     let (bounds, material) = (
         &builder.surface_bounds[surface],
         &builder.materials[builder.scene.surfaces()[surface].material],

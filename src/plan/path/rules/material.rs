@@ -3,7 +3,7 @@
 use super::PathRule;
 use crate::Layer;
 use crate::facts;
-use crate::path::builder::PlanBuilder;
+use crate::path::builder::PathPlanBuilder;
 use rtc_math::{NonNegative, UnitInterval, Vec3};
 use rtc_valid::{Alpha, Map, MaterialId, Standard};
 
@@ -16,7 +16,7 @@ pub(crate) const ZERO: PathRule = PathRule {
     apply: |builder| builder.simplify(without_zeros),
 };
 
-fn without_zeros(builder: &PlanBuilder<'_>, index: MaterialId, m: &Standard) -> Standard {
+fn without_zeros(builder: &PathPlanBuilder<'_>, index: MaterialId, m: &Standard) -> Standard {
     let mut new = m.clone();
     let is_nonzero = |weight: UnitInterval| weight > UnitInterval::ZERO;
     let is_zero =
@@ -90,7 +90,7 @@ pub(crate) const OPAQUE: PathRule = PathRule {
 };
 
 /// Whether a material is opaque. Its texture is read only where the factor does not decide it.
-fn covers(builder: &PlanBuilder<'_>, index: MaterialId, material: &Standard) -> bool {
+fn covers(builder: &PathPlanBuilder<'_>, index: MaterialId, material: &Standard) -> bool {
     /// A bound above the rounding error of filtered values.
     const MARGIN: f64 = 1e-6;
     let uses = &builder.uses[index];

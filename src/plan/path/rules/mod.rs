@@ -1,5 +1,5 @@
 //! The rules for path tracing. Each rule proves that a part of the scene contributes exactly zero
-//! and removes it from the [`PlanBuilder`].
+//! and removes it from the [`PathPlanBuilder`].
 //!
 //! A rule is a [`PathRule`] constant beside the functions of its proof: [`light`] for lights, light
 //! sampling and shadows, [`material`] for material parameters, [`texture`] for maps, [`paths`] for
@@ -12,7 +12,7 @@ pub(crate) mod material;
 pub(crate) mod paths;
 pub(crate) mod texture;
 
-use super::builder::PlanBuilder;
+use super::builder::PathPlanBuilder;
 use rtc_ir::ValuePath;
 
 /// A rule: its name, its statement and its proof.
@@ -25,5 +25,5 @@ pub(crate) struct PathRule {
     pub(crate) reason: &'static str,
     /// Removes the parts that contribute zero; returns the scene values that decided, or an empty
     /// list if nothing changed.
-    pub(super) apply: fn(&mut PlanBuilder<'_>) -> Vec<ValuePath>,
+    pub(super) apply: fn(&mut PathPlanBuilder<'_>) -> Vec<ValuePath>,
 }

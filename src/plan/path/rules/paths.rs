@@ -4,7 +4,7 @@ use super::PathRule;
 use crate::MAX_PAIRS;
 use crate::effect::Effect;
 use crate::margin::Margins;
-use crate::path::builder::{LightUse, PlanBuilder};
+use crate::path::builder::{LightUse, PathPlanBuilder};
 use crate::projection::ScreenRect;
 use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_math::{Bounds, Vec3};
@@ -15,7 +15,7 @@ fn depth() -> ValuePath {
 }
 
 /// Whether a scattered ray may hit an emissive surface or an environment that is not black.
-fn may_hit_emitter(builder: &PlanBuilder<'_>) -> bool {
+fn may_hit_emitter(builder: &PathPlanBuilder<'_>) -> bool {
     let is_emissive = |material: &Standard| material.unlit || material.emissive != Vec3::ZERO;
     builder.requires(Effect::Environment)
         || builder
@@ -92,7 +92,7 @@ pub(crate) const CULL_SHADOW: PathRule = PathRule {
 };
 
 /// Whether the sampling probabilities of punctual lights depend on the size of the scene.
-fn depends_on_scene_size(builder: &PlanBuilder<'_>) -> bool {
+fn depends_on_scene_size(builder: &PathPlanBuilder<'_>) -> bool {
     let is_chosen = |(_, light_use): &(&Punctual, &LightUse)| **light_use != LightUse::Nothing;
     let chosen = || {
         builder
@@ -110,7 +110,7 @@ fn depends_on_scene_size(builder: &PlanBuilder<'_>) -> bool {
 
 /// The surfaces outside the view that certainly no shadow ray of a visible surface hits; `None` if
 /// that is unknown.
-fn missed_by_shadow_rays(builder: &PlanBuilder<'_>) -> Option<Vec<usize>> {
+fn missed_by_shadow_rays(builder: &PathPlanBuilder<'_>) -> Option<Vec<usize>> {
     let (seen, unseen) = split(builder);
     let is_in_world = |(_, light_use): &(&Punctual, &LightUse)| **light_use == LightUse::All;
     let lights = || {
@@ -157,13 +157,13 @@ fn end(light: &Punctual, start: &Bounds, other: &Bounds) -> Bounds {
 }
 
 /// The surfaces of the world that a camera ray may hit, and the others.
-fn split(builder: &PlanBuilder<'_>) -> (Vec<usize>, Vec<usize>) {
+fn split(builder: &PathPlanBuilder<'_>) -> (Vec<usize>, Vec<usize>) {
     let light_use = (0..builder.surfaces.len()).filter(|surface| builder.surfaces[*surface]);
     light_use.partition(|surface| builder.screen_rects[*surface] != ScreenRect::Outside)
 }
 
 /// Removes surfaces from the world; returns their paths.
-fn remove_surfaces(builder: &mut PlanBuilder<'_>, surfaces: Vec<usize>) -> Vec<ValuePath> {
+fn remove_surfaces(builder: &mut PathPlanBuilder<'_>, surfaces: Vec<usize>) -> Vec<ValuePath> {
     surfaces
         .iter()
         .for_each(|surface| builder.surfaces[*surface] = false);
@@ -173,7 +173,7 @@ fn remove_surfaces(builder: &mut PlanBuilder<'_>, surfaces: Vec<usize>) -> Vec<V
 }
 
 /// Ends all paths at the first hit, if that is proven to be sufficient.
-fn end_paths(builder: &mut PlanBuilder<'_>, is_enough: bool) -> Vec<ValuePath> {
+fn end_paths(builder: &mut PathPlanBuilder<'_>, is_enough: bool) -> Vec<ValuePath> {
     if !is_enough || builder.max_depth == 0 {
         return Vec::new();
     }

@@ -2,7 +2,7 @@
 
 use super::PathRule;
 use crate::Layer;
-use crate::path::builder::PlanBuilder;
+use crate::path::builder::PathPlanBuilder;
 use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_math::{UnitInterval, Vec3};
 use rtc_valid::{Map, MaterialId, Standard};
@@ -16,7 +16,7 @@ pub(crate) const UNSEEN: PathRule = PathRule {
     apply: |builder| builder.simplify(without_unused_maps),
 };
 
-fn without_unused_maps(builder: &PlanBuilder<'_>, index: MaterialId, m: &Standard) -> Standard {
+fn without_unused_maps(builder: &PathPlanBuilder<'_>, index: MaterialId, m: &Standard) -> Standard {
     let mut new = m.clone();
     let is_nonzero = |weight: UnitInterval| weight > UnitInterval::ZERO;
     let is_shaded = builder.max_depth > 0 && !m.unlit;

@@ -5,7 +5,7 @@
 //! result does not depend on the number of threads.
 
 use super::split::{BoxedItem, BuildRange};
-use super::{LEAF, NONE, Wide};
+use super::{LEAF, NONE, WideBvh};
 use crate::accel::conservative_ray::QuantizationFrame;
 use crate::accel::lanes::{
     ITEM, LINKS, ROWS_AFTER, TRIANGLES, TriangleRow, WIDTH, WideNode, place,
@@ -32,7 +32,7 @@ pub(crate) enum Builders {
     All,
 }
 
-impl Wide {
+impl WideBvh {
     /// Builds the BVH of some triangles, each known by its number, with corners that may be wrong
     /// by `error_bound`; `None` if there is none.
     pub(crate) fn build(

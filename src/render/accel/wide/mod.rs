@@ -31,7 +31,7 @@ const NONE: u32 = u32::MAX;
 
 /// The BVH.
 #[derive(Debug)]
-pub(crate) struct Wide {
+pub(crate) struct WideBvh {
     simd: SimdLevel,
     frame: QuantizationFrame,
     nodes: Pages<WideNode>,
@@ -42,7 +42,7 @@ pub(crate) struct Wide {
     unit: Option<f64>,
 }
 
-impl Wide {
+impl WideBvh {
     /// Has candidates come without corners.
     pub(crate) fn forget_corners(&mut self) {
         self.unit = None;

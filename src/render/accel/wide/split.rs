@@ -136,8 +136,8 @@ impl<'items> BuildRange<'items> {
         !self.is_sifted && self.items.len() > TRIANGLES && (0..3).all(is_point)
     }
 
-    /// The same without triangles that have the corners of one with a lower number, which is the
-    /// hit of a ray through both. Their rows stay unused.
+    /// Removes each triangle that has the corners of one with a lower number: a ray through both
+    /// hits that one. The rows of the removed triangles stay unused.
     pub(super) fn without_copies(self, corners: impl Fn(u32) -> [Vec3; 3]) -> Self {
         self.items.sort_unstable_by_key(BoxedItem::number);
         let mut known = BTreeSet::new();

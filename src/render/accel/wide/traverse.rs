@@ -1,6 +1,6 @@
 //! BVH traversal of a ray.
 
-use super::{Candidate, LEAF, NONE, TraversalStack, Wide, leaf_at};
+use super::{Candidate, LEAF, NONE, TraversalStack, WideBvh, leaf_at};
 use crate::accel::conservative_ray::{ConservativeRay, RayRejection};
 use crate::accel::lanes::{BoxLanes, HitMask, LINKS, TriangleLanes, TriangleRow, WIDTH, WideNode};
 use crate::accel::simd::at_level;
@@ -53,7 +53,7 @@ enum TraversalStep {
     Ends,
 }
 
-impl Wide {
+impl WideBvh {
     /// Has the triangles visited that the ray may hit before `t_max`, nearer ones roughly first.
     #[inline]
     pub(crate) fn traverse(&self, ray: &Ray, t_max: f64, visitor: &mut impl Visitor) {

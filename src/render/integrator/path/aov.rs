@@ -2,7 +2,7 @@
 
 use super::state::PathState;
 use super::{PathTracer, Strategy};
-use crate::film::heartbeat::OnPixel;
+use crate::film::heartbeat::PixelObserver;
 use crate::film::pixel::SampleId;
 use crate::integrator::aov::{CameraHit, First, FirstHit, FirstHits};
 use crate::light::Lights;
@@ -19,7 +19,7 @@ impl<'world, S: Intersect> FirstHitsOfPaths<'world, S> {
     pub(crate) fn new(
         world: &'world World<S>,
         lights: &'world Lights<'world, S>,
-        on_pixel: &'world OnPixel<'world>,
+        on_pixel: &'world PixelObserver<'world>,
     ) -> Self {
         Self(PathTracer {
             knows_all: true,

@@ -12,12 +12,12 @@ mod visibility;
 
 use super::Integrator;
 use crate::camera::{image_point, lens_at, ray_through};
-use crate::film::heartbeat::{Heartbeat, OnPixel};
+use crate::film::heartbeat::{Heartbeat, PixelObserver};
 use crate::film::pixel::{Sample, SampleId, Stream};
 use crate::film::{Background, Counts};
 use crate::light::Lights;
 use crate::ray::Ray;
-use crate::sampler::sobol::{Pair, Sobol};
+use crate::sampler::sobol::{Sobol, SobolPair};
 use crate::shape::geometry::Intersect;
 use crate::world::World;
 use crate::world::settings::Mode;
@@ -67,7 +67,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         world: &'world World<S>,
         lights: &'world Lights<'world, S>,
         strategy: Strategy,
-        on_pixel: &'world OnPixel<'world>,
+        on_pixel: &'world PixelObserver<'world>,
     ) -> Self {
         let plan = world.plan.paths.as_ref();
         let useless = u32::from(plan.is_some_and(|plan| !plan.last_ray));
@@ -124,12 +124,16 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     /// The ray from the camera that a path of a pixel begins with.
     fn camera_ray(&mut self, pixel: [u32; 2], sobol: &Sobol) -> Ray {
         let camera = self.world.camera.of(pixel);
-        let target = image_point(camera, pixel, sobol.pair(Pair::FILM));
+        let target = image_point(camera, pixel, sobol.pair(SobolPair::FILM));
         if camera.lens_radius == 0.0 {
             return ray_through(camera, camera.eye, target);
         }
         self.counts.add(Effect::Lens);
-        ray_through(camera, lens_at(camera, || sobol.pair(Pair::LENS)), target)
+        ray_through(
+            camera,
+            lens_at(camera, || sobol.pair(SobolPair::LENS)),
+            target,
+        )
     }
 
     /// The radiance along one path.

@@ -7,7 +7,7 @@ use crate::bsdf::Lobes;
 use crate::bsdf::standard::StandardParameters;
 use crate::light::Incident;
 use crate::material::point::{MaterialPoint, ShadingFrame};
-use crate::sampler::sobol::Pair;
+use crate::sampler::sobol::SobolPair;
 use crate::shape::geometry::Intersect;
 use rtc_math::{Vec3, exp};
 use rtc_plan::{Effect, PathFeatures};
@@ -115,8 +115,9 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         }: &Shading<'_, F>,
     ) -> bool {
         let (PathVertex { at, point, hit, .. }, wo) = (vertex, -state.ray.direction);
-        let Some(sample) = bsdf.sample(state.pair(Pair::direction), || state.pair(Pair::lobe)[0])
-        else {
+        let Some(sample) = bsdf.sample(state.pair(SobolPair::direction), || {
+            state.pair(SobolPair::lobe)[0]
+        }) else {
             return false;
         };
         let wi = frame.to_world(sample.wi).normalize();
@@ -197,7 +198,9 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             radiance,
             pdf,
             place,
-        }) = self.lights.sample(at.point, || state.pair(Pair::light))
+        }) = self
+            .lights
+            .sample(at.point, || state.pair(SobolPair::light))
         else {
             return Vec3::ZERO;
         };
@@ -249,6 +252,6 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
 
 /// Veach's balance heuristic: by trial, higher powers leave more noise in most scenes (decision
 /// 16).
-fn balance_heuristic(own: f64, other: f64) -> f64 {
-    1.0 / (1.0 + other / own)
+fn balance_heuristic(pdf: f64, other: f64) -> f64 {
+    1.0 / (1.0 + other / pdf)
 }

@@ -1,7 +1,7 @@
 //! The state of a path between two vertices.
 
 use crate::ray::Ray;
-use crate::sampler::sobol::{Pair, Sobol};
+use crate::sampler::sobol::{Sobol, SobolPair};
 use crate::world::{NO_PRIMITIVE, SurfacePrimitive};
 use rtc_math::Vec3;
 
@@ -55,7 +55,7 @@ impl PathState {
     }
 
     /// A pair of numbers of this vertex.
-    pub(super) fn pair(&self, of: impl FnOnce(u32) -> Pair) -> [f64; 2] {
+    pub(super) fn pair(&self, of: impl FnOnce(u32) -> SobolPair) -> [f64; 2] {
         self.sobol.pair(of(self.bounces))
     }
 
@@ -66,7 +66,7 @@ impl PathState {
         reason = "one of three"
     )]
     pub(super) fn pick_wavelength(&mut self) {
-        let [u, _] = self.pair(Pair::russian_roulette);
+        let [u, _] = self.pair(SobolPair::russian_roulette);
         let channel = ((u * 3.0) as usize).min(2);
         let mut kept = [0.0; 3];
         kept[channel] = 3.0;
@@ -82,7 +82,7 @@ impl PathState {
         if self.bounces < RR_MIN_DEPTH || survival >= 1.0 {
             return largest > 0.0;
         }
-        let [_, u] = self.pair(Pair::russian_roulette);
+        let [_, u] = self.pair(SobolPair::russian_roulette);
         self.beta /= survival;
         u < survival
     }

@@ -15,7 +15,7 @@ mod shade;
 use crate::accel::ray_cone_cache::RayConeCache;
 use crate::camera::grid::Grid;
 use crate::film::Counts;
-use crate::film::heartbeat::{Heartbeat, OnPixel};
+use crate::film::heartbeat::{Heartbeat, PixelObserver};
 use crate::ray::Ray;
 use crate::sampler::Key;
 use crate::shape::geometry::Intersect;
@@ -57,7 +57,7 @@ pub(crate) struct Tracer<'world, S, const F: u32> {
 impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
     /// A tracer of the world, watched by `on_pixel`.
     #[must_use]
-    pub(crate) fn new(world: &'world World<S>, on_pixel: &'world OnPixel<'world>) -> Self {
+    pub(crate) fn new(world: &'world World<S>, on_pixel: &'world PixelObserver<'world>) -> Self {
         let (heartbeat, counts) = (Heartbeat::new(on_pixel), Counts::default());
         Self {
             world,
@@ -204,6 +204,7 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
         hit: Hit,
         key: Key,
     ) -> ShadingPoint<'world> {
+        // Compute the interaction on the surface.
         let surface = &self.world.surfaces[hit.surface];
         let interaction = surface.shape.interaction(ray, hit.t, hit.prim_id);
         let material = &self.world.phongs[surface.material];
@@ -217,6 +218,7 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
             surface: surface.index,
             key,
         };
+        // Apply texture maps and interpolated normals.
         if Self::can(Features::MAPS)
             && (material.maps.is_some() || surface.shape.has_shading_normals())
         {
@@ -228,6 +230,7 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
             );
             self.apply_maps(&mut shading_point, &shading_attributes);
         }
+        // Turn the normal towards the viewer.
         if ray.direction.dot(interaction.normal) > 0.0 {
             shading_point.normal = -shading_point.normal;
         }

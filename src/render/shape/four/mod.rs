@@ -128,6 +128,7 @@ impl<S: Simd> Interactions<S> {
 fn intersect<S: Simd>(simd: S, sphere: &Sphere, rays: &Ray4<S>, active: mask64x4<S>) -> f64x4<S> {
     let number = |x: f64| f64x4::splat(simd, x);
     let (zero, none) = (number(0.0), number(f64::INFINITY));
+    // Skip rays whose line misses the sphere or that leave it behind.
     let f = rays.origin.minus(Vectors::splat(simd, sphere.center));
     let d = rays.direction;
     let (f2, b) = (f.dot(f), -f.dot(d));
@@ -141,6 +142,7 @@ fn intersect<S: Simd>(simd: S, sphere: &Sphere, rays: &Ray4<S>, active: mask64x4
         return none;
     }
 
+    // The discriminant is r² minus the squared distance of the centre from the line.
     let nearest = b / a;
     let foot = f.plus(d.times(nearest));
     let foot2 = foot.dot(foot);
@@ -151,6 +153,7 @@ fn intersect<S: Simd>(simd: S, sphere: &Sphere, rays: &Ray4<S>, active: mask64x4
     let hit_lanes = near & !discriminant.simd_lt(-error_bound);
     let is_tangent = hit_lanes & discriminant.simd_le(error_bound);
 
+    // Take the root without cancellation: q = b ± sqrt(a D), t = c / q or q / a.
     let c = f2 - r2;
     let a_discriminant = a * discriminant;
     let root = a_discriminant.sqrt();
@@ -166,6 +169,7 @@ fn intersect<S: Simd>(simd: S, sphere: &Sphere, rays: &Ray4<S>, active: mask64x4
     let is_amplified =
         (r2 * (r2 + f2) * a * a).simd_gt(number(AMPLIFIED * AMPLIFIED) * a_discriminant * q * q);
 
+    // Recompute lanes with a large error bound in double-double arithmetic.
     let mut found = is_root.select(t, none);
     let doubted = is_tangent | (is_root & (is_cancelled | is_amplified));
     if doubted.any_true() {

@@ -190,6 +190,7 @@ impl<S: Simd> TorusRays<S> {
         high: f64x4<S>,
         wanted: mask64x4<S>,
     ) -> (mask64x4<S>, f64x4<S>) {
+        // The extrema of the distance split the interval where it is monotonic.
         let cubic = self.derivative(simd);
         let borders = cubic.borders(simd, low, high);
         let first = self.start(simd, low);
@@ -203,6 +204,7 @@ impl<S: Simd> TorusRays<S> {
             if has.all_false() {
                 continue;
             }
+            // A change of sign brackets a root.
             let there = self.at(simd, s);
             let is_root = has & there.distance.simd_eq(f64x4::splat(simd, 0.0)) & s.simd_gt(low);
             let crosses = has & !is_root & (there.is_inside() ^ before.is_inside());
@@ -214,6 +216,7 @@ impl<S: Simd> TorusRays<S> {
             }
             before = there.select(has & searched, before);
         }
+        // Refine the bracketed root.
         let root = if bracketed.any_true() {
             self.root(simd, before, after, bracketed)
         } else {

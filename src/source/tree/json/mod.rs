@@ -3,7 +3,7 @@
 mod text;
 
 use super::pointer::PointerStep;
-use super::{NodeId, Syntax, Tree, TreeNode, keys};
+use super::{NodeId, Syntax, SyntaxTree, TreeNode, keys};
 use crate::FileId;
 use rtc_math::to_u32;
 
@@ -29,7 +29,7 @@ impl From<(usize, &'static str)> for JsonError {
 ///
 /// # Errors
 /// The first error.
-pub fn parse(file: FileId, base: u32, text: &str) -> Result<Tree<'_>, JsonError> {
+pub fn parse(file: FileId, base: u32, text: &str) -> Result<SyntaxTree<'_>, JsonError> {
     match parse_prefix(file, base, text) {
         (tree, None) => Ok(tree),
         (_, Some(error)) => Err(error),
@@ -38,11 +38,11 @@ pub fn parse(file: FileId, base: u32, text: &str) -> Result<Tree<'_>, JsonError>
 
 /// Parses `text` up to the first error, where all open lists and maps end.
 #[must_use]
-pub fn parse_prefix(file: FileId, base: u32, text: &str) -> (Tree<'_>, Option<JsonError>) {
+pub fn parse_prefix(file: FileId, base: u32, text: &str) -> (SyntaxTree<'_>, Option<JsonError>) {
     let mut scan = JsonScanner {
         bytes: text.as_bytes(),
         at: 0,
-        tree: Tree::new(file, base, text),
+        tree: SyntaxTree::new(file, base, text),
         open: Vec::new(),
     };
     let error = scan.document().err();
@@ -58,7 +58,7 @@ pub fn parse_prefix(file: FileId, base: u32, text: &str) -> (Tree<'_>, Option<Js
 struct JsonScanner<'s> {
     bytes: &'s [u8],
     at: usize,
-    tree: Tree<'s>,
+    tree: SyntaxTree<'s>,
     /// The open lists and maps with the number of their values so far.
     open: Vec<(u32, u32)>,
 }
@@ -196,7 +196,7 @@ impl JsonScanner<'_> {
     fn quoted(&mut self, is_key: bool) -> Result<(), JsonError> {
         let (end, has_escapes) = text::end(self.bytes, self.at)?;
         if has_escapes {
-            let Tree { source, .. } = self.tree;
+            let SyntaxTree { source, .. } = self.tree;
             let inside = source.get(self.at + 1..end - 1);
             let inside = inside.expect("quotes are characters");
             let link = self

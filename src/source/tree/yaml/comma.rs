@@ -1,12 +1,12 @@
 //! Detects missing and surplus commas in brackets.
 
-use super::super::Tree;
+use super::super::SyntaxTree;
 use super::Mistake;
 use super::typo::{span, typo};
 
 /// A missing comma before the position of a syntax error: a value ends before it and another begins
 /// there.
-pub(super) fn missing(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static>> {
+pub(super) fn missing(tree: &SyntaxTree<'_>, at: usize) -> Option<Mistake<'static>> {
     let source = tree.source;
     let (before, rest) = source.split_at_checked(at)?;
     // For an unquoted key, the error is at the colon after it.
@@ -39,7 +39,7 @@ pub(super) fn missing(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static>> {
 }
 
 /// Whether the bracket at a position is closed. Brackets in quotes and comments don't count.
-pub(super) fn is_closed(tree: &Tree<'_>, bracket: usize) -> bool {
+pub(super) fn is_closed(tree: &SyntaxTree<'_>, bracket: usize) -> bool {
     let mut depth = 0_usize;
     significant_characters(tree, bracket).any(|(_, character)| {
         match character {
@@ -52,7 +52,7 @@ pub(super) fn is_closed(tree: &Tree<'_>, bracket: usize) -> bool {
 }
 
 /// The second of two commas without a value between them, in a closed bracket.
-pub(super) fn doubled(tree: &Tree<'_>, bracket: usize) -> Option<Mistake<'static>> {
+pub(super) fn doubled(tree: &SyntaxTree<'_>, bracket: usize) -> Option<Mistake<'static>> {
     if !is_closed(tree, bracket) {
         return None;
     }
@@ -76,7 +76,7 @@ pub(super) fn doubled(tree: &Tree<'_>, bracket: usize) -> Option<Mistake<'static
 /// The characters from an offset on that are outside quotes and comments, with their offsets; a
 /// quoted string yields its opening quote only.
 fn significant_characters<'t>(
-    tree: &'t Tree<'_>,
+    tree: &'t SyntaxTree<'_>,
     from: usize,
 ) -> impl Iterator<Item = (usize, char)> + use<'t> {
     let (mut quote, mut last) = (None, ' ');

@@ -1,6 +1,6 @@
 //! Converts errors of the YAML parser to messages for the author of the text.
 
-use super::super::{NodeId, Tree};
+use super::super::{NodeId, SyntaxTree};
 use super::{Mistake, comma, lookalike, typo};
 use crate::Span;
 use granit_parser::{ErrorKind, ScanError};
@@ -8,7 +8,7 @@ use rtc_math::to_u32;
 
 /// The mistake in an invalid text; `bracket` is the innermost open bracket.
 pub(super) fn syntax(
-    tree: &Tree<'_>,
+    tree: &SyntaxTree<'_>,
     bracket: Option<NodeId>,
     error: &ScanError,
 ) -> Mistake<'static> {
@@ -71,7 +71,7 @@ pub(super) fn syntax(
     }
 }
 
-fn character_at(tree: &Tree<'_>, at: usize) -> Span {
+fn character_at(tree: &SyntaxTree<'_>, at: usize) -> Span {
     let next = tree
         .source
         .get(at..)
@@ -82,7 +82,7 @@ fn character_at(tree: &Tree<'_>, at: usize) -> Span {
 }
 
 /// The comment after a bracket in its line, if any: it may hide the closing bracket.
-fn comment_after(tree: &Tree<'_>, bracket: Span) -> Option<Span> {
+fn comment_after(tree: &SyntaxTree<'_>, bracket: Span) -> Option<Span> {
     let from = (bracket.start - tree.base) as usize;
     let line = tree.source.get(from..)?.lines().next()?;
     let hash = line.find(" #")? + 1;
@@ -124,6 +124,7 @@ fn runs_on(kind: &ErrorKind) -> bool {
 
 /// Message, label and hint.
 fn message_of(kind: &ErrorKind) -> (String, &'static str, &'static str) {
+    // Each error of the scanner has a message, a label and a hint.
     let parts = |message: &str, label, hint| (message.to_owned(), label, hint);
     if matches!(kind, ErrorKind::UnknownAnchor) {
         parts(

@@ -1,7 +1,7 @@
 //! Detects characters that look like YAML indicators, and comments in the syntax of other
 //! languages: word processors, web pages and JSON with comments contain them.
 
-use super::super::Tree;
+use super::super::SyntaxTree;
 use super::Mistake;
 use super::typo::{span, typo};
 
@@ -28,7 +28,7 @@ fn ascii_lookalike(c: char) -> Option<(&'static str, &'static str)> {
 
 /// An error in an unquoted scalar that has such a character where only a YAML indicator makes
 /// sense.
-pub(super) fn in_word(tree: &Tree<'_>, start: usize, end: usize) -> Option<Mistake<'static>> {
+pub(super) fn in_word(tree: &SyntaxTree<'_>, start: usize, end: usize) -> Option<Mistake<'static>> {
     let word = tree.source.get(start..end)?;
     if word.is_ascii() {
         return comment(tree, start, word).filter(|_| word.contains('\n') || word.contains('"'));
@@ -47,7 +47,7 @@ pub(super) fn in_word(tree: &Tree<'_>, start: usize, end: usize) -> Option<Mista
 const PROSE: usize = 2;
 
 /// The same for the line of a syntax error, or the line before it.
-pub(super) fn near(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static>> {
+pub(super) fn near(tree: &SyntaxTree<'_>, at: usize) -> Option<Mistake<'static>> {
     let (first, lines) = lines_around(tree, at)?;
     if lines.is_ascii() {
         return None;
@@ -57,7 +57,7 @@ pub(super) fn near(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static>> {
 
 /// A comment in the syntax of another language, in the line of a syntax error or the line before
 /// it.
-pub(super) fn comment_near(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static>> {
+pub(super) fn comment_near(tree: &SyntaxTree<'_>, at: usize) -> Option<Mistake<'static>> {
     let (mut from, lines) = lines_around(tree, at)?;
     for line in lines.split_inclusive('\n') {
         let mut is_quoted = false;
@@ -81,7 +81,7 @@ pub(super) fn comment_near(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static
 }
 
 /// The line of an offset and the line before it, with their start.
-fn lines_around<'s>(tree: &Tree<'s>, at: usize) -> Option<(usize, &'s str)> {
+fn lines_around<'s>(tree: &SyntaxTree<'s>, at: usize) -> Option<(usize, &'s str)> {
     let line = |before: usize| {
         let text = tree.source.get(..before).unwrap_or_default();
         text.rfind('\n').map_or(0, |end| end + 1)
@@ -96,7 +96,7 @@ fn lines_around<'s>(tree: &Tree<'s>, at: usize) -> Option<(usize, &'s str)> {
 /// The first character of a text that stands where only a YAML indicator makes sense: next to an
 /// indicator, or at an end of the text or of a line.
 fn found(
-    tree: &Tree<'_>,
+    tree: &SyntaxTree<'_>,
     start: usize,
     text: &str,
     matters: impl Fn(&str) -> bool,
@@ -133,7 +133,7 @@ fn found(
 }
 
 fn lookalike(
-    tree: &Tree<'_>,
+    tree: &SyntaxTree<'_>,
     at: usize,
     c: char,
     name: &str,
@@ -154,7 +154,7 @@ fn lookalike(
 }
 
 /// The comment at the start of a text in the syntax of another language.
-fn comment(tree: &Tree<'_>, at: usize, text: &str) -> Option<Mistake<'static>> {
+fn comment(tree: &SyntaxTree<'_>, at: usize, text: &str) -> Option<Mistake<'static>> {
     // The line is inspected only if a comment starts here, so that the time stays linear in the
     // length of the line.
     let opener = ["//", "/*"]

@@ -9,10 +9,10 @@ mod mistake;
 mod text;
 mod typo;
 
-pub use layout::{LayoutFault, layout};
+pub use layout::{FormatTextFault, layout};
 pub use mistake::{Mistake, Separator};
 
-use super::{NodeId, Syntax, Tree, TreeNode, inside_quotes, keys};
+use super::{NodeId, Syntax, SyntaxTree, TreeNode, inside_quotes, keys};
 use crate::{FileId, Span};
 use granit_parser::{Event, Parser, ScalarStyle, StructureStyle};
 use rtc_math::to_u32;
@@ -29,7 +29,7 @@ pub fn parse<'s>(
     file: FileId,
     bytes: &'s [u8],
     report: &mut dyn FnMut(Mistake<'_>),
-) -> Option<Tree<'s>> {
+) -> Option<SyntaxTree<'s>> {
     // Decode the text.
     let (source, base) = match text(file, bytes) {
         Ok(text) => text,
@@ -40,7 +40,7 @@ pub fn parse<'s>(
     };
     // Build the tree from the events of the parser.
     let mut builder = TreeBuilder {
-        tree: Tree::new(file, base, source),
+        tree: SyntaxTree::new(file, base, source),
         open: Vec::new(),
         anchors: Vec::new(),
         ended: false,
@@ -78,7 +78,7 @@ struct OpenCollection {
 }
 
 struct TreeBuilder<'s, 'k> {
-    tree: Tree<'s>,
+    tree: SyntaxTree<'s>,
     open: Vec<OpenCollection>,
     /// Anchor numbers, ascending, and their nodes.
     anchors: Vec<(usize, NodeId)>,
@@ -325,7 +325,7 @@ impl<'s> TreeBuilder<'s, '_> {
             .map(|open| open.node)
     }
 
-    fn finish(self) -> Option<Tree<'s>> {
+    fn finish(self) -> Option<SyntaxTree<'s>> {
         if self.tree.nodes.is_empty() {
             let end = to_u32(self.tree.source.len()) + self.tree.base;
             let span = Span::new(self.tree.file, end, end);

@@ -1,14 +1,14 @@
 //! Detects typos that the YAML parser reports late or in its own terms, from the text around the
 //! error, with the suggested text.
 
-use super::super::Tree;
+use super::super::SyntaxTree;
 use super::Mistake;
 use crate::Span;
 use granit_parser::ErrorKind;
 use rtc_math::to_u32;
 
 /// The typo that explains a syntax error, if one is found.
-pub(super) fn find(tree: &Tree<'_>, at: usize, kind: &ErrorKind) -> Option<Mistake<'static>> {
+pub(super) fn find(tree: &SyntaxTree<'_>, at: usize, kind: &ErrorKind) -> Option<Mistake<'static>> {
     let text = SourceText { tree };
     let is_tab = matches!(
         kind,
@@ -32,7 +32,7 @@ pub(super) fn find(tree: &Tree<'_>, at: usize, kind: &ErrorKind) -> Option<Mista
 
 /// The text of a tree.
 struct SourceText<'t, 's> {
-    tree: &'t Tree<'s>,
+    tree: &'t SyntaxTree<'s>,
 }
 
 impl SourceText<'_, '_> {
@@ -207,7 +207,7 @@ impl SourceText<'_, '_> {
 }
 
 /// The span of a byte range of the text.
-pub(super) fn span(tree: &Tree<'_>, start: usize, end: usize) -> Span {
+pub(super) fn span(tree: &SyntaxTree<'_>, start: usize, end: usize) -> Span {
     Span::new(
         tree.file,
         to_u32(start) + tree.base,

@@ -163,7 +163,8 @@ impl MtlCache {
         }
         if let Some(span) = self.transparency.take() {
             let message = "`Tr 1` is read as opaque";
-            let note = Diagnostic::new(&codes::TWO_READINGS, message).severity(Severity::Note);
+            let note =
+                Diagnostic::new(&codes::KEY_READ_DIFFERENTLY, message).severity(Severity::Note);
             let note = note.at(span, "invisible in some programs");
             sink.push(note.hint("`d 1` is opaque and `d 0` invisible in all"));
         }
@@ -263,6 +264,7 @@ impl MapPlacement {
 /// The statements of a material that Phong's model cannot express.
 fn beyond_phong(material: &MtlMaterial) -> Vec<(WordSpan, String)> {
     let m = material;
+    // Find where the file states each kind of value.
     let number =
         |statement: &Option<MtlValue<f64>>| statement.as_ref().map(|statement| statement.at);
     let map =
@@ -278,6 +280,7 @@ fn beyond_phong(material: &MtlMaterial) -> Vec<(WordSpan, String)> {
             .as_ref()
             .and_then(|statement| statement.value.placed)
     };
+    // List the statements that the Phong model does not show.
     let parts = [
         ("`Ke` shows", color(&m.emissive, 0.0)),
         ("`Tf` shows", color(&m.filter, 1.0)),

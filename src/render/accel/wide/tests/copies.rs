@@ -4,7 +4,7 @@ use super::*;
 
 /// How many triangles of a BVH a ray along −z visits, and the lowest of them.
 fn visited(count: u32, corners: impl Fn(u32) -> [Vec3; 3] + Sync) -> (usize, Option<u32>) {
-    let wide = Wide::build(
+    let wide = WideBvh::build(
         Builders::All,
         SimdLevel::best(),
         count as usize,

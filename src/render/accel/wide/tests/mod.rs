@@ -79,9 +79,9 @@ fn ray_count(usual: u64) -> u64 {
         .unwrap_or(usual)
 }
 
-fn built(all: &[Triangle]) -> Wide {
+fn built(all: &[Triangle]) -> WideBvh {
     let corners = |item: u32| *all[item as usize].vertices();
-    Wide::build(Builders::All, SimdLevel::best(), all.len(), 0.0, corners).unwrap()
+    WideBvh::build(Builders::All, SimdLevel::best(), all.len(), 0.0, corners).unwrap()
 }
 
 /// Visits all triangles whose boxes are hit.
@@ -160,7 +160,7 @@ fn all_levels_visit_the_same_in_the_same_order() {
     let mut expected: Option<Vec<Visits>> = None;
     for level in SimdLevel::NAMES.into_iter().filter_map(SimdLevel::named) {
         let corners = |item: u32| *all[item as usize].vertices();
-        let wide = Wide::build(Builders::All, level, all.len(), 0.0, corners).unwrap();
+        let wide = WideBvh::build(Builders::All, level, all.len(), 0.0, corners).unwrap();
         let alone = |ray: &Ray| {
             let mut found = Sure::default();
             wide.traverse(ray, 2.0, &mut found);
@@ -183,7 +183,7 @@ fn corners_are_exact_or_not_there() {
     let double = |item: u32| single(item).map(|corner| corner + Vec3::splat(0.1));
     let far = |item: u32| single(item).map(|corner| corner + Vec3::splat(1_048_576.0));
     let visited = |corners: &(dyn Fn(u32) -> [Vec3; 3] + Sync)| {
-        let wide = Wide::build(Builders::All, SimdLevel::best(), 900, 0.0, corners).unwrap();
+        let wide = WideBvh::build(Builders::All, SimdLevel::best(), 900, 0.0, corners).unwrap();
         let direction = corners(5)[0];
         let ray = Ray {
             origin: Vec3::ZERO,
@@ -296,7 +296,7 @@ fn the_walk_ends_where_it_is_told_to_and_visits_each_triangle_once() {
         1
     );
     assert!(
-        Wide::build(Builders::All, SimdLevel::best(), 0, 0.0, |_| [Vec3::ZERO;
+        WideBvh::build(Builders::All, SimdLevel::best(), 0, 0.0, |_| [Vec3::ZERO;
             3])
         .is_none()
     );
@@ -310,8 +310,8 @@ fn a_hierarchy_built_amid_the_work_of_all_threads_ends() {
         let key = Key::new([3, 17], item.into());
         [0, 3, 6].map(|k| Vec3::new(key.uniform(k), key.uniform(k + 1), key.uniform(k + 2)))
     };
-    let one = Wide::build(Builders::One, SimdLevel::best(), 40_000, 0.0, corners).unwrap();
-    let all = Wide::build(Builders::All, SimdLevel::best(), 40_000, 0.0, corners).unwrap();
+    let one = WideBvh::build(Builders::One, SimdLevel::best(), 40_000, 0.0, corners).unwrap();
+    let all = WideBvh::build(Builders::All, SimdLevel::best(), 40_000, 0.0, corners).unwrap();
     assert_eq!(one.root, all.root);
     assert!(
         one.nodes
@@ -323,7 +323,7 @@ fn a_hierarchy_built_amid_the_work_of_all_threads_ends() {
     );
     let shared = std::sync::OnceLock::new();
     let requested = (0..64).into_par_iter().filter(|_| {
-        let build = || Wide::build(Builders::One, SimdLevel::best(), 20_000, 0.0, corners);
+        let build = || WideBvh::build(Builders::One, SimdLevel::best(), 20_000, 0.0, corners);
         shared.get_or_init(build).is_some()
     });
     assert_eq!(requested.count(), 64);
@@ -342,7 +342,7 @@ fn a_triangle_of_a_surface_takes_few_bytes() {
         [corner(half, half), corner(1, 0), corner(0, 1)]
     };
     let count = 2 * (SIDE * SIDE) as usize;
-    let wide = Wide::build(Builders::One, SimdLevel::best(), count, 0.0, corners).unwrap();
+    let wide = WideBvh::build(Builders::One, SimdLevel::best(), count, 0.0, corners).unwrap();
     let bytes = size_of_val(wide.triangles.rows()) + size_of_val(wide.nodes.rows());
     let each = bytes as f64 / count as f64;
     println!("{each:.1} bytes a triangle");

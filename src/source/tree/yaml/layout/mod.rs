@@ -14,7 +14,7 @@ use crate::FileId;
 
 /// Why a text is not formatted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LayoutFault {
+pub enum FormatTextFault {
     /// It is not valid YAML; the mistakes were reported.
     Mistakes,
     /// The result would differ.
@@ -30,14 +30,14 @@ pub fn layout(
     file: FileId,
     bytes: &[u8],
     report: &mut dyn FnMut(Mistake<'_>),
-) -> Result<String, LayoutFault> {
-    let tree = parse(file, bytes, report).ok_or(LayoutFault::Mistakes)?;
+) -> Result<String, FormatTextFault> {
+    let tree = parse(file, bytes, report).ok_or(FormatTextFault::Mistakes)?;
     let source = tree.source.replace("\r\n", "\n").replace('\r', "\n");
-    let text = fixed_point(&source).ok_or(LayoutFault::Differs)?;
-    let again = parse(file, text.as_bytes(), &mut |_| ()).ok_or(LayoutFault::Differs)?;
+    let text = fixed_point(&source).ok_or(FormatTextFault::Differs)?;
+    let again = parse(file, text.as_bytes(), &mut |_| ()).ok_or(FormatTextFault::Differs)?;
     let is_same =
         tree.is_equivalent(&again) && visible_characters(&source).eq(visible_characters(&text));
-    is_same.then_some(text).ok_or(LayoutFault::Differs)
+    is_same.then_some(text).ok_or(FormatTextFault::Differs)
 }
 
 /// The maximum number of passes; one suffices in practice.

@@ -4,7 +4,7 @@ use super::*;
 use crate::SourceMap;
 use proptest::prelude::*;
 
-fn formatted(text: &str) -> Result<String, LayoutFault> {
+fn formatted(text: &str) -> Result<String, FormatTextFault> {
     let mut map = SourceMap::default();
     let file = map.add("t", text.as_bytes().to_vec());
     layout(file, text.as_bytes(), &mut |_| ())
@@ -106,8 +106,11 @@ fn texts_of_many_lines_say_the_same() {
 
 #[test]
 fn what_is_no_yaml_is_left_alone() {
-    assert_eq!(formatted("a: [1, 2\n"), Err(LayoutFault::Mistakes));
-    assert_eq!(formatted("a: 1\n---\nb: 2\n"), Err(LayoutFault::Mistakes));
+    assert_eq!(formatted("a: [1, 2\n"), Err(FormatTextFault::Mistakes));
+    assert_eq!(
+        formatted("a: 1\n---\nb: 2\n"),
+        Err(FormatTextFault::Mistakes)
+    );
 }
 
 /// Fragments of generated texts.
@@ -127,7 +130,7 @@ proptest! {
             Ok(once) => prop_assert_eq!(formatted(&once), Ok(once), "{:?}", text),
             // The last line of a block scalar may lack its newline, which a file has.
             Err(fault) => prop_assert!(
-                fault == LayoutFault::Mistakes || text.contains('|'),
+                fault == FormatTextFault::Mistakes || text.contains('|'),
                 "{:?}",
                 text
             ),
