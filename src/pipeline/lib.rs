@@ -170,7 +170,7 @@ fn report_unused_choices(options: &front::FrontOptions, has_assets: bool, sink: 
     } = options;
     if time.is_some() && !has_assets {
         let remark = Diagnostic::new(&codes::GLTF_STILL, "the scene is the same at all times");
-        sink.push(remark.hint("only a glTF asset has animations"));
+        sink.push(remark.hint("only a glTF asset or a USD stage has animations"));
     }
     let parts = [("animation", animation), ("variant", variant)]
         .into_iter()
@@ -181,7 +181,11 @@ fn report_unused_choices(options: &front::FrontOptions, has_assets: bool, sink: 
             &codes::GLTF_CHOSEN,
             format!("the scene has no {entity} called `{}`", clip(name)),
         );
-        sink.push(mismatch.hint(format!("only a glTF asset has {entity}s to choose from")));
+        let owner = match entity {
+            "animation" => "a glTF asset",
+            _ => "a glTF asset or a USD stage",
+        };
+        sink.push(mismatch.hint(format!("only {owner} has {entity}s to choose from")));
     }
 }
 

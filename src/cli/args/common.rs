@@ -29,21 +29,23 @@ pub(crate) struct Reading {
         help_heading = "Input",
     )]
     pub(crate) asset_root: Option<PathBuf>,
-    /// Show the animation of a glTF asset at this time [default: at rest]
+    /// Show the animation of a glTF asset or USD stage at this time [default: at rest]
     #[arg(long, value_name = "SECONDS", value_parser = moment, help_heading = "Input")]
     pub(crate) time: Option<f64>,
     /// Select an animation of a glTF asset by name [default: the first, with `--time`]
     #[arg(long, value_name = "NAME", help_heading = "Input")]
     pub(crate) animation: Option<String>,
-    /// Select a material variant of a glTF asset by name
+    /// Select a material variant of a glTF asset by name, or a variant of USD as SET=NAME
     #[arg(long, value_name = "NAME", help_heading = "Input")]
     pub(crate) variant: Option<String>,
-    /// Select a camera of a glTF asset by name, node or index
+    /// Select a camera of a glTF asset or USD stage by name, node or index
     ///
     /// [default: the first that sees something]
     #[arg(long, value_name = "NAME|INDEX", help_heading = "Input")]
     pub(crate) camera: Option<String>,
-    /// Set the axis that points up in a mesh file or glTF asset [default: y]
+    /// Set the axis that points up in a mesh file, glTF asset or USD stage
+    ///
+    /// [default: y, or as the stage says]
     #[arg(long, value_enum, value_name = "AXIS", help_heading = "Input")]
     pub(crate) up_axis: Option<UpAxisArg>,
     /// Set a parameter of a Mitsuba scene, before its own `<default>`
