@@ -51,7 +51,7 @@ changed() {
         done
     done < <(git diff --name-only -z "$BASE" --)
     while IFS= read -r -d '' scene; do
-        [[ $scene =~ \.(yaml|yml|json|gltf|glb|rtir|obj|stl|ply|off)$ && ! -L $scene ]] || continue
+        [[ $scene =~ \.(yaml|yml|json|gltf|glb|rtir|xml|pbrt|pbrt\.gz|usd|usda|usdc|usdz|obj|stl|ply|off)$ && ! -L $scene ]] || continue
         folder=.
         [[ $scene != */* ]] || folder=${scene%/*}
         [[ -z ${folders[$folder]:-} ]] || printf '%s\0' "$scene"
@@ -66,7 +66,20 @@ compare() {
     trap 'git worktree remove --force "$before"' EXIT
     mkdir -p "$out/compare"
     page=$out/compare/index.html
-    printf '<!DOCTYPE html>\n<meta charset="utf-8">\n<title>What changed</title>\n<h1>What changed</h1>\n' >"$page"
+    cat >"$page" <<'HTML'
+<!DOCTYPE html>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>What changed</title>
+<style>
+:root { color-scheme: light dark; }
+body { font: 16px/1.5 system-ui, sans-serif; margin: 0 auto; max-width: 60rem; padding: 1rem; overflow-wrap: anywhere; }
+h2 { font-size: 1.15rem; }
+pre { white-space: pre-wrap; }
+img { max-width: min(100%, 16rem); height: auto; }
+</style>
+<h1>What changed</h1>
+HTML
     while IFS= read -r -d '' scene; do
         # Pages have numbers: a name may be too long for one, or that of another.
         number=$((number + 1))
@@ -77,12 +90,14 @@ compare() {
             [[ $said == *"no difference"* && $said == *"scenes are alike"* ]] && rm "$out/compare/$number.html" && continue
         fi
         said=${said//"$before/"/}
+        rtc render -q --size "$size" -o "$out/compare/$number.png" -- "$scene" 2>/dev/null || rm -f "$out/compare/$number.png"
         shown=$(escaped <<<"$scene")
         if [[ -e $out/compare/$number.html ]]; then
             printf '<h2><a href="%s.html">%s</a></h2>\n' "$number" "$shown"
         else
             printf '<h2>%s</h2>\n' "$shown"
         fi >>"$page"
+        [[ ! -e $out/compare/$number.png ]] || printf '<img alt="new picture" src="%s.png">\n' "$number" >>"$page"
         printf '<pre>%s</pre>\n' "$(escaped <<<"$said")" >>"$page"
         said=$(grep -m 1 -E '^rmse' <<<"$said" || head -n 1 <<<"$said")
         summary "- $(plain <<<"$scene"): $(plain <<<"$said")"

@@ -1,4 +1,5 @@
-//! What the action for workflows makes of a pull request, whose files are those of strangers.
+//! What the action for workflows makes of a pull request, whose files are those of strangers, and
+//! what is handed in for the course.
 
 use super::*;
 
@@ -55,15 +56,17 @@ fn repository() -> TempDir {
     folder
 }
 
+/// Where programs are looked for: `rtc` first.
+fn path() -> String {
+    let programs = Path::new(env!("CARGO_BIN_EXE_rtc")).parent().unwrap();
+    let others = std::env::var("PATH").unwrap_or_default();
+    format!("{}:{others}", programs.display())
+}
+
 #[test]
 fn names_of_files_stand_for_themselves() {
     let folder = repository();
-    let programs = Path::new(env!("CARGO_BIN_EXE_rtc")).parent().unwrap();
-    let path = format!(
-        "{}:{}",
-        programs.display(),
-        std::env::var("PATH").unwrap_or_default()
-    );
+    let path = path();
     let out = tempfile::tempdir().unwrap();
     let summary = out.path().join("summary.md");
     let made = Command::new("bash")
@@ -79,7 +82,19 @@ fn names_of_files_stand_for_themselves() {
         .unwrap();
     assert!(made.status.success(), "{}", stderr(&made));
     let page = fs::read_to_string(out.path().join("compare/index.html")).unwrap();
-    assert!(!page.contains("<img") && !page.contains("root:"), "{page}");
+    assert!(
+        !page.contains("<img src=x") && !page.contains("root:"),
+        "{page}"
+    );
+    // Each scene has its picture; no page names the folder of the base.
+    assert_eq!(page.matches("<img alt=").count(), NAMES.len(), "{page}");
+    assert!(page.contains("width=device-width"), "{page}");
+    for number in 1..=NAMES.len() {
+        let name = |extension: &str| out.path().join(format!("compare/{number}.{extension}"));
+        assert!(name("png").exists());
+        let page = fs::read_to_string(name("html")).unwrap();
+        assert!(!page.contains("/tmp"), "{number}");
+    }
     for shown in [
         "&lt;img src=x onerror=alert(1)&gt;.json",
         "Würfel &quot;groß&quot;.json",
@@ -114,4 +129,68 @@ fn actions_are_named_by_their_hashes() {
             assert!(is_hash, "{}: {name}", file.display());
         }
     }
+}
+
+/// The hook and the action look at all files that a folder is searched for, meshes apart.
+#[test]
+fn hooks_and_the_action_know_all_names_of_scenes() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let of = |file: &str| {
+        let text = fs::read_to_string(root.join(file)).unwrap();
+        let (_, list) = text.split_once(r"\.(yaml|").unwrap();
+        let (list, _) = list.split_once(")$").unwrap();
+        list.replace('\\', "")
+    };
+    for list in [of(".pre-commit-hooks.yaml"), of("dist/action.sh")] {
+        let names: Vec<_> = list.split('|').collect();
+        let is_scene = |name: &&str| rtc::internals::front::is_scene_name(&format!("a.{name}"));
+        assert!(names.iter().all(is_scene), "{list}");
+        for known in [
+            "json", "glb", "xml", "pbrt", "pbrt.gz", "usda", "usdz", "rtir",
+        ] {
+            assert!(names.contains(&known), "{known}: {list}");
+        }
+    }
+}
+
+/// Runs the script that makes the archive of `scenes` and of the code in `code`.
+fn submission(folder: &TempDir) -> Output {
+    Command::new("bash")
+        .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("dist/submission.sh"))
+        .args(["scenes", "out/hand-in.tar.gz", "code"])
+        .current_dir(folder.path())
+        .env("PATH", path())
+        .output()
+        .unwrap()
+}
+
+#[test]
+fn a_submission_has_code_screenshots_and_a_readme() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    fs::create_dir_all(at("scenes/deep")).unwrap();
+    fs::create_dir_all(at("code/src")).unwrap();
+    let small = SCENE.replace("[40, 30]", "[8, 6]");
+    fs::write(at("scenes/a.json"), &small).unwrap();
+    fs::write(at("scenes/deep/b.json"), &small).unwrap();
+    fs::write(at("scenes/package.json"), r#"{"version": "1"}"#).unwrap();
+    fs::write(at("code/src/main.rs"), "fn main() {}").unwrap();
+    let made = submission(&folder);
+    assert!(made.status.success(), "{}", stderr(&made));
+    let list = Command::new("tar")
+        .arg("-tzf")
+        .arg(at("out/hand-in.tar.gz"))
+        .output()
+        .unwrap();
+    let list = String::from_utf8(list.stdout).unwrap();
+    let files: Vec<_> = list.lines().filter(|name| !name.ends_with('/')).collect();
+    let pictures = files.iter().filter(|name| name.starts_with("Screenshots/"));
+    assert_eq!(pictures.count(), 2, "{list}");
+    assert!(files.contains(&"Code/src/main.rs"), "{list}");
+    assert!(files.contains(&"ReadMe.md"), "{list}");
+    // A scene with errors makes no archive.
+    fs::remove_file(at("out/hand-in.tar.gz")).unwrap();
+    fs::write(at("scenes/a.json"), small.replace("[8, 6]", "[8]")).unwrap();
+    assert!(!submission(&folder).status.success());
+    assert!(!at("out/hand-in.tar.gz").exists());
 }

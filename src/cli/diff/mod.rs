@@ -16,6 +16,7 @@ use rtc_source::{Budget, Resource};
 use rtc_study::{Difference, SliderPage, heat_map, slider_page, value_text};
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::path::Path;
 
 /// The results of a comparison, each fit to be written.
 struct DiffOutputs {
@@ -132,7 +133,7 @@ fn write(
         let images = pictures.map(ShownPicture::image);
         let page = slider_page(&SliderPage {
             names: [&args.new, &args.old]
-                .map(|path| path.display().to_string())
+                .map(|path| page_name(path))
                 .each_ref()
                 .map(String::as_str),
             pictures: images.each_ref(),
@@ -143,6 +144,15 @@ fn write(
         output.commit(page.as_bytes(), interrupt)?;
     }
     Ok(found)
+}
+
+/// The name of a file on a page, which is read elsewhere: without folders of this machine.
+fn page_name(path: &Path) -> String {
+    let shown = match path.is_absolute() {
+        true => path.file_name().map_or(path, Path::new),
+        false => path,
+    };
+    shown.display().to_string()
 }
 
 /// The map of differences as a PNG.

@@ -42,7 +42,7 @@ pub fn slider_page(page: &SliderPage<'_>) -> String {
 fn slider(page: &SliderPage<'_>, [new, old]: [&str; 2]) -> String {
     let [a, b] = page.pictures;
     let map = heat_map([a.width, a.height], page.flips);
-    let labels = format!("<p class=\"ends\"><span>{new}</span><span>{old}</span></p>\n");
+    let labels = format!("<p class=\"ends\"><span>new: {new}</span><span>old: {old}</span></p>\n");
     format!(
         "{labels}<div class=\"slider\">\n<img alt=\"{old}\" src=\"{}\">\n<img class=\"over\" \
          alt=\"{new}\" src=\"{}\">\n</div>\n\
