@@ -232,7 +232,8 @@ fn an_asset_is_read_where_it_was_judged() {
     let findings = bring(&scene, gltf, "a.gltf", &FrontOptions::default()).findings;
     assert_eq!(
         findings,
-        "GL046 note a.gltf:1:43 this is unused: nothing refers to it\n"
+        "GL046 note a.gltf:1:43 this is unused: nothing refers to it\n  \
+        remove it, or refer to it where it is needed\n"
     );
     // Beside the scene a link leaves it, to what is no asset and to what is no file.
     for target in ["/etc/passwd", "/dev/zero"] {

@@ -88,7 +88,8 @@ pub(super) fn check_pointers(
                 "the path `pointer` needs the extension `{POINTER}`, which `extensionsUsed` does \
                 not list"
             );
-            report.add(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", at, message);
+            let hint = "add the extension to that list, or choose another path".to_owned();
+            report.add_with_hint(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", at, message, hint);
         }
         // With the extension, the path must be `pointer`.
         let Some(extension) = target.extension(POINTER).filter(|_| is_used) else {
@@ -107,7 +108,8 @@ pub(super) fn check_pointers(
         if named.is_some_and(|named| pointer::resolve(doc, report.json, named).is_none()) {
             let message =
                 "the property of the pointer is not supported, so it is not animated".to_owned();
-            report.add(&codes::GLTF_MATERIAL_ODD, "", extension.at, message);
+            let hint = "point to a property that rtc animates, or remove the channel".to_owned();
+            report.add_with_hint(&codes::GLTF_MATERIAL_ODD, "", extension.at, message, hint);
         }
         // It replaces the node.
         if target.has("node") {

@@ -1,8 +1,9 @@
 //! The container: which bytes are the JSON of an asset and which its binary chunk, for `.glb` and
 //! `.gltf` alike.
 
+use super::advice::advice;
 use super::header::CONVERT;
-use rtc_diag::{Code, Diagnostic, Severity, Sink, codes};
+use rtc_diag::{Code, Diagnostic, Sink, codes};
 use rtc_source::{FileId, Span};
 use std::ops::Range;
 
@@ -77,8 +78,7 @@ struct Scan<'a> {
 impl Scan<'_> {
     fn add(&mut self, code: &'static Code, alias: &'static str, at: Range<usize>, message: String) {
         let span = self.span(at);
-        self.sink
-            .push(Diagnostic::new(code, message).at(span, "").alias(alias));
+        self.sink.push(fault(code, alias, message).at(span, ""));
     }
 
     fn span(&self, at: Range<usize>) -> Span {
@@ -90,16 +90,10 @@ impl Scan<'_> {
     fn unaligned(&mut self, header: Range<usize>, name: &str) {
         let message = format!("the length of the {name} chunk is not a multiple of 4");
         let repair = "the next chunk is searched after it";
-        let diagnostic = Diagnostic::new(&codes::GLB_CHUNK, &message);
-        let diagnostic = if self.is_lenient {
-            Diagnostic::new(&codes::GLB_CHUNK, format!("{message}: {repair}"))
-                .severity(Severity::Warning)
-        } else {
-            diagnostic.hint(format!("with `--lenient` this is a warning: {repair}"))
-        };
+        let diagnostic = fault(&codes::GLB_CHUNK, "GLB_CHUNK_LENGTH_UNALIGNED", message);
+        let diagnostic = super::repair(diagnostic, self.is_lenient, repair);
         let at = self.span(header);
-        self.sink
-            .push(diagnostic.at(at, "").alias("GLB_CHUNK_LENGTH_UNALIGNED"));
+        self.sink.push(diagnostic.at(at, ""));
     }
 
     /// Where the chunk after one that ends at `end` begins. After a length that is not a multiple
@@ -293,6 +287,19 @@ impl Scan<'_> {
             *slot = Some(content);
         }
     }
+}
+
+/// A diagnostic with the advice of its kind. `alias` is the code of the validator, empty if it has
+/// none.
+pub(super) fn fault(
+    code: &'static Code,
+    alias: &'static str,
+    message: impl Into<String>,
+) -> Diagnostic {
+    let diagnostic = Diagnostic::new(code, message);
+    let diagnostic = diagnostic.alias((!alias.is_empty()).then_some(alias));
+    let advice = advice(code, alias).into_iter();
+    advice.fold(diagnostic, Diagnostic::hint)
 }
 
 /// The type of a chunk, for a message.

@@ -239,7 +239,8 @@ fn check_not_required(
     if is_in_materials {
         let message =
             format!("materials use `{shown}`, which is not supported, so they look different");
-        report.add(&codes::GLTF_MATERIAL_ODD, "", at, message);
+        let hint = "express the material with extensions of Khronos, `KHR_materials_…`".to_owned();
+        report.add_with_hint(&codes::GLTF_MATERIAL_ODD, "", at, message, hint);
     } else {
         let message = format!("the extension `{shown}` has no effect");
         report.add(&codes::GLTF_IGNORES, "UNSUPPORTED_EXTENSION", at, message);

@@ -110,7 +110,8 @@ fn report_occlusion(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
             more + 1
         ),
     };
-    report.add(&codes::GLTF_REMARK, "", first, message);
+    let hint = "remove the textures, unless another program needs them".to_owned();
+    report.add_with_hint(&codes::GLTF_REMARK, "", first, message, hint);
 }
 
 /// Unlit and specular-glossiness replace the model that other extensions extend.

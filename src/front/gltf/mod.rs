@@ -32,6 +32,7 @@
 
 mod accessor;
 mod accessor_reader;
+mod advice;
 mod animation;
 mod attribute;
 mod buffer;
@@ -188,7 +189,7 @@ fn parts(file: FileId, map: &SourceMap, is_lenient: bool, sink: &mut Sink) -> Op
     let is_misnamed = is_glb && opens_object(bytes);
     if is_misnamed {
         let message = "the file is named `.glb` but contains the JSON of a `.gltf`";
-        let diagnostic = Diagnostic::new(&codes::GLB_HEADER, message).alias("GLB_INVALID_MAGIC");
+        let diagnostic = container::fault(&codes::GLB_HEADER, "GLB_INVALID_MAGIC", message);
         let diagnostic = repair(diagnostic, is_lenient, "it is read as `.gltf`");
         sink.push(diagnostic.at(Span::new(file, 0, 1), "JSON begins here"));
     }
@@ -240,14 +241,12 @@ fn repair(mut diagnostic: Diagnostic, is_lenient: bool, repair: &str) -> Diagnos
         diagnostic.message = format!("{}: {repair}", diagnostic.message);
         diagnostic.severity(Severity::Warning)
     } else {
-        diagnostic.hint(format!("with `--lenient` this is a warning: {repair}"))
+        diagnostic.hint(report::lenient(repair))
     }
 }
 
 fn not_json(span: Span, message: &str) -> Diagnostic {
-    Diagnostic::new(&codes::GLTF_NOT_JSON, message)
-        .at(span, "here")
-        .alias("INVALID_JSON")
+    container::fault(&codes::GLTF_NOT_JSON, "INVALID_JSON", message).at(span, "here")
 }
 
 fn check_keys(tree: &SyntaxTree<'_>, is_lenient: bool, sink: &mut Sink) {
@@ -261,8 +260,8 @@ fn check_keys(tree: &SyntaxTree<'_>, is_lenient: bool, sink: &mut Sink) {
         sink.push_with(code, severity, || {
             let key = report::shown(tree.text(*second).unwrap_or_default());
             let message = format!("the key `{key}` occurs twice in one object");
-            let diagnostic = Diagnostic::new(&codes::GLTF_KEY_TWICE, message)
-                .at(tree.span(*second), "the second");
+            let diagnostic =
+                container::fault(code, "", message).at(tree.span(*second), "the second");
             let diagnostic = match are_equal {
                 true => repair(diagnostic, is_lenient, "both values are equal"),
                 false => diagnostic,

@@ -264,7 +264,8 @@ fn check_transform(node: &Node, report: &mut AssetReport<'_, '_>) {
                 let message =
                     "the matrix contains shear, which some readers of glTF do not support"
                         .to_owned();
-                report.add(&codes::GLTF_REMARK, "", at, message);
+                let hint = "apply the shear to the vertices, for these readers".to_owned();
+                report.add_with_hint(&codes::GLTF_REMARK, "", at, message, hint);
             }
         }
         Transform::Parts {

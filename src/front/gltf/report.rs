@@ -1,6 +1,7 @@
 //! Findings about an asset, each with its bytes, its JSON pointer, and the name that the validator
 //! of Khronos has for it.
 
+use super::advice::advice;
 use crate::FrontOptions;
 use rtc_diag::{Code, Diagnostic, Severity, Sink, codes};
 use rtc_source::tree::{NodeId, NodeKind, SyntaxTree};
@@ -42,7 +43,14 @@ impl<'r, 's> AssetReport<'r, 's> {
         at: NodeId,
         message: impl Into<String>,
     ) {
-        self.push((code, self.severity(code)), alias, at, message.into(), None);
+        let severity = self.severity(code);
+        self.push(
+            (code, severity),
+            alias,
+            at,
+            message.into(),
+            advice(code, alias),
+        );
     }
 
     /// Adds the diagnostic that an object exceeds a limit. `what` names it, as `the image`.
@@ -88,16 +96,13 @@ impl<'r, 's> AssetReport<'r, 's> {
     ) {
         if self.is_lenient() {
             let push = format!("{message}: {repair}");
-            return self.push((code, Severity::Warning), alias, at, push, None);
+            let hint = advice(code, alias);
+            return self.push((code, Severity::Warning), alias, at, push, hint);
         }
-        let hint = format!("with `--lenient` this is a warning: {repair}");
-        self.push(
-            (code, code.severity),
-            alias,
-            at,
-            message.to_owned(),
-            Some(hint),
-        );
+        let hints = advice(code, alias).map(str::to_owned);
+        let hints = hints.into_iter().chain([lenient(repair)]);
+        let severity = code.severity;
+        self.push((code, severity), alias, at, message.to_owned(), hints);
     }
 
     /// Whether repairable errors are repaired.
@@ -105,7 +110,7 @@ impl<'r, 's> AssetReport<'r, 's> {
         self.options.lenient
     }
 
-    /// The same as [`Self::add`], with a hint.
+    /// The same as [`Self::add`], with a hint of its own.
     pub(super) fn add_with_hint(
         &mut self,
         code: &'static Code,
@@ -123,15 +128,12 @@ impl<'r, 's> AssetReport<'r, 's> {
         alias: &'static str,
         at: NodeId,
         message: String,
-        hint: Option<String>,
+        hints: impl IntoIterator<Item = impl Into<String>>,
     ) {
         let json = self.json;
         self.sink.push_with(code, severity, || {
             let diagnostic = diagnostic(json, (code, severity), alias, at, message);
-            match hint {
-                Some(hint) => diagnostic.hint(hint),
-                None => diagnostic,
-            }
+            hints.into_iter().fold(diagnostic, Diagnostic::hint)
         });
     }
 
@@ -181,6 +183,11 @@ fn diagnostic(
         .at(json.span(at), label)
         .pointer(pointer)
         .alias((!alias.is_empty()).then_some(alias))
+}
+
+/// The hint that an error is a warning with `--lenient`, which makes the `repair`.
+pub(super) fn lenient(repair: &str) -> String {
+    format!("with `--lenient` this is a warning: {repair}")
 }
 
 /// A part of the text, clipped and without control characters.

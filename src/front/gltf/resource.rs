@@ -119,7 +119,8 @@ impl<'m> Resources<'m> {
                 .is_some_and(|media| media.starts_with("image/"));
             if is_image && ImageCoding::of(&bytes).is_none() {
                 let message = "the image does not have the media type of its URI".to_owned();
-                report.add(&codes::GLTF_URI, "INVALID_URI", at, message);
+                let hint = "correct the media type after `data:`, or replace the data".to_owned();
+                report.add_with_hint(&codes::GLTF_URI, "INVALID_URI", at, message, hint);
                 continue;
             }
             image.media = image

@@ -169,7 +169,8 @@ impl Materials {
                 are kept, and `{first}` replaces `TEXCOORD_{lost}`"
             );
             let at = doc.materials[material];
-            report.add(&codes::GLTF_MATERIAL_ODD, "", at, message);
+            let hint = "let the textures share two sets".to_owned();
+            report.add_with_hint(&codes::GLTF_MATERIAL_ODD, "", at, message, hint);
         }
         // Record the origin and store the material.
         if let Some(material) = material {

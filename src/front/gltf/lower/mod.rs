@@ -252,7 +252,9 @@ impl Lowering<'_, '_, '_> {
     ) {
         if !transform::has_volume(world) {
             let message = "the node is scaled to zero, so it is invisible".to_owned();
-            return self.report.add(&codes::GLTF_REMARK, "", at, message);
+            let hint = "raise the scale above 0, or remove the node".to_owned();
+            let code = &codes::GLTF_REMARK;
+            return self.report.add_with_hint(code, "", at, message, hint);
         }
         let world_from_object = world.to_cols_array_2d();
         let shape = ir::Shape::Instance(ir::Instance {
@@ -302,8 +304,9 @@ impl Lowering<'_, '_, '_> {
         if loses_light {
             let message =
                 "points and lines without normals show their colour; their emission is ignored";
+            let (code, hint) = (&codes::GLTF_MATERIAL_ODD, "add normals to the primitive");
             self.report
-                .add(&codes::GLTF_MATERIAL_ODD, "", primitive.at, message);
+                .add_with_hint(code, "", primitive.at, message.to_owned(), hint.to_owned());
         }
         id
     }

@@ -146,7 +146,8 @@ impl Pose {
                 "the keyframes have {} numbers, but `{key}` needs {width}, so it does not move",
                 keys.width()
             );
-            return report.add(&codes::GLTF_MATERIAL_ODD, "", at, message);
+            let hint = "write keyframes of so many numbers".to_owned();
+            return report.add_with_hint(&codes::GLTF_MATERIAL_ODD, "", at, message, hint);
         }
         let numbers = keys.sample(false, time);
         if let Some(numbers) = numbers.and_then(|numbers| property.kept(&numbers)) {

@@ -105,7 +105,8 @@ impl LoweredTextures {
         if image.is_none() {
             let message = "the texture has no readable image, so it has no effect";
             let message = message.to_owned();
-            report.add(&codes::GLTF_MATERIAL_ODD, "", texture.at, message);
+            let hint = "give the texture a `source` that is PNG or JPEG".to_owned();
+            report.add_with_hint(&codes::GLTF_MATERIAL_ODD, "", texture.at, message, hint);
         }
         // The sampler gives wrap modes and the filter.
         let sampler = texture

@@ -18,7 +18,8 @@ pub(crate) fn traverse(is_known: bool, report: &mut AssetReport<'_, '_>) -> BTre
     if report.json.kind(root) != NodeKind::Map {
         let kind = report.json.kind(root).name();
         let message = format!("an asset must be an object, not {kind}");
-        report.add(&codes::GLTF_TYPE, "TYPE_MISMATCH", root, message);
+        let hint = "write one object, with the property `asset` in it".to_owned();
+        report.add_with_hint(&codes::GLTF_TYPE, "TYPE_MISMATCH", root, message, hint);
         return BTreeSet::new();
     }
     let json = report.json;
