@@ -57,6 +57,9 @@ done
 
 # Assets by themselves.
 picture vase scenes/vase.glb --size 360 --spp 32 --denoise
+for set in light dark soft; do
+    picture "studio-$set" scenes/vase.glb --size 240 --spp 64 --studio "$set" --denoise
+done
 for variant in red blue brass; do
     picture "top-$variant" "$own/top.glb" --size 320 --variant "$variant" --spp 32 --denoise
 done

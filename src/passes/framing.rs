@@ -496,7 +496,7 @@ mod tests {
         let flat = [[[-1.0, 0.0, -1.0], [1.0, 0.0, 1.0]]];
         let mut scene = scene(&flat);
         let [low, high] = flat[0].map(Vec3::from_array);
-        let ground = crate::ground::add_ground(&mut scene, [low, high]);
+        let ground = crate::ground::add_ground(&mut scene, [low, high], 0.5);
         assert_eq!(ground, Some(1));
         let framing = Framing {
             ground,

@@ -1,4 +1,4 @@
-//! The ground of an asset in the studio: a grey disc that receives its shadow and fades out towards
+//! The ground of an asset in the studio: a disc that receives its shadow and fades out towards
 //! its edge.
 
 use super::studio::smooth;
@@ -11,8 +11,6 @@ use std::f64::consts::TAU;
 /// Its radius, and the radius within which it is opaque, in half diagonals of the subject.
 const RADIUS: f64 = 4.0;
 const OPAQUE_RADIUS: f64 = 1.0;
-/// Its reflectance: in the studio it is about as bright as the lower half of the room.
-const REFLECTANCE: f64 = 0.15;
 /// Its distance below the subject, as a fraction of the half diagonal, so that no face lies in its
 /// plane.
 const GAP: f64 = 1e-3;
@@ -20,9 +18,13 @@ const GAP: f64 = 1e-3;
 const RINGS: u32 = 12;
 const CORNERS: u32 = 48;
 
-/// Adds the ground under a box, if that has an extent; returns the index of its surface. It is
-/// visible from above only.
-pub(super) fn add_ground(scene: &mut Scene, [low, high]: [Vec3; 2]) -> Option<usize> {
+/// Adds a ground of a reflectance under a box, if that has an extent; returns the index of its
+/// surface. It is visible from above only.
+pub(super) fn add_ground(
+    scene: &mut Scene,
+    [low, high]: [Vec3; 2],
+    reflectance: f64,
+) -> Option<usize> {
     let middle = low + (high - low) / 2.0;
     let half = Vec3::new(high.x - low.x, 0.0, high.z - low.z).length() / 2.0;
     // A subject without depth may have a shadow as long as it is high.
@@ -38,7 +40,7 @@ pub(super) fn add_ground(scene: &mut Scene, [low, high]: [Vec3; 2]) -> Option<us
     scene.meshes.push(disc());
     scene.materials.push(Material::Standard(Box::new(Standard {
         name: "ground".to_owned(),
-        base_color: [REFLECTANCE, REFLECTANCE, REFLECTANCE, 1.0],
+        base_color: [reflectance, reflectance, reflectance, 1.0],
         metallic: 0.0,
         alpha: Alpha::Blend,
         ..Standard::default()

@@ -27,7 +27,7 @@ pub use emission::emissive_surfaces;
 pub use framing::{Framing, Orbit};
 pub use overrides::{CountSetting, Overrides};
 pub use settings::set;
-pub use studio::fill;
+pub use studio::{StudioSet, fill};
 pub use view_and_light::{
     AppliedViewAndLight, EnvironmentOverride, FillLight, IntegratorChoice, SceneKind, StudioChoice,
     Sun, View, ViewAndLight, add_light, remove_lights, use_path_integrator,

@@ -1,8 +1,7 @@
-//! The studio: light for scenes without light. An environment map of three softboxes in a dim room.
+//! The studio: light for scenes without light. An environment map of softboxes in a room.
 //!
-//! The radiance of a white diffuse surface is 0.12 if it faces down, 0.75 if it faces the front
-//! (+z), and at most 1.2, if it faces up; so a reflectance of 0.8 is never overexposed. The mean
-//! radiance of the studio is 0.57.
+//! In each set a surface of reflectance 0.8 is never overexposed: the radiance of a white diffuse
+//! surface is at most 1.25, whichever way it faces.
 
 use rtc_ir::{Environment, Image, Pixels, Scene};
 use rtc_math::{Vec3, acos, atan2, cos, pow, sin};
@@ -11,13 +10,30 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// The size of the environment map: a pixel spans less than 6°, about half of the soft edge of a
 /// softbox.
 const SIZE: [u32; 2] = [64, 32];
-/// The radiance of the room, above and below.
-const ROOM: [f64; 2] = [0.3, 0.12];
-/// The width of the transition at the horizon and at the edge of a softbox, in degrees.
-const HORIZON: f64 = 30.0;
+/// The width of the soft edge of a softbox, in degrees.
 const EDGE: f64 = 10.0;
 /// The brightness of the studio as a fill light.
 const FILL: f64 = 0.5;
+
+/// A set of the studio.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StudioSet {
+    /// A near-white backdrop under a dark ceiling, for dark subjects.
+    Light,
+    /// A dim room, which any subject but a black one stands out from.
+    #[default]
+    Dark,
+    /// A near-white room, with a weak key light.
+    Soft,
+}
+
+/// A room: its radiance above and below, the elevation between them and the width of the
+/// transition, in degrees, and its softboxes.
+struct Room {
+    radiance: [f64; 2],
+    transition: [f64; 2],
+    boxes: [SoftBox; 3],
+}
 
 /// A softbox: the azimuth (from +z towards +x) and elevation of its centre, half its width and
 /// height, in degrees, and its radiance.
@@ -27,24 +43,58 @@ struct SoftBox {
     radiance: f64,
 }
 
-/// The key light from the left and above, a fill light from the right, and a rim light from behind.
-const BOXES: [SoftBox; 3] = [
-    SoftBox {
-        middle: [-35.0, 45.0],
-        half: [30.0, 20.0],
-        radiance: 5.0,
-    },
-    SoftBox {
-        middle: [70.0, 20.0],
-        half: [20.0, 30.0],
-        radiance: 1.5,
-    },
-    SoftBox {
-        middle: [170.0, 50.0],
-        half: [35.0, 15.0],
-        radiance: 2.5,
-    },
-];
+/// The softboxes of a room: the key light from the left and above, a fill light from the right, and
+/// a rim light from behind.
+const fn boxes([key, fill, rim]: [f64; 3]) -> [SoftBox; 3] {
+    [
+        SoftBox {
+            middle: [-35.0, 45.0],
+            half: [30.0, 20.0],
+            radiance: key,
+        },
+        SoftBox {
+            middle: [70.0, 20.0],
+            half: [20.0, 30.0],
+            radiance: fill,
+        },
+        SoftBox {
+            middle: [170.0, 50.0],
+            half: [35.0, 15.0],
+            radiance: rim,
+        },
+    ]
+}
+
+const LIGHT: Room = Room {
+    radiance: [0.06, 0.72],
+    transition: [12.0, 30.0],
+    boxes: boxes([4.5, 0.5, 3.5]),
+};
+const DARK: Room = Room {
+    radiance: [0.3, 0.14],
+    transition: [20.0, 30.0],
+    boxes: boxes([5.0, 1.5, 3.0]),
+};
+const SOFT: Room = Room {
+    radiance: [0.6, 0.72],
+    transition: [25.0, 40.0],
+    boxes: boxes([1.6, 0.4, 0.4]),
+};
+
+impl StudioSet {
+    const fn room(self) -> &'static Room {
+        match self {
+            Self::Light => &LIGHT,
+            Self::Dark => &DARK,
+            Self::Soft => &SOFT,
+        }
+    }
+
+    /// The reflectance of a ground that is as bright in the open as the room is below.
+    pub(super) fn ground_reflectance(self) -> f64 {
+        self.room().radiance[1] / self.room().reflected_radiance(Vec3::Y)
+    }
+}
 
 impl SoftBox {
     fn at(&self, [azimuth, elevation]: [f64; 2]) -> f64 {
@@ -62,20 +112,34 @@ pub(super) fn smooth(x: f64) -> f64 {
     x * x * (3.0 - 2.0 * x)
 }
 
-/// The radiance of the studio in a direction (a unit vector).
-fn radiance(direction: Vec3) -> f64 {
-    let azimuth = atan2(direction.x, direction.z).to_degrees();
-    let elevation = (FRAC_PI_2 - acos(direction.y.clamp(-1.0, 1.0))).to_degrees();
-    let room = ROOM[1] + (ROOM[0] - ROOM[1]) * smooth(elevation / HORIZON + 0.5);
-    room + BOXES
-        .iter()
-        .map(|one| one.at([azimuth, elevation]))
-        .sum::<f64>()
+impl Room {
+    /// The radiance from a direction (a unit vector).
+    fn radiance(&self, direction: Vec3) -> f64 {
+        let azimuth = atan2(direction.x, direction.z).to_degrees();
+        let elevation = (FRAC_PI_2 - acos(direction.y.clamp(-1.0, 1.0))).to_degrees();
+        let ([above, below], [horizon, width]) = (self.radiance, self.transition);
+        let room = below + (above - below) * smooth((elevation - horizon) / width + 0.5);
+        let boxes = self.boxes.iter();
+        room + boxes.map(|one| one.at([azimuth, elevation])).sum::<f64>()
+    }
+
+    /// The radiance of a white diffuse surface with this normal: the irradiance over π.
+    fn reflected_radiance(&self, normal: Vec3) -> f64 {
+        let [width, height] = SIZE.map(f64::from);
+        let received = |y: u32, from: Vec3| {
+            self.radiance(from)
+                * normal.dot(from).max(0.0)
+                * sin((f64::from(y) + 0.5) / height * PI)
+        };
+        let pixels = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (y, direction(x, y))));
+        let sum: f64 = pixels.map(|(y, from)| received(y, from)).sum();
+        sum * (PI / height) * (TAU / width) / PI
+    }
 }
 
 /// The direction to the centre of the key light (a unit vector).
 pub(super) fn key_light_direction() -> Vec3 {
-    let [azimuth, elevation] = BOXES[0].middle.map(f64::to_radians);
+    let [azimuth, elevation] = LIGHT.boxes[0].middle.map(f64::to_radians);
     Vec3::new(
         sin(azimuth) * cos(elevation),
         sin(elevation),
@@ -94,15 +158,15 @@ fn direction(x: u32, y: u32) -> Vec3 {
     )
 }
 
-/// The environment map of the studio.
-fn picture() -> Image {
+/// The environment map of a room.
+fn picture(room: &Room) -> Image {
     let pixels = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| direction(x, y)));
     #[expect(
         clippy::cast_possible_truncation,
         reason = "rounds to the nearest float"
     )]
     let bytes: Vec<u8> = pixels
-        .flat_map(|direction| [(radiance(direction) as f32).to_le_bytes(); 3].concat())
+        .flat_map(|direction| [(room.radiance(direction) as f32).to_le_bytes(); 3].concat())
         .collect();
     Image {
         name: String::new(),
@@ -113,9 +177,9 @@ fn picture() -> Image {
     }
 }
 
-/// Sets the studio as the environment of a scene, scaled by a factor.
-pub(super) fn install(scene: &mut Scene, factor: f64) {
-    let image = scene.add_image(picture());
+/// Sets a set of the studio as the environment of a scene, scaled by a factor.
+pub(super) fn install(scene: &mut Scene, set: StudioSet, factor: f64) {
+    let image = scene.add_image(picture(set.room()));
     scene.environment = Some(Environment {
         radiance: [factor; 3],
         image: Some(image),
@@ -125,45 +189,42 @@ pub(super) fn install(scene: &mut Scene, factor: f64) {
 
 /// Sets the studio as a fill light for a picture with an exposure of `stops`.
 pub fn fill(scene: &mut Scene, stops: f64) {
-    install(scene, FILL * pow(2.0, -stops));
+    install(scene, StudioSet::Dark, FILL * pow(2.0, -stops));
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// The radiance of a white diffuse surface with this normal in the studio.
-    fn reflected_radiance(normal: Vec3) -> f64 {
-        let [width, height] = SIZE.map(f64::from);
-        let pixels = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (y, direction(x, y))));
-        let sum: f64 = pixels
-            .map(|(y, from)| {
-                radiance(from) * normal.dot(from).max(0.0) * sin((f64::from(y) + 0.5) / height * PI)
-            })
-            .sum();
-        sum * (PI / height) * (TAU / width) / PI
+    const SETS: [StudioSet; 3] = [StudioSet::Light, StudioSet::Dark, StudioSet::Soft];
+
+    #[test]
+    fn no_light_surface_is_overexposed_in_any_set() {
+        let normals: Vec<_> = (0..8)
+            .flat_map(|y| (0..16).map(move |x| direction(4 * x, 4 * y)))
+            .collect();
+        for set in SETS {
+            let reflected = normals
+                .iter()
+                .map(|normal| set.room().reflected_radiance(*normal));
+            let most = reflected.fold(0.0, f64::max);
+            assert!((0.9..1.25).contains(&most), "{set:?}: {most}");
+            let reflectance = set.ground_reflectance();
+            assert!((0.05..0.9).contains(&reflectance), "{set:?}: {reflectance}");
+        }
     }
 
     #[test]
-    fn white_has_the_promised_radiance_in_the_studio() {
-        let (front, below) = (reflected_radiance(Vec3::Z), reflected_radiance(Vec3::NEG_Y));
-        assert!(
-            (front - 0.75).abs() < 0.02 && (below - 0.12).abs() < 0.02,
-            "{front} {below}"
-        );
-        let normals = (0..8).flat_map(|y| (0..16).map(move |x| direction(4 * x, 4 * y)));
-        let most = normals.map(reflected_radiance).fold(0.0, f64::max);
-        assert!((1.1..1.25).contains(&most), "{most}");
-    }
-
-    #[test]
-    fn the_key_light_is_where_it_is_brightest() {
-        let brightest = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| direction(x, y)));
-        let brightest = brightest
-            .max_by(|a, b| radiance(*a).total_cmp(&radiance(*b)))
-            .unwrap();
-        assert!(
-            brightest.dot(key_light_direction()) > 0.9 && radiance(key_light_direction()) > 5.0
-        );
+    fn the_front_is_well_lit_and_brightest_where_the_key_light_is() {
+        for set in SETS {
+            let room = set.room();
+            let front = room.reflected_radiance(Vec3::Z);
+            assert!((0.7..0.95).contains(&front), "{set:?}: {front}");
+            let all = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| direction(x, y)));
+            let brightest = all
+                .max_by(|a, b| room.radiance(*a).total_cmp(&room.radiance(*b)))
+                .unwrap();
+            assert!(brightest.dot(key_light_direction()) > 0.9, "{set:?}");
+        }
     }
 }

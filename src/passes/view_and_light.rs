@@ -2,7 +2,8 @@
 //! before it is validated. Nothing else of the scene changes.
 
 use super::framing::{Framing, Orbit};
-use super::{emission, framing, ground, studio};
+use super::studio::{self, StudioSet};
+use super::{emission, framing, ground};
 use rtc_ir::{
     BoundingSphere, Camera, Emitter, EntityKind, Environment, Image, Light, Lowered, Mode,
     PathSettings, PointLight, Projection, Punctual, Scene,
@@ -48,8 +49,8 @@ pub enum StudioChoice {
     /// If the scene has no light; as a dimmed fill light if its own light illuminates little of it.
     #[default]
     Auto,
-    /// Yes, whatever its environment is.
-    On,
+    /// Yes, in this set, whatever its environment is.
+    On(StudioSet),
     /// No.
     Off,
     /// As a dimmed fill light, if it has no other environment.
@@ -171,12 +172,17 @@ impl ViewAndLight {
             replace_physical_lights(scene);
         }
         let (lacks_light, fill) = self.apply_studio(scene, kind);
-        let gets_ground =
-            (lacks_light || self.studio == StudioChoice::On) && is_bare && !scene.is_unlit();
+        let (in_studio, set) = match self.studio {
+            StudioChoice::On(set) => (true, set),
+            StudioChoice::Auto | StudioChoice::Off | StudioChoice::Fill => {
+                (lacks_light, StudioSet::default())
+            }
+        };
+        let gets_ground = in_studio && is_bare && !scene.is_unlit();
         if self.ground.unwrap_or(gets_ground)
             && let Some(bounds) = framing::standing_bounds(scene)
         {
-            let ground = ground::add_ground(scene, bounds);
+            let ground = ground::add_ground(scene, bounds, set.ground_reflectance());
             if let Some(framing) = &mut framing {
                 framing.ground = ground;
             }
@@ -195,14 +201,16 @@ impl ViewAndLight {
             return (false, FillLight::Never);
         }
         let lacks_light = self.studio == StudioChoice::Auto && !emission::has_light(scene, kind);
-        if lacks_light || self.studio == StudioChoice::On {
-            studio::install(scene, 1.0);
+        match self.studio {
+            StudioChoice::On(set) => studio::install(scene, set, 1.0),
+            _ if lacks_light => studio::install(scene, StudioSet::default(), 1.0),
+            StudioChoice::Auto | StudioChoice::Off | StudioChoice::Fill => {}
         }
         let fill = match self.studio {
             _ if scene.environment.is_some() => FillLight::Never,
             StudioChoice::Auto => FillLight::IfDim,
             StudioChoice::Fill => FillLight::Always,
-            StudioChoice::On | StudioChoice::Off => FillLight::Never,
+            StudioChoice::On(_) | StudioChoice::Off => FillLight::Never,
         };
         (lacks_light, fill)
     }

@@ -91,8 +91,13 @@ pub(crate) struct StageArgs {
 pub(crate) enum StudioArg {
     /// If the scene has no light; in `render` also dimmed, if a glTF asset is mostly dark
     Auto,
-    /// Always
-    On,
+    /// Always: a dim room, as by default
+    #[value(alias = "on")]
+    Dark,
+    /// Always: a near-white backdrop under a dark ceiling, for dark subjects
+    Light,
+    /// Always: a near-white room with a weak key light
+    Soft,
     /// Never: a scene without light is black
     Off,
     /// Dimmed, with the lights of the scene
@@ -103,7 +108,9 @@ impl From<StudioArg> for passes::StudioChoice {
     fn from(studio: StudioArg) -> Self {
         match studio {
             StudioArg::Auto => Self::Auto,
-            StudioArg::On => Self::On,
+            StudioArg::Light => Self::On(passes::StudioSet::Light),
+            StudioArg::Dark => Self::On(passes::StudioSet::Dark),
+            StudioArg::Soft => Self::On(passes::StudioSet::Soft),
             StudioArg::Off => Self::Off,
             StudioArg::Fill => Self::Fill,
         }
