@@ -41,7 +41,7 @@ const ROWS: u32 = 32;
 /// The most levels of subdivision: each has four times the triangles of the one before.
 const MAX_LEVELS: u32 = 12;
 /// The time that a vertex of a subdivided mesh takes, in vertices of a mesh that is read.
-const SUBDIVISION_COST: u64 = 12;
+const SUBDIVISION_COST: u64 = 20;
 
 /// The geometry of a shape in its own coordinates.
 #[derive(Clone, Debug)]

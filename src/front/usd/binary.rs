@@ -16,6 +16,9 @@ use crate::exchange::Text;
 use rtc_source::{Budget, FileId, Resource, Span};
 use std::collections::BTreeMap;
 
+/// The memory that is charged for each field of a spec.
+const FIELD: u64 = 8;
+
 const MAGIC: &[u8] = b"PXR-USDC";
 /// The memory of a path and a prim, in bytes, rounded up.
 const PATH: u64 = 64;
@@ -105,7 +108,10 @@ pub(super) fn read(file: FileId, bytes: &[u8], budget: &Budget) -> Result<Layer,
     };
     for ((path, start), kind) in paths.into_iter().zip(starts).zip(kinds) {
         let set = sets.get(start as usize..).ok_or(BAD)?;
-        let set = set.iter().take_while(|field| **field != u32::MAX);
+        let length = set.iter().take_while(|field| **field != u32::MAX).count();
+        // Specs may share a long set, which is walked for each.
+        charge(budget, FIELD * length as u64)?;
+        let set = set[..length].iter();
         let set = set.map(|field| fields.get(*field as usize).copied());
         assembly.spec(path, kind, set)?;
     }

@@ -48,6 +48,12 @@ use std::rc::Rc;
 /// The deepest nesting of composed prims.
 const MAX_DEPTH: usize = 2 * layer::MAX_DEPTH;
 
+/// The deepest nesting of instancers in prototypes.
+const MAX_PROTOTYPES: usize = 16;
+
+/// The nodes of the budget that the reading of a prototype counts as.
+const PROTOTYPE: u64 = 64;
+
 /// Prims that are not drawn, with all that they hold.
 const HIDDEN: [&str; 20] = [
     "Material",
@@ -512,6 +518,21 @@ impl<'run> Lowering<'run> {
             self.unsupported(instancer, "a prototype that is not there", "it is left out");
             return Vec::new();
         };
+        if self.open_prototypes.len() >= MAX_PROTOTYPES {
+            self.unsupported(
+                instancer,
+                "a prototype within too many others",
+                "it is left out",
+            );
+            return Vec::new();
+        }
+        // A prototype is read for each instancer that names it.
+        if self
+            .charge(Resource::Nodes, PROTOTYPE, self.root_span)
+            .is_none()
+        {
+            return Vec::new();
+        }
         self.open_prototypes.push(path.to_owned());
         let outer = self.prototype.replace(Vec::new());
         let own = PrimState {

@@ -141,7 +141,7 @@ impl<'a> Cursor<'a> {
             return Ok(Vec::new());
         }
         let packed = self.count(1).ok_or(CUT)?;
-        let most = count.checked_mul(size + 1).ok_or(CUT)? + size + 8;
+        let most = count.saturating_mul(size + 1).saturating_add(size + 8);
         charge(budget, (count as u64).saturating_mul(8))?;
         let bytes = self.unpack(packed, most, budget)?;
         let mut codes = Cursor {

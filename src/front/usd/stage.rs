@@ -210,6 +210,10 @@ impl Lowering<'_> {
             return known.clone();
         }
         let (above, name) = path.rsplit_once('/')?;
+        // No prim is so deep, whatever a relationship says.
+        if path.matches('/').count() > super::MAX_DEPTH {
+            return None;
+        }
         let found = match above {
             "" => self.root.clone(),
             above => self.prim_at(above),

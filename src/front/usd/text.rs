@@ -260,15 +260,13 @@ impl<'a> TextReader<'a> {
             names.pop();
             rest = after.strip_prefix('/').unwrap_or(after);
         }
-        let joint = if rest.is_empty() || rest.starts_with('.') {
-            ""
-        } else {
-            "/"
-        };
-        let above = names
-            .iter()
-            .fold(String::new(), |all, name| all + "/" + name);
-        let text = format!("{above}{joint}{}", rest.strip_prefix("./").unwrap_or(rest));
+        let is_joined = !(rest.is_empty() || rest.starts_with('.'));
+        let joint = if is_joined { "/" } else { "" };
+        let mut parts: Vec<&str> = names.into_iter().flat_map(|name| ["/", name]).collect();
+        parts.extend([joint, rest.strip_prefix("./").unwrap_or(rest)]);
+        let text = parts.concat();
+        // A short relative path may stand in prims of long names.
+        self.spend(2 * text.len() as u64);
         Some(Text { text, span })
     }
 

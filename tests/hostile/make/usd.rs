@@ -4,7 +4,7 @@ use super::Repro;
 
 /// All of them.
 pub(crate) fn all() -> Vec<Repro> {
-    [texts(), arcs(), geometry(), binary(), packages()]
+    [texts(), paths(), arcs(), geometry(), binary(), packages()]
         .into_iter()
         .flatten()
         .collect()
@@ -79,6 +79,29 @@ fn texts() -> Vec<Repro> {
                 "\"xformOp:translate\", ".repeat(100_000)
             ),
             None,
+        ),
+    ]
+}
+
+/// Paths that are longer than what is there.
+fn paths() -> Vec<Repro> {
+    vec![
+        stage(
+            "a material 100 000 prims deep",
+            format!(
+                "def Sphere \"s\" {{ rel material:binding = <{}> }}",
+                "/a".repeat(100_000)
+            ),
+            None,
+        ),
+        stage(
+            "10 000 relative paths in a prim with a name of 1 MB",
+            format!(
+                "def \"{}\" {{\nrel target = [{}]\n}}",
+                "n".repeat(1_000_000),
+                "<a>, ".repeat(10_000)
+            ),
+            Some("IO003"),
         ),
     ]
 }
@@ -191,6 +214,16 @@ fn geometry() -> Vec<Repro> {
             None,
         ),
         stage(
+            "a chain of 20 000 instancers",
+            numbered(20_000, |n| nested(n, &format!("</i{}>", n + 1))),
+            Some("IO003"),
+        ),
+        stage(
+            "15 levels of instancers that have the next one 20 times",
+            numbered(15, |n| nested(n, &format!("</i{}>, ", n + 1).repeat(20))) + "def \"i15\" {}",
+            Some("IO003"),
+        ),
+        stage(
             "a mesh of indices beyond all points",
             "def Mesh \"m\" {\nint[] faceVertexCounts = [3]\n\
              int[] faceVertexIndices = [0, 1, 4000000000]\n\
@@ -238,6 +271,26 @@ fn geometry() -> Vec<Repro> {
     ]
 }
 
+/// An instancer of these prototypes.
+fn nested(number: usize, prototypes: &str) -> String {
+    format!(
+        "def PointInstancer \"i{number}\" {{\nrel prototypes = [{prototypes}]\n\
+         int[] protoIndices = [0]\npoint3f[] positions = [(0, 0, 0)]\n}}\n"
+    )
+}
+
+/// 64-bit numbers as bytes.
+fn words(numbers: &[u64]) -> Vec<u8> {
+    numbers.iter().flat_map(|n| n.to_le_bytes()).collect()
+}
+
+/// A block of LZ4 with its size: at most 14 bytes as they are.
+fn literal(bytes: &[u8]) -> Vec<u8> {
+    let mut block = vec![0, (bytes.len() as u8) << 4];
+    block.extend(bytes);
+    [words(&[block.len() as u64]), block].concat()
+}
+
 /// The bytes of a binary layer: its sections by name, one after the other.
 fn crate_file(sections: &[(&str, Vec<u8>)]) -> Vec<u8> {
     let mut bytes = b"PXR-USDC\0\x08\0\0\0\0\0\0".to_vec();
@@ -261,24 +314,18 @@ fn crate_file(sections: &[(&str, Vec<u8>)]) -> Vec<u8> {
 }
 
 fn binary() -> Vec<Repro> {
-    let counts = |numbers: &[u64]| {
-        numbers
-            .iter()
-            .flat_map(|n| n.to_le_bytes())
-            .collect::<Vec<_>>()
-    };
     let file = |name: &'static str, bytes: Vec<u8>, expected| Repro {
         name,
         files: vec![("a.usda".to_owned(), bytes)],
         arguments: check(),
         expected: Some(expected),
     };
-    let many = [counts(&[u64::MAX, 1 << 60, 9]), vec![0; 9]].concat();
+    let many = [words(&[u64::MAX, 1 << 60, 9]), vec![0; 9]].concat();
     // One block of LZ4 that repeats a byte 16 million times.
     let mut block = vec![0, 0x1f, b'a', 1, 0];
     block.extend([255; 1 << 16]);
     block.push(0);
-    let bomb = [counts(&[1, 1 << 24, block.len() as u64]), block].concat();
+    let bomb = [words(&[1, 1 << 24, block.len() as u64]), block].concat();
     vec![
         file(
             "a binary layer that is cut off",
@@ -291,6 +338,15 @@ fn binary() -> Vec<Repro> {
             "tokens that unpack to 16 MB, and nothing else",
             crate_file(&[("TOKENS", bomb)]),
             "US002",
+        ),
+        file(
+            "more paths than numbers count",
+            crate_file(&[
+                ("TOKENS", [words(&[1, 2]), literal(b"a\0")].concat()),
+                ("STRINGS", words(&[0])),
+                ("PATHS", [words(&[1, u64::MAX / 5, 1]), vec![0]].concat()),
+            ]),
+            "IO003",
         ),
         file(
             "a binary layer of random bytes",
