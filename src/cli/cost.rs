@@ -6,6 +6,7 @@ use super::input;
 use super::interrupt::Interrupt;
 use super::merge::unfit;
 use super::output::Output;
+use super::progress::RenderProgress;
 use super::render::{or_restart, print_saved, try_save};
 use super::reporter::Reporter;
 use super::simd;
@@ -15,6 +16,7 @@ use cpu_time::ThreadTime;
 use rtc_image::{FileFormat, Picture};
 use rtc_ir::Scene;
 use rtc_pipeline::{self as pipeline, Input};
+use rtc_render::PixelObserver;
 use rtc_source::{Loader, SourceMap};
 use rtc_study::{self as study, Clock, Journal, Stopped, Study, StudyProvenance, StudyRuntime};
 use std::fs;
@@ -64,7 +66,11 @@ fn carry_out(args: &args::Cost, input: &mut Input, reporter: &mut Reporter) -> R
     }
     let about = about(input.name(), &validated.lowered.scene);
     let journal = journal(args, &about, input)?;
-    let study = measure(args, (about, journal), &validated.lowered.scene, &interrupt)?;
+    let scene = &validated.lowered.scene;
+    let progress = RenderProgress::start(0, reporter.is_quiet());
+    let study = measure(args, (about, journal), scene, (&interrupt, &progress));
+    progress.finish();
+    let study = study?;
     let report = match args.format {
         StudyFormat::Table => study::table(&study),
         StudyFormat::Csv => study::csv(&study),
@@ -114,13 +120,18 @@ fn measure(
     args: &args::Cost,
     (about, journal): (StudyProvenance, Option<Journal>),
     scene: &Scene,
-    interrupt: &Interrupt,
+    (interrupt, progress): (&Interrupt, &RenderProgress),
 ) -> Result<Study, Failure> {
     let file = args.checkpoint.clone().unwrap_or_default();
     let is_saved = AtomicBool::new(false);
     let save = |journal: &Journal| is_saved.store(try_save(&file, &journal.save()), Relaxed);
-    let is_going = || !interrupt.is_raised();
-    let study = with_runtime(threads(args), &is_going, |runtime| {
+    let on_pixel = |step| {
+        progress.step_rays(step);
+        !interrupt.is_raised()
+    };
+    let on_budget = |rays| progress.set_rays(rays);
+    let study = with_runtime(threads(args), &on_pixel, |runtime| {
+        let runtime = runtime.with_budget_report(&on_budget);
         let runtime = match journal {
             Some(journal) => runtime.with_journal(journal, args.every, &save),
             None => runtime,
@@ -144,7 +155,7 @@ fn measure(
 )]
 pub(super) fn with_runtime<T>(
     threads: usize,
-    is_going: &(dyn Fn() -> bool + Sync),
+    on_pixel: &PixelObserver<'_>,
     work: impl FnOnce(StudyRuntime<'_>) -> T,
 ) -> Result<T, Failure> {
     let (simd, start) = (simd::level()?, Instant::now());
@@ -154,8 +165,7 @@ pub(super) fn with_runtime<T>(
         cpu: &cpu,
         wall: &wall,
     };
-    let on_pixel = |_| is_going();
-    let runtime = StudyRuntime::new(threads, clock, &on_pixel);
+    let runtime = StudyRuntime::new(threads, clock, on_pixel);
     let runtime =
         runtime.map_err(|error| Failure::Failed(format!("can't start threads: {error}")))?;
     Ok(work(runtime.with_simd(simd)))

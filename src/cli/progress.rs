@@ -20,7 +20,7 @@ pub(super) struct RenderProgress {
 }
 
 impl RenderProgress {
-    /// Starts to count `pixels`; `quiet` means no bar.
+    /// Starts to count `pixels`, or rays for [`Self::step_rays`]; `quiet` means no bar.
     pub(super) fn start(pixels: u64, quiet: bool) -> Self {
         let shown = !quiet && io::stderr().is_terminal();
         let target = if shown {
@@ -46,6 +46,20 @@ impl RenderProgress {
         }
         self.rays.fetch_add(step.rays, Ordering::Relaxed);
         self.bar.inc(u64::from(step.is_done));
+    }
+
+    /// Sets the number of rays of the whole work; it starts with an unknown one, 0.
+    pub(super) fn set_rays(&self, rays: u64) {
+        self.bar.set_length(rays);
+    }
+
+    /// A step of work that is measured in rays.
+    pub(super) fn step_rays(&self, step: Step) {
+        if self.is_hidden {
+            return;
+        }
+        self.rays.fetch_add(step.rays, Ordering::Relaxed);
+        self.bar.inc(step.rays);
     }
 
     /// Begins a round of `pixels` more; `message` describe the quality reached.

@@ -7,6 +7,7 @@ use super::gate::{self, GateResult};
 use super::input;
 use super::interrupt::Interrupt;
 use super::output::Output;
+use super::progress::RenderProgress;
 use super::reporter::Reporter;
 use rtc_ir::Scene;
 use rtc_pipeline::Input;
@@ -73,10 +74,18 @@ fn carry_out(args: &args::Cost, files: [&Path; 2], reporter: &mut Reporter) -> R
     }
     // Measure the scenes.
     let (scenes, abouts) = ([&first.1, &second.1], [first.0.clone(), second.0.clone()]);
-    let is_going = || !interrupt.is_raised();
-    let found = with_runtime(threads(args), &is_going, |runtime| {
+    let progress = RenderProgress::start(0, reporter.is_quiet());
+    let on_pixel = |step| {
+        progress.step_rays(step);
+        !interrupt.is_raised()
+    };
+    let on_budget = |rays| progress.set_rays(rays);
+    let found = with_runtime(threads(args), &on_pixel, |runtime| {
+        let runtime = runtime.with_budget_report(&on_budget);
         versus(scenes, abouts, args.effort.into(), args.seed, &runtime)
-    })?;
+    });
+    progress.finish();
+    let found = found?;
     let found = found.map_err(|Stopped| Failure::Interrupted)?;
     // Compare with the limits and write the report.
     let gates = args.gate.as_ref();

@@ -73,6 +73,8 @@ pub struct StudyRuntime<'a> {
     journal_state: Option<Mutex<JournalState>>,
     /// Saves the journal.
     save: &'a (dyn Fn(&Journal) + Sync),
+    /// Is told the approximate number of rays of the whole study, once it is known.
+    on_budget: &'a (dyn Fn(u64) + Sync),
 }
 
 /// The journal, and when it is saved.
@@ -103,6 +105,7 @@ impl<'a> StudyRuntime<'a> {
             simd: SimdLevel::best(),
             journal_state: None,
             save: &|_| (),
+            on_budget: &|_| (),
         })
     }
 
@@ -128,6 +131,17 @@ impl<'a> StudyRuntime<'a> {
         }));
         self.save = save;
         self
+    }
+
+    /// Sets what is told the approximate number of rays of the whole study, once it is known.
+    #[must_use]
+    pub fn with_budget_report(self, on_budget: &'a (dyn Fn(u64) + Sync)) -> Self {
+        Self { on_budget, ..self }
+    }
+
+    /// Tells the approximate number of rays of the whole study.
+    pub(super) fn expect(&self, rays: u64) {
+        (self.on_budget)(rays);
     }
 
     /// Saves the journal.

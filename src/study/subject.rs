@@ -75,6 +75,11 @@ impl<'runtime> Subject<'runtime> {
         }
     }
 
+    /// Tells the runtime the approximate number of rays of the whole study.
+    pub(super) fn expect(&self, rays: u64) {
+        self.runtime.expect(rays);
+    }
+
     /// Whether the whole picture is rendered; then it is one tile.
     pub(super) fn is_whole(&self) -> bool {
         self.fraction() >= 1.0

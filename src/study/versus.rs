@@ -120,7 +120,9 @@ pub fn versus(
     let budget = scenes
         .map(|scene| effort.rays(scene))
         .into_iter()
-        .fold(u64::MAX, u64::min) as f64;
+        .fold(u64::MAX, u64::min);
+    runtime.expect(budget);
+    let budget = budget as f64;
     let [first, second] = scenes.map(|scene| Subject::new(scene, seed, runtime));
     let count = affordable([&first, &second], budget)?;
     let subjects = [first.keep(count), second.keep(count)];

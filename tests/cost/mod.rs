@@ -200,3 +200,27 @@ fn a_study_can_be_stopped() {
         Stopped
     );
 }
+
+#[test]
+fn a_study_expects_about_the_rays_that_it_takes() {
+    let (rays, expected) = (AtomicU64::new(0), AtomicU64::new(0));
+    let clock = || Duration::from_micros(rays.load(Ordering::Relaxed));
+    let clock = Clock {
+        cpu: &clock,
+        wall: &clock,
+    };
+    let on_pixel = |step: Step| {
+        rays.fetch_add(step.rays, Ordering::Relaxed);
+        true
+    };
+    let on_budget = |rays| expected.store(rays, Ordering::Relaxed);
+    let runtime = StudyRuntime::new(1, clock, &on_pixel).unwrap();
+    let runtime = runtime.with_budget_report(&on_budget);
+    let about = StudyProvenance::default();
+    study::study(&scene(&[]), about, Effort(2_000_000), 1, &runtime).unwrap();
+    let [rays, expected] = [&rays, &expected].map(|count| count.load(Ordering::Relaxed));
+    assert!(
+        2 * rays > expected && rays < 2 * expected,
+        "{rays} of {expected}"
+    );
+}

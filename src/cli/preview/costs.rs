@@ -17,7 +17,7 @@ pub(super) fn costs(
     threads: usize,
     is_going: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Value>, Failure> {
-    let study = with_runtime(threads, is_going, |runtime| {
+    let study = with_runtime(threads, &|_| is_going(), |runtime| {
         study::study(scene, about(name, scene), Effort::QUICK, SEED, &runtime)
     })?;
     Ok(study.ok().map(|study| reported(&study, own)))
