@@ -161,11 +161,10 @@ const STAGES: [&str; 5] = ["front", "ir", "valid", "render", "image"];
 
 /// Names that several types share, because the types are one notion at different stages (the first
 /// three), or in code of formats that do not know each other.
-const SHARED_NAMES: [&str; 14] = [
+const SHARED_NAMES: [&str; 13] = [
     "Lowering",
     "PhongMaterial",
     "StandardMaterial",
-    "Bounds",
     "Channel",
     "Element",
     "Fault",

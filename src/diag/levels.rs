@@ -78,8 +78,7 @@ impl DiagnosticLevels {
             {
                 return Err(format!(
                     "`{code}` is an error, which cannot be lowered; `rtc explain {code}` shows \
-                    how to \
-                     fix it"
+                    how to fix it"
                 ));
             }
             LevelSubject::Code(code) => (code.id, self.codes.insert(code.id, level)),

@@ -1,7 +1,7 @@
 //! Overrides of settings: values that replace those of a scene before it is validated.
 //!
-//! A number that can be overridden is one row of [`CountSetting::ALL`]. From it come the flag of
-//! `rtc render` with its help, the key of `rtc.toml` and what it does to a scene.
+//! Each row of [`CountSetting::ALL`] is a number that can be overridden. It defines the flag of
+//! `rtc render` with its help, the key of `rtc.toml`, and how the number changes a scene.
 
 use rtc_ir::{Material, Mode, Scene};
 

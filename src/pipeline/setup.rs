@@ -222,8 +222,7 @@ impl PictureSetup {
         let size = bytes.div_ceil(1 << 20);
         Err(RenderError::Refused(format!(
             "there is no memory for a picture of {width}×{height} pixels: it takes up to {size} \
-            MiB; \
-             `--strips=16` holds 16 rows at a time"
+            MiB; `--strips=16` holds 16 rows at a time"
         )))
     }
 

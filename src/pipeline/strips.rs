@@ -1,5 +1,5 @@
-//! Renders a picture strip by strip: each strip is written before the next is rendered. This needs
-//! the memory of one strip, and the file is the same, byte for byte.
+//! Renders a picture strip by strip: each strip is written before the next is rendered. Only
+//! one strip is in memory at a time; the file is, byte for byte, that of a render in one piece.
 
 use super::output_transform::{Losses, ResolvedOutputTransform};
 use super::{Input, Observer, PictureSetup, RayCounter, RenderError, RenderSubject};
@@ -22,11 +22,9 @@ const WHOLE: &str =
 const GOAL: &str = "the error is known for a whole picture only, so `--target-error` and \
 `--time-budget` have no strips; set the samples with `--spp` or `--supersampling`";
 const DISTANCES: &str = "the brightness of a distance depends on all others, so a depth buffer \
-has no \
-     strips; `--aov depth` of another mode holds distances as they are";
+has no strips; `--aov depth` of another mode holds distances as they are";
 const VERIFY: &str = "`--verify-effects` compares whole pictures, and has no strips; verify a \
-smaller \
-     picture, by `--size` or `--crop`";
+smaller picture, by `--size` or `--crop`";
 
 /// The state of a render in strips.
 struct StripRender<'r> {

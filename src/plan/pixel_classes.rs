@@ -36,15 +36,16 @@ pub struct PixelClassGrid {
     shift: u32,
     /// The number of cells in a row; 0 if no pixel has a known class.
     columns: usize,
-    cells: Vec<CellContent>,
+    cells: Vec<CellVisibility>,
     /// Convex polygons on the screen, each inside a surface of one value.
     polygons: Vec<Vec<[f64; 2]>>,
     /// Whether empty pixels may be skipped.
     skips_empty: bool,
 }
 
+/// What the pixels of a cell may show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum CellContent {
+enum CellVisibility {
     Nothing,
     /// One surface of one value, by the index of its polygon.
     One(u32),
@@ -100,11 +101,11 @@ impl PixelClassGrid {
             return PixelClass::Anything;
         }
         match self.cells[(y >> self.shift) as usize * self.columns + (x >> self.shift) as usize] {
-            CellContent::Nothing if self.skips_empty => PixelClass::Nothing,
-            CellContent::One(polygon) if is_inside(&self.polygons[polygon as usize], [x, y]) => {
+            CellVisibility::Nothing if self.skips_empty => PixelClass::Nothing,
+            CellVisibility::One(polygon) if is_inside(&self.polygons[polygon as usize], [x, y]) => {
                 PixelClass::Uniform
             }
-            CellContent::Nothing | CellContent::One(_) | CellContent::Anything => {
+            CellVisibility::Nothing | CellVisibility::One(_) | CellVisibility::Anything => {
                 PixelClass::Anything
             }
         }
@@ -116,7 +117,7 @@ impl PixelClassGrid {
         let empty = self
             .cells
             .iter()
-            .filter(|cell| **cell == CellContent::Nothing)
+            .filter(|cell| **cell == CellVisibility::Nothing)
             .count();
         if self.skips_empty {
             empty as f64 / self.cells.len().max(1) as f64
@@ -130,7 +131,7 @@ impl PixelClassGrid {
     pub fn has_flat_pixels(&self) -> bool {
         self.cells
             .iter()
-            .any(|cell| matches!(cell, CellContent::One(_)))
+            .any(|cell| matches!(cell, CellVisibility::One(_)))
     }
 }
 
@@ -268,7 +269,7 @@ impl CellGrid {
         }
     }
 
-    fn cells(&mut self) -> Vec<CellContent> {
+    fn cells(&mut self) -> Vec<CellVisibility> {
         let stride = self.columns + 1;
         let mut cells = Vec::with_capacity(self.columns * self.rows);
         for y in 0..self.rows {
@@ -283,9 +284,11 @@ impl CellGrid {
                 row = (row.0 + here.0, row.1 + here.1);
                 *here = (row.0 + above.0, row.1 + above.1);
                 cells.push(match *here {
-                    (0, _) => CellContent::Nothing,
-                    (1, mark) if mark > 0 => CellContent::One(u32::try_from(mark - 1).unwrap_or(0)),
-                    _ => CellContent::Anything,
+                    (0, _) => CellVisibility::Nothing,
+                    (1, mark) if mark > 0 => {
+                        CellVisibility::One(u32::try_from(mark - 1).unwrap_or(0))
+                    }
+                    _ => CellVisibility::Anything,
                 });
             }
         }
@@ -320,9 +323,9 @@ mod tests {
             0,
         );
         let (nothing, one, any) = (
-            CellContent::Nothing,
-            CellContent::One(0),
-            CellContent::Anything,
+            CellVisibility::Nothing,
+            CellVisibility::One(0),
+            CellVisibility::Anything,
         );
         let wanted = [
             [one, any, any, any],

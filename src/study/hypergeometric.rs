@@ -28,7 +28,7 @@ fn is_rare(all: u64, drawn: u64, faults: u64, odds: u64) -> bool {
     if more > all - fewer {
         return true;
     }
-    let (mut missed, mut chances) = (Natural::from(odds), Natural::from(1));
+    let (mut missed, mut chances) = (BigNatural::from(odds), BigNatural::from(1));
     for index in 0..fewer {
         missed.multiply(all - more - index);
         chances.multiply(all - index);
@@ -38,9 +38,9 @@ fn is_rare(all: u64, drawn: u64, faults: u64, odds: u64) -> bool {
 
 /// A natural number, in digits of 64 bits, the highest first, without leading zeros.
 #[derive(PartialEq, Eq)]
-struct Natural(Vec<u64>);
+struct BigNatural(Vec<u64>);
 
-impl Natural {
+impl BigNatural {
     fn from(number: u64) -> Self {
         Self(vec![number])
     }
@@ -61,7 +61,7 @@ impl Natural {
     }
 }
 
-impl PartialOrd for Natural {
+impl PartialOrd for BigNatural {
     fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
         let key = |number: &Self| number.0.len();
         Some(

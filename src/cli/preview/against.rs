@@ -27,11 +27,11 @@ pub(super) enum ComparisonReference {
     /// A picture, which is as it is.
     Picture(RenderedPicture),
     /// A scene.
-    Scene(Box<OtherScene>),
+    Scene(Box<ComparisonScene>),
 }
 
 /// A scene to compare with.
-pub(super) struct OtherScene {
+pub(super) struct ComparisonScene {
     scene: ReadScene,
     shown: Option<ShownScene>,
     /// The last view, and its camera unless it is the reference's own.
@@ -76,7 +76,7 @@ impl ComparisonReference {
         reporter.finish()?;
         validated?;
         let (shown, seen) = (None, None);
-        Ok(Some(Self::Scene(Box::new(OtherScene {
+        Ok(Some(Self::Scene(Box::new(ComparisonScene {
             scene,
             shown,
             seen,
@@ -84,7 +84,7 @@ impl ComparisonReference {
     }
 }
 
-impl OtherScene {
+impl ComparisonScene {
     /// Its picture in the view of the first scene, by the same camera unless that is the scene's
     /// own; `None` if it is already shown.
     pub(super) fn rendering(

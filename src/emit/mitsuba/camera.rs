@@ -1,4 +1,5 @@
-//! Writes the camera: any frustum with square pixels, a thin lens, or an orthographic projection.
+//! Writes the camera: a perspective one (any frustum with square pixels, with or without a thin
+//! lens) or an orthographic one.
 
 use super::MitsubaWriter;
 use crate::export::joined;

@@ -1,7 +1,7 @@
 //! Writes materials: diffuse materials and perfect mirrors are exact; others are approximated.
 
 use super::MitsubaWriter;
-use super::texture::{Channel, MaterialValue};
+use super::texture::{Channel, TexturedFactor};
 use crate::approximation::approximate_phong;
 use crate::export::{called, enumeration};
 use rtc_ir::{Alpha, EntityKind, Field, Map, Material, Scene, Shape, Standard, Surface, ValuePath};
@@ -147,7 +147,7 @@ impl MitsubaWriter<'_> {
         let is_mixed = plugin == Plugin::Layered && material.transmission > 0.0;
         if is_mixed {
             self.line(depth, &format!(r#"<bsdf type="blendbsdf"{id}>"#));
-            let weight = MaterialValue {
+            let weight = TexturedFactor {
                 factor: [material.transmission; 3],
                 map: material.transmission_map.as_ref(),
                 channel: Channel::Red,
@@ -197,7 +197,7 @@ impl MitsubaWriter<'_> {
             return self.base(depth, id, variant, (plugin, material), path);
         };
         self.line(depth, &format!(r#"<bsdf type="normalmap"{id}>"#));
-        let slot = MaterialValue {
+        let slot = TexturedFactor {
             factor: [1.0; 3],
             map: Some(map),
             channel: Channel::Normal(material.normal_scale),
@@ -221,7 +221,7 @@ impl MitsubaWriter<'_> {
             depth,
             &format!(r#"<bsdf type="{}"{id}>"#, plugin.shape_name()),
         );
-        let color = MaterialValue::color(material, variant.has_colors);
+        let color = TexturedFactor::color(material, variant.has_colors);
         match plugin {
             Plugin::Black => self.rgb(inner, "reflectance", [0.0; 3]),
             Plugin::Diffuse => self.slot(inner, "reflectance", color, path)?,
@@ -235,7 +235,12 @@ impl MitsubaWriter<'_> {
             }
             Plugin::Layered => {
                 let factor = plugin.color(material, color.factor);
-                self.slot(inner, "base_color", MaterialValue { factor, ..color }, path)?;
+                self.slot(
+                    inner,
+                    "base_color",
+                    TexturedFactor { factor, ..color },
+                    path,
+                )?;
                 self.layers(inner, material, path)?;
             }
         }
@@ -261,7 +266,7 @@ impl MitsubaWriter<'_> {
             ("metallic", material.metallic, Channel::Blue),
             ("roughness", material.roughness, Channel::Green),
         ] {
-            let slot = MaterialValue {
+            let slot = TexturedFactor {
                 factor: [factor; 3],
                 map: material.metallic_roughness_map.as_ref(),
                 channel,
@@ -276,7 +281,7 @@ impl MitsubaWriter<'_> {
         self.value(depth, "float", "specular", &shortest(specular));
         // Layers.
         if material.clearcoat > 0.0 {
-            let slot = MaterialValue {
+            let slot = TexturedFactor {
                 factor: [material.clearcoat; 3],
                 map: material.clearcoat_map.as_ref(),
                 channel: Channel::Red,
@@ -317,7 +322,7 @@ impl MitsubaWriter<'_> {
 }
 
 /// The share of light that a surface stops, where it is not all.
-fn opacity(material: &Standard, of_corners: bool) -> Option<MaterialValue<'_>> {
+fn opacity(material: &Standard, of_corners: bool) -> Option<TexturedFactor<'_>> {
     let [.., alpha] = material.base_color;
     let channel = match material.alpha {
         Alpha::Opaque => return None,
@@ -328,7 +333,7 @@ fn opacity(material: &Standard, of_corners: bool) -> Option<MaterialValue<'_>> {
         true => Channel::CornerOpacity,
         false => channel,
     };
-    Some(MaterialValue {
+    Some(TexturedFactor {
         factor: [alpha; 3],
         map: material.base_color_map.as_ref(),
         channel,

@@ -3,7 +3,7 @@
 
 use super::MitsubaWriter;
 use super::material::{MaterialVariant, Plugin, absorption, standard, uv_set};
-use super::texture::{Channel, MaterialValue};
+use super::texture::{Channel, TexturedFactor};
 use crate::export::joined;
 use crate::flat::{around, finite, side, split, square};
 use crate::{ply, sidecar};
@@ -159,8 +159,8 @@ impl MitsubaWriter<'_> {
             self.line(2, &format!(r#"<ref name="interior" id="{id}v"/>"#));
         }
         let radiance = match material.unlit {
-            true => MaterialValue::color(&material, variant.has_colors),
-            false => MaterialValue {
+            true => TexturedFactor::color(&material, variant.has_colors),
+            false => TexturedFactor {
                 factor: material.emissive,
                 map: material.emissive_map.as_ref(),
                 channel: Channel::Color,

@@ -12,7 +12,7 @@ use xxhash_rust::xxh3::xxh3_64;
 
 /// A value of a material: a factor, times a texture if there is one.
 #[derive(Clone, Copy)]
-pub(super) struct MaterialValue<'m> {
+pub(super) struct TexturedFactor<'m> {
     pub(super) factor: [f64; 3],
     pub(super) map: Option<&'m Map>,
     pub(super) channel: Channel,
@@ -37,7 +37,7 @@ pub(super) enum Channel {
     Normal(f64),
 }
 
-impl<'m> MaterialValue<'m> {
+impl<'m> TexturedFactor<'m> {
     /// The base colour of a material.
     pub(super) fn color(material: &'m Standard, has_colors: bool) -> Self {
         let [r, g, b, _] = material.base_color;
@@ -86,15 +86,15 @@ impl MitsubaWriter<'_> {
         &mut self,
         depth: usize,
         name: &str,
-        slot: MaterialValue<'_>,
+        slot: TexturedFactor<'_>,
         path: ValuePath,
     ) -> Option<()> {
         // A slot holds a bitmap, a vertex attribute, a colour or a number.
         match slot {
-            MaterialValue { map: Some(map), .. } => {
+            TexturedFactor { map: Some(map), .. } => {
                 return self.bitmap(depth, name, map, slot, path);
             }
-            MaterialValue {
+            TexturedFactor {
                 channel: channel @ (Channel::Corners | Channel::CornerOpacity),
                 ..
             } => {
@@ -111,12 +111,12 @@ impl MitsubaWriter<'_> {
                 self.value(depth + 1, "string", "name", attribute);
                 self.line(depth, "</texture>");
             }
-            MaterialValue {
+            TexturedFactor {
                 factor,
                 channel: Channel::Color,
                 ..
             } => self.rgb(depth, name, factor),
-            MaterialValue {
+            TexturedFactor {
                 factor, channel, ..
             } => {
                 let [value, ..] = channel.pixel(factor, [1.0; 4]);
@@ -131,9 +131,9 @@ impl MitsubaWriter<'_> {
         depth: usize,
         name: &str,
         map: &Map,
-        MaterialValue {
+        TexturedFactor {
             factor, channel, ..
-        }: MaterialValue<'_>,
+        }: TexturedFactor<'_>,
         path: ValuePath,
     ) -> Option<()> {
         // Encode each texture and channel once.

@@ -59,7 +59,7 @@ fn remove_own_color(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>
     // The validator rejects a negative weight.
     (phong.ka, phong.kd) = (phong.ka.min(0.0), phong.kd.min(0.0));
     if is_colored {
-        let message = || "glass has no colour of its own here".to_owned();
+        let message = || "the colour of this glass is ignored".to_owned();
         context.report(&codes::NO_EFFECT, span, message, |d| {
             d.at(span, "its `color`, `ka` and `kd` have no effect")
                 .severity(Severity::Warning)

@@ -360,7 +360,7 @@ fn unknown_key(
     context.report(
         &codes::UNKNOWN_KEY,
         span,
-        || format!("the {record_name} has no key `{}`", clip(entry.key)),
+        || format!("unknown key `{}` in the {record_name}", clip(entry.key)),
         |d| advise(d.at(span, "ignored").severity(severity)),
     );
 }

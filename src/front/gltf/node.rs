@@ -8,7 +8,7 @@ use rtc_math::unit;
 use rtc_source::tree::{NodeId, SyntaxTree};
 use std::collections::BTreeSet;
 
-/// The tolerance of the length of a rotation.
+/// By how much the length of a rotation's quaternion may differ from 1.
 const UNIT: f64 = 0.007_69;
 const IDENTITY: [f64; 16] = [
     1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0,
@@ -33,7 +33,7 @@ pub(super) struct Node {
     pub(super) light: Option<usize>,
     /// The weights of morph targets that override those of the mesh.
     pub(super) weights: Vec<f64>,
-    /// Its contents are visible.
+    /// Whether its contents are visible.
     pub(super) visible: bool,
     /// The nodes that show the same in less detail (`MSFT_lod`).
     pub(super) coarser: Vec<usize>,

@@ -327,7 +327,7 @@ fn check_tangents(doc: &Document<'_>, primitive: &Primitive, report: &mut AssetR
         );
     } else {
         let message =
-            "the material needs tangents: there are none, and no normal map to compute them for"
+            "the material needs tangents; there are none, and without a normal map none are made"
                 .to_owned();
         report.add(
             &codes::GLTF_ATTRIBUTE,

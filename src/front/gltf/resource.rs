@@ -260,7 +260,7 @@ fn remark_uri(is_glb: bool, at: NodeId, report: &mut AssetReport<'_, '_>) {
             &codes::GLTF_REMARK,
             "URI_GLB",
             at,
-            "a `.glb` could contain this file",
+            "the file is external; a `.glb` can embed it",
         );
     }
 }

@@ -6,9 +6,9 @@ use rtc_math::to_u32;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// A name in a file.
+/// A name, and where it stands in a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Named {
+pub struct SpannedName {
     /// The name.
     pub text: String,
     /// The span of its first use.
@@ -19,14 +19,14 @@ pub struct Named {
 #[derive(Debug, Default)]
 pub struct MaterialUse {
     /// The MTL files, each once: every `mtllib` as one name, and, if it has spaces, also its words.
-    pub libraries: Vec<Named>,
+    pub libraries: Vec<SpannedName>,
     /// The materials in the order of first use. Faces without a material share one without a name.
-    pub materials: Vec<Named>,
+    pub materials: Vec<SpannedName>,
     known: BTreeMap<String, u32>,
     /// From which triangle on which material counts.
     runs: Vec<(u32, u32)>,
     /// The material of the next face.
-    current: Named,
+    current: SpannedName,
 }
 
 /// The maximum number of bytes held for a `usemtl` line: two copies of a short name with their
@@ -51,12 +51,12 @@ impl MaterialUse {
     }
 
     /// The material of the next face.
-    pub(super) fn current(&self) -> &Named {
+    pub(super) fn current(&self) -> &SpannedName {
         &self.current
     }
 
     /// The following faces have a known material.
-    pub(super) fn resume(&mut self, named: Named) {
+    pub(super) fn resume(&mut self, named: SpannedName) {
         self.current = named;
     }
 
@@ -118,10 +118,10 @@ impl MaterialUse {
 }
 
 /// The name made of some words, with the spaces between them.
-pub(super) fn name(words: &[Word<'_>], file: &[u8]) -> Option<Named> {
+pub(super) fn name(words: &[Word<'_>], file: &[u8]) -> Option<SpannedName> {
     let whole = words.first()?.through(words.last()?, file);
     let bytes = &whole.bytes[..whole.bytes.len().min(LONGEST)];
-    Some(Named {
+    Some(SpannedName {
         text: String::from_utf8_lossy(bytes).into_owned(),
         at: whole.place(),
     })

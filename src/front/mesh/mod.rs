@@ -32,7 +32,7 @@ mod tint;
 mod xyz;
 
 pub use crate::words::{ParseFault, WordFault, WordSpan};
-pub use material_use::{MaterialUse, Named};
+pub use material_use::{MaterialUse, SpannedName};
 
 use crate::words::{Lines, Word};
 use rtc_ir::Mesh;
@@ -53,7 +53,7 @@ pub struct Parsed {
     /// Its materials.
     pub material_use: MaterialUse,
     /// The picture of all its faces, where it names one itself.
-    pub texture: Option<Named>,
+    pub texture: Option<SpannedName>,
 }
 
 impl Parsed {

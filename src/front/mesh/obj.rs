@@ -10,7 +10,7 @@ mod smooth;
 
 use super::stroke::Segments;
 use super::tint::Tints;
-use super::{MAX_FAULTS, MaterialUse, Named, ParseFault, Parsed};
+use super::{MAX_FAULTS, MaterialUse, ParseFault, Parsed, SpannedName};
 use crate::words::{Lines, Word, WordFault, numbers};
 use corner::{CornerCounts, indices};
 use rtc_source::{Budget, Resource};
@@ -64,7 +64,7 @@ struct Check {
     /// The number of ends of lines and points.
     ends: usize,
     /// Lines and points, each with its material.
-    strokes: Vec<(Named, Segments)>,
+    strokes: Vec<(SpannedName, Segments)>,
     /// The number of `usemtl` lines.
     switches: usize,
     material_use: MaterialUse,

@@ -1,4 +1,4 @@
-//! The polygons of a file until its vertices are there; then their triangles.
+//! Holds the polygons of a file until all its vertices are read, then cuts them into triangles.
 
 use super::Parsed;
 use super::polygon::EarClipper;
@@ -11,13 +11,13 @@ use rtc_source::{Budget, Exceeded, Resource};
 /// corners.
 #[derive(Default)]
 pub(super) struct Polygons {
-    /// The vertices of all corners, some of them not there.
+    /// The vertex index of each corner; it may be out of range.
     corners: Vec<u32>,
     /// Where each polygon ends.
     ends: Vec<u32>,
-    /// The colour of each, linear, if they have any.
+    /// The linear colour of each polygon; empty if they have none.
     pub(super) colors: Vec<[f32; 4]>,
-    /// The texture coordinates of each corner, if they have any.
+    /// The texture coordinates of each corner; empty if they have none.
     pub(super) uvs: Vec<[f64; 2]>,
 }
 
@@ -30,12 +30,12 @@ impl Polygons {
         self.corners.push(vertex);
     }
 
-    /// Ends the last polygon.
+    /// Ends the polygon that is read.
     pub(super) fn end(&mut self) {
         self.ends.push(to_u32(self.corners.len()));
     }
 
-    /// Discards the corners of the last polygon, and returns them.
+    /// Discards the corners of the polygon that is read, and returns them.
     pub(super) fn discard_polygon(&mut self) -> Vec<u32> {
         let first = self.first();
         self.uvs.truncate(first);
@@ -113,7 +113,7 @@ impl Polygons {
 
 /// Gives each corner a vertex of its own.
 fn unshare_vertices(mesh: &mut Mesh, mut corners: Vec<u32>, count: usize) {
-    // Those that are not there are of no triangle.
+    // A corner out of range belongs to no triangle; any vertex does for it.
     for corner in &mut corners {
         *corner = if (*corner as usize) < count {
             *corner

@@ -284,7 +284,8 @@ impl Lowering<'_> {
         let [name, kind, plugin] = match <[Text; 3]>::try_from(names) {
             Ok(names) => names,
             Err(_) => {
-                let message = "`Texture` needs a name, a type and a kind of texture";
+                let message =
+                    "`Texture` needs a name, a type (as `float`) and a class (as `imagemap`)";
                 self.report(&codes::PBRT_SYNTAX, span, message);
                 return self.skip_arguments();
             }

@@ -264,7 +264,7 @@ impl<'run> Lowering<'run> {
             .unwrap_or(0.01);
         self.time = start + self.options.time.unwrap_or(0.0) * rate;
         if let Some(up) = up.filter(|up| !matches!(up.text.as_str(), "Y" | "Z")) {
-            let message = "`upAxis` is neither `Y` nor `Z`: y is up";
+            let message = "`upAxis` is neither `Y` nor `Z`; `Y` is assumed";
             self.report(&codes::USD_UNSUPPORTED, up.span, message);
         }
         let state = PrimState {

@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 /// Surfaces with an α below this are mirrors: their lobes are narrower than a pixel can resolve.
 const SMOOTH: f64 = 1e-5;
 
-/// A rough surface: the widths α of its slopes along x and y.
+/// A rough surface: its roughness α along x and y.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Ggx {
     x: f64,
@@ -40,7 +40,7 @@ impl Ggx {
         }
     }
 
-    /// Whether it looks the same when turned.
+    /// Whether the roughness is the same in all directions.
     #[must_use]
     pub(super) fn is_isotropic(self) -> bool {
         self.x == self.y

@@ -25,21 +25,21 @@ impl<S: Intersect> World<S> {
         on_pixel: &PixelObserver<'_>,
     ) -> bool {
         if let Mode::Path(_) = self.settings.mode {
-            return self.run_paths(GrowPaths(self, film, wanted, on_pixel));
+            return self.run_paths(ProgressivePathTask(self, film, wanted, on_pixel));
         }
-        self.run(Grow(self, film, wanted, on_pixel))
+        self.run(ProgressiveTask(self, film, wanted, on_pixel))
     }
 }
 
-/// Grows a film.
-struct Grow<'run, S>(
+/// Adds samples to a film.
+struct ProgressiveTask<'run, S>(
     &'run World<S>,
     &'run mut ProgressiveFilm,
     &'run SampleRange<'run>,
     &'run PixelObserver<'run>,
 );
 
-impl<S: Intersect> KernelTask for Grow<'_, S> {
+impl<S: Intersect> KernelTask for ProgressiveTask<'_, S> {
     const HAS_KERNELS: bool = S::HAS_KERNELS;
     type Output = bool;
 
@@ -51,15 +51,15 @@ impl<S: Intersect> KernelTask for Grow<'_, S> {
     }
 }
 
-/// Grows a film by tracing paths.
-struct GrowPaths<'run, S>(
+/// Adds samples of paths to a film.
+struct ProgressivePathTask<'run, S>(
     &'run World<S>,
     &'run mut ProgressiveFilm,
     &'run SampleRange<'run>,
     &'run PixelObserver<'run>,
 );
 
-impl<S: Intersect> KernelTask for GrowPaths<'_, S> {
+impl<S: Intersect> KernelTask for ProgressivePathTask<'_, S> {
     const HAS_KERNELS: bool = S::HAS_KERNELS;
     type Output = bool;
 

@@ -1,10 +1,10 @@
-//! The capped cone: the stretch inside one nappe and the stretch between base and apex,
-//! intersected.
+//! The capped cone. A ray is in it where it is both inside one nappe and between the planes of base
+//! and apex.
 //!
 //! The ray is first moved to the point nearest to the cone's centre, so that the terms of the
 //! quadratic have the size of the cone; each root is then refined by one Newton step on the
 //! distance ρ − g from the side. A flat cone turns an error in the height of a point into one
-//! radius/height times as large in g, so its heights are measured along the ray from its
+//! radius/height times as large in g, so the heights of points are measured along the ray from its
 //! intersection with the base: then g is accurate to rounding for any cone.
 
 use crate::ray::{Interaction, Ray};

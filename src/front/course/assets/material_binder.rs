@@ -4,7 +4,7 @@
 use super::AssetLoader;
 use super::mesh::{MeshFile, MeshFiles};
 use super::mtl::MtlCache;
-use crate::mesh::Named;
+use crate::mesh::SpannedName;
 use crate::{gltf, over_limit};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{
@@ -217,7 +217,7 @@ impl MaterialBinder<'_, '_> {
         if !scene.names.is_empty() {
             scene.names.resize(scene.surfaces.len(), String::new());
         }
-        let is_nameless = |named: &Named| named.text.is_empty();
+        let is_nameless = |named: &SpannedName| named.text.is_empty();
         if file.material_use.materials.iter().any(is_nameless) {
             self.report_no_material(pending, "some faces have no material, so they are grey");
         }

@@ -2,7 +2,7 @@
 
 use super::text_file::TextKind;
 use super::{AssetLoader, FileCache, MissingAssetPolicy, PendingAsset};
-use crate::mesh::{EXTENSIONS, MaterialUse, Named, Parsed, is_mesh, parse};
+use crate::mesh::{EXTENSIONS, MaterialUse, Parsed, SpannedName, is_mesh, parse};
 use crate::over_limit;
 use rtc_diag::{Diagnostic, Sink, clip, codes};
 use rtc_ir::{Lowered, Mesh, MeshId, Mode, Scene, Shape};
@@ -41,7 +41,7 @@ pub(super) struct MeshFile {
     pub(super) full_mesh_id: Option<MeshId>,
     pub(super) material_use: MaterialUse,
     /// The texture of all faces, if the file names one itself.
-    pub(super) texture: Option<Named>,
+    pub(super) texture: Option<SpannedName>,
     pub(super) file: FileId,
     /// Its path relative to the searched folder.
     pub(super) path: String,

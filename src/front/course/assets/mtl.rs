@@ -19,7 +19,7 @@ pub(super) use cache::MtlCache;
 use super::mesh::MeshFile;
 use super::text_file::TextKind;
 use super::{AssetLoader, AssetTarget, MissingAssetPolicy, PendingAsset};
-use crate::mesh::Named;
+use crate::mesh::SpannedName;
 use crate::mesh::mtl::{Library, is_mtl, parse};
 use cache::sibling_path;
 use phong::weight;
@@ -53,8 +53,8 @@ impl MeshFile {
     fn libraries<'a>(
         &'a self,
         loader: &'a AssetLoader<'_>,
-    ) -> impl Iterator<Item = (PendingAsset, &'a Named)> {
-        let pending = |named: &Named| PendingAsset {
+    ) -> impl Iterator<Item = (PendingAsset, &'a SpannedName)> {
+        let pending = |named: &SpannedName| PendingAsset {
             target: AssetTarget::Materials,
             path: sibling_path(&self.path, &named.text),
             span: Some(named.at.span(self.file)),
@@ -93,7 +93,7 @@ impl MeshFile {
         }
         // Add the materials that the faces use.
         let mut materials = Vec::with_capacity(self.material_use.materials.len());
-        let mut unknown: Option<(&Named, usize)> = None;
+        let mut unknown: Option<(&SpannedName, usize)> = None;
         for named in &self.material_use.materials {
             let definition = libraries
                 .iter()
@@ -167,7 +167,7 @@ impl MeshFile {
             return;
         }
         let definition = |loaded: &LoadedLibrary| -> Option<Span> {
-            let is_used = |named: &&Named| loaded.library.materials.contains_key(&named.text);
+            let is_used = |named: &&SpannedName| loaded.library.materials.contains_key(&named.text);
             let used = self.material_use.materials.iter().filter(is_used);
             let mut mirrors = used.filter_map(|named| {
                 let material = loaded.library.materials.get(&named.text)?;

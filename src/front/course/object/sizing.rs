@@ -114,7 +114,8 @@ fn report_size_as_factor(size: f64, span: Option<Span>) -> Diagnostic {
 
 fn report_size_as_fit(size: f64, half: f64, span: Option<Span>) -> Diagnostic {
     let (size, half) = (shortest(size), shortest(half));
-    let message = format!("`size: {size}` is taken as the size of the mesh, not as a factor");
+    let message =
+        format!("`size: {size}` scales the mesh to a size of {size}, not by a factor of {size}");
     Diagnostic::new(&codes::KEY_READ_DIFFERENTLY, message)
         .at(span, "as a factor it would hide the view")
         .hint(format!(

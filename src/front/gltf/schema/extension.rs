@@ -6,7 +6,9 @@ use super::Value::{
     Text,
 };
 use super::core::{NORMAL_TEXTURE, TEXTURE_INFO};
-use super::{Bounds, FACTOR, FREE, IndexTarget, Key, Object, POSITIVE, UNIT, optional, required};
+use super::{
+    FACTOR, FREE, IndexTarget, Key, NumberRange, Object, POSITIVE, UNIT, optional, required,
+};
 
 /// An extension.
 #[derive(Debug)]
@@ -47,12 +49,12 @@ fn row(extension: &Extension) -> String {
     )
 }
 
-const RIGHT_ANGLE: Bounds = Bounds {
+const RIGHT_ANGLE: NumberRange = NumberRange {
     min: 0.0,
     max: std::f64::consts::FRAC_PI_2,
     above: false,
 };
-const FROM_ONE: Bounds = Bounds {
+const FROM_ONE: NumberRange = NumberRange {
     min: 1.0,
     max: f64::INFINITY,
     above: false,

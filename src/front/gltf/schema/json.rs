@@ -4,7 +4,7 @@
 
 use super::core::ROOT;
 use super::extension::all;
-use super::{Bounds, Key, Object, Value};
+use super::{Key, NumberRange, Object, Value};
 use serde_json::{Map, Value as Json, json};
 
 /// Lines of `object.property | default | unit | description`.
@@ -95,7 +95,7 @@ impl JsonWriter {
     }
 }
 
-fn number(bounds: &Bounds) -> Json {
+fn number(bounds: &NumberRange) -> Json {
     let mut schema = json!({ "type": "number" });
     let least = if bounds.above {
         "exclusiveMinimum"

@@ -65,9 +65,9 @@ enum Value {
     Integer(u64, u64),
     /// One of these numbers.
     Choice(&'static [u64]),
-    Number(Bounds),
+    Number(NumberRange),
     /// A list of as many numbers as one of these says; at least one if none does.
-    Numbers(&'static [usize], Bounds),
+    Numbers(&'static [usize], NumberRange),
     /// A list of numbers, as many and of the kind that other properties say.
     PerComponent,
     /// A list of different texts.
@@ -84,36 +84,36 @@ enum Value {
     Many(&'static Object),
 }
 
-/// Bounds of a number; infinite ones don't bind.
+/// The range of a number; an infinite bound does not limit it.
 #[derive(Clone, Copy, Debug)]
-struct Bounds {
+struct NumberRange {
     min: f64,
     max: f64,
     /// The minimum itself is out.
     above: bool,
 }
 
-const FREE: Bounds = Bounds {
+const FREE: NumberRange = NumberRange {
     min: f64::NEG_INFINITY,
     max: f64::INFINITY,
     above: false,
 };
-const UNIT: Bounds = Bounds {
+const UNIT: NumberRange = NumberRange {
     min: 0.0,
     max: 1.0,
     above: false,
 };
-const SIGNED: Bounds = Bounds {
+const SIGNED: NumberRange = NumberRange {
     min: -1.0,
     max: 1.0,
     above: false,
 };
-const FACTOR: Bounds = Bounds {
+const FACTOR: NumberRange = NumberRange {
     min: 0.0,
     max: f64::INFINITY,
     above: false,
 };
-const POSITIVE: Bounds = Bounds {
+const POSITIVE: NumberRange = NumberRange {
     min: 0.0,
     max: f64::INFINITY,
     above: true,

@@ -58,7 +58,7 @@ fn value_of(schema: &Json) -> super::Value {
     {
         Some("boolean") => Boolean,
         Some("integer") => Integer(schema["minimum"].as_u64().unwrap_or(0), MAX_INTEGER),
-        Some("number") => Number(super::Bounds {
+        Some("number") => Number(super::NumberRange {
             min: bound("minimum", f64::NEG_INFINITY),
             max: bound("maximum", f64::INFINITY),
             above: false,

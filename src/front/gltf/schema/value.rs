@@ -1,7 +1,7 @@
 //! The check of one property value against its table.
 
 use super::traverse::Walk;
-use super::{Bounds, IndexTarget, Value};
+use super::{IndexTarget, NumberRange, Value};
 use rtc_diag::codes;
 use rtc_source::tree::{NodeId, NodeKind};
 use std::collections::BTreeSet;
@@ -206,14 +206,14 @@ impl Walk<'_, '_, '_> {
         number
     }
 
-    fn number(&mut self, node: NodeId, bounds: Bounds, name: &str) {
+    fn number(&mut self, node: NodeId, bounds: NumberRange, name: &str) {
         if self.expect(node, NodeKind::Number, name) {
             self.bounded(node, bounds, name);
         }
     }
 
-    fn bounded(&mut self, node: NodeId, bounds: Bounds, name: &str) {
-        let Bounds { min, max, above } = bounds;
+    fn bounded(&mut self, node: NodeId, bounds: NumberRange, name: &str) {
+        let NumberRange { min, max, above } = bounds;
         let Some(number) = self.report.json.number(node) else {
             return;
         };
@@ -235,7 +235,7 @@ impl Walk<'_, '_, '_> {
         }
     }
 
-    fn numbers(&mut self, node: NodeId, lengths: &[usize], bounds: Bounds, name: &str) {
+    fn numbers(&mut self, node: NodeId, lengths: &[usize], bounds: NumberRange, name: &str) {
         if !self.expect(node, NodeKind::List, name) {
             return;
         }

@@ -1,11 +1,11 @@
-//! Builds the mesh of an OBJ, after its contents are checked and charged.
+//! Builds the mesh of an OBJ, after its contents are checked and counted against the budget.
 
 use super::corner::{Corner, CornerCounts, indices};
 use super::smooth::Smoothing;
 use super::{Check, Vertices, is_face, part_of};
 use crate::mesh::polygon::EarClipper;
 use crate::mesh::stroke::{Segments, StrokeMesher, join};
-use crate::mesh::{Named, ParseFault};
+use crate::mesh::{ParseFault, SpannedName};
 use crate::words::Lines;
 use rtc_ir::Mesh;
 use rtc_math::{Column, to_u32};
@@ -16,7 +16,7 @@ impl Check {
     pub(super) fn mesh(&mut self, bytes: &[u8], budget: &Budget) -> Result<Mesh, ParseFault> {
         let smoothing = self.smoothing(bytes, budget)?;
         let is_plain = self.used == [false; 2];
-        // A corner, and its number, while equal ones are looked for.
+        // The temporary memory of the map that merges equal corners.
         let passing = if is_plain {
             4 * self.vertices.positions.len()
         } else {
@@ -70,7 +70,7 @@ impl Check {
 
     /// The strokes of lines and points, each with its material; all vertices as points if there is
     /// nothing else.
-    fn drawn_meshes(&mut self, budget: &Budget) -> Result<Vec<(Named, Mesh)>, Exceeded> {
+    fn drawn_meshes(&mut self, budget: &Budget) -> Result<Vec<(SpannedName, Mesh)>, Exceeded> {
         let has_nothing = self.triangles == 0 && self.not_drawn.is_none();
         if self.strokes.is_empty() && !has_nothing {
             return Ok(Vec::new());

@@ -1,6 +1,6 @@
 //! The head of a PLY: its form, and the elements with their properties, in the order of the body.
 
-use super::super::material_use::{Named, name};
+use super::super::material_use::{SpannedName, name};
 use crate::words::{Lines, Word, WordFault};
 
 /// The encoding of the numbers in the body.
@@ -115,7 +115,7 @@ pub(super) struct PlyHead<'a> {
     /// The offset of the body.
     pub(super) start: usize,
     /// The pictures that comments name: the first, and how many.
-    pub(super) textures: Option<(Named, usize)>,
+    pub(super) textures: Option<(SpannedName, usize)>,
 }
 
 impl PlyHead<'_> {

@@ -5,7 +5,7 @@ use super::super::{AssetTarget, PendingAsset};
 use super::bake::TextureBake;
 use super::{LoadedLibrary, phong, standard};
 use crate::mesh::mtl::{MtlMap, MtlMaterial, MtlValue};
-use crate::mesh::{Named, WordSpan};
+use crate::mesh::{SpannedName, WordSpan};
 use rtc_diag::{Diagnostic, Severity, Sink, codes};
 use rtc_ir::{
     Bump, EntityKind, Field, Image, ImageId, Lowered, Map, Material, MaterialId, Mode, Phong,
@@ -122,7 +122,7 @@ impl MtlCache {
     pub(super) fn add_textured(
         &mut self,
         mesh: &MeshFile,
-        texture: &Named,
+        texture: &SpannedName,
         lowered: &mut Lowered,
     ) -> MaterialId {
         let loaded = LoadedLibrary {
