@@ -39,10 +39,13 @@ rtc render -q -o "$folder/Screenshots/" -- "$texts"
 } >"$folder/ReadMe.md"
 
 cd "$folder"
+# The archive of before stays until the new one is whole.
 mkdir -p "$(dirname "$archive")"
-rm -f "$archive"
+part=$(mktemp -d "$archive.XXXXXX")
+trap 'rm -rf "$folder" "$part"' EXIT
 case $archive in
-*.zip) zip -qrX "$archive" Code Screenshots ReadMe.md ;;
-*) tar --sort=name --owner=0 --group=0 --numeric-owner --mtime=@0 -cf - Code Screenshots ReadMe.md | gzip -n >"$archive" ;;
+*.zip) zip -qrX "$part/made.zip" Code Screenshots ReadMe.md ;;
+*) tar --sort=name --owner=0 --group=0 --numeric-owner --mtime=@0 -cf - Code Screenshots ReadMe.md | gzip -n >"$part/made.tar.gz" ;;
 esac
+mv -f "$part"/made.* "$archive"
 echo "$archive: $(find Screenshots -type f | wc -l) pictures, $(find Code -type f | wc -l) files of code"

@@ -54,8 +54,10 @@ const TABLES: &[&str] = &["src/diag/codes/"];
 
 fn rust_files(folder: &str) -> Vec<(String, String)> {
     let paths = files(&root(folder), &["rs"]).into_iter();
+    // What a build of an example made is no source.
+    let sources = paths.filter(|path| !relative(path).contains("/target/"));
     let read = |path: PathBuf| (relative(&path), fs::read_to_string(&path).unwrap());
-    paths.map(read).collect()
+    sources.map(read).collect()
 }
 
 fn relative(path: &Path) -> String {

@@ -67,10 +67,7 @@ fn carry_out(args: &args::Cost, input: &mut Input, reporter: &mut Reporter) -> R
     let about = about(input.name(), &validated.lowered.scene);
     let journal = journal(args, &about, input)?;
     let scene = &validated.lowered.scene;
-    let progress = RenderProgress::start(0, reporter.is_quiet());
-    let study = measure(args, (about, journal), scene, (&interrupt, &progress));
-    progress.finish();
-    let study = study?;
+    let study = measure(args, (about, journal), scene, (&interrupt, reporter))?;
     let report = match args.format {
         StudyFormat::Table => study::table(&study),
         StudyFormat::Csv => study::csv(&study),
@@ -120,18 +117,12 @@ fn measure(
     args: &args::Cost,
     (about, journal): (StudyProvenance, Option<Journal>),
     scene: &Scene,
-    (interrupt, progress): (&Interrupt, &RenderProgress),
+    progress: (&Interrupt, &Reporter),
 ) -> Result<Study, Failure> {
     let file = args.checkpoint.clone().unwrap_or_default();
     let is_saved = AtomicBool::new(false);
     let save = |journal: &Journal| is_saved.store(try_save(&file, &journal.save()), Relaxed);
-    let on_pixel = |step| {
-        progress.step_rays(step);
-        !interrupt.is_raised()
-    };
-    let on_budget = |rays| progress.set_rays(rays);
-    let study = with_runtime(threads(args), &on_pixel, |runtime| {
-        let runtime = runtime.with_budget_report(&on_budget);
+    let study = with_progress(threads(args), progress, |runtime| {
         let runtime = match journal {
             Some(journal) => runtime.with_journal(journal, args.every, &save),
             None => runtime,
@@ -146,6 +137,25 @@ fn measure(
         }
         Failure::Interrupted
     })
+}
+
+/// Runs a study as [`with_runtime`], and shows its progress.
+pub(super) fn with_progress<T>(
+    threads: usize,
+    (interrupt, reporter): (&Interrupt, &Reporter),
+    work: impl FnOnce(StudyRuntime<'_>) -> T,
+) -> Result<T, Failure> {
+    let progress = RenderProgress::start(0, reporter.is_quiet());
+    let on_pixel = |step| {
+        progress.step_rays(step);
+        !interrupt.is_raised()
+    };
+    let on_budget = |rays| progress.set_rays(rays);
+    let made = with_runtime(threads, &on_pixel, |runtime| {
+        work(runtime.with_budget_report(&on_budget))
+    });
+    progress.finish();
+    made
 }
 
 /// Runs the study in a runtime with the requested threads and the clock of the machine.

@@ -89,8 +89,8 @@ fn named(paths: &[PathBuf], is_meant: NameTest, skip_others: bool) -> Result<Sce
         };
         // Keep the scenes among the files that were not found before.
         let new = found.into_iter().filter(|path| known.insert(path.clone()));
-        let (scene_limits, others): (Vec<_>, Vec<_>) = new.partition(|path| looks_like_scene(path));
-        if scene_limits.is_empty() && !others.is_empty() {
+        let (found_scenes, others): (Vec<_>, Vec<_>) = new.partition(|path| looks_like_scene(path));
+        if found_scenes.is_empty() && !others.is_empty() {
             let count = others.len();
             return Err(Failure::Failed(format!(
                 "`{}`: there are no scenes among its {count} YAML, JSON and XML files",
@@ -98,7 +98,7 @@ fn named(paths: &[PathBuf], is_meant: NameTest, skip_others: bool) -> Result<Sce
             )));
         }
         skipped += others.len();
-        scenes.extend(scene_limits);
+        scenes.extend(found_scenes);
     }
     Ok(SceneFiles {
         paths: scenes,

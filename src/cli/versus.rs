@@ -2,12 +2,11 @@
 
 use super::Failure;
 use super::args::{self, StudyFormat};
-use super::cost::{about, threads, with_runtime};
+use super::cost::{about, threads, with_progress};
 use super::gate::{self, GateResult};
 use super::input;
 use super::interrupt::Interrupt;
 use super::output::Output;
-use super::progress::RenderProgress;
 use super::reporter::Reporter;
 use rtc_ir::Scene;
 use rtc_pipeline::Input;
@@ -74,18 +73,9 @@ fn carry_out(args: &args::Cost, files: [&Path; 2], reporter: &mut Reporter) -> R
     }
     // Measure the scenes.
     let (scenes, abouts) = ([&first.1, &second.1], [first.0.clone(), second.0.clone()]);
-    let progress = RenderProgress::start(0, reporter.is_quiet());
-    let on_pixel = |step| {
-        progress.step_rays(step);
-        !interrupt.is_raised()
-    };
-    let on_budget = |rays| progress.set_rays(rays);
-    let found = with_runtime(threads(args), &on_pixel, |runtime| {
-        let runtime = runtime.with_budget_report(&on_budget);
+    let found = with_progress(threads(args), (&interrupt, reporter), |runtime| {
         versus(scenes, abouts, args.effort.into(), args.seed, &runtime)
-    });
-    progress.finish();
-    let found = found?;
+    })?;
     let found = found.map_err(|Stopped| Failure::Interrupted)?;
     // Compare with the limits and write the report.
     let gates = args.gate.as_ref();

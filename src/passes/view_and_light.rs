@@ -171,18 +171,13 @@ impl ViewAndLight {
         if !matches!(scene.settings.mode, Mode::Path(_)) {
             replace_physical_lights(scene);
         }
-        let (lacks_light, fill) = self.apply_studio(scene, kind);
-        let (in_studio, set) = match self.studio {
-            StudioChoice::On(set) => (true, set),
-            StudioChoice::Auto | StudioChoice::Off | StudioChoice::Fill => {
-                (lacks_light, StudioSet::default())
-            }
-        };
-        let gets_ground = in_studio && is_bare && !scene.is_unlit();
+        let (lacks_light, set, fill) = self.apply_studio(scene, kind);
+        let gets_ground = set.is_some() && is_bare && !scene.is_unlit();
         if self.ground.unwrap_or(gets_ground)
             && let Some(bounds) = framing::standing_bounds(scene)
         {
-            let ground = ground::add_ground(scene, bounds, set.ground_reflectance());
+            let ground =
+                ground::add_ground(scene, bounds, set.unwrap_or_default().ground_reflectance());
             if let Some(framing) = &mut framing {
                 framing.ground = ground;
             }
@@ -194,17 +189,24 @@ impl ViewAndLight {
         })
     }
 
-    /// Places a path-traced scene in the studio, if requested; returns whether it had no light, and
-    /// whether the studio is still to be added as a fill light.
-    fn apply_studio(&self, scene: &mut Scene, kind: SceneKind) -> (bool, FillLight) {
+    /// Places a path-traced scene in the studio, if requested; returns whether it had no light, the
+    /// set that it is in, and whether the studio is still to be added as a fill light.
+    fn apply_studio(
+        &self,
+        scene: &mut Scene,
+        kind: SceneKind,
+    ) -> (bool, Option<StudioSet>, FillLight) {
         if !matches!(scene.settings.mode, Mode::Path(_)) {
-            return (false, FillLight::Never);
+            return (false, None, FillLight::Never);
         }
         let lacks_light = self.studio == StudioChoice::Auto && !emission::has_light(scene, kind);
-        match self.studio {
-            StudioChoice::On(set) => studio::install(scene, set, 1.0),
-            _ if lacks_light => studio::install(scene, StudioSet::default(), 1.0),
-            StudioChoice::Auto | StudioChoice::Off | StudioChoice::Fill => {}
+        let set = match self.studio {
+            StudioChoice::On(set) => Some(set),
+            StudioChoice::Auto if lacks_light => Some(StudioSet::default()),
+            StudioChoice::Auto | StudioChoice::Off | StudioChoice::Fill => None,
+        };
+        if let Some(set) = set {
+            studio::install(scene, set, 1.0);
         }
         let fill = match self.studio {
             _ if scene.environment.is_some() => FillLight::Never,
@@ -212,7 +214,7 @@ impl ViewAndLight {
             StudioChoice::Fill => FillLight::Always,
             StudioChoice::On(_) | StudioChoice::Off => FillLight::Never,
         };
-        (lacks_light, fill)
+        (lacks_light, set, fill)
     }
 }
 

@@ -172,19 +172,16 @@ fn report_unused_choices(options: &front::FrontOptions, has_assets: bool, sink: 
         let remark = Diagnostic::new(&codes::GLTF_STILL, "the scene is the same at all times");
         sink.push(remark.hint("only a glTF asset or a USD stage has animations"));
     }
-    let parts = [("animation", animation), ("variant", variant)]
+    let (gltf, any) = ("a glTF asset", "a glTF asset or a USD stage");
+    let parts = [("animation", animation, gltf), ("variant", variant, any)]
         .into_iter()
         .filter(|_| !has_assets);
-    for (entity, name) in parts.chain([("camera", camera)]) {
+    for (entity, name, owner) in parts.chain([("camera", camera, any)]) {
         let Some(name) = name else { continue };
         let mismatch = Diagnostic::new(
             &codes::GLTF_CHOSEN,
             format!("the scene has no {entity} called `{}`", clip(name)),
         );
-        let owner = match entity {
-            "animation" => "a glTF asset",
-            _ => "a glTF asset or a USD stage",
-        };
         sink.push(mismatch.hint(format!("only {owner} has {entity}s to choose from")));
     }
 }

@@ -56,7 +56,8 @@ pub(super) fn filled(seen: f64) -> Diagnostic {
         100.0 * seen
     );
     Diagnostic::new(&codes::FILLED, message).hint(
-        "`--studio off` shows its own light alone, `--studio dark` puts it into the studio undimmed",
+        "`--studio off` shows its own light alone, `--studio dark` puts it into the studio \
+        undimmed",
     )
 }
 

@@ -284,7 +284,7 @@ impl Scope {
         /// be afforded for them, even if the reference becomes worse.
         const MIN_REPRESENTATIVE: usize = 32;
         const MIN_TILES: usize = 4;
-        subject.expect(self.rays);
+        subject.report_budget(self.rays);
         if self.sampling.is_empty() {
             return Ok(subject.clone());
         }

@@ -73,7 +73,7 @@ pub struct StudyRuntime<'a> {
     journal_state: Option<Mutex<JournalState>>,
     /// Saves the journal.
     save: &'a (dyn Fn(&Journal) + Sync),
-    /// Is told the approximate number of rays of the whole study, once it is known.
+    /// Receives the approximate number of rays of the whole study, once it is known.
     on_budget: &'a (dyn Fn(u64) + Sync),
 }
 
@@ -133,14 +133,14 @@ impl<'a> StudyRuntime<'a> {
         self
     }
 
-    /// Sets what is told the approximate number of rays of the whole study, once it is known.
+    /// Sets what receives the approximate number of rays of the whole study, once it is known.
     #[must_use]
     pub fn with_budget_report(self, on_budget: &'a (dyn Fn(u64) + Sync)) -> Self {
         Self { on_budget, ..self }
     }
 
-    /// Tells the approximate number of rays of the whole study.
-    pub(super) fn expect(&self, rays: u64) {
+    /// Reports the approximate number of rays of the whole study.
+    pub(super) fn report_budget(&self, rays: u64) {
         (self.on_budget)(rays);
     }
 

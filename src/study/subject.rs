@@ -75,9 +75,9 @@ impl<'runtime> Subject<'runtime> {
         }
     }
 
-    /// Tells the runtime the approximate number of rays of the whole study.
-    pub(super) fn expect(&self, rays: u64) {
-        self.runtime.expect(rays);
+    /// Reports the approximate number of rays of the whole study.
+    pub(super) fn report_budget(&self, rays: u64) {
+        self.runtime.report_budget(rays);
     }
 
     /// Whether the whole picture is rendered; then it is one tile.

@@ -121,7 +121,7 @@ pub fn versus(
         .map(|scene| effort.rays(scene))
         .into_iter()
         .fold(u64::MAX, u64::min);
-    runtime.expect(budget);
+    runtime.report_budget(budget);
     let budget = budget as f64;
     let [first, second] = scenes.map(|scene| Subject::new(scene, seed, runtime));
     let count = affordable([&first, &second], budget)?;

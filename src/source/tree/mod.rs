@@ -3,7 +3,8 @@
 //! # Overview
 //! - [`yaml::parse`] and [`json::parse`] make a [`SyntaxTree`]; [`yaml::layout`] formats YAML.
 //! - A [`NodeId`] is an index into the nodes. [`SyntaxTree::kind`] is the type of a node
-//!   ([`NodeKind`]), [`SyntaxTree::shape`] its type and text, [`SyntaxTree::span`] its position in the file.
+//!   ([`NodeKind`]), [`SyntaxTree::shape`] its type and text,
+//!   [`SyntaxTree::span`] its position in the file.
 //! - [`SyntaxTree::get`], [`SyntaxTree::pairs`] and [`SyntaxTree::items`] navigate maps and lists.
 //! - Of JSON, [`SyntaxTree::pointer`] is the JSON pointer of a node.
 //!

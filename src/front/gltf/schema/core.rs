@@ -8,7 +8,7 @@ use super::{FACTOR, FREE, IndexTarget, Key, Object, POSITIVE, SIGNED, UNIT, opti
 
 /// The greatest number a property takes that has no other bound: up to it floats hold every whole
 /// number.
-const MAX_INTEGER: u64 = (1 << 53) - 1;
+pub(super) const MAX_INTEGER: u64 = (1 << 53) - 1;
 const NAME: Key = optional("name", Text);
 
 pub(super) static ROOT: Object = Object {

@@ -5,7 +5,7 @@ use super::Value::{
     Attributes, Boolean, Index, Indices, Integer, Keyword, Many, Number, Numbers, One, Pointer,
     Text,
 };
-use super::core::{NORMAL_TEXTURE, TEXTURE_INFO};
+use super::core::{MAX_INTEGER, NORMAL_TEXTURE, TEXTURE_INFO};
 use super::{
     FACTOR, FREE, IndexTarget, Key, NumberRange, Object, POSITIVE, UNIT, optional, required,
 };
@@ -59,8 +59,6 @@ const FROM_ONE: NumberRange = NumberRange {
     max: f64::INFINITY,
     above: false,
 };
-/// The largest integer such that it and all smaller ones are exact in f64.
-const MAX_INTEGER: u64 = (1 << 53) - 1;
 
 /// An extension whose objects occur in one kind of object.
 const fn extension(

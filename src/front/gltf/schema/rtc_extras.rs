@@ -19,7 +19,7 @@ pub(super) fn find(owner: &str) -> Option<&'static Object> {
 }
 
 /// The greatest count.
-const MAX_INTEGER: u64 = u32::MAX as u64;
+const MAX_COUNT: u64 = u32::MAX as u64;
 
 /// An object of `extras.rtc`.
 const fn rtc_object(keys: &'static [Key]) -> Object {
@@ -57,7 +57,7 @@ fn value_of(schema: &Json) -> super::Value {
         .or_else(|| schema["type"][0].as_str())
     {
         Some("boolean") => Boolean,
-        Some("integer") => Integer(schema["minimum"].as_u64().unwrap_or(0), MAX_INTEGER),
+        Some("integer") => Integer(schema["minimum"].as_u64().unwrap_or(0), MAX_COUNT),
         Some("number") => Number(super::NumberRange {
             min: bound("minimum", f64::NEG_INFINITY),
             max: bound("maximum", f64::INFINITY),
@@ -86,7 +86,7 @@ static GOOCH: Object = rtc_object(&[
     required("beta", Number(FREE)),
 ]);
 static PATH: Object = rtc_object(&[
-    required("samples", Integer(1, MAX_INTEGER)),
+    required("samples", Integer(1, MAX_COUNT)),
     optional("multipleScattering", Boolean),
 ]);
 /// An exposure in stops, and a tone map or that of the mode.
@@ -103,18 +103,18 @@ static ENVIRONMENT: Object = rtc_object(&[
     required("radiance", Numbers(&[3], FACTOR)),
     optional("image", Index(IndexTarget::Images)),
     optional("pixels", Index(IndexTarget::Accessors)),
-    optional("width", Integer(1, MAX_INTEGER)),
+    optional("width", Integer(1, MAX_COUNT)),
     optional("rotation", Numbers(&[9], FREE)),
 ]);
 
 /// The size of the picture, the plane of focus, the middle in halves of the picture, the lens.
 static CAMERA: Object = rtc_object(&[
-    required("width", Integer(1, MAX_INTEGER)),
-    required("height", Integer(1, MAX_INTEGER)),
+    required("width", Integer(1, MAX_COUNT)),
+    required("height", Integer(1, MAX_COUNT)),
     required("focusDistance", Number(POSITIVE)),
     optional("shift", Numbers(&[2], FREE)),
     optional("lensRadius", Number(FACTOR)),
-    optional("lensSamples", Integer(1, MAX_INTEGER)),
+    optional("lensSamples", Integer(1, MAX_COUNT)),
 ]);
 
 /// A light without falloff, or a lamp as it was measured.
@@ -145,7 +145,7 @@ static PHONG: Object = rtc_object(&[
     optional("n", Number(FACTOR)),
     optional("kt", Number(FACTOR)),
     optional("eta", Number(POSITIVE)),
-    optional("glossySamples", Integer(1, MAX_INTEGER)),
+    optional("glossySamples", Integer(1, MAX_COUNT)),
     optional("colorMap", Index(IndexTarget::Textures)),
     optional("specularMap", Index(IndexTarget::Textures)),
     optional("normalMap", Index(IndexTarget::Textures)),
