@@ -4,7 +4,8 @@
 use crate::repo::root;
 use crate::small::{WHOLE, film};
 use rtc::internals::diag::Sink;
-use rtc::internals::ir::{Mode, Scene};
+use rtc::internals::ir::{Camera, Light, Mode, Scene, Shape};
+use rtc::internals::math::Vec3;
 use rtc::internals::pipeline::{Options, load};
 use rtc::internals::source::{Loader, SourceMap};
 use std::fs;
@@ -33,7 +34,8 @@ fn version_0_5_with_parameters_and_an_included_file_is_read() {
         panic!("{:?}", scene.settings.mode)
     };
     assert_eq!((path.samples, scene.settings.max_depth), (16, 3));
-    assert_eq!((scene.surfaces.len(), scene.materials.len()), (4, 4));
+    // The last surface is the back of the light.
+    assert_eq!((scene.surfaces.len(), scene.materials.len()), (5, 5));
     assert_eq!(scene.camera.size, [48, 32]);
     let yfov = scene.camera.yfov().unwrap().to_degrees();
     assert!((yfov - 40.0).abs() < 1e-9, "{yfov}");
@@ -193,4 +195,133 @@ fn what_is_written_for_mitsuba_is_read_back() {
         .sum();
     let mean = error / (3.0 * a.len() as f64);
     assert!(mean < 2e-3, "the pictures differ by {mean} in the mean");
+}
+
+#[test]
+fn a_flat_light_shines_on_the_side_of_its_normal() {
+    let light = |flips: bool, shape: &str| {
+        let body = format!(
+            r#"<shape type="{shape}">
+                <transform name="to_world"><scale value="5"/></transform>
+                <boolean name="flip_normals" value="{flips}"/>
+                <emitter type="area"><rgb name="radiance" value="3"/></emitter>
+            </shape>"#
+        );
+        picture(&body)
+    };
+    for shape in ["rectangle", "disk"] {
+        assert_all_near(&light(false, shape), [3.0; 3], 1e-9);
+        assert_all_near(&light(true, shape), [0.0; 3], 1e-9);
+    }
+    // The back of a light with a BSDF of two sides scatters light.
+    let body = r#"<emitter type="constant"/><shape type="rectangle">
+        <transform name="to_world"><scale value="5"/></transform>
+        <boolean name="flip_normals" value="true"/>
+        <bsdf type="twosided"><bsdf type="diffuse"/></bsdf>
+        <emitter type="area"><rgb name="radiance" value="3"/></emitter>
+    </shape>"#;
+    assert_all_near(&picture(body), [0.5; 3], 1e-9);
+}
+
+#[test]
+fn a_scaled_sphere_that_shines_stays_a_sphere_and_a_disc_that_is_textured_has_coordinates() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.xml");
+    let texture =
+        r#"<bsdf type="diffuse"><texture type="checkerboard" name="reflectance"/></bsdf>"#;
+    let text = format!(
+        r#"<scene version="3.0.0"><sensor type="perspective"/>
+            <shape type="sphere">
+                <transform name="to_world"><scale value="2"/></transform>
+                <emitter type="area"/>
+            </shape>
+            <shape type="disk"><emitter type="area"/></shape>
+            <shape type="disk">{texture}</shape>
+        </scene>"#
+    );
+    fs::write(&path, text).unwrap();
+    let (scene, _) = read(&path);
+    let [sphere, disc, mesh, cover] = &scene.surfaces[..] else {
+        panic!("{:?}", scene.surfaces)
+    };
+    assert!(matches!(&sphere.shape, Shape::Sphere(sphere) if sphere.radius == 2.0));
+    assert!(matches!(&disc.shape, Shape::Disc(_)));
+    assert!(matches!(&cover.shape, Shape::Disc(_)) && cover.material != disc.material);
+    let Shape::Instance(instance) = &mesh.shape else {
+        panic!("{:?}", mesh.shape)
+    };
+    assert!(!scene.meshes[instance.mesh.0 as usize].uvs.is_empty());
+}
+
+#[test]
+fn a_spot_falls_off_linearly_in_the_angle_and_is_written_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.xml");
+    let text = r#"<scene version="3.0.0"><sensor type="perspective"/>
+        <emitter type="spot">
+            <transform name="to_world">
+                <lookat origin="0, 0, 5" target="0, 0, 0" up="0, 1, 0"/>
+            </transform>
+            <float name="cutoff_angle" value="40"/><float name="beam_width" value="10"/>
+        </emitter>
+        <shape type="sphere"/>
+    </scene>"#;
+    fs::write(&path, text).unwrap();
+    let again = folder.path().join("again.xml");
+    let output = Command::new(env!("CARGO_BIN_EXE_rtc"))
+        .args(["compile", "scene.xml", "-o", "again.xml"])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{output:?}");
+    for path in [path, again] {
+        let (scene, _) = read(&path);
+        let [Light::Punctual(light)] = &scene.lights[..] else {
+            panic!("{:?}", scene.lights)
+        };
+        let profile = light.emitter.profile().unwrap();
+        for (degrees, known) in [
+            (0.0, 1.0),
+            (10.0, 1.0),
+            (25.0, 0.5),
+            (34.0, 0.2),
+            (41.0, 0.0),
+        ] {
+            let angle = f64::to_radians(degrees);
+            let factor = profile.factor(Vec3::new(angle.sin(), 0.0, -angle.cos()));
+            assert!((factor - known).abs() < 1e-9, "{degrees}: {factor}");
+        }
+    }
+}
+
+#[test]
+fn the_crop_of_a_film_is_that_part_of_the_picture() {
+    let scene = |crop: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("scene.xml");
+        let text = format!(
+            r#"<scene version="3.0.0">
+                <sensor type="perspective"><film type="hdrfilm">
+                    <integer name="width" value="32"/><integer name="height" value="20"/>{crop}
+                </film></sensor>
+                <emitter type="constant"/>
+            </scene>"#
+        );
+        fs::write(&path, text).unwrap();
+        read(&path).0.camera
+    };
+    let whole = scene("");
+    let part = scene(
+        r#"<integer name="crop_offset_x" value="5"/><integer name="crop_offset_y" value="3"/>
+        <integer name="crop_width" value="8"/><integer name="crop_height" value="6"/>"#,
+    );
+    assert_eq!(part.size, [8, 6]);
+    // Pixel (5, 3) of the whole is pixel (0, 0) of the part.
+    let corner = |camera: &Camera, x: f64, y: f64| {
+        let [w, h] = camera.size.map(f64::from);
+        let [right, up] = [camera.right, camera.up].map(Vec3::from_array);
+        Vec3::from_array(camera.center) + right * (x - w / 2.0) + up * (h / 2.0 - y)
+    };
+    let [a, b] = [corner(&whole, 5.0, 3.0), corner(&part, 0.0, 0.0)];
+    assert!((a - b).length() < 1e-12, "{a:?} {b:?}");
 }

@@ -127,6 +127,18 @@ impl Photometry {
             candela: vec![0.0; 2],
         }
     }
+
+    /// Two angles in degrees, if the intensity is 1 up to the first one, falls linearly in the
+    /// angle, and is 0 from the second one on.
+    #[must_use]
+    pub fn linear_falloff(&self) -> Option<[f64; 2]> {
+        match (&self.vertical[..], &self.candela[..]) {
+            ([0.0, inner, outer], [1.0, 1.0, 0.0]) if self.horizontal == [0.0] => {
+                Some([*inner, *outer])
+            }
+            _ => None,
+        }
+    }
 }
 
 /// The spelling of an emitter in the scene format.

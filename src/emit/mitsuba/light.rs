@@ -49,6 +49,17 @@ impl MitsubaWriter<'_> {
 
     fn punctual(&mut self, light: &Punctual, path: ValuePath) -> Option<()> {
         let Punctual { emitter, intensity } = light;
+        if let Emitter::Photometric {
+            position,
+            direction,
+            photometry,
+            ..
+        } = emitter
+            && let Some(angles) = photometry.linear_falloff()
+        {
+            self.linear_spot(*position, *direction, angles, *intensity);
+            return Some(());
+        }
         self.reporter.simplified_light(emitter, "Mitsuba", path);
         match emitter {
             Emitter::Sun { direction } => {
@@ -76,6 +87,25 @@ impl MitsubaWriter<'_> {
             }
         }
         Some(())
+    }
+
+    /// A spot whose edge fades as that of Mitsuba: the angles are in degrees.
+    fn linear_spot(
+        &mut self,
+        position: [f64; 3],
+        direction: [f64; 3],
+        [beam, cutoff]: [f64; 2],
+        intensity: [f64; 3],
+    ) {
+        let basis = Basis::around(unit(Vec3::from_array(direction)).unwrap_or(Vec3::Z));
+        let position = Vec3::from_array(position);
+        self.shines = true;
+        self.line(1, r#"<emitter type="spot">"#);
+        self.placed([basis.tangent, basis.bitangent, basis.normal, position]);
+        self.rgb(2, "intensity", intensity);
+        self.value(2, "float", "cutoff_angle", &shortest(cutoff));
+        self.value(2, "float", "beam_width", &shortest(beam));
+        self.line(1, "</emitter>");
     }
 
     /// A spot that is full up to its rim, under a picture of its profile. Mitsuba's own fades

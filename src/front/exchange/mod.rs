@@ -1,9 +1,13 @@
 //! Modules shared by the readers of other renderers' scenes: affine maps, colours and spectra,
-//! checkerboards, materials, textures of images, and tessellations of shapes that the IR lacks.
+//! checkerboards, materials, textures of images, round shapes, covers of shapes with one side,
+//! spots, and tessellations of shapes that the IR lacks.
 
 pub(crate) mod checkerboard;
 pub(crate) mod color;
 pub(crate) mod material;
+pub(crate) mod one_sided;
+pub(crate) mod round;
+pub(crate) mod spot;
 pub(crate) mod tessellate;
 pub(crate) mod texture;
 pub(crate) mod transform;

@@ -87,21 +87,25 @@ pub(crate) fn cube() -> Mesh {
     builder.mesh()
 }
 
-/// The unit disk about +z, of the area of the circle.
+/// The unit disk about +z, of the area of the circle: u from the centre to the edge, v along the
+/// turn.
 pub(crate) fn disk() -> Mesh {
     let mut builder = TriangleBuilder::default();
     let sides = f64::from(SIDES);
     // The area of a regular polygon is (n/2)·r²·sin(2π/n).
     let radius = (PI / (sides / 2.0 * sin(TAU / sides))).sqrt();
-    builder.vertex(Vec3::ZERO, Vec3::Z, [0.0, 0.0]);
     for side in 0..=SIDES {
         let share = f64::from(side) / sides;
         let (s, c) = (sin(TAU * share), cos(TAU * share));
         builder.vertex(Vec3::new(c, s, 0.0) * radius, Vec3::Z, [1.0, share]);
     }
-    builder
-        .triangles
-        .extend((1..=SIDES).map(|side| [0, side, side + 1]));
+    // Each triangle has a vertex of its own at the centre, with the v of its middle.
+    for side in 0..SIDES {
+        let share = (f64::from(side) + 0.5) / sides;
+        builder.vertex(Vec3::ZERO, Vec3::Z, [0.0, share]);
+    }
+    let triangle = |side: u32| [SIDES + 1 + side, side, side + 1];
+    builder.triangles.extend((0..SIDES).map(triangle));
     builder.mesh()
 }
 

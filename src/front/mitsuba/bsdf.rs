@@ -53,6 +53,8 @@ impl<'run> Lowering<'run> {
         // Lower it, and add the emission.
         let standard = match node {
             Some(node) => self.standard(node, flip, 0),
+            // A light without a BSDF reflects nothing.
+            None if radiance != [0.0; 3] => Some(matte([0.0; 3])),
             None => Some(matte([0.5; 3])),
         };
         let id = standard.map(|standard| {

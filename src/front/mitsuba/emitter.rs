@@ -2,6 +2,7 @@
 
 use super::xml::Node;
 use super::{AssetTarget, Lowering};
+use crate::exchange::spot::falling;
 use crate::exchange::transform::Transform;
 use rtc_ir::{Emitter, EntityKind, Environment, Light, Punctual};
 use rtc_math::{Vec3, unit};
@@ -43,25 +44,22 @@ impl<'run> Lowering<'run> {
         }
     }
 
-    /// Mitsuba's spot falls off linearly in the angle, that of the IR smoothly in its cosine.
+    /// A spot. Its intensity falls linearly in the angle, from 1 at the width of the beam to 0 at
+    /// the cutoff.
     fn spot(&mut self, node: &Node, to_world: &Transform) {
-        self.approximate(
-            node.plugin.span,
-            "the edge of a spot falls off by the formula of glTF",
-        );
         if node.child("texture").is_some() {
             self.approximate(node.span, "the texture of a spot is left out");
         }
+        // A beam without an edge, or wider than its cutoff, ends at the cutoff.
+        const LEAST_EDGE: f64 = 1e-6;
         let cutoff = node.number("cutoff_angle").unwrap_or(20.0);
-        let inner = node.number("beam_width").unwrap_or(cutoff * 3.0 / 4.0);
+        let cutoff = cutoff.clamp(2.0 * LEAST_EDGE, 180.0);
+        let beam = node.number("beam_width").unwrap_or(cutoff * 3.0 / 4.0);
+        let beam = beam.clamp(LEAST_EDGE, cutoff - LEAST_EDGE);
         let axis = unit(to_world.vector(Vec3::Z)).unwrap_or(Vec3::Z);
-        let emitter = Emitter::Spot {
-            position: to_world.point(Vec3::ZERO).to_array(),
-            direction: axis.to_array(),
-            inner_angle: inner.min(cutoff * 0.999).to_radians(),
-            outer_angle: cutoff.to_radians(),
-            range: None,
-        };
+        let falloff = [(0.0, 1.0), (beam, 1.0), (cutoff, 0.0)];
+        let position = to_world.point(Vec3::ZERO);
+        let emitter = falling(position, axis, &falloff);
         self.light(node, emitter, node.color("intensity").unwrap_or([1.0; 3]));
         self.ignored(
             node,

@@ -8,7 +8,8 @@
 //!   of older versions (`toWorld`) to those of version 3 (`to_world`), and collects all mistakes.
 //!   Each [`Node`] keeps the spans of its element and of its properties.
 //! - [`value`] parses numbers, vectors, matrices, colours and spectra.
-//! - [`sensor`], [`bsdf`], [`emitter`] and [`shape`] lower one kind of plugin each. A plugin that
+//! - [`sensor`], [`bsdf`], [`emitter`] and [`shape`] lower one kind of plugin each; [`one_sided`]
+//!   covers the backs of lights. A plugin that
 //!   is not supported is replaced by the closest one, and a property without effect is ignored,
 //!   both with a warning: the picture is made all the same.
 //! - Meshes, textures and environment maps become pending assets, which `course::assets` loads
@@ -25,6 +26,7 @@
 
 mod bsdf;
 mod emitter;
+mod one_sided;
 mod sensor;
 mod serialized;
 mod shape;
@@ -71,6 +73,7 @@ pub fn lower(
     let mut lowering = Lowering::new(&root, search, map, sink);
     lowering.scene(&root);
     let flat = std::mem::take(&mut lowering.flat);
+    let one_sided = std::mem::take(&mut lowering.one_sided);
     let draft = UnfinishedScene::new(
         Lowered {
             scene: lowering.scene,
@@ -79,6 +82,7 @@ pub fn lower(
         lowering.pending,
     );
     let mut lowered = assets::load(draft, file, options, map, sink);
+    one_sided::cover_backs(&mut lowered, &one_sided, sink);
     shape::flatten(&mut lowered.scene, &flat);
     lowered.source_spans.finish();
     Some(lowered)
@@ -105,6 +109,10 @@ struct Lowering<'run> {
     built: BTreeMap<&'static str, MeshId>,
     /// The surfaces without vertex normals, by index.
     flat: BTreeSet<usize>,
+    /// The lights that emit on one side.
+    one_sided: Vec<one_sided::OneSided>,
+    /// The material of backs that scatter no light.
+    black: Option<MaterialId>,
     has_sensor: bool,
 }
 
@@ -135,6 +143,8 @@ impl<'run> Lowering<'run> {
             serialized: BTreeMap::new(),
             built: BTreeMap::new(),
             flat: BTreeSet::new(),
+            one_sided: Vec::new(),
+            black: None,
             has_sensor: false,
         }
     }

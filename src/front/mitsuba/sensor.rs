@@ -6,7 +6,7 @@ use crate::exchange::traced;
 use crate::exchange::transform::Transform;
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{Camera, EntityKind, Lens, Mode, Projection, Settings};
-use rtc_math::{cos, sin};
+use rtc_math::{Vec3, cos, sin};
 
 /// The bounces of paths without a limit: Russian roulette ends almost all of them long before.
 const UNLIMITED: u32 = 100;
@@ -122,13 +122,42 @@ impl<'run> Lowering<'run> {
         self.ignored(node, &used);
         // A degenerate transform has no view.
         match camera {
-            Some(camera) => self.scene.camera = camera,
+            Some(camera) => {
+                let crop = film.and_then(|film| self.crop(film, size));
+                self.scene.camera = match crop {
+                    Some(crop) => cropped(camera, crop),
+                    None => camera,
+                };
+            }
             None => {
                 let message = "the transform of the sensor has no direction";
                 let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
                 self.sink.push(diagnostic.at(node.span, ""));
             }
         }
+    }
+
+    /// The first pixel and the size of the part of a film that is kept; `None` for all of it.
+    fn crop(&mut self, film: &Node, [width, height]: [u32; 2]) -> Option<[[u32; 2]; 2]> {
+        const NAMES: [&str; 4] = [
+            "crop_offset_x",
+            "crop_offset_y",
+            "crop_width",
+            "crop_height",
+        ];
+        NAMES.iter().find(|name| film.get(name).is_some())?;
+        let [x, y, w, h] = NAMES.map(|name| film.count(name));
+        let offset = [x.unwrap_or(0), y.unwrap_or(0)];
+        let size = [w.unwrap_or(width), h.unwrap_or(height)];
+        let is_within = |axis: usize, all: u32| {
+            size[axis] > 0 && u64::from(offset[axis]) + u64::from(size[axis]) <= u64::from(all)
+        };
+        if !is_within(0, width) || !is_within(1, height) {
+            let message = "the crop of the film is not within it: the whole film is shown";
+            self.approximate(film.span, message);
+            return None;
+        }
+        Some([offset, size])
     }
 
     fn film(&mut self, film: &Node) -> [u32; 2] {
@@ -138,12 +167,6 @@ impl<'run> Lowering<'run> {
         if filter_name != "box" {
             let message = format!("the filter `{filter_name}` of the film is shown as `box`");
             self.approximate(filter.map_or(film.span, |filter| filter.span), message);
-        }
-        if film.get("crop_width").is_some() {
-            self.approximate(
-                film.span,
-                "the crop of the film is left out: `--region` crops",
-            );
         }
         [side("width", SIZE[0]), side("height", SIZE[1])]
     }
@@ -201,6 +224,27 @@ impl<'run> Lowering<'run> {
             },
             projection: Projection::Perspective,
         })
+    }
+}
+
+/// The part of a picture whose first pixel and size are given, as a camera.
+fn cropped(camera: Camera, [offset, size]: [[u32; 2]; 2]) -> Camera {
+    let by = |axis: usize| {
+        let middle = f64::from(offset[axis]) + f64::from(size[axis]) / 2.0;
+        middle - f64::from(camera.size[axis]) / 2.0
+    };
+    let [right, up] = [camera.right, camera.up].map(Vec3::from_array);
+    let moved = right * by(0) - up * by(1);
+    let from = |point: [f64; 3]| (Vec3::from_array(point) + moved).to_array();
+    Camera {
+        // The rays of an orthographic camera stay parallel.
+        eye: match camera.projection {
+            Projection::Orthographic => from(camera.eye),
+            Projection::Perspective => camera.eye,
+        },
+        center: from(camera.center),
+        size,
+        ..camera
     }
 }
 

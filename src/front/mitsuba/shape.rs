@@ -1,12 +1,11 @@
 //! Shapes: spheres and discs as they are, others as meshes.
 
 use super::Lowering;
+use super::one_sided::OneSided;
 use super::xml::Node;
-use crate::exchange::tessellate;
 use crate::exchange::transform::Transform;
-use rtc_ir::{
-    Column, Disc, EntityKind, Material, MaterialId, Mesh, MeshId, Scene, Shape, Sphere, Surface,
-};
+use crate::exchange::{round, tessellate};
+use rtc_ir::{Column, EntityKind, Material, MaterialId, Mesh, MeshId, Scene, Shape, Surface};
 use rtc_math::Vec3;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -50,22 +49,25 @@ impl<'run> Lowering<'run> {
     fn surface(&mut self, node: &'run Node, to_world: Transform) {
         let radiance = self.radiance(node);
         let plugin = node.plugin.text.as_str();
-        let is_emissive = radiance != [0.0; 3];
-        // Mitsuba flips the v of OBJ files, so that v points down as in its pictures.
+        let is_similar = to_world.similarity().is_some();
+        // Mitsuba flips the v of OBJ files, so that v points down as in its pictures; the v of its
+        // spheres points down, too.
         let flip = plugin == "obj" && node.flag("flip_tex_coords").unwrap_or(true)
-            || plugin == "ply" && node.flag("flip_tex_coords").unwrap_or(false);
-        let geometry = match plugin {
-            "sphere" => self.sphere(node, &to_world, is_emissive),
-            "disk" if !is_emissive && to_world.similarity().is_some() => {
-                self.ignored(node, &["to_world"]);
-                let Transform([x, _, z, center]) = to_world;
-                Some(Shape::Disc(Disc {
-                    center: center.to_array(),
-                    normal: z.to_array(),
-                    radius: x.length(),
-                }))
+            || plugin == "ply" && node.flag("flip_tex_coords").unwrap_or(false)
+            || plugin == "sphere" && is_similar;
+        let Some(material) = self.material(node, radiance, flip) else {
+            if radiance != [0.0; 3] {
+                self.approximate(node.span, "a light whose BSDF is `null` is left out");
             }
-            "disk" => self.built("disk", tessellate::disk, &to_world),
+            return;
+        };
+        let has_maps = match self.scene.materials.get(material.0 as usize) {
+            Some(Material::Standard(standard)) => standard.maps().next().is_some(),
+            _ => false,
+        };
+        let geometry = match plugin {
+            "sphere" => self.sphere(node, &to_world, has_maps),
+            "disk" => self.disk(node, &to_world, has_maps),
             "rectangle" => self.built("rectangle", tessellate::rectangle, &to_world),
             "cube" => self.built("cube", tessellate::cube, &to_world),
             "cylinder" => self.cylinder(node, &to_world),
@@ -76,12 +78,19 @@ impl<'run> Lowering<'run> {
             }
         };
         let Some(shape) = geometry else { return };
-        let Some(material) = self.material(node, radiance, flip) else {
-            return;
-        };
         let material = self.face_forward(node, material);
         if node.flag("face_normals") == Some(true) {
             self.flat.insert(self.scene.surfaces.len());
+        }
+        if radiance != [0.0; 3] {
+            let back = self.back_material(node, flip);
+            self.one_sided.push(OneSided {
+                surface: self.scene.surfaces.len(),
+                back,
+                to_world,
+                is_flipped: node.flag("flip_normals") == Some(true),
+                span: node.span,
+            });
         }
         self.record(EntityKind::Surface, self.scene.surfaces.len(), node.span);
         self.scene.surfaces.push(Surface {
@@ -145,27 +154,28 @@ impl<'run> Lowering<'run> {
         Some(to_world.instance(mesh))
     }
 
-    /// A sphere; one that is scaled unevenly, or that emits light and so has to be sampled, is a
-    /// mesh.
-    fn sphere(
-        &mut self,
-        node: &'run Node,
-        to_world: &Transform,
-        is_emissive: bool,
-    ) -> Option<Shape> {
+    /// A sphere, or an ellipsoid; one that is scaled unevenly and textured is a mesh.
+    fn sphere(&mut self, node: &'run Node, to_world: &Transform, has_maps: bool) -> Option<Shape> {
         self.ignored(node, &["center", "radius", "to_world", "flip_normals"]);
         let center = node.vector("center").unwrap_or([0.0; 3]);
         let radius = node.number("radius").unwrap_or(1.0);
-        match to_world.similarity().filter(|_| !is_emissive) {
-            Some(scale) => Some(Shape::Sphere(Sphere {
-                center: to_world.point(Vec3::from_array(center)).to_array(),
-                radius: radius * scale,
-                texture_from_world: None,
-            })),
+        if has_maps && to_world.similarity().is_none() {
+            self.approximate(node.span, "the sphere is shown as a mesh of 4096 triangles");
+            let local = Transform::translation(center).after(&Transform::scale([radius; 3]));
+            return self.built("sphere", tessellate::sphere, &to_world.after(&local));
+        }
+        let placed = to_world.after(&Transform::translation(center));
+        Some(round::sphere(radius, &placed))
+    }
+
+    /// A disc; one that becomes an ellipse, or is textured, is a mesh.
+    fn disk(&mut self, node: &'run Node, to_world: &Transform, has_maps: bool) -> Option<Shape> {
+        self.ignored(node, &["to_world", "flip_normals"]);
+        match round::disc(0.0, 1.0, to_world).filter(|_| !has_maps) {
+            Some(disc) => Some(Shape::Disc(disc)),
             None => {
-                self.approximate(node.span, "the sphere is shown as a mesh of 4096 triangles");
-                let local = Transform::translation(center).after(&Transform::scale([radius; 3]));
-                self.built("sphere", tessellate::sphere, &to_world.after(&local))
+                self.approximate(node.span, "the disk is shown as a mesh of 128 triangles");
+                self.built("disk", tessellate::disk, to_world)
             }
         }
     }

@@ -5,12 +5,14 @@ use super::loop_subdivision;
 use super::material::LoweredMaterial;
 use super::parameter::{ParameterType, Parameters};
 use crate::exchange::Text;
+use crate::exchange::one_sided::{behind, flat, flat_mesh};
+use crate::exchange::round::{disc, sphere};
 use crate::exchange::tessellate;
 use crate::exchange::transform::Transform;
 use crate::mesh::{self, ParseFault};
 use crate::over_limit;
 use rtc_diag::{clip_words, codes};
-use rtc_ir::{Column, Disc, Ellipsoid, EntityKind, Mesh, MeshId, Quad, Shape, Sphere, Surface};
+use rtc_ir::{Column, EntityKind, Mesh, MeshId, Quad, Shape, Surface};
 use rtc_math::{Vec3, acos, cos, sin, unit};
 use rtc_source::{FileKind, Resource, Span};
 use std::rc::Rc;
@@ -161,9 +163,6 @@ impl Lowering<'_> {
 
     /// A transform just behind a flat shape, relative to its normal; `None` if it is curved.
     fn behind(&self, geometry: &Geometry, to_world: &Transform) -> Option<Transform> {
-        /// The distance, over the extent of the shape.
-        const DISTANCE: f64 = 1e-5;
-        let Transform([x, y, z, _]) = to_world;
         let (normal, extent) = match geometry {
             Geometry::Sphere(_) => return None,
             Geometry::Disc { radius, .. } => {
@@ -174,22 +173,13 @@ impl Lowering<'_> {
                 };
                 (Vec3::Z * side, radius * 2.0)
             }
-            Geometry::Mesh(id) => {
-                let mesh = self.scene.meshes.get(id.0 as usize)?;
-                let corner = |index: u32| Vec3::from_array(mesh.positions.at(index as usize));
-                flat(mesh.triangles.iter().map(|triangle| triangle.map(corner)))?
-            }
+            Geometry::Mesh(id) => flat_mesh(self.scene.meshes.get(id.0 as usize)?)?,
             Geometry::Patch(corners) => {
                 let [a, b, c, d] = corners.map(Vec3::from_array);
                 flat([[a, b, c], [a, c, d]].into_iter())?
             }
         };
-        // The inverse transpose of the transform, up to a factor above 0.
-        let rows = [y.cross(*z), z.cross(*x), x.cross(*y)];
-        let turned = rows[0] * normal.x + rows[1] * normal.y + rows[2] * normal.z;
-        let normal = unit(turned * to_world.determinant())?;
-        let scale = x.length().max(y.length()).max(z.length());
-        let back = -normal * (DISTANCE * extent * scale);
+        let back = behind(normal, extent, to_world)?;
         Some(Transform::translation(back.to_array()).after(to_world))
     }
 
@@ -693,58 +683,6 @@ fn with_corner_uvs(positions: &[[f64; 3]], normals: &[[f64; 3]], triangles: &[[u
         triangles: vertices.as_chunks().0.iter().copied().collect(),
         ..Mesh::default()
     }
-}
-
-/// The normal of triangles that lie in one plane and face one way, and how far they reach.
-fn flat(triangles: impl Iterator<Item = [Vec3; 3]> + Clone) -> Option<(Vec3, f64)> {
-    const ROUNDING: f64 = 1e-4;
-    let normal = |[a, b, c]: [Vec3; 3]| (b - a).cross(c - a);
-    let sum: Vec3 = triangles.clone().map(normal).sum();
-    let common = unit(sum)?;
-    let [first, ..] = triangles.clone().next()?;
-    let corners = || triangles.clone().flatten().map(|corner| corner - first);
-    let extent = corners().map(|corner| corner.length()).fold(0.0, f64::max);
-    let is_level = |corner: Vec3| corner.dot(common).abs() <= ROUNDING * extent;
-    let faces = |triangle: [Vec3; 3]| normal(triangle).dot(common) >= 0.0;
-    (corners().all(is_level) && triangles.clone().all(faces)).then_some((common, extent))
-}
-
-/// A sphere, or the ellipsoid that it becomes.
-fn sphere(radius: f64, to_world: &Transform) -> Shape {
-    let Transform([x, y, z, center]) = to_world;
-    match to_world.similarity() {
-        Some(scale) => {
-            // The rows of a turn are the axes; of a mirrored one the texture is mirrored.
-            let rows = [*x, *y, *z].map(|axis| (axis / scale).to_array());
-            let is_turned = rows != [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-            let is_rotation = to_world.determinant() > 0.0;
-            Shape::Sphere(Sphere {
-                center: center.to_array(),
-                radius: radius * scale,
-                texture_from_world: (is_turned && is_rotation)
-                    .then(|| to_world.orthonormal())
-                    .flatten()
-                    .map(|axes| axes.map(|axis| axis.to_array())),
-            })
-        }
-        None => Shape::Ellipsoid(Ellipsoid {
-            center: center.to_array(),
-            axes: [*x, *y, *z].map(|axis| (axis * radius).to_array()),
-        }),
-    }
-}
-
-/// The disc that a transform makes; `None` if it is an ellipse.
-fn disc(height: f64, radius: f64, to_world: &Transform) -> Option<Disc> {
-    let Transform([x, y, ..]) = to_world;
-    let (a, b) = (x.length(), y.length());
-    let is_round = (a - b).abs() <= 1e-6 * a.max(b) && x.dot(*y).abs() <= 1e-6 * a * b;
-    let normal = unit(x.cross(*y)).filter(|_| is_round)?;
-    Some(Disc {
-        center: to_world.point(Vec3::Z * height).to_array(),
-        normal: normal.to_array(),
-        radius: radius * a,
-    })
 }
 
 /// A disc or a ring, or a part of it. u runs along the turn, v from the edge to the middle.

@@ -1,0 +1,140 @@
+//! Area lights of flat shapes emit on the side of the normal: a cover hides the other side.
+
+use super::Lowering;
+use super::xml::Node;
+use crate::exchange::material::matte;
+use crate::exchange::one_sided::{behind, flat_mesh, is_closed};
+use crate::exchange::transform::Transform;
+use rtc_diag::{Diagnostic, Sink, codes};
+use rtc_ir::{
+    Disc, EntityKind, Field, Lowered, Material, MaterialId, Mesh, Shape, Surface, ValuePath,
+};
+use rtc_math::Vec3;
+use rtc_source::Span;
+
+/// A surface that emits on one side.
+pub(super) struct OneSided {
+    /// Its index.
+    pub(super) surface: usize,
+    /// The material of its back.
+    pub(super) back: MaterialId,
+    pub(super) to_world: Transform,
+    /// Whether its normal is reversed.
+    pub(super) is_flipped: bool,
+    pub(super) span: Span,
+}
+
+impl<'run> Lowering<'run> {
+    /// The material of the back of a light: that of its shape without the emission, or black if
+    /// its BSDF has one side.
+    pub(super) fn back_material(&mut self, shape: &'run Node, flip: bool) -> MaterialId {
+        let is_bsdf = |node: &&'run Node| node.tag == "bsdf" || self.refers_to(node, "bsdf");
+        let bsdf = shape.children.iter().find(is_bsdf);
+        let bsdf = bsdf.and_then(|node| self.resolve(node));
+        let same = bsdf.filter(|node| self.has_two_sides(node, 0));
+        if let Some(id) = same.and_then(|_| self.material(shape, [0.0; 3], flip)) {
+            return id;
+        }
+        if let Some(id) = self.black {
+            return id;
+        }
+        let material = Material::Standard(Box::new(matte([0.0; 3])));
+        let index = self.scene.materials.len();
+        self.record(EntityKind::Material, index, shape.span);
+        self.scene.materials.push(material);
+        *self.black.insert(MaterialId(rtc_math::to_u32(index)))
+    }
+
+    /// Whether a BSDF scatters light that comes from behind.
+    fn has_two_sides(&self, node: &'run Node, depth: usize) -> bool {
+        /// The deepest nesting of BSDFs.
+        const MAX_DEPTH: usize = 16;
+        match node.plugin.text.as_str() {
+            "twosided" | "dielectric" | "thindielectric" | "roughdielectric" | "null" => true,
+            "principled" => node.number("spec_trans").is_some_and(|share| share > 0.0),
+            _ if depth >= MAX_DEPTH => false,
+            _ => {
+                let shared = |child: &'run Node| match child.tag.as_str() {
+                    "ref" => self.shared.get(child.plugin.text.as_str()).copied(),
+                    _ => Some(child),
+                };
+                let parts = node.children.iter().filter_map(shared);
+                let mut bsdfs = parts.filter(|child| child.tag == "bsdf");
+                bsdfs.any(|child| self.has_two_sides(child, depth + 1))
+            }
+        }
+    }
+}
+
+/// Adds a cover behind each flat light, when the meshes are loaded. A light that is neither flat
+/// nor closed emits on both sides, with a warning.
+pub(super) fn cover_backs(lowered: &mut Lowered, lights: &[OneSided], sink: &mut Sink) {
+    for light in lights {
+        let Some(surface) = lowered.scene.surfaces.get(light.surface) else {
+            continue;
+        };
+        let cover = match &surface.shape {
+            Shape::Disc(disc) => {
+                let normal = if light.is_flipped {
+                    Vec3::NEG_Z
+                } else {
+                    Vec3::Z
+                };
+                let extent = 2.0;
+                behind(normal, extent, &light.to_world).map(|by| {
+                    let center = Vec3::from_array(disc.center) + by;
+                    Shape::Disc(Disc {
+                        center: center.to_array(),
+                        ..disc.clone()
+                    })
+                })
+            }
+            Shape::Instance(instance) => {
+                let Some(mesh) = lowered.scene.meshes.get(instance.mesh.0 as usize) else {
+                    continue;
+                };
+                let placed = Transform(instance.world_from_object.map(Vec3::from_array));
+                let back = back_of(mesh, &placed, light.is_flipped);
+                if back.is_none() && !is_closed(mesh) {
+                    let message = "the light shines from both sides of its shape";
+                    let diagnostic = Diagnostic::new(&codes::MITSUBA_APPROXIMATE, message);
+                    sink.push(diagnostic.at(light.span, ""));
+                }
+                back.map(|by| {
+                    let moved = Transform::translation(by.to_array()).after(&placed);
+                    moved.instance(instance.mesh)
+                })
+            }
+            // No camera is inside of a sphere that shines outward.
+            _ => None,
+        };
+        let Some(shape) = cover else { continue };
+        let index = lowered.scene.surfaces.len();
+        let path = ValuePath::new(EntityKind::Surface, index, Field::Whole);
+        lowered.source_spans.record(path, light.span);
+        lowered.scene.surfaces.push(Surface {
+            shape,
+            material: light.back,
+            casts_no_shadow: false,
+        });
+    }
+}
+
+/// The vector to the back of a flat mesh. The side of its vertex normals is the front, or without
+/// them that from which its triangles in the world run counterclockwise.
+fn back_of(mesh: &Mesh, placed: &Transform, is_flipped: bool) -> Option<Vec3> {
+    let (normal, extent) = flat_mesh(mesh)?;
+    let is_against = match mesh.normals.is_empty() {
+        true => placed.determinant() < 0.0,
+        false => {
+            let sum: Vec3 = mesh.normals.iter().map(Vec3::from_array).sum();
+            sum.dot(normal) < 0.0
+        }
+    };
+    let normal = if is_against == is_flipped {
+        normal
+    } else {
+        -normal
+    };
+    behind(normal, extent, placed)
+}
