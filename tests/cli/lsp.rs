@@ -1,6 +1,7 @@
 //! `rtc lsp`, by messages as they stand on the wire: what an editor is told, and what it can't break.
 
 mod editor;
+mod every_key;
 
 use super::*;
 use editor::Editor;

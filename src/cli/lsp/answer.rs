@@ -1,12 +1,12 @@
 //! Requests of an editor and their answers.
 
 use super::open_text::OpenText;
-use super::path_at::Vocabulary;
 use super::protocol::{
     CodeAction, CodeActionParams, ColorPresentationParams, InlayHintParams, TextDocumentParams,
     TextDocumentPositionParams, TextEdit,
 };
 use super::uri::DocumentUri;
+use super::vocabulary::Vocabulary;
 use super::workspace::Workspace;
 use super::{completion, diagnostics, hover, method, outline};
 use lsp_server::{ErrorCode, Request, RequestId, Response};

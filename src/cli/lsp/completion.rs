@@ -2,9 +2,10 @@
 
 use super::hover::{default, plain};
 use super::open_text::{OpenText, tree};
-use super::path_at::{PathStep, Vocabulary, path_at};
+use super::path_at::{PathStep, path_at};
 use super::protocol::{CompletionItem, CompletionItemKind, InsertTextFormat, Position};
 use super::text::Columns;
+use super::vocabulary::Vocabulary;
 use rtc_front::course;
 use rtc_source::tree::SyntaxTree;
 use serde_json::{Map, Value};

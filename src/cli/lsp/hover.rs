@@ -2,9 +2,10 @@
 
 use super::effective;
 use super::open_text::OpenText;
-use super::path_at::{PathStep, Vocabulary, path_at};
+use super::path_at::{PathStep, path_at};
 use super::protocol::{Hover, MarkupContent, MarkupKind, Position, Range};
 use super::text::Columns;
+use super::vocabulary::{MERGE, Vocabulary};
 use rtc_pipeline::explain_code;
 use rtc_source::tree::SyntaxTree;
 use serde_json::{Map, Value};
@@ -48,11 +49,12 @@ fn meaning(
         return None;
     };
     let schemas = vocabulary.at(&tree, &steps[..=last]);
-    let described = schemas
-        .iter()
-        .find(|schema| schema.contains_key("description"))?;
     let name = tree.text(key)?;
-    let text = described.get("description").and_then(Value::as_str)?;
+    let text = match (name, description(&schemas)) {
+        (MERGE, _) => "The keys of another map; the keys that this map has itself win.".to_owned(),
+        (_, Some(text)) => text.to_owned(),
+        (_, None) => not_read(&tree, &steps[..last], vocabulary)?,
+    };
     let facts = facts(&schemas);
     let here = aliased(&tree, value);
     let value = effective::value(document, &tree, [key, value]).unwrap_or_default();
@@ -61,6 +63,31 @@ fn meaning(
     let span = tree.span(key);
     let reported = lines.collect::<Vec<_>>().join("\n\n");
     Some((reported, (span.start as usize, span.end as usize)))
+}
+
+/// The description of a key in its schemas.
+fn description<'v>(schemas: &[&'v Map<String, Value>]) -> Option<&'v str> {
+    let mut texts = schemas
+        .iter()
+        .filter_map(|schema| schema.get("description"));
+    texts.next()?.as_str()
+}
+
+/// What is said of a key within the value of an unknown one.
+fn not_read(tree: &SyntaxTree<'_>, steps: &[PathStep], vocabulary: &Vocabulary) -> Option<String> {
+    let mut keys = steps
+        .iter()
+        .enumerate()
+        .filter_map(|(at, step)| match step {
+            PathStep::Key { key, .. } => Some((at, *key)),
+            PathStep::Item { .. } => None,
+        });
+    let is_unknown = |at: usize| vocabulary.at(tree, &steps[..=at]).is_empty();
+    let (_, unknown) = keys.find(|(at, _)| is_unknown(*at))?;
+    let unknown = tree.text(unknown)?;
+    Some(format!(
+        "Not read, as it is within `{unknown}`, which is no key here."
+    ))
 }
 
 /// The range, the keywords and the default of a value.

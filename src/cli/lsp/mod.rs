@@ -4,8 +4,8 @@
 //! `wire` reads and writes messages, `protocol` has their types, `workspace` the open documents.
 //! Each [`open_text`] is checked like a file by `rtc check`; `diagnostics` converts the result,
 //! with fixes. `answer` dispatches requests: `completion`, `hover`, `outline`. `path_at` finds the
-//! key at a position and its schema, `effective` its value in the IR. `text` converts positions,
-//! `uri` paths.
+//! key at a position, `vocabulary` its schema, `effective` its value in the IR. `text` converts
+//! positions, `uri` paths.
 //!
 //! Documents are checked when no message waits. An error in a message is a response; the server
 //! ends only when the editor closes the stream.
@@ -23,6 +23,7 @@ mod place;
 mod protocol;
 mod text;
 mod uri;
+mod vocabulary;
 mod wire;
 mod workspace;
 

@@ -7,14 +7,15 @@ use super::super::project::Project;
 use super::diagnostics::FileDiagnostics;
 use super::place;
 use super::protocol::TextDocumentContentChangeEvent;
-use super::text::{Columns, TextLines};
+use super::text::{Columns, LineTable, TextLines};
 use super::uri::DocumentUri;
 use ropey::Rope;
 use rtc_diag::{Diagnostic, Severity};
 use rtc_ir::Lowered;
 use rtc_pipeline::{Input, Options, SourceKind};
-use rtc_source::tree::{SyntaxTree, yaml};
+use rtc_source::tree::{DetachedTree, SyntaxTree, yaml};
 use rtc_source::{EditedFiles, FileId, SourceMap};
+use std::cell::OnceCell;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -29,6 +30,9 @@ pub(super) struct OpenText {
     pub(super) version: i32,
     /// Shared with the others that name it.
     pub(super) text: Arc<String>,
+    /// The tree of the text and its lines, once they are asked for.
+    parsed: OnceCell<Option<DetachedTree>>,
+    lines: OnceCell<(Columns, Arc<LineTable>)>,
     /// The other open documents; they replace the files that this one names.
     pub(super) others: EditedFiles,
     /// The diagnostics of the current version; `None` until it is checked.
@@ -82,6 +86,8 @@ impl OpenText {
             uri,
             version,
             text: Arc::new(text),
+            parsed: OnceCell::new(),
+            lines: OnceCell::new(),
             others: EditedFiles::default(),
             checked: None,
             reported: Vec::new(),
@@ -124,11 +130,18 @@ impl OpenText {
             }
         }
         self.text = Arc::new(rope.into());
+        (self.parsed, self.lines) = (OnceCell::new(), OnceCell::new());
         (self.version, self.checked) = (version, None);
     }
 
     pub(super) fn lines(&self, columns: Columns) -> TextLines<'_> {
-        TextLines::of(&self.text, columns)
+        let table = || Arc::new(LineTable::of(&self.text, columns));
+        let (known, kept) = self.lines.get_or_init(|| (columns, table()));
+        let table = match *known == columns {
+            true => Arc::clone(kept),
+            false => table(),
+        };
+        TextLines::with(&self.text, columns, table)
     }
 
     /// The result of the check, if it could run.
@@ -194,7 +207,9 @@ impl OpenText {
 
     /// The text as a tree, if it is one of YAML or JSON without mistakes.
     pub(super) fn tree(&self) -> Option<SyntaxTree<'_>> {
-        tree(&self.text)
+        let parse = || tree(&self.text).map(SyntaxTree::detach);
+        let kept = self.parsed.get_or_init(parse).as_ref();
+        kept.map(|tree| tree.attach(&self.text))
     }
 }
 

@@ -4,13 +4,14 @@
 use super::completion::is_file;
 use super::hover::default;
 use super::open_text::OpenText;
-use super::path_at::{Vocabulary, path_at};
+use super::path_at::path_at;
 use super::place;
 use super::protocol::{
     ColorInformation, ColorPresentation, DocumentSymbol, EditorColor, InlayHint, Location,
     Position, Range, SymbolKind,
 };
 use super::text::{Columns, TextLines};
+use super::vocabulary::Vocabulary;
 use rtc_source::tree::{NodeContent, NodeId, SyntaxTree};
 
 /// The maximum number of results of one kind.

@@ -3,6 +3,7 @@
 use super::protocol::{Position, PositionEncodingKind, Range};
 use ropey::Rope;
 use rtc_math::to_u32;
+use std::sync::Arc;
 
 /// The units of columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,6 +58,15 @@ impl Columns {
         letter.min(end)
     }
 
+    /// The columns of a text.
+    fn sum(self, text: &str) -> usize {
+        match self {
+            Self::Utf8 => text.len(),
+            Self::Utf16 if text.is_ascii() => text.len(),
+            Self::Utf16 => text.chars().map(char::len_utf16).sum(),
+        }
+    }
+
     fn width(self, letter: char) -> usize {
         match self {
             Self::Utf16 => letter.len_utf16(),
@@ -69,6 +79,12 @@ impl Columns {
 pub(super) struct TextLines<'t> {
     text: &'t str,
     columns: Columns,
+    table: Arc<LineTable>,
+}
+
+/// The lines of a text, to be kept beside it.
+#[derive(Debug)]
+pub(super) struct LineTable {
     /// Where each line starts, in bytes.
     starts: Vec<usize>,
     /// Column counts at regular byte offsets, since a line may be as long as the text.
@@ -78,50 +94,68 @@ pub(super) struct TextLines<'t> {
 /// The number of bytes.
 const STRIDE: usize = 1 << 9;
 
-impl<'t> TextLines<'t> {
-    pub(super) fn of(text: &'t str, columns: Columns) -> Self {
+impl LineTable {
+    pub(super) fn of(text: &str, columns: Columns) -> Self {
+        let starts = memchr::memchr2_iter(b'\n', b'\r', text.as_bytes());
         let bytes = text.as_bytes();
-        let ends = bytes.iter().enumerate().filter(|(at, byte)| {
-            **byte == b'\n' || (**byte == b'\r' && bytes.get(at + 1) != Some(&b'\n'))
-        });
-        let starts = std::iter::once(0).chain(ends.map(|(at, _)| at + 1));
-        let mut lines = Self {
+        let is_end = |at: &usize| bytes[*at] == b'\n' || bytes.get(at + 1) != Some(&b'\n');
+        let starts = starts.filter(is_end).map(|at| at + 1);
+        let (mut widths, mut sum) = (vec![0], 0);
+        let bounds: Vec<usize> = (0..=text.len() / STRIDE)
+            .map(|stride| text.floor_char_boundary(stride * STRIDE))
+            .collect();
+        for pair in bounds.windows(2) {
+            let piece = text.get(pair[0]..pair[1]).unwrap_or_default();
+            sum += columns.sum(piece);
+            widths.push(sum);
+        }
+        Self {
+            starts: std::iter::once(0).chain(starts).collect(),
+            widths,
+        }
+    }
+}
+
+impl<'t> TextLines<'t> {
+    #[cfg(test)]
+    pub(super) fn of(text: &'t str, columns: Columns) -> Self {
+        Self::with(text, columns, Arc::new(LineTable::of(text, columns)))
+    }
+
+    /// A text with its table, which is of the same columns.
+    pub(super) fn with(text: &'t str, columns: Columns, table: Arc<LineTable>) -> Self {
+        Self {
             text,
             columns,
-            starts: starts.collect(),
-            widths: vec![0],
-        };
-        for stride in 1..=text.len() / STRIDE {
-            let width = lines.width_before(stride * STRIDE);
-            lines.widths.push(width);
+            table,
         }
-        lines
     }
 
     /// The columns before a byte, of all lines; of one within a character, before that.
     fn width_before(&self, offset: usize) -> usize {
-        let known = (offset / STRIDE).min(self.widths.len() - 1);
+        let widths = &self.table.widths;
+        let known = (offset / STRIDE).min(widths.len() - 1);
         let [from, to] = [known * STRIDE, offset].map(|at| self.text.floor_char_boundary(at));
         let rest = self.text.get(from..to).unwrap_or_default();
-        let rest: usize = rest.chars().map(|c| self.columns.width(c)).sum();
-        self.widths[known] + rest
+        widths[known] + self.columns.sum(rest)
     }
 
     /// The lines of another text, in the same units.
     pub(super) fn of_other<'o>(&self, text: &'o str) -> TextLines<'o> {
-        TextLines::of(text, self.columns)
+        let table = Arc::new(LineTable::of(text, self.columns));
+        TextLines::with(text, self.columns, table)
     }
 
     /// The line that a byte is in, from 0.
     pub(super) fn line(&self, offset: usize) -> usize {
-        self.starts.partition_point(|start| *start <= offset) - 1
+        self.table.starts.partition_point(|start| *start <= offset) - 1
     }
 
     /// The position of a byte; inside a character, that of the character.
     pub(super) fn position(&self, offset: usize) -> Position {
         let offset = self.text.floor_char_boundary(offset.min(self.text.len()));
         let line = self.line(offset);
-        let column = self.width_before(offset) - self.width_before(self.starts[line]);
+        let column = self.width_before(offset) - self.width_before(self.table.starts[line]);
         Position::new(to_u32(line), to_u32(column))
     }
 
@@ -133,10 +167,11 @@ impl<'t> TextLines<'t> {
     /// The byte of a position; clamped to its line and to the text.
     pub(super) fn offset(&self, place: Position) -> usize {
         let line = place.line as usize;
-        let Some(start) = self.starts.get(line).copied() else {
+        let Some(start) = self.table.starts.get(line).copied() else {
             return self.text.len();
         };
         let next = self
+            .table
             .starts
             .get(line + 1)
             .copied()
@@ -146,7 +181,7 @@ impl<'t> TextLines<'t> {
         let (end, column) = (start + own.len(), place.character as usize);
         // Counted from the last cached position before it.
         let sought = self.width_before(start) + column;
-        let known = self.widths.partition_point(|width| *width <= sought) - 1;
+        let known = self.table.widths.partition_point(|width| *width <= sought) - 1;
         let mut offset = self.text.floor_char_boundary(known * STRIDE);
         offset = offset.clamp(start, end);
         let mut left = sought - self.width_before(offset).min(sought);
@@ -164,7 +199,9 @@ impl<'t> TextLines<'t> {
     /// The bytes of a line before a byte of it.
     pub(super) fn before(&self, offset: usize) -> &'t str {
         let line = self.line(offset);
-        self.text.get(self.starts[line]..offset).unwrap_or_default()
+        self.text
+            .get(self.table.starts[line]..offset)
+            .unwrap_or_default()
     }
 
     /// The end of the line that a byte is in, without its line break.

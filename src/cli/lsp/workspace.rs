@@ -4,13 +4,13 @@ use super::super::args::Reading;
 use super::diagnostics::{self, FileDiagnostics};
 use super::method;
 use super::open_text::OpenText;
-use super::path_at::Vocabulary;
 use super::protocol::{
     DidChangeTextDocumentParams, DidOpenTextDocumentParams, EditorDiagnostic, Position,
     PublishDiagnosticsParams, TextDocumentParams,
 };
 use super::text::Columns;
 use super::uri::DocumentUri;
+use super::vocabulary::Vocabulary;
 use lsp_server::{Message, Notification};
 use rtc_codec as codec;
 use rtc_front::{course, gltf};

@@ -1,7 +1,7 @@
 //! How often the ambient term is added: once, or once per light.
 
 use super::decode::{Context, Spanned};
-use super::keyword::Keyword;
+use super::keyword::{Keyword, KeywordTable};
 use super::lower::Lowering;
 use super::record::FieldOutcome;
 use super::settings::Scene;
@@ -10,8 +10,14 @@ use rtc_ir::{self as ir, Ambient, EntityKind, Field};
 use rtc_source::Span;
 
 impl Keyword for Ambient {
-    const KEYWORDS: &'static [(&'static str, Self)] =
-        &[("perLight", Ambient::PerLight), ("once", Ambient::Once)];
+    const KEYWORDS: KeywordTable<Self> = &[
+        (
+            "perLight",
+            Ambient::PerLight,
+            "For each light, times its colour.",
+        ),
+        ("once", Ambient::Once, "Once, whatever lights there are."),
+    ];
 }
 
 impl Lowering {

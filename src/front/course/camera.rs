@@ -1,7 +1,7 @@
 //! The camera, as a `Camera` or in the older form of an `Eye`.
 
 use super::decode::{Context, Spanned};
-use super::keyword::Keyword;
+use super::keyword::{Keyword, KeywordTable};
 use super::lower::Lowering;
 use super::number::{Count, FieldOfView, NonNegative, PixelCount, Positive};
 use super::record::{FieldOutcome, keys, record};
@@ -56,9 +56,17 @@ record! {
 }
 
 impl Keyword for ir::Projection {
-    const KEYWORDS: &'static [(&'static str, Self)] = &[
-        ("perspective", ir::Projection::Perspective),
-        ("orthographic", ir::Projection::Orthographic),
+    const KEYWORDS: KeywordTable<Self> = &[
+        (
+            "perspective",
+            ir::Projection::Perspective,
+            "Rays from the eye: what is farther looks smaller.",
+        ),
+        (
+            "orthographic",
+            ir::Projection::Orthographic,
+            "Parallel rays: what is farther looks as large.",
+        ),
     ];
 }
 

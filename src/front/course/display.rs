@@ -1,6 +1,6 @@
 //! The display settings: tone map and exposure.
 
-use super::keyword::Keyword;
+use super::keyword::{Keyword, KeywordTable};
 use super::lower::Lowering;
 use super::record::FieldOutcome;
 use super::settings::Scene;
@@ -8,11 +8,23 @@ use rtc_color::Tone;
 use rtc_ir as ir;
 
 impl Keyword for Tone {
-    const KEYWORDS: &'static [(&'static str, Self)] = &[
-        ("none", Tone::None),
-        ("srgb", Tone::Srgb),
-        ("agx", Tone::Agx),
-        ("pbr-neutral", Tone::PbrNeutral),
+    const KEYWORDS: KeywordTable<Self> = &[
+        (
+            "none",
+            Tone::None,
+            "Linear values as they are, clamped to 1.",
+        ),
+        ("srgb", Tone::Srgb, "Clamped to 1, and sRGB-encoded."),
+        (
+            "agx",
+            Tone::Agx,
+            "AgX: bright colours fade to white as on film.",
+        ),
+        (
+            "pbr-neutral",
+            Tone::PbrNeutral,
+            "Khronos PBR Neutral: colours of products stay, highlights fade to white.",
+        ),
     ];
 }
 

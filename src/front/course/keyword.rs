@@ -7,10 +7,14 @@ use rtc_diag::{clip, codes, nearest};
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
+/// The keywords of a type: each with its value and its meaning. If several keywords have one
+/// value, the first is canonical, and the others have no meaning of their own.
+pub(super) type KeywordTable<T> = &'static [(&'static str, T, &'static str)];
+
 /// A type whose values are keywords.
 pub(super) trait Keyword: Copy + PartialEq + 'static {
-    /// The keywords and their values. If several keywords have one value, the first is canonical.
-    const KEYWORDS: &'static [(&'static str, Self)];
+    /// The keywords.
+    const KEYWORDS: KeywordTable<Self>;
 }
 
 impl<T: Keyword> Decode for T {
@@ -23,25 +27,25 @@ impl<T: Keyword> Decode for T {
     }
 
     fn json(&self) -> Json {
-        let keyword = T::KEYWORDS.iter().find(|(_, value)| value == self);
-        keyword.map_or(Json::Null, |(keyword, _)| json!(keyword))
+        let keyword = T::KEYWORDS.iter().find(|(_, value, _)| value == self);
+        keyword.map_or(Json::Null, |(keyword, ..)| json!(keyword))
     }
 }
 
 /// Reads a keyword of a table; case-insensitive.
 pub(super) fn keyword<T: Copy>(
     node: NodeId,
-    table: &[(&'static str, T)],
+    table: KeywordTable<T>,
     context: &mut Context<'_>,
 ) -> Option<T> {
-    let keywords = || table.iter().map(|(keyword, _)| *keyword);
+    let keywords = || table.iter().map(|(keyword, ..)| *keyword);
     let tree = context.tree;
     let Some(text) = tree.text(node).filter(|text| !text.is_empty()) else {
         return context.expected(node, &format!("one of {}", quoted_list(keywords())));
     };
     let meaning = table
         .iter()
-        .find(|(keyword, _)| keyword.eq_ignore_ascii_case(text));
+        .find(|(keyword, ..)| keyword.eq_ignore_ascii_case(text));
     if meaning.is_none() {
         let (key, span) = (context.key, tree.span(node));
         let suggestion = nearest(text, keywords())
@@ -59,20 +63,33 @@ pub(super) fn keyword<T: Copy>(
             }
         });
     }
-    meaning.map(|(_, meaning)| *meaning)
+    meaning.map(|(_, meaning, _)| *meaning)
 }
 
-/// The schema of [`keyword()`]: editors propose the keywords, and any case is accepted.
-pub(super) fn keyword_schema<T>(table: &[(&'static str, T)]) -> Json {
+/// The schema of [`keyword()`]: editors propose the canonical keywords, and any case is accepted.
+pub(super) fn keyword_schema<T>(table: KeywordTable<T>) -> Json {
     let any_case = |letter: char| match letter.is_ascii_alphabetic() {
         true => format!("[{}{}]", letter.to_ascii_uppercase(), letter),
         false => letter.to_string(),
     };
-    let keywords: Vec<_> = table.iter().map(|(keyword, _)| *keyword).collect();
-    let pattern: Vec<String> = keywords
+    let pattern: Vec<String> = table
         .iter()
-        .map(|keyword| keyword.chars().map(any_case).collect())
+        .map(|(keyword, ..)| keyword.chars().map(any_case).collect())
         .collect();
     let pattern = format!("^({})$", pattern.join("|"));
-    json!({ "anyOf": [{ "enum": keywords }, { "type": "string", "pattern": pattern }] })
+    let mut variants = enumeration(table.iter().map(|(keyword, _, doc)| (*keyword, *doc)));
+    variants.push(json!({ "type": "string", "pattern": pattern }));
+    json!({ "anyOf": variants })
+}
+
+/// The schemas of words with their meanings, and of other spellings, which have none.
+pub(super) fn enumeration<'t>(words: impl Iterator<Item = (&'t str, &'t str)>) -> Vec<Json> {
+    let (known, others): (Vec<_>, Vec<_>) = words.partition(|(_, doc)| !doc.is_empty());
+    let (known, docs): (Vec<_>, Vec<_>) = known.into_iter().unzip();
+    let mut variants = vec![json!({ "enum": known, "enumDescriptions": docs })];
+    if !others.is_empty() {
+        let others: Vec<_> = others.iter().map(|(word, _)| *word).collect();
+        variants.push(json!({ "enum": others, "deprecated": true }));
+    }
+    variants
 }

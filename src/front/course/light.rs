@@ -3,7 +3,7 @@
 use super::area_light::Cells;
 use super::assets::AssetTarget;
 use super::decode::{Context, Spanned};
-use super::keyword::Keyword;
+use super::keyword::{Keyword, KeywordTable};
 use super::lower::Lowering;
 use super::number::{HalfAngle, NonNegative, Positive};
 use super::record::{FieldOutcome, keys, record};
@@ -80,12 +80,32 @@ pub(super) enum LightKind {
 }
 
 impl Keyword for LightKind {
-    const KEYWORDS: &'static [(&'static str, Self)] = &[
-        ("point", LightKind::Point),
-        ("sun", LightKind::Sun),
-        ("spot", LightKind::Spot),
-        ("ies", LightKind::Ies),
-        ("area", LightKind::Area),
+    const KEYWORDS: KeywordTable<Self> = &[
+        (
+            "point",
+            LightKind::Point,
+            "A point or a sphere, which shines in all directions.",
+        ),
+        (
+            "sun",
+            LightKind::Sun,
+            "A directional light: parallel rays from far away.",
+        ),
+        (
+            "spot",
+            LightKind::Spot,
+            "A point that shines within a cone.",
+        ),
+        (
+            "ies",
+            LightKind::Ies,
+            "A lamp with a measured profile, an IES file.",
+        ),
+        (
+            "area",
+            LightKind::Area,
+            "A rectangle of points, for soft shadows.",
+        ),
     ];
 }
 

@@ -2,8 +2,7 @@
 
 use super::decode::{Context, Decode, SharedValue, Spanned};
 use super::glass::{Glass, glass_setting, make_opaque, report_index_without_weight};
-use super::keyword::Keyword;
-use super::keyword::keyword_schema;
+use super::keyword::{Keyword, KeywordTable, keyword_schema};
 use super::lower::Lowering;
 use super::number::{Count, NonNegative};
 use super::pattern::{FileOrPattern, PatternMap};
@@ -82,6 +81,13 @@ pub(super) fn is_material_key(key: &str) -> bool {
     key != KIND && keys.any(|known| *known == key)
 }
 
+/// The keyword of the `standard` material.
+const STANDARD: KeywordTable<()> = &[(
+    standard::KEYWORD,
+    (),
+    "A material with metalness and roughness, for path tracing.",
+)];
+
 /// The key that selects the model.
 const KIND: &str = "type";
 
@@ -98,7 +104,7 @@ impl Decode for Material {
     }
 
     fn schema(definitions: &mut Definitions) -> Json {
-        let standard = keyword_schema(&[(standard::KEYWORD, ())]);
+        let standard = keyword_schema(STANDARD);
         json!({
             "if": { "type": "object", "properties": { KIND: standard }, "required": [KIND] },
             "then": StandardMaterial::schema(definitions),
@@ -116,10 +122,22 @@ pub(super) enum Finish {
 }
 
 impl Keyword for Finish {
-    const KEYWORDS: &'static [(&'static str, Self)] = &[
-        ("default", Finish::Default),
-        ("reflection", Finish::Reflection),
-        ("refraction", Finish::Refraction),
+    const KEYWORDS: KeywordTable<Self> = &[
+        (
+            "default",
+            Finish::Default,
+            "A mirror reflection of weight `ks`.",
+        ),
+        (
+            "reflection",
+            Finish::Reflection,
+            "A mirror reflection of weight `ks`.",
+        ),
+        (
+            "refraction",
+            Finish::Refraction,
+            "Glass: a `kt` of 1 without `ka` and `kd`.",
+        ),
     ];
 }
 

@@ -149,7 +149,8 @@ fn kind(schema: &Json) -> String {
     if let Some(variants) = schema["anyOf"].as_array() {
         let current = variants
             .iter()
-            .filter(|variant| variant["deprecated"] != true && variant["pattern"].is_null());
+            .filter(|variant| variant["deprecated"] != true || variant["enum"].is_array())
+            .filter(|variant| variant["pattern"].is_null());
         return current.map(kind).collect::<Vec<_>>().join(", or ");
     }
     if let Some(names) = schema["enum"].as_array() {

@@ -1,7 +1,7 @@
 //! Procedural textures: patterns in closed form, instead of an image file.
 
 use super::decode::{Context, Decode, Spanned};
-use super::keyword::{Keyword, keyword_schema};
+use super::keyword::{Keyword, KeywordTable, keyword_schema};
 use super::number::{NonNegative, integer, json_number, ranged};
 use super::record::{keys, record};
 use super::schema::Definitions;
@@ -50,17 +50,40 @@ pub(super) enum PatternKind {
 }
 
 impl Keyword for PatternKind {
-    const KEYWORDS: &'static [(&'static str, Self)] = &[
-        ("checker", Self::Checker),
-        ("checkerboard", Self::Checker),
-        ("stripes", Self::Stripes),
-        ("noise", Self::Noise),
-        ("worley", Self::Worley),
+    const KEYWORDS: KeywordTable<Self> = &[
+        (
+            "checker",
+            Self::Checker,
+            "Cubes of the two colours in turn.",
+        ),
+        ("checkerboard", Self::Checker, ""),
+        (
+            "stripes",
+            Self::Stripes,
+            "Slabs of the two colours in turn, across the first axis.",
+        ),
+        (
+            "noise",
+            Self::Noise,
+            "Gradient noise, which blends the two colours.",
+        ),
+        (
+            "worley",
+            Self::Worley,
+            "The distance to the nearest of random points, one in each cell.",
+        ),
     ];
 }
 
 impl Keyword for TextureMapping {
-    const KEYWORDS: &'static [(&'static str, Self)] = &[("uv", Self::Uv), ("world", Self::World)];
+    const KEYWORDS: KeywordTable<Self> = &[
+        (
+            "uv",
+            Self::Uv,
+            "Over the texture coordinates of the surface.",
+        ),
+        ("world", Self::World, "In space, as if cut out of a block."),
+    ];
 }
 
 ranged! {
@@ -170,6 +193,6 @@ pub(super) fn pattern_word(node: NodeId, context: &Context<'_>) -> Option<Patter
         return None;
     };
     let mut words = PatternKind::KEYWORDS.iter();
-    let (_, pattern) = words.find(|(known, _)| known.eq_ignore_ascii_case(word))?;
+    let (_, pattern, _) = words.find(|(known, ..)| known.eq_ignore_ascii_case(word))?;
     Some(PatternMap::of(*pattern))
 }

@@ -1,7 +1,7 @@
 //! Supersampling: the number and the positions of the rays of a pixel.
 
 use super::decode::{Context, Decode, Spanned};
-use super::keyword::Keyword;
+use super::keyword::{Keyword, KeywordTable};
 use super::number::{Count, is_number, plain_number};
 use super::record::{keys, record};
 use super::schema::Definitions;
@@ -23,10 +23,18 @@ record! {
 }
 
 impl Keyword for ir::Pattern {
-    const KEYWORDS: &'static [(&'static str, Self)] = &[
-        ("grid", ir::Pattern::Grid),
-        ("jitter", ir::Pattern::Jitter),
-        ("random", ir::Pattern::Random),
+    const KEYWORDS: KeywordTable<Self> = &[
+        (
+            "grid",
+            ir::Pattern::Grid,
+            "In the middle of its cell of the pixel.",
+        ),
+        (
+            "jitter",
+            ir::Pattern::Jitter,
+            "Anywhere in its cell of the pixel.",
+        ),
+        ("random", ir::Pattern::Random, "Anywhere in the pixel."),
     ];
 }
 

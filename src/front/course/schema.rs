@@ -4,6 +4,7 @@
 //! beside `Camera`.
 
 use super::decode::Decode;
+use super::keyword::enumeration;
 use super::object::{KINDS, ObjectKind};
 use super::reader::{COMMENT, MATERIAL};
 use super::record::{FieldDeclaration, Record, Requirement};
@@ -55,13 +56,32 @@ fn definition(
 /// A reference to the schema of an object within another, whose material it has if it has none.
 pub(super) fn operand(definitions: &mut Definitions) -> Json {
     definition("operand", definitions, |definitions| {
-        let mut kinds = Vec::new();
+        let mut choices = Vec::new();
         for ObjectKind { names, schema, .. } in KINDS {
             let schema = schema(definitions);
-            kinds.extend(names.iter().map(|name| (*name, schema.clone())));
+            choices.extend(names.iter().map(|name| choice(name, &schema)));
         }
-        tagged("type", "What kind of object this is.", &kinds)
+        let mut kind = json!({ "anyOf": enumeration(KINDS.iter().flat_map(words)) });
+        kind["description"] = json!("What kind of object this is.");
+        json!({
+            "type": "object",
+            "properties": { "type": kind },
+            "required": ["type"],
+            "allOf": choices,
+        })
     })
+}
+
+/// The names of a type of objects, and the meaning of the first.
+fn words(kind: &ObjectKind) -> impl Iterator<Item = (&'static str, &'static str)> {
+    let docs = std::iter::once(kind.record.doc.trim()).chain(std::iter::repeat(""));
+    kind.names.iter().copied().zip(docs)
+}
+
+/// The schema that a value of `type` selects.
+fn choice(name: &str, schema: &Json) -> Json {
+    let is_kind = json!({ "properties": { "type": { "const": name } }, "required": ["type"] });
+    json!({ "if": is_kind, "then": schema })
 }
 
 /// A reference to the schema of an object. Without a material it must be of a type that needs none;
@@ -70,12 +90,9 @@ pub(super) fn object(definitions: &mut Definitions) -> Json {
     let operand = operand(definitions);
     definition("object", definitions, |_| {
         let needs_none = |kind: &&ObjectKind| !kind.record.fields.iter().any(is_own_material);
-        let names = KINDS.iter().filter(needs_none).flat_map(|kind| kind.names);
+        let names = KINDS.iter().filter(needs_none).flat_map(words);
         let mut properties = Map::new();
-        properties.insert(
-            "type".to_owned(),
-            json!({ "enum": names.collect::<Vec<_>>() }),
-        );
+        properties.insert("type".to_owned(), json!({ "anyOf": enumeration(names) }));
         let object = json!({ "$ref": "#/$defs/object" });
         for field in KINDS.iter().flat_map(|kind| kind.record.fields) {
             let within = match field.name {
@@ -93,21 +110,6 @@ pub(super) fn object(definitions: &mut Definitions) -> Json {
 /// Whether this is the required material of an object, or the object itself.
 fn is_own_material(field: &FieldDeclaration) -> bool {
     field.name == MATERIAL && matches!(field.requirement, Requirement::Required)
-}
-
-/// The schema of a map whose key `tag` selects one of `kinds`.
-pub(super) fn tagged(tag: &str, doc: &str, kinds: &[(&str, Json)]) -> Json {
-    let names: Vec<_> = kinds.iter().map(|(name, _)| *name).collect();
-    let choose = |(name, schema): &(&str, Json)| {
-        let is_kind = json!({ "properties": { tag: { "const": name } }, "required": [tag] });
-        json!({ "if": is_kind, "then": schema })
-    };
-    json!({
-        "type": "object",
-        "properties": { tag: { "description": doc, "enum": names } },
-        "required": [tag],
-        "allOf": kinds.iter().map(choose).collect::<Vec<_>>(),
-    })
 }
 
 fn record_schema(record: &Record, definitions: &mut Definitions) -> Json {

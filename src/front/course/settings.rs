@@ -3,7 +3,7 @@
 use super::camera::Camera;
 use super::decode::{Context, Decode, LazyList, Spanned};
 use super::environment::Environment;
-use super::keyword::{keyword, keyword_schema};
+use super::keyword::{KeywordTable, keyword, keyword_schema};
 use super::light::Light;
 use super::lower::Lowering;
 use super::number::{Count, Natural, NonNegative, Real, Stops, plain_number};
@@ -130,15 +130,31 @@ pub(super) enum Mode {
 }
 
 /// The keywords of the render modes.
-const MODES: &[(&str, Mode)] = &[
-    ("phong", Mode::Phong),
-    ("zbuffer", Mode::Depth),
-    ("z-buffer", Mode::Depth),
-    ("normal", Mode::Normal),
-    ("gooch", Mode::Gooch),
-    ("path", Mode::Path),
-    ("texture", Mode::Uv),
-    ("textureCoordinate", Mode::Uv),
+const MODES: KeywordTable<Mode> = &[
+    (
+        "phong",
+        Mode::Phong,
+        "Phong shading, with shadows, mirror images and glass by rays.",
+    ),
+    ("zbuffer", Mode::Depth, "Distances: what is near is bright."),
+    ("z-buffer", Mode::Depth, ""),
+    ("normal", Mode::Normal, "Normals as colours."),
+    (
+        "gooch",
+        Mode::Gooch,
+        "Gooch shading, from cool to warm colours.",
+    ),
+    (
+        "path",
+        Mode::Path,
+        "Path tracing: light that is reflected on and on, in physical units.",
+    ),
+    (
+        "texture",
+        Mode::Uv,
+        "Texture coordinates as the colours (u, 0, v).",
+    ),
+    ("textureCoordinate", Mode::Uv, ""),
 ];
 
 /// The numbers of render modes in some files.
@@ -176,8 +192,8 @@ impl Decode for Mode {
     fn json(&self) -> Json {
         MODES
             .iter()
-            .find(|(_, mode)| mode == self)
-            .map_or(Json::Null, |(keyword, _)| json!(keyword))
+            .find(|(_, mode, _)| mode == self)
+            .map_or(Json::Null, |(keyword, ..)| json!(keyword))
     }
 }
 

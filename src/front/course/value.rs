@@ -1,7 +1,7 @@
 //! The other value types of the format: vectors, colours, booleans, switches and strings.
 
 use super::decode::{Context, Decode, describe};
-use super::keyword::keyword_schema;
+use super::keyword::{KeywordTable, keyword_schema};
 use super::number::{is_number, json_number, number, plain_number, radians};
 use super::schema::Definitions;
 use super::suggestion::{as_list, decimal_commas};
@@ -260,16 +260,16 @@ impl Decode for bool {
 pub(super) struct Switch(pub(super) bool);
 
 /// The keywords of a switch.
-const SWITCH_KEYWORDS: &[(&str, bool)] = &[("on", true), ("off", false)];
+const SWITCH_KEYWORDS: KeywordTable<bool> = &[("on", true, "Yes."), ("off", false, "No.")];
 
 impl Decode for Switch {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let written = context.tree.text(node).unwrap_or_default();
         let known = SWITCH_KEYWORDS
             .iter()
-            .find(|(scalar, _)| scalar.eq_ignore_ascii_case(written));
+            .find(|(scalar, ..)| scalar.eq_ignore_ascii_case(written));
         match known {
-            Some((_, is_on)) => Some(Self(*is_on)),
+            Some((_, is_on, _)) => Some(Self(*is_on)),
             None => bool::decode(node, context).map(Self),
         }
     }

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 const LINEAR_SEARCH_MAX: usize = 12;
 
 /// The keys of a tree, collected as each map closes.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct KeyIndex {
     /// Duplicate keys, each with its first occurrence.
     duplicates: Vec<(NodeId, NodeId)>,

@@ -161,8 +161,20 @@ pub enum NodeContent<'t> {
     Map,
 }
 
-/// A parsed text. Offsets are relative to the text, spans to the file.
+/// A tree without its text, to be kept beside it.
 #[derive(Debug)]
+pub struct DetachedTree(SyntaxTree<'static>);
+
+impl DetachedTree {
+    /// The tree of its text, which must be the one that was parsed.
+    #[must_use]
+    pub fn attach<'s>(&self, source: &'s str) -> SyntaxTree<'s> {
+        self.0.clone().of_text(source)
+    }
+}
+
+/// A parsed text. Offsets are relative to the text, spans to the file.
+#[derive(Clone, Debug)]
 pub struct SyntaxTree<'s> {
     source: &'s str,
     /// The offset of the text in its file.
@@ -189,6 +201,36 @@ impl<'s> SyntaxTree<'s> {
             unescaped: String::new(),
             ranges: Vec::new(),
             keys: KeyIndex::default(),
+        }
+    }
+
+    /// The tree without its text.
+    #[must_use]
+    pub fn detach(self) -> DetachedTree {
+        DetachedTree(self.of_text(""))
+    }
+
+    /// The same nodes of another copy of the text.
+    fn of_text<'t>(self, source: &'t str) -> SyntaxTree<'t> {
+        let Self {
+            source: _,
+            base,
+            file,
+            nodes,
+            steps,
+            unescaped,
+            ranges,
+            keys,
+        } = self;
+        SyntaxTree {
+            source,
+            base,
+            file,
+            nodes,
+            steps,
+            unescaped,
+            ranges,
+            keys,
         }
     }
 

@@ -127,9 +127,30 @@ impl Editor {
         self.note("textDocument/didChange", params);
     }
 
+    /// The results of requests that are sent together.
+    pub(super) fn ask_all(&mut self, requests: Vec<(&str, Value)>) -> Vec<Value> {
+        let first = self.last + 1;
+        for (method, params) in &requests {
+            self.last += 1;
+            let own =
+                json!({"jsonrpc": "2.0", "id": self.last, "method": method, "params": params});
+            self.raw(&own.to_string());
+        }
+        let results = (first..).zip(&requests).map(|(id, (method, _))| {
+            let response = self.until(|message| message["id"] == id);
+            assert!(response.get("error").is_none(), "{method}: {response}");
+            response["result"].clone()
+        });
+        results.collect()
+    }
+
     /// The findings that a file is next told to have.
     pub(super) fn findings(&mut self, name: &str) -> Vec<Value> {
-        let uri = self.uri(name);
+        self.findings_of(&self.uri(name))
+    }
+
+    /// The findings that the file of a URI is next told to have.
+    pub(super) fn findings_of(&mut self, uri: &str) -> Vec<Value> {
         let reported = self.until(|message| {
             message["method"] == "textDocument/publishDiagnostics"
                 && message["params"]["uri"] == uri

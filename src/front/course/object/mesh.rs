@@ -5,7 +5,7 @@ use super::sizing::Sizing;
 use super::sphere::Radius;
 use crate::course::assets::{MaterialSource, PendingMaterial};
 use crate::course::decode::{Context, Decode, SharedValue, Spanned};
-use crate::course::keyword::Keyword;
+use crate::course::keyword::{Keyword, KeywordTable};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, Real};
@@ -81,7 +81,11 @@ pub(crate) enum LibraryKind {
 }
 
 impl Keyword for LibraryKind {
-    const KEYWORDS: &'static [(&'static str, Self)] = &[("mtl", LibraryKind::Mtl)];
+    const KEYWORDS: KeywordTable<Self> = &[(
+        "mtl",
+        LibraryKind::Mtl,
+        "The materials of the MTL file that the mesh file names.",
+    )];
 }
 
 /// The name of a material in a mesh file, which may be empty.

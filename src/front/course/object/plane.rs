@@ -4,7 +4,7 @@ use super::quad::EDGES;
 use super::triangle::CORNERS;
 use super::{Lower, report_negative};
 use crate::course::decode::{Context, SharedValue, Spanned, SpannedVector};
-use crate::course::keyword::Keyword;
+use crate::course::keyword::{Keyword, KeywordTable};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Real};
@@ -71,8 +71,10 @@ pub(crate) enum Outline {
 }
 
 impl Keyword for Outline {
-    const KEYWORDS: &'static [(&'static str, Self)] =
-        &[("quad", Outline::Square), ("circle", Outline::Circle)];
+    const KEYWORDS: KeywordTable<Self> = &[
+        ("quad", Outline::Square, "A square."),
+        ("circle", Outline::Circle, "A disc."),
+    ];
 }
 
 impl Lower for Plane {

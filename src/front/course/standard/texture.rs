@@ -10,7 +10,7 @@ use super::super::rotation::PlaneRows;
 use super::super::schema::Definitions;
 use super::super::value::{FileName, tuple};
 use super::value::SetIndex;
-use crate::course::keyword::Keyword;
+use crate::course::keyword::{Keyword, KeywordTable};
 use rtc_ir::{self as ir, Filter, Wrap};
 use rtc_source::Span;
 use rtc_source::tree::{NodeContent, NodeId};
@@ -76,10 +76,14 @@ impl Decode for MapOrFile {
 pub(crate) struct WrapModes([Wrap; 2]);
 
 /// The keywords of wrap modes.
-const WRAPS: &[(&str, Wrap)] = &[
-    ("repeat", Wrap::Repeat),
-    ("mirror", Wrap::Mirror),
-    ("clamp", Wrap::Clamp),
+const WRAPS: KeywordTable<Wrap> = &[
+    ("repeat", Wrap::Repeat, "The image again and again."),
+    (
+        "mirror",
+        Wrap::Mirror,
+        "The image, and every other time its mirror image.",
+    ),
+    ("clamp", Wrap::Clamp, "The texels of its edge."),
 ];
 
 impl Decode for WrapModes {
@@ -100,14 +104,20 @@ impl Decode for WrapModes {
     }
 
     fn json(&self) -> Json {
-        let keyword = WRAPS.iter().find(|(_, wrap)| *wrap == self.0[0]);
-        keyword.map_or(Json::Null, |(keyword, _)| json!(keyword))
+        let keyword = WRAPS.iter().find(|(_, wrap, _)| *wrap == self.0[0]);
+        keyword.map_or(Json::Null, |(keyword, ..)| json!(keyword))
     }
 }
 
 impl Keyword for Filter {
-    const KEYWORDS: &'static [(&'static str, Self)] =
-        &[("linear", Filter::Linear), ("nearest", Filter::Nearest)];
+    const KEYWORDS: KeywordTable<Self> = &[
+        ("linear", Filter::Linear, "Blends the four nearest texels."),
+        (
+            "nearest",
+            Filter::Nearest,
+            "The nearest texel, with hard edges.",
+        ),
+    ];
 }
 
 impl Lowering {

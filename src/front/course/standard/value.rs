@@ -1,7 +1,7 @@
 //! The value types of a `standard` material: fractions, ranges, alpha modes.
 
 use super::super::decode::{Context, Decode, Spanned};
-use super::super::keyword::{keyword, keyword_schema};
+use super::super::keyword::{KeywordTable, keyword, keyword_schema};
 use super::super::number::{NonNegative, Real, integer, json_number, number, ranged};
 use super::super::record::{keys, record};
 use super::super::schema::Definitions;
@@ -110,10 +110,14 @@ impl From<Alpha> for AlphaMode {
 }
 
 /// The keywords of alpha modes; `mask` has the default cutoff of glTF.
-const ALPHA_MODES: &[(&str, Alpha)] = &[
-    ("opaque", Alpha::Opaque),
-    ("mask", Alpha::Mask(0.5)),
-    ("blend", Alpha::Blend),
+const ALPHA_MODES: KeywordTable<Alpha> = &[
+    ("opaque", Alpha::Opaque, "Alpha has no effect."),
+    (
+        "mask",
+        Alpha::Mask(0.5),
+        "Opaque where alpha is at least 0.5, invisible elsewhere.",
+    ),
+    ("blend", Alpha::Blend, "As opaque as alpha says."),
 ];
 
 record! {
@@ -145,7 +149,7 @@ impl Decode for AlphaMode {
     }
 
     fn json(&self) -> Json {
-        let keyword = ALPHA_MODES.iter().find(|(_, alpha)| *alpha == self.0);
-        keyword.map_or(Json::Null, |(keyword, _)| json!(keyword))
+        let keyword = ALPHA_MODES.iter().find(|(_, alpha, _)| *alpha == self.0);
+        keyword.map_or(Json::Null, |(keyword, ..)| json!(keyword))
     }
 }
