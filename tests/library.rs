@@ -50,11 +50,11 @@ fn exports_are_those_of_the_command_line() {
     for (scene, names) in [
         (
             "scenes/ball.obj",
-            &["a.json", "a.rtir", "a.glb", "a.gltf", "a.xml"][..],
+            &["a.json", "a.rtir", "a.glb", "a.gltf", "a.xml", "a.pbrt"][..],
         ),
         (
             "scenes/five-spheres.yaml",
-            &["a.json", "a.yaml", "a.xml", "a.pov", "a.gltf"],
+            &["a.json", "a.yaml", "a.xml", "a.pbrt", "a.pov", "a.gltf"],
         ),
     ] {
         let opened = Scene::open(root.join(scene)).unwrap();

@@ -42,6 +42,7 @@ mod proofs;
 mod ray_counts;
 mod readme;
 mod repo;
+mod round_trips;
 mod scale;
 mod scene_laws;
 mod schema;

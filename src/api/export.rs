@@ -28,8 +28,8 @@ pub struct Export {
 
 impl Scene {
     /// The scene as a file of this name, whose extension is the format: `.json` (the IR as text),
-    /// `.rtir` (the IR), `.yaml`, `.glb`, `.gltf`, `.xml` (Mitsuba) or `.pov`. The bytes are those
-    /// of `rtc compile`.
+    /// `.rtir` (the IR), `.yaml`, `.glb`, `.gltf`, `.xml` (Mitsuba), `.pbrt` or `.pov`. The bytes
+    /// are those of `rtc compile`.
     ///
     /// # Errors
     /// [`Error::Invalid`] if the scene has errors or the format lacks something of it,
@@ -43,20 +43,29 @@ impl Run<'_> {
     fn export(mut self, name: &str) -> Result<Export, Error> {
         let refused = |reason: &str| Error::Refused(format!("`{name}` can't be written: {reason}"));
         let format = ExportFormat::of(name).ok_or_else(|| {
-            refused("its extension is not json, rtir, yaml, glb, gltf, xml or pov")
+            refused(&format!(
+                "its extension is not {}",
+                ExportFormat::extensions()
+            ))
         })?;
         let folder = sidecar_folder(Path::new(name)).ok_or_else(|| refused("it has no name"))?;
-        let options = Options::new();
+        // Other renderers get the scene without its exposure, which need not be measured then.
+        let options = match format.is_of_renderer() {
+            true => Options::new().exposure(0.0),
+            false => Options::new(),
+        };
         let mut setup = options.setup()?;
         let mut subject = self.validate(&options, &mut setup)?;
-        // A scene text with its picture settings.
-        if format == ExportFormat::Text {
+        // What is rendered is in the light of its picture, and a scene text in its settings.
+        if format == ExportFormat::Text || format.is_of_renderer() {
             let observer = Observer {
                 on_step: &|_| (),
                 is_stopped: &|| false,
             };
             let lit = setup.light(&mut subject, &mut self.input, &observer);
             lit.map_err(|error| self.error(error))?;
+        }
+        if format == ExportFormat::Text {
             subject.validated.lowered.scene.display = setup.look.as_display();
         }
         let written = self.input.write_scene(&subject.validated, format, &folder);

@@ -13,7 +13,7 @@ use rtc_codec::{self as codec, Encoding};
 use rtc_emit as emit;
 use rtc_emit::course::WrittenScene;
 use rtc_image::{BackgroundFill, FileFormat};
-use rtc_pipeline::{ExportFormat, Input, OutputTransform, PictureSetup, Validated};
+use rtc_pipeline::{ExportFormat, Exposure, Input, OutputTransform, PictureSetup, Validated};
 use std::path::Path;
 
 /// Compiles the scene and writes it.
@@ -34,40 +34,48 @@ pub(super) fn run(args: &Compile) -> Result<(), Failure> {
 }
 
 fn carry_out(args: &Compile, emit: Emit, reporter: &mut Reporter) -> Result<(), Failure> {
-    let mut input = input::staged(&args.file, &args.reading, &args.stage)?;
-    if emit == Emit::Yaml {
-        return carry_out_text(args, input, reporter);
+    let input = input::staged(&args.file, &args.reading, &args.stage)?;
+    match emit {
+        Emit::Ir => carry_out_ir(args, Encoding::Json, input, reporter),
+        Emit::IrBin => carry_out_ir(args, Encoding::Binary, input, reporter),
+        Emit::Yaml => carry_out_text(args, input, reporter),
+        Emit::Glb | Emit::Gltf => carry_out_gltf(args, emit, input, reporter),
+        Emit::Mitsuba => carry_out_exported(args, ExportFormat::Mitsuba, input, reporter),
+        Emit::Pbrt => carry_out_exported(args, ExportFormat::Pbrt, input, reporter),
+        Emit::Pov => carry_out_exported(args, ExportFormat::Pov, input, reporter),
     }
+}
+
+/// Writes the IR.
+fn carry_out_ir(
+    args: &Compile,
+    encoding: Encoding,
+    mut input: Input,
+    reporter: &mut Reporter,
+) -> Result<(), Failure> {
     let validated = input::require(&mut input, reporter, input::fill)?;
     explain(args, &validated, &input)?;
     let Some(target) = target(args) else {
         return Ok(());
     };
-    let scene = &validated.lowered.scene;
-    let encoding = match emit {
-        Emit::Ir | Emit::Yaml => Encoding::Json,
-        Emit::IrBin => Encoding::Binary,
-        Emit::Glb | Emit::Gltf => {
-            return write_gltf(args, emit, target, &validated, (input, reporter));
-        }
-        Emit::Mitsuba | Emit::Pov => {
-            return write_exported(emit, target, &validated, (input, reporter));
-        }
-    };
-    let encoded = codec::prepare(encoding, scene);
+    let encoded = codec::prepare(encoding, &validated.lowered.scene);
     let encoded = encoded.map_err(|codec::NotFinite| cannot(&input, "a number is not finite"))?;
     let interrupt = Interrupt::listen()?;
     Output::open(target, &input)?.commit_by(&|out| encoded.write(out), &interrupt)
 }
 
 /// Writes the scene as glTF, and beside a text the files that it names.
-fn write_gltf(
+fn carry_out_gltf(
     args: &Compile,
     emit: Emit,
-    target: &Path,
-    validated: &Validated,
-    (mut input, reporter): (Input, &mut Reporter),
+    mut input: Input,
+    reporter: &mut Reporter,
 ) -> Result<(), Failure> {
+    let validated = input::require(&mut input, reporter, input::fill)?;
+    explain(args, &validated, &input)?;
+    let Some(target) = target(args) else {
+        return Ok(());
+    };
     let output = Output::open(target, &input)?;
     let folder = folder_of((emit == Emit::Gltf).then_some(target), &output, &input)?;
     let asset = input.gltf(&validated.lowered, args.tolerance, folder.as_deref());
@@ -82,29 +90,52 @@ fn write_gltf(
 /// Why a text with files beside it is not written to standard output.
 const NO_FOLDER: &str = "its vertices and images are files beside the text: give `-o FILE`";
 
-/// Writes the scene for another renderer, with its files beside it.
-fn write_exported(
-    emit: Emit,
-    target: &Path,
-    validated: &Validated,
-    (mut input, reporter): (Input, &mut Reporter),
+/// Writes the scene for another renderer in the light of its picture, which the studio may fill in,
+/// with its files beside it.
+fn carry_out_exported(
+    args: &Compile,
+    format: ExportFormat,
+    mut input: Input,
+    reporter: &mut Reporter,
 ) -> Result<(), Failure> {
+    let interrupt = Interrupt::listen()?;
+    // The exposure is not written, so it need not be measured.
+    let exposure = Some(Exposure::Stops(0.0));
+    let (_, validated) = lit(exposure, &mut input, &interrupt, reporter)?;
+    explain(args, &validated, &input)?;
+    let Some(target) = target(args) else {
+        return Ok(());
+    };
     let output = Output::open(target, &input)?;
-    let (format, folder) = if emit == Emit::Pov {
-        (ExportFormat::Pov, output.sidecar_folder(target))
-    } else {
-        let folder = folder_of(Some(target), &output, &input)?;
-        (ExportFormat::Mitsuba, folder)
+    let folder = match format == ExportFormat::Pov {
+        true => output.sidecar_folder(target),
+        false => folder_of(Some(target), &output, &input)?,
     };
     let exported = input.export(&validated.lowered, format, folder.as_deref());
     let exported = input::unless_refused(exported, &mut input, reporter)?;
-    let interrupt = Interrupt::listen()?;
     let files = exported.files.iter();
     let files = files.map(|(name, bytes)| (name.as_str(), bytes.as_slice()));
     let companions = write_sidecar(target, files, &interrupt)?;
     output.commit(exported.text.as_bytes(), &interrupt)?;
     companions.keep();
     Ok(())
+}
+
+/// The scene in the light of its picture, with the output transform that was found.
+fn lit(
+    exposure: Option<Exposure>,
+    input: &mut Input,
+    interrupt: &Interrupt,
+    reporter: &mut Reporter,
+) -> Result<(OutputTransform, Validated), Failure> {
+    let look = OutputTransform::new(FileFormat::Png8, None, exposure, BackgroundFill::Film, &[]);
+    let mut setup = PictureSetup {
+        simd: simd::level()?,
+        ..PictureSetup::new(look.map_err(|message| Failure::Failed(message.to_owned()))?)
+    };
+    let mut subject = input::subject(&mut setup, input, reporter)?;
+    input::light(&mut setup, &mut subject, input, interrupt, reporter)?;
+    Ok((setup.look, subject.validated))
 }
 
 /// The name of the folder of files beside a target, if it has one.
@@ -139,16 +170,9 @@ fn carry_out_text(
     mut input: Input,
     reporter: &mut Reporter,
 ) -> Result<(), Failure> {
-    let look = OutputTransform::new(FileFormat::Png8, None, None, BackgroundFill::Film, &[]);
-    let mut setup = PictureSetup {
-        simd: simd::level()?,
-        ..PictureSetup::new(look.map_err(|message| Failure::Failed(message.to_owned()))?)
-    };
-    let mut subject = input::subject(&mut setup, &mut input, reporter)?;
     let interrupt = Interrupt::listen()?;
-    input::light(&mut setup, &mut subject, &mut input, &interrupt, reporter)?;
-    let mut validated = subject.validated;
-    validated.lowered.scene.display = setup.look.as_display();
+    let (look, mut validated) = lit(None, &mut input, &interrupt, reporter)?;
+    validated.lowered.scene.display = look.as_display();
     explain(args, &validated, &input)?;
     match target(args) {
         Some(target) => write_text(target, &validated, &input, &interrupt),
@@ -211,18 +235,20 @@ fn by_extension(output: &Path) -> Result<Emit, Failure> {
     if output::is_stdout(output) {
         return Ok(Emit::Ir);
     }
-    match output.extension().and_then(|extension| extension.to_str()) {
-        Some("json") => Ok(Emit::Ir),
-        Some("rtir") => Ok(Emit::IrBin),
-        Some("yaml" | "yml") => Ok(Emit::Yaml),
-        Some("glb") => Ok(Emit::Glb),
-        Some("gltf") => Ok(Emit::Gltf),
-        Some("xml") => Ok(Emit::Mitsuba),
-        Some("pov") => Ok(Emit::Pov),
-        _ => Err(Failure::Failed(format!(
-            "unknown format `{}`; use .json, .rtir, .yaml, .glb, .gltf, .xml \
-            or .pov, or give `--emit`",
-            output.display()
+    let name = output.to_string_lossy();
+    match ExportFormat::of(&name) {
+        Some(ExportFormat::Ir) => Ok(Emit::Ir),
+        Some(ExportFormat::IrBinary) => Ok(Emit::IrBin),
+        Some(ExportFormat::Text) => Ok(Emit::Yaml),
+        Some(ExportFormat::Glb) => Ok(Emit::Glb),
+        Some(ExportFormat::Gltf) => Ok(Emit::Gltf),
+        Some(ExportFormat::Mitsuba) => Ok(Emit::Mitsuba),
+        Some(ExportFormat::Pbrt) => Ok(Emit::Pbrt),
+        Some(ExportFormat::Pov) => Ok(Emit::Pov),
+        None => Err(Failure::Failed(format!(
+            "unknown format `{}`; use {}, or give `--emit`",
+            output.display(),
+            ExportFormat::extensions()
         ))),
     }
 }

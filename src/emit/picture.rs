@@ -126,6 +126,18 @@ impl<'s> TexturePicture<'s> {
         Ok((picture.encode(FileFormat::Exr)?, "exr"))
     }
 
+    /// The mean colour, linear by `coding`.
+    pub(super) fn mean(&self, coding: Coding) -> [f64; 3] {
+        let [width, height] = self.size;
+        let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        let colors = places.map(|(x, y)| {
+            let [r, g, b, _] = self.texel(x, y, coding);
+            Vec3::new(r, g, b)
+        });
+        let sum: Vec3 = colors.sum();
+        (sum / (f64::from(width) * f64::from(height))).to_array()
+    }
+
     /// A texel, counted from the top left.
     fn texel(&self, x: u32, y: u32, coding: Coding) -> [f64; 4] {
         let [u, v] = [
@@ -176,6 +188,28 @@ fn stored(image: &ir::Image, index: usize, coding: Coding) -> [f64; 4] {
 fn floats(bytes: &[u8]) -> [f64; 3] {
     let parts = bytes.as_chunks::<4>().0;
     [0, 1, 2].map(|channel| f64::from(f32::from_le_bytes(parts[channel])))
+}
+
+/// The value of an environment map, linear between its pixels: v downwards, both in [0, 1]; the
+/// left edge continues at the right one.
+pub(super) fn environment_at(image: &ir::Image, [u, v]: [f64; 2]) -> Vec3 {
+    let [width, height] = [image.width, image.height].map(f64::from);
+    let (x, y) = (u * width - 0.5, v * height - 0.5);
+    let (left, top) = (x.floor(), y.floor().clamp(0.0, height - 1.0));
+    let (dx, dy) = (x - left, (y - top).clamp(0.0, 1.0));
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "texels within the image"
+    )]
+    let at = |column: f64, row: f64| {
+        let column = column.rem_euclid(width) as usize;
+        let row = row.min(height - 1.0) as usize;
+        let [r, g, b, _] = stored(image, row * image.width as usize + column, Coding::Srgb);
+        Vec3::new(r, g, b)
+    };
+    let row = |row: f64| at(left, row) * (1.0 - dx) + at(left + 1.0, row) * dx;
+    row(top) * (1.0 - dy) + row(top + 1.0) * dy
 }
 
 /// The rows below which an environment map is written with twice as many.

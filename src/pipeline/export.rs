@@ -21,25 +21,50 @@ pub enum ExportFormat {
     Gltf,
     /// A Mitsuba scene.
     Mitsuba,
+    /// A pbrt-v4 scene.
+    Pbrt,
     /// A POV-Ray scene.
     Pov,
 }
+
+/// The extensions of files, each with its format.
+const EXTENSIONS: [(&str, ExportFormat); 9] = [
+    ("json", ExportFormat::Ir),
+    ("rtir", ExportFormat::IrBinary),
+    ("yaml", ExportFormat::Text),
+    ("yml", ExportFormat::Text),
+    ("glb", ExportFormat::Glb),
+    ("gltf", ExportFormat::Gltf),
+    ("xml", ExportFormat::Mitsuba),
+    ("pbrt", ExportFormat::Pbrt),
+    ("pov", ExportFormat::Pov),
+];
 
 impl ExportFormat {
     /// The format of a file, by the extension of its name.
     #[must_use]
     pub fn of(name: &str) -> Option<Self> {
         let extension = Path::new(name).extension()?.to_str()?;
-        match extension {
-            "json" => Some(Self::Ir),
-            "rtir" => Some(Self::IrBinary),
-            "yaml" | "yml" => Some(Self::Text),
-            "glb" => Some(Self::Glb),
-            "gltf" => Some(Self::Gltf),
-            "xml" => Some(Self::Mitsuba),
-            "pov" => Some(Self::Pov),
-            _ => None,
-        }
+        let known = EXTENSIONS.iter().find(|(known, _)| *known == extension);
+        known.map(|(_, format)| *format)
+    }
+
+    /// The extensions of all formats, as a phrase.
+    #[must_use]
+    pub fn extensions() -> String {
+        let names: Vec<_> = EXTENSIONS
+            .iter()
+            .map(|(name, _)| format!(".{name}"))
+            .collect();
+        let (last, first) = names.split_last().expect("there are formats");
+        format!("{} or {last}", first.join(", "))
+    }
+
+    /// Whether another renderer reads the format: the light that `rtc render` adds to a scene is
+    /// written, too.
+    #[must_use]
+    pub fn is_of_renderer(self) -> bool {
+        matches!(self, Self::Mitsuba | Self::Pbrt | Self::Pov)
     }
 }
 
@@ -121,7 +146,7 @@ impl Input {
                     files: files.collect(),
                 }))
             }
-            ExportFormat::Mitsuba | ExportFormat::Pov => {
+            ExportFormat::Mitsuba | ExportFormat::Pbrt | ExportFormat::Pov => {
                 let exported = self.export(lowered, format, Some(folder));
                 Ok(exported.map(|exported| ExportedFiles {
                     bytes: exported.text.into_bytes(),

@@ -314,8 +314,8 @@ impl Input {
         )
     }
 
-    /// The scene as a Mitsuba scene, or as a POV-Ray scene, with meshes and pictures in `folder`;
-    /// without one a POV-Ray scene lacks its pictures. `None` if it can't be exported, with an
+    /// The scene as one of another renderer, with meshes and pictures in `folder`; without one it is
+    /// a POV-Ray scene that lacks its pictures. `None` if it can't be exported, with an
     /// error diagnostic.
     pub fn export(
         &mut self,
@@ -331,6 +331,9 @@ impl Input {
         match (format, folder) {
             (ExportFormat::Mitsuba, Some(folder)) => {
                 emit::mitsuba::emit(scene, source_spans, folder, budget, &mut self.sink)
+            }
+            (ExportFormat::Pbrt, Some(folder)) => {
+                emit::pbrt::emit(scene, source_spans, folder, budget, &mut self.sink)
             }
             _ => emit::pov::emit(scene, source_spans, folder, budget, &mut self.sink),
         }

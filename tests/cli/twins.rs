@@ -1,4 +1,4 @@
-//! `rtc compile --emit mitsuba` and `--emit pov`: what is written, and that all else is told.
+//! `rtc compile --emit mitsuba`, `--emit pbrt` and `--emit pov`: what is written, and that all else is told.
 
 use super::*;
 
@@ -111,6 +111,28 @@ fn traced_paths_become_a_scene_of_mitsuba() {
         reported.contains(r#""triangles": 3"#) || reported.contains(r#""triangles":3"#),
         "{reported}"
     );
+}
+
+#[test]
+fn traced_paths_become_a_scene_of_pbrt() {
+    let (_, text, reported) = written(PATHS, "scene.pbrt");
+    assert_eq!(reported, "");
+    for part in [
+        r#"Integrator "path" "integer maxdepth" [ 3 ]"#,
+        r#"Sampler "independent" "integer pixelsamples" [ 16 ]"#,
+        r#"Film "rgb" "integer xresolution" [ 40 ] "integer yresolution" [ 30 ]"#,
+        // Half of the height is 1.5 units, and the middle is half a unit to the right.
+        r#""float screenwindow" [ -1 1.66666666666666"#,
+        r#"LightSource "infinite" "rgb L" [ 0.5 0.6 0.7 ]"#,
+        r#"LightSource "distant" "point3 from" [ 0 1 0 ] "point3 to" [ 0 0 0 ] "rgb L" [ 3 2 1 ]"#,
+        r#"LightSource "point" "point3 from" [ 1 2 3 ] "rgb I" [ 4 5 6 ]"#,
+        r#""string type" "diffuse" "rgb reflectance" [ 0.25 0.3 0.4 ]"#,
+        r#""string type" "conductor" "rgb reflectance" [ 1 1 1 ]"#,
+        r#"Shape "bilinearmesh" "point3 P" [ 0 0 0 0 0 1 0 1 0 0 1 1 ]"#,
+        r#"Shape "plymesh" "string filename" "scene.files/"#,
+    ] {
+        assert!(text.contains(part), "{part} is missing: {text}");
+    }
 }
 
 #[test]
@@ -230,7 +252,7 @@ Objects:
 ";
     let folder = folder();
     fs::write(folder.path().join("scene.yaml"), scene).unwrap();
-    for target in ["scene.xml", "scene.pov"] {
+    for target in ["scene.xml", "scene.pbrt", "scene.pov"] {
         let done = rtc(
             &folder,
             &[
@@ -251,9 +273,11 @@ Objects:
 #[test]
 fn meshes_of_mitsuba_are_files_so_it_needs_a_place() {
     let folder = folder();
-    let nowhere = rtc(&folder, &["compile", "ball.json", "--emit", "mitsuba"]);
-    assert_eq!((code(&nowhere), nowhere.stdout.len()), (1, 0));
-    assert!(stderr(&nowhere).contains("give `-o FILE`"));
+    for format in ["mitsuba", "pbrt"] {
+        let nowhere = rtc(&folder, &["compile", "ball.json", "--emit", format]);
+        assert_eq!((code(&nowhere), nowhere.stdout.len()), (1, 0));
+        assert!(stderr(&nowhere).contains("give `-o FILE`"));
+    }
     let refused = rtc(
         &folder,
         &["compile", "ball.json", "-o", "x.pov", "--tolerance", "1"],

@@ -67,7 +67,7 @@ pub(super) enum Command {
     Check(CheckArgs),
     /// Format scene files; comments stay
     Fmt(Fmt),
-    /// Convert a scene to the IR, YAML, glTF, Mitsuba or POV-Ray; explain what it needs
+    /// Convert a scene to the IR, YAML, glTF, Mitsuba, pbrt or POV-Ray; explain what it needs
     Compile(Compile),
     /// Render scenes to pictures
     Render(Box<Render>),
@@ -207,7 +207,7 @@ pub(super) struct Compile {
     pub(super) explain: Option<Explanation>,
     /// Select the format [default: by the extension of the output, or `ir`]
     ///
-    /// Extensions: .json, .rtir, .yaml, .glb, .gltf, .xml (Mitsuba), .pov.
+    /// Extensions: .json, .rtir, .yaml, .glb, .gltf, .xml (Mitsuba), .pbrt, .pov.
     #[arg(long, value_enum, help_heading = "Output")]
     pub(super) emit: Option<Emit>,
     /// Set the tolerance of tessellation for glTF, in scene units
@@ -274,6 +274,8 @@ pub(super) enum Emit {
     Gltf,
     /// A scene of Mitsuba 3 (XML), with meshes in a folder beside it; warnings name approximations
     Mitsuba,
+    /// A scene of pbrt-v4, with meshes in a folder beside it; warnings name approximations
+    Pbrt,
     /// A scene of POV-Ray 3.7; warnings name approximations
     Pov,
 }

@@ -4,62 +4,37 @@
 use super::MitsubaWriter;
 use crate::export::joined;
 use crate::flat::{around, side};
-use rtc_ir::{Camera, EntityKind, Field, Projection, ValuePath};
-use rtc_math::{Vec3, length, shortest, unit};
-
-/// The largest relative difference of the sides of a pixel that counts as square.
-const SQUARE: f64 = 1e-9;
-/// The largest offset of the image centre from the axis that counts as centred, in half image
-/// sizes.
-const CENTERED: f64 = 1e-12;
+use crate::path_tracer::{CameraFrame, SQUARE};
+use rtc_ir::{EntityKind, Field, Projection, ValuePath};
+use rtc_math::{Vec3, length, shortest};
 
 impl MitsubaWriter<'_> {
     /// Mitsuba's camera looks along its z axis, with y up and x to the left.
     pub(super) fn camera(&mut self) {
-        let scene = self.scene;
-        let Camera {
-            eye,
-            center,
-            right,
-            up,
-            size: [width, height],
-            lens,
-            projection,
-        } = &scene.camera;
-        // Axes of the camera.
-        let [eye, center, right, up] = [*eye, *center, *right, *up].map(Vec3::from_array);
-        let [x, y] = [right, up].map(|step| unit(step).unwrap_or(Vec3::X));
-        let across = unit(x.cross(y)).unwrap_or(Vec3::Z);
-        let z = if across.dot(center - eye) < 0.0 {
-            -across
-        } else {
-            across
-        };
-        // Image size, and offset of its centre from the axis.
-        self.square_pixels(length(right), length(up));
-        let distance = (center - eye).dot(z);
-        let half = [
-            length(right) * f64::from(*width) / 2.0,
-            length(up) * f64::from(*height) / 2.0,
-        ];
-        let middle = center - (eye + z * distance);
-        let shift = [middle.dot(x) / half[0], middle.dot(y) / half[1]];
+        let camera = &self.scene.camera;
+        let frame = CameraFrame::of(camera);
+        self.square_pixels(
+            length(Vec3::from_array(camera.right)),
+            length(Vec3::from_array(camera.up)),
+        );
         // Sensor and projection.
-        let is_lens = lens.radius > 0.0;
-        match projection {
+        let [x, y, z] = frame.axes;
+        let is_lens = camera.lens.radius > 0.0;
+        match camera.projection {
             Projection::Perspective => {
-                self.perspective(is_lens, shift);
+                self.perspective(is_lens, &frame);
                 if is_lens {
-                    self.value(2, "float", "aperture_radius", &shortest(lens.radius));
-                    self.value(2, "float", "focus_distance", &shortest(distance));
+                    let radius = shortest(camera.lens.radius);
+                    self.value(2, "float", "aperture_radius", &radius);
+                    self.value(2, "float", "focus_distance", &shortest(frame.distance));
                 }
-                self.placed([-x, y, z, eye]);
+                self.placed([-x, y, z, frame.eye]);
             }
-            Projection::Orthographic => self.orthographic([x, y, z], half[0], (eye, center)),
+            Projection::Orthographic => self.orthographic(&frame),
         }
         // Clipping planes and film.
         self.clips();
-        self.film([*width, *height]);
+        self.film(camera.size);
     }
 
     /// The clipping planes of Mitsuba's camera: near at a millionth of the scene radius, far beyond
@@ -74,20 +49,21 @@ impl MitsubaWriter<'_> {
         if (right / up - 1.0).abs() > SQUARE {
             let message = "pixels are not square: Mitsuba's are, as high as these";
             let path = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
-            self.reporter.unsupported(message, path);
+            self.beside.reporter.unsupported(message, path);
         }
     }
 
-    /// Starts the sensor; its principal point may be off-centre, in half image sizes.
-    fn perspective(&mut self, is_lens: bool, [x, y]: [f64; 2]) {
+    /// Starts the sensor; its principal point may be off-centre.
+    fn perspective(&mut self, is_lens: bool, frame: &CameraFrame) {
         let kind = if is_lens { "thinlens" } else { "perspective" };
         self.line(1, &format!(r#"<sensor type="{kind}">"#));
         let degrees = self.scene.camera.yfov().map_or(0.0, f64::to_degrees);
         self.value(2, "string", "fov_axis", "y");
         self.value(2, "float", "fov", &shortest(degrees));
-        match (x.abs().max(y.abs()) > CENTERED, is_lens) {
+        match (frame.is_shifted(), is_lens) {
             (false, _) => {}
             (true, false) => {
+                let [x, y] = frame.shift;
                 let (x, y) = (shortest(x / 2.0), shortest(-y / 2.0));
                 self.value(2, "float", "principal_point_offset_x", &x);
                 self.value(2, "float", "principal_point_offset_y", &y);
@@ -95,20 +71,21 @@ impl MitsubaWriter<'_> {
             (true, true) => {
                 let message = "a lens looks past the middle of the picture: Mitsuba's does not";
                 let path = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
-                self.reporter.unsupported(message, path);
+                self.beside.reporter.unsupported(message, path);
             }
         }
     }
 
     /// Mitsuba's orthographic image extends from −1 to 1 horizontally.
-    fn orthographic(&mut self, [x, y, z]: [Vec3; 3], half: f64, (eye, center): (Vec3, Vec3)) {
-        if unit(center - eye).is_some_and(|view_direction| view_direction.distance(z) > SQUARE) {
+    fn orthographic(&mut self, frame: &CameraFrame) {
+        if frame.is_slanted() {
             let message = "rays come slantwise through the picture: Mitsuba's come straight";
             let path = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
-            self.reporter.unsupported(message, path);
+            self.beside.reporter.unsupported(message, path);
         }
         self.line(1, r#"<sensor type="orthographic">"#);
-        self.placed([-x * half, y * half, z, eye]);
+        let ([x, y, z], [half, _]) = (frame.axes, frame.half);
+        self.placed([-x * half, y * half, z, frame.eye]);
     }
 
     /// The transform to the world, by its columns.

@@ -1,12 +1,13 @@
 //! Writes materials: diffuse materials and perfect mirrors are exact; others are approximated.
 
 use super::MitsubaWriter;
-use super::texture::{Channel, TexturedFactor};
-use crate::approximation::approximate_phong;
 use crate::export::{called, enumeration};
-use rtc_ir::{Alpha, EntityKind, Field, Map, Material, Scene, Shape, Standard, Surface, ValuePath};
-use rtc_math::{ln, shortest};
-use std::borrow::Cow;
+use crate::path_tracer::{
+    SurfaceMaterial, TextureChannel, TexturedFactor, absorption, is_glass, missing_features,
+    opacity,
+};
+use rtc_ir::{EntityKind, Field, Standard, ValuePath};
+use rtc_math::shortest;
 use std::collections::BTreeSet;
 
 /// The normal-incidence reflectance of a dielectric with `specular` = 1 in Mitsuba's `principled`
@@ -17,82 +18,12 @@ const PRINCIPLED: f64 = 0.08;
 /// that of the outside.
 const LEAST_IOR: f64 = 1.0001;
 
-/// A material on surfaces of one kind.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct MaterialVariant {
-    pub(super) material: u32,
-    /// Whether they lack the texture coordinates of its maps, which have no effect then.
-    pub(super) lacks_uvs: bool,
-    /// Whether their corners have colours.
-    pub(super) has_colors: bool,
-    /// Whether they have an opacity that counts.
-    pub(super) has_opacity: bool,
-}
-
-impl MaterialVariant {
-    pub(super) fn of(scene: &Scene, surface: &Surface) -> Self {
-        let material = surface.material.0;
-        let of_material = standard(&scene.materials[material as usize]);
-        let [mut has_uvs, mut has_colors, mut has_opacity] = [false; 3];
-        if let Shape::Instance(instance) = &surface.shape {
-            let mesh = &scene.meshes[instance.mesh.0 as usize];
-            has_uvs = match uv_set(&of_material) {
-                1 => !mesh.second_uvs.is_empty(),
-                _ => !mesh.uvs.is_empty(),
-            };
-            has_opacity = of_material.alpha != Alpha::Opaque
-                && (0..mesh.colors.len()).any(|at| mesh.colors.at(at)[3] != 1.0);
-            has_colors = (0..mesh.colors.len()).any(|at| mesh.colors.at(at)[..3] != [1.0; 3]);
-        }
-        Self {
-            material,
-            lacks_uvs: of_material.maps().next().is_some() && !has_uvs,
-            has_colors,
-            has_opacity,
-        }
-    }
-
-    /// Its identifier in the file.
-    pub(super) fn id(self) -> String {
-        let plain = if self.lacks_uvs { "p" } else { "" };
-        let colored = if self.has_colors { "c" } else { "" };
-        let covering = if self.has_opacity { "a" } else { "" };
-        format!("m{}{plain}{colored}{covering}", self.material)
-    }
-
-    /// The material, without the maps that have no effect.
-    pub(super) fn standard(self, scene: &Scene) -> Standard {
-        let mut material = standard(&scene.materials[self.material as usize]).into_owned();
-        if self.lacks_uvs {
-            material.retain_maps(|_| false);
-        }
-        material
-    }
-}
-
-/// The set of texture coordinates that is written for a material: that of its first map.
-pub(super) fn uv_set(material: &Standard) -> u32 {
-    material.maps().next().map_or(0, |map| map.set)
-}
-
-/// The material that path tracing uses.
-pub(super) fn standard(material: &Material) -> Cow<'_, Standard> {
-    match material {
-        Material::Standard(standard) => Cow::Borrowed(standard),
-        Material::Phong(phong) => Cow::Owned(approximate_phong(phong)),
-    }
-}
-
 impl MitsubaWriter<'_> {
     /// Writes the materials of surfaces; `None` if their pictures exceed the budget.
     pub(super) fn materials(&mut self) -> Option<()> {
         let scene = self.scene;
-        let variants = scene.surfaces.iter();
-        let variants: BTreeSet<_> = variants
-            .map(|one| MaterialVariant::of(scene, one))
-            .collect();
         let mut reported = BTreeSet::new();
-        for variant in variants {
+        for variant in SurfaceMaterial::all(scene) {
             let index = variant.material as usize;
             let path = ValuePath::new(EntityKind::Material, index, Field::Whole);
             let material = variant.standard(scene);
@@ -107,27 +38,32 @@ impl MitsubaWriter<'_> {
 
     fn report_material(&mut self, material: &Standard, message: Option<&str>, path: ValuePath) {
         let name = called(&material.name);
-        let missing_features = missing_features(material);
+        let own = [(
+            material.diffuse_transmission > 0.0,
+            "the scattered light that goes through",
+        )];
+        let missing_features = missing_features(self.scene, material, &own);
         if !missing_features.is_empty() {
             let missing = enumeration(&missing_features);
             let message = format!("{name} is written without {missing}");
-            self.reporter.unsupported(&message, path);
+            self.beside.reporter.unsupported(&message, path);
         }
         if let Some(message) = message {
-            self.reporter
+            self.beside
+                .reporter
                 .unsupported(&format!("{name}: {message}"), path);
         }
         if material.emissive != [0.0; 3] {
             let message = format!(
                 "{name} shines both ways: Mitsuba's emitters shine to the front alone, or outwards"
             );
-            self.reporter.unsupported(&message, path);
+            self.beside.reporter.unsupported(&message, path);
         }
     }
 
     fn material(
         &mut self,
-        variant: MaterialVariant,
+        variant: SurfaceMaterial,
         material: &Standard,
         plugin: Plugin,
         path: ValuePath,
@@ -150,7 +86,7 @@ impl MitsubaWriter<'_> {
             let weight = TexturedFactor {
                 factor: [material.transmission; 3],
                 map: material.transmission_map.as_ref(),
-                channel: Channel::Red,
+                channel: TextureChannel::Red,
             };
             self.slot(depth + 1, "weight", weight, path)?;
             self.two_sided(depth + 1, "", variant, (plugin, material), path)?;
@@ -175,7 +111,7 @@ impl MitsubaWriter<'_> {
         &mut self,
         depth: usize,
         id: &str,
-        variant: MaterialVariant,
+        variant: SurfaceMaterial,
         material: (Plugin, &Standard),
         path: ValuePath,
     ) -> Option<()> {
@@ -189,19 +125,14 @@ impl MitsubaWriter<'_> {
         &mut self,
         depth: usize,
         id: &str,
-        variant: MaterialVariant,
+        variant: SurfaceMaterial,
         (plugin, material): (Plugin, &Standard),
         path: ValuePath,
     ) -> Option<()> {
-        let Some(map) = &material.normal_map else {
+        let Some(slot) = TexturedFactor::normal(material) else {
             return self.base(depth, id, variant, (plugin, material), path);
         };
         self.line(depth, &format!(r#"<bsdf type="normalmap"{id}>"#));
-        let slot = TexturedFactor {
-            factor: [1.0; 3],
-            map: Some(map),
-            channel: Channel::Normal(material.normal_scale),
-        };
         self.slot(depth + 1, "normalmap", slot, path)?;
         self.base(depth + 1, "", variant, (plugin, material), path)?;
         self.line(depth, "</bsdf>");
@@ -212,7 +143,7 @@ impl MitsubaWriter<'_> {
         &mut self,
         depth: usize,
         id: &str,
-        variant: MaterialVariant,
+        variant: SurfaceMaterial,
         (plugin, material): (Plugin, &Standard),
         path: ValuePath,
     ) -> Option<()> {
@@ -263,8 +194,8 @@ impl MitsubaWriter<'_> {
     fn layers(&mut self, depth: usize, material: &Standard, path: ValuePath) -> Option<()> {
         // Metal and roughness.
         for (name, factor, channel) in [
-            ("metallic", material.metallic, Channel::Blue),
-            ("roughness", material.roughness, Channel::Green),
+            ("metallic", material.metallic, TextureChannel::Blue),
+            ("roughness", material.roughness, TextureChannel::Green),
         ] {
             let slot = TexturedFactor {
                 factor: [factor; 3],
@@ -284,7 +215,7 @@ impl MitsubaWriter<'_> {
             let slot = TexturedFactor {
                 factor: [material.clearcoat; 3],
                 map: material.clearcoat_map.as_ref(),
-                channel: Channel::Red,
+                channel: TextureChannel::Red,
             };
             self.slot(depth, "clearcoat", slot, path)?;
             let gloss = shortest(1.0 - material.clearcoat_roughness);
@@ -306,7 +237,7 @@ impl MitsubaWriter<'_> {
     }
 
     /// What light loses inside a body, as a medium that scatters nothing.
-    fn volume(&mut self, variant: MaterialVariant, material: &Standard) {
+    fn volume(&mut self, variant: SurfaceMaterial, material: &Standard) {
         let Some(absorption) = absorption(material) else {
             return;
         };
@@ -319,25 +250,6 @@ impl MitsubaWriter<'_> {
         self.value(2, "float", "scale", &shortest(scale));
         self.line(1, "</medium>");
     }
-}
-
-/// The share of light that a surface stops, where it is not all.
-fn opacity(material: &Standard, of_corners: bool) -> Option<TexturedFactor<'_>> {
-    let [.., alpha] = material.base_color;
-    let channel = match material.alpha {
-        Alpha::Opaque => return None,
-        Alpha::Mask(cutoff) => Channel::AlphaCut(cutoff),
-        Alpha::Blend => Channel::Alpha,
-    };
-    let channel = match of_corners && material.base_color_map.is_none() {
-        true => Channel::CornerOpacity,
-        false => channel,
-    };
-    Some(TexturedFactor {
-        factor: [alpha; 3],
-        map: material.base_color_map.as_ref(),
-        channel,
-    })
 }
 
 /// The base colour for `principled` with which a sphere in a white furnace shows the colour that it
@@ -361,16 +273,6 @@ fn principled_color(material: &Standard, color: [f64; 3]) -> [f64; 3] {
         let metal = (channel * (1.0 + channel * again)).min(1.0);
         channel * diffuse * (1.0 - metallic) + metal * metallic
     })
-}
-
-/// The coefficient of absorption inside a body of a material, per unit of length; `None` if it
-/// bounds none, or a clear one.
-pub(super) fn absorption(material: &Standard) -> Option<[f64; 3]> {
-    let distance = material.attenuation_distance?;
-    let is_body = material.transmission > 0.0 && material.thickness > 0.0;
-    let is_clear = material.attenuation_color == [1.0; 3];
-    let of = |channel: f64| -ln(channel.max(1e-30)) / distance;
-    (is_body && !is_clear).then(|| material.attenuation_color.map(of))
 }
 
 /// The Mitsuba plugin of a material.
@@ -446,51 +348,4 @@ impl Plugin {
             Self::Layered => "principled",
         }
     }
-}
-
-/// Whether all light that is not reflected is transmitted.
-fn is_glass(material: &Standard) -> bool {
-    material.transmission == 1.0 && material.metallic == 0.0 && material.transmission_map.is_none()
-}
-
-/// The features of a material that are not written.
-fn missing_features(material: &Standard) -> Vec<&'static str> {
-    // List the features that no plugin has, with the condition that the material uses them.
-    let set = uv_set(material);
-    let has = |maps: &[&Option<Map>]| maps.iter().any(|map| map.is_some());
-    let parts = [
-        (
-            material.maps().any(|map| map.set != set),
-            "the maps of its other texture coordinates",
-        ),
-        (
-            !material.double_sided && material.transmission == 0.0,
-            "one-sidedness for the camera",
-        ),
-        (
-            material.specular_glossiness.is_some(),
-            "the colour of its mirror image",
-        ),
-        (
-            has(&[
-                &material.specular_map,
-                &material.specular_color_map,
-                &material.thickness_map,
-                &material.clearcoat_roughness_map,
-                &material.clearcoat_normal_map,
-                &material.sheen_color_map,
-                &material.sheen_roughness_map,
-                &material.anisotropy_map,
-            ]),
-            "the maps of its layers",
-        ),
-        (material.dispersion > 0.0, "its dispersion"),
-        (material.iridescence > 0.0, "its thin film"),
-        (
-            material.diffuse_transmission > 0.0,
-            "the scattered light that goes through",
-        ),
-    ];
-    let parts = parts.into_iter().filter(|(has, _)| *has);
-    parts.map(|(_, name)| name).collect()
 }

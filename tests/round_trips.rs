@@ -1,0 +1,269 @@
+//! What is written for Mitsuba and pbrt is read back to the same picture: within a thousandth of
+//! its mean where the writer gave no warning, within a twentieth otherwise.
+
+use rtc::internals::image::{FileFormat, Image, Picture};
+use rtc::{Options, Scene};
+
+/// What all scenes have in common.
+const HEAD: &str = "\
+RenderMode: path
+MaxRecursionDepth: 3
+PathParameters: {samples: 64}
+";
+const CAMERA: &str = "\
+Camera: {eye: [1, 2, 9], center: [0, 1, 0], up: [0, 1, 0], viewSize: [16, 12], fov: 30}
+";
+const LIGHT: &str = "\
+Environment: {color: [0.3, 0.4, 0.5]}
+Lights: [{type: sun, direction: [1, 2, 1], irradiance: [3, 2, 2]}]
+";
+const FLOOR: &str = "\
+- {type: quad, v0: [-5, 0, -5], v1: [-5, 0, 5], v2: [5, 0, 5], v3: [5, 0, -5], material: &matte \
+{type: standard, baseColor: [0.8, 0.4, 0.3, 1], metallic: 0, roughness: 1, specular: 0, \
+doubleSided: true}}
+";
+/// A pyramid with texture coordinates.
+const MESH: &str = "\
+v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nv 0 2 0\nvt 0 0\nvt 1 0\nvt 0.5 1\n\
+f 1/1 2/2 5/3\nf 2/1 3/2 5/3\nf 3/1 4/2 5/3\nf 4/1 1/2 5/3\n";
+
+/// A scene: camera, light and objects.
+struct Case {
+    name: &'static str,
+    camera: &'static str,
+    light: &'static str,
+    objects: &'static str,
+    targets: &'static [&'static str],
+}
+
+const MITSUBA: &str = "scene.xml";
+const PBRT: &str = "scene.pbrt";
+
+const fn objects(name: &'static str, objects: &'static str) -> Case {
+    Case {
+        name,
+        camera: CAMERA,
+        light: LIGHT,
+        objects,
+        targets: &[MITSUBA, PBRT],
+    }
+}
+
+const fn light(name: &'static str, light: &'static str) -> Case {
+    Case {
+        light,
+        ..objects(name, BALL)
+    }
+}
+
+const fn camera(name: &'static str, camera: &'static str) -> Case {
+    Case {
+        camera,
+        ..objects(name, BALL)
+    }
+}
+
+const BALL: &str = "- {type: sphere, position: [0, 1, 0], radius: 1, material: *matte}\n";
+
+/// The material of a ball.
+macro_rules! ball {
+    ($material:literal) => {
+        concat!(
+            "- {type: sphere, position: [0, 1, 0], radius: 1, material: {type: standard, ",
+            $material,
+            "}}\n"
+        )
+    };
+}
+
+const CASES: &[Case] = &[
+    objects("a matt ball", BALL),
+    objects(
+        "a disc, a triangle and an ellipsoid",
+        "- {type: circle, center: [1.5, 1, 0], normal: [0, 1, 2], radius: 1, material: *matte}
+- {type: triangle, v0: [-2, 0, 0], v1: [-1, 0, 0], v2: [-1, 2, 0], material: *matte}
+- {type: ellipsoid, position: [0, 1, 0], radius: [0.5, 1, 0.3], material: *matte}
+",
+    ),
+    objects(
+        "a bilinear patch",
+        "- {type: quad, curved: true, v0: [-1, 0, 1], v1: [1, 1, 1], v2: [1, 0, -1], v3: [-1, 2, -1], material: *matte}\n",
+    ),
+    objects(
+        "a cylinder, a torus and a plane",
+        "- {type: cylinder, p1: [-1, 0, 0], p2: [-1, 1, 0], radius: 0.6, material: *matte}
+- {type: torus, position: [1, 1, 0], radius: 0.6, alpha: 0.2, material: *matte}
+- {type: plane, position: [0, -1, 0], normal: [0, 1, 0], material: *matte}
+",
+    ),
+    objects(
+        "a mesh shown twice",
+        "- {type: mesh, file: m.obj, position: [-1, 0, 0], material: *matte}
+- {type: mesh, file: m.obj, position: [1, 0, 0], material: *matte}
+",
+    ),
+    objects(
+        "a textured mesh",
+        "- {type: mesh, file: m.obj, position: [0, 0, 0], material: {type: standard, metallic: 0, specular: 0, \
+doubleSided: true, baseColor: [1, 0.5, 1, 1], baseColorMap: p.png}}\n",
+    ),
+    objects("a white mirror", ball!("doubleSided: true, roughness: 0")),
+    objects(
+        "a rough metal",
+        ball!("doubleSided: true, baseColor: [0.9, 0.7, 0.4, 1], roughness: 0.5"),
+    ),
+    objects(
+        "a coated surface",
+        ball!("doubleSided: true, metallic: 0, roughness: 0.3, baseColor: [0.2, 0.5, 0.3, 1]"),
+    ),
+    objects(
+        "a half metallic surface",
+        ball!("doubleSided: true, metallic: 0.5, roughness: 0.6"),
+    ),
+    objects(
+        "glass",
+        ball!("metallic: 0, roughness: 0, transmission: 1, thickness: 1, ior: 1.5"),
+    ),
+    objects(
+        "a thin pane",
+        ball!("metallic: 0, roughness: 0, transmission: 1"),
+    ),
+    objects(
+        "a body that lets half of the light through",
+        ball!("doubleSided: true, metallic: 0, roughness: 0.4, transmission: 0.5, thickness: 1"),
+    ),
+    objects(
+        "a half covering surface",
+        ball!(
+            "doubleSided: true, metallic: 0, specular: 0, alpha: blend, baseColor: [0.8, 0.8, 0.2, 0.5]"
+        ),
+    ),
+    objects(
+        "a leaf",
+        ball!(
+            "doubleSided: true, metallic: 0, specular: 0, baseColor: [0.4, 0.5, 0.2, 1], diffuseTransmission: 0.4"
+        ),
+    ),
+    objects(
+        "what shows its colour",
+        ball!("doubleSided: true, unlit: true, baseColor: [0.2, 0.5, 0.9, 1]"),
+    ),
+    Case {
+        light: "",
+        ..objects(
+            "a lamp",
+            "- {type: circle, center: [0, 4, 0], normal: [0, -1, 0], radius: 1.5, material: {type: standard, \
+metallic: 0, specular: 0, baseColor: [0, 0, 0, 1], doubleSided: true, emissive: [4, 3, 2]}}\n",
+        )
+    },
+    light(
+        "a point",
+        "Lights: [{type: point, position: [1, 4, 3], intensity: [20, 30, 25]}]\n",
+    ),
+    // For Mitsuba the profile of a spot is a picture, which its reader leaves out with a warning.
+    Case {
+        targets: &[PBRT],
+        ..light(
+            "a spot",
+            "Lights: [{type: spot, position: [0, 6, 2], direction: [0, -3, -1], innerAngle: 0.2, outerAngle: 0.5, intensity: [40, 40, 30]}]\n",
+        )
+    },
+    light(
+        "a light without falloff",
+        "Lights: [{position: [3, 8, 6], color: [1, 1, 1]}]\n",
+    ),
+    light("an environment map", "Environment: {file: e.exr}\n"),
+    camera(
+        "an orthographic camera",
+        "Camera: {eye: [1, 2, 9], center: [0, 1, 0], up: [0, 0.3, 0], viewSize: [16, 12], projection: orthographic}\n",
+    ),
+    camera(
+        "a lens",
+        "Camera: {eye: [1, 2, 9], center: [0, 1, 0], up: [0, 1, 0], viewSize: [16, 12], fov: 30, apertureRadius: 0.3, apertureSamples: 2}\n",
+    ),
+    // The reader for Mitsuba shifts the principal point to the other side.
+    Case {
+        targets: &[PBRT],
+        ..camera(
+            "a shifted view",
+            "Camera: {eye: [0, 1, 5], center: [0.5, 1.2, 0], up: [0, 0.25, 0], right: [0.25, 0, 0], viewSize: [16, 12]}\n",
+        )
+    },
+];
+
+/// The files that scenes name.
+fn files() -> Vec<(String, Vec<u8>)> {
+    let picture = |width, height, color: &dyn Fn(u32, u32) -> [f64; 3]| {
+        let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        Picture::opaque(Image {
+            width,
+            height,
+            pixels: places.map(|(x, y)| color(x, y)).collect(),
+        })
+    };
+    let checks = picture(4, 4, &|x, y| match (x + y) % 2 {
+        0 => [0.9, 0.1, 0.3],
+        _ => [0.2, 0.8, 0.4],
+    });
+    let sky = picture(32, 16, &|x, y| {
+        let [x, y] = [x, y].map(f64::from);
+        [0.2 + x / 32.0, 0.5, 0.2 + y / 16.0]
+    });
+    vec![
+        ("m.obj".to_owned(), MESH.as_bytes().to_vec()),
+        ("p.png".to_owned(), checks.encode(FileFormat::Png8).unwrap()),
+        ("e.exr".to_owned(), sky.encode(FileFormat::Exr).unwrap()),
+    ]
+}
+
+/// The mean of all values of the picture of a scene.
+fn mean(scene: &Scene) -> f64 {
+    let picture = scene
+        .render(&Options::new().exposure(0.0).threads(1))
+        .unwrap();
+    let values = picture.pixels().as_flattened();
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// A scene as it is read back from a file of another renderer, and the warnings of the writer.
+fn read_back(scene: &Scene, target: &str) -> (Scene, Vec<String>) {
+    let export = scene.export(target).unwrap();
+    let findings = export.diagnostics().iter();
+    let warnings = findings.map(|finding| finding.message.clone()).collect();
+    let files = export.files().chain([(target, export.bytes())]);
+    let files = files.map(|(name, bytes)| (name.to_owned(), bytes.to_vec()));
+    let again = Scene::from_files(target, files);
+    (again.unwrap_or_else(|error| panic!("{error}")), warnings)
+}
+
+/// The differences between the pictures of a case that its writers do not explain.
+fn differences(case: &Case) -> Vec<String> {
+    let Case {
+        name,
+        camera,
+        light,
+        objects,
+        targets,
+    } = case;
+    let text = format!("{camera}{HEAD}{light}Objects:\n{FLOOR}{objects}");
+    let files = files().into_iter();
+    let files = files.chain([("scene.yaml".to_owned(), text.into_bytes())]);
+    let scene = Scene::from_files("scene.yaml", files);
+    let scene = scene.unwrap_or_else(|error| panic!("{name}: {error}"));
+    let known = mean(&scene);
+    assert!(known > 0.01, "{name}: nothing is seen");
+    let difference = |target: &&str| {
+        let (again, warnings) = read_back(&scene, target);
+        let found = mean(&again);
+        let tolerance = if warnings.is_empty() { 1e-3 } else { 5e-2 };
+        let is_near = (found / known - 1.0).abs() <= tolerance;
+        (!is_near).then(|| format!("{name}, {target}: {found}, not {known}; {warnings:?}"))
+    };
+    targets.iter().filter_map(difference).collect()
+}
+
+#[test]
+fn what_is_written_for_path_tracers_is_read_back_to_the_same_picture() {
+    let differences: Vec<_> = CASES.iter().flat_map(differences).collect();
+    assert!(differences.is_empty(), "{}", differences.join("\n"));
+}
