@@ -2,6 +2,7 @@
 
 mod editor;
 mod every_key;
+mod structure;
 
 use super::*;
 use editor::Editor;
@@ -41,6 +42,8 @@ fn findings_come_while_one_types_and_go_with_their_fix() {
         panic!("{actions}");
     };
     assert_eq!(action["kind"], "quickfix");
+    assert_eq!(action["title"], "replace `Shadws` by `Shadows`");
+    assert_eq!(action["isPreferred"], false, "it is a guess");
     let edits = action["edit"]["changes"][editor.uri("a.yaml")].clone();
     assert_eq!(edits[0]["newText"], "Shadows");
     let change = json!([{"range": edits[0]["range"], "text": edits[0]["newText"]}]);
@@ -94,8 +97,68 @@ fn keys_words_names_and_files_are_completed() {
     );
     let words = editor.ask_at("textDocument/completion", 6, 10);
     assert!(labels(&words).contains(&"torus"), "{words}");
+    assert!(!labels(&words).contains(&"OBJModel"), "{words}");
     let names = editor.ask_at("textDocument/completion", 8, 3);
     assert!(labels(&names).contains(&"*a"), "{names}");
+}
+
+#[test]
+fn words_come_before_numbers_and_are_explained() {
+    let mut editor = Editor::with("RenderMode: path\nEnvironment: {color: 1}\nShadows: true\n");
+    let words = editor.ask_at("textDocument/completion", 0, 12);
+    assert_eq!(
+        labels(&words),
+        ["phong", "zbuffer", "normal", "gooch", "path", "texture"]
+    );
+    assert!(
+        words[4]["documentation"]
+            .as_str()
+            .unwrap()
+            .starts_with("Path tracing")
+    );
+    assert!(words[0]["sortText"].as_str() < words[1]["sortText"].as_str());
+    let hover = editor.ask_at("textDocument/hover", 0, 13);
+    let text = hover["contents"]["value"].as_str().unwrap();
+    assert!(text.contains("`path`: Path tracing"), "{text}");
+    assert!(!text.contains("`4`"), "{text}");
+    let keys = editor.ask_at("textDocument/completion", 2, 0);
+    let names = labels(&keys);
+    assert!(
+        !names.contains(&"rendermode") && !names.contains(&"AA"),
+        "{names:?}"
+    );
+}
+
+/// The scene around an object, which stands at the mark.
+const AROUND: &str = "Camera: {eye: [9, 7, 20], center: [0, 0, 0], up: [0, 0.1, 0], viewSize: [9, 9]}\n\
+Lights: [{position: [0, 90, 90], color: [1, 1, 1]}]\nObjects:\n- @\n";
+
+#[test]
+fn objects_are_proposed_whole_and_read_without_findings() {
+    let mut editor = Editor::with(&AROUND.replace('@', ""));
+    let items = editor.ask_at("textDocument/completion", 3, 2);
+    let objects: Vec<Value> = items.as_array().unwrap().clone();
+    let is_object = |own: &&Value| own["kind"] == 15;
+    let objects: Vec<&Value> = objects.iter().filter(is_object).collect();
+    assert!(objects.len() > 15, "{}", objects.len());
+    for (at, object) in objects.iter().enumerate() {
+        let name = object["label"].as_str().unwrap();
+        let text = object["insertText"].as_str().unwrap();
+        assert!(text.starts_with(&format!("{{type: {name}")), "{text}");
+        let file = format!("{at}.yaml");
+        editor.open(&file, &AROUND.replace('@', text));
+        let found = editor.findings(&file);
+        // Files are what one has.
+        let is_told = |own: &&Value| own["code"] != "RE001";
+        let found: Vec<_> = found.iter().filter(is_told).collect();
+        assert!(found.is_empty(), "{text}: {found:?}");
+    }
+    let text = "Camera: \nLights:\n- \n";
+    editor.open("a.yaml", text);
+    for (line, column, name) in [(0, 8, "camera"), (2, 2, "light")] {
+        let items = editor.ask_at("textDocument/completion", line, column);
+        assert!(labels(&items).contains(&name), "{items}");
+    }
 }
 
 #[test]
@@ -151,6 +214,11 @@ fn the_text_is_outlined_laid_out_coloured_and_followed() {
         .find(|own| own["position"]["line"] == 1)
         .unwrap();
     assert!(camera["label"].as_str().unwrap().contains(": "), "{camera}");
+    let alias = hints.iter().find(|own| own["position"]["line"] == 8);
+    let alias = alias.unwrap()["label"].as_str().unwrap();
+    assert!(alias.starts_with("= {type: sphere"), "{alias}");
+    let of_object = |own: &&Value| own["position"]["line"] == 5;
+    assert_eq!(hints.iter().find(of_object), None, "it tells nothing");
     let sound = SCENE
         .replace("Shadws: ", "Shadows:   ")
         .replace("- type: mesh\n  file: bal.obj\n", "");
@@ -326,7 +394,8 @@ fn nothing_that_an_editor_says_ends_it() {
     assert_eq!(again["error"]["code"], -32600);
     for (method, params, code) in [
         ("textDocument/hover", json!({"textDocument": 3}), -32602),
-        ("textDocument/rename", json!({}), -32601),
+        ("textDocument/rename", json!({}), -32602),
+        ("textDocument/moniker", json!({}), -32601),
     ] {
         let response = editor.response(method, params);
         assert_eq!(response["error"]["code"], code, "{method}");

@@ -2,13 +2,16 @@
 
 use super::open_text::OpenText;
 use super::protocol::{
-    CodeAction, CodeActionParams, ColorPresentationParams, InlayHintParams, TextDocumentParams,
-    TextDocumentPositionParams, TextEdit,
+    CodeAction, CodeActionParams, ColorPresentationParams, DocumentDiagnosticParams, RangeParams,
+    ReferenceParams, RenameParams, SelectionRangeParams, SemanticTokens, TextDocumentParams,
+    TextDocumentPositionParams, TextEdit, WorkspaceEdit,
 };
 use super::uri::DocumentUri;
 use super::vocabulary::Vocabulary;
 use super::workspace::Workspace;
-use super::{completion, diagnostics, hover, method, outline};
+use super::{
+    anchor, completion, diagnostics, folding, hover, inlay, lens, links, method, outline, semantic,
+};
 use lsp_server::{ErrorCode, Request, RequestId, Response};
 use rtc_pipeline::Input;
 use serde::Serialize;
@@ -30,14 +33,92 @@ impl Workspace {
             }),
             method::COMPLETION => reply(id, params, |at: TextDocumentPositionParams| {
                 let (document, schema) = self.known(&at.text_document.uri)?;
-                let items = completion::completions(document, at.position, schema, self.columns);
-                Some(items)
+                let (columns, form) = (self.columns, self.snippet_form);
+                let place = at.position;
+                Some(completion::completions(
+                    document, place, schema, columns, form,
+                ))
             }),
             method::DEFINITION => reply(id, params, |at: TextDocumentPositionParams| {
                 let (document, schema) = self.known(&at.text_document.uri)?;
                 outline::definition(document, at.position, schema, self.columns)
             }),
-            _ => self.answer_of_whole(id, &method, params),
+            _ => self.answer_of_names(id, &method, params),
+        }
+    }
+
+    /// The response to a request about the names and the structure of a document.
+    fn answer_of_names(&mut self, id: RequestId, method: &str, params: Value) -> Response {
+        let columns = self.columns;
+        match method {
+            method::REFERENCES => reply(id, params, |params: ReferenceParams| {
+                let document = self.document(&params.text_document.uri)?;
+                let has_anchor = params.context.include_declaration;
+                anchor::references(document, params.position, has_anchor, columns)
+            }),
+            method::PREPARE_RENAME => reply(id, params, |at: TextDocumentPositionParams| {
+                let document = self.document(&at.text_document.uri)?;
+                anchor::name_range(document, at.position, columns)
+            }),
+            method::RENAME => self.renamed(id, params),
+            method::FOLDING_RANGE => reply(id, params, |params: TextDocumentParams| {
+                let document = self.document(&params.text_document.uri)?;
+                Some(folding::folding(document, columns))
+            }),
+            method::SELECTION_RANGE => reply(id, params, |params: SelectionRangeParams| {
+                let document = self.document(&params.text_document.uri)?;
+                Some(folding::selections(document, &params.positions, columns))
+            }),
+            method::DOCUMENT_LINK => reply(id, params, |params: TextDocumentParams| {
+                let (document, schema) = self.known(&params.text_document.uri)?;
+                Some(links::links(document, schema, columns))
+            }),
+            method::CODE_LENS => reply(id, params, |params: TextDocumentParams| {
+                Some(lens::lenses(self.document(&params.text_document.uri)?))
+            }),
+            method::SEMANTIC_TOKENS => reply(id, params, |params: TextDocumentParams| {
+                let (document, schema) = self.known(&params.text_document.uri)?;
+                let all = 0..document.text.len();
+                let data = semantic::tokens(document, &all, schema, columns);
+                Some(SemanticTokens { data })
+            }),
+            method::SEMANTIC_TOKENS_RANGE => reply(id, params, |params: RangeParams| {
+                let (document, schema) = self.known(&params.text_document.uri)?;
+                let lines = document.lines(columns);
+                let bytes = lines.offset(params.range.start)..lines.offset(params.range.end);
+                let data = semantic::tokens(document, &bytes, schema, columns);
+                Some(SemanticTokens { data })
+            }),
+            method::DIAGNOSTIC => reply(id, params, |params: DocumentDiagnosticParams| {
+                self.report(&params)
+            }),
+            _ => self.answer_of_whole(id, method, params),
+        }
+    }
+
+    /// The response to a request to rename an anchor.
+    fn renamed(&self, id: RequestId, params: Value) -> Response {
+        let invalid = ErrorCode::InvalidParams as i32;
+        let params: RenameParams = match serde_json::from_value(params) {
+            Ok(params) => params,
+            Err(error) => return Response::new_err(id, invalid, error.to_string()),
+        };
+        let RenameParams {
+            text_document,
+            position,
+            new_name,
+        } = params;
+        let renamed = self.document(&text_document.uri).map_or(Ok(None), |own| {
+            anchor::rename(own, position, &new_name, self.columns)
+        });
+        match renamed {
+            Ok(edits) => {
+                let change = edits.map(|edits| WorkspaceEdit {
+                    changes: [(text_document.uri, edits)].into(),
+                });
+                Response::new_ok(id, change)
+            }
+            Err(error_text) => Response::new_err(id, invalid, error_text),
         }
     }
 
@@ -56,9 +137,9 @@ impl Workspace {
             method::COLOR_PRESENTATION => reply(id, params, |params: ColorPresentationParams| {
                 Some(outline::presentation(params.color))
             }),
-            method::INLAY_HINT => reply(id, params, |params: InlayHintParams| {
+            method::INLAY_HINT => reply(id, params, |params: RangeParams| {
                 let (document, schema) = self.known(&params.text_document.uri)?;
-                Some(outline::hints(document, params.range, schema, self.columns))
+                Some(inlay::hints(document, params.range, schema, self.columns))
             }),
             _ => {
                 let schema = format!("`{method}` is not known here");

@@ -4,6 +4,7 @@ use super::hover::{default, plain};
 use super::open_text::{OpenText, tree};
 use super::path_at::{PathStep, path_at};
 use super::protocol::{CompletionItem, CompletionItemKind, InsertTextFormat, Position};
+use super::snippet;
 use super::text::Columns;
 use super::vocabulary::Vocabulary;
 use rtc_front::course;
@@ -20,12 +21,13 @@ const BLANK: &str = "rtc0blank";
 const MOST_FILES: usize = 500;
 const DEPTH: usize = 3;
 
-/// The completions at a position.
+/// The completions at a position, those of whole objects in a form that the editor knows.
 pub(super) fn completions(
     document: &OpenText,
     position: Position,
     vocabulary: &Vocabulary,
     columns: Columns,
+    form: InsertTextFormat,
 ) -> Vec<CompletionItem> {
     let lines = document.lines(columns);
     let offset = lines.offset(position);
@@ -46,18 +48,25 @@ pub(super) fn completions(
         // A key that still wants its value, or an item.
         false => vec![format!("{BLANK}: 0"), BLANK.to_owned()],
     };
+    let mut items: Vec<CompletionItem> = Vec::new();
     for blank in blanks {
         let mut text = document.text.to_string();
         text.replace_range(start..end, &blank);
         let Some(tree) = tree(&text) else {
             continue;
         };
-        let items = proposed(document, &tree, start, vocabulary);
-        if !items.is_empty() {
-            return items.into_iter().map(|item| quotes.around(item)).collect();
+        for item in proposed(document, &tree, start, vocabulary, quotes, form) {
+            if !items.iter().any(|known| known.label == item.label) {
+                items.push(item);
+            }
         }
     }
-    Vec::new()
+    // Editors sort by names otherwise.
+    let numbered = items.into_iter().enumerate().map(|(at, item)| {
+        let sort_text = Some(format!("{at:04}"));
+        CompletionItem { sort_text, ..item }
+    });
+    numbered.map(|item| quotes.around(item)).collect()
 }
 
 /// Whether the inserted text needs quotes.
@@ -86,6 +95,9 @@ impl Quotes {
         let name = &item.label;
         let is_key = item.kind == CompletionItemKind::PROPERTY;
         let is_text = serde_json::from_str::<Value>(name).is_err();
+        if item.kind == CompletionItemKind::SNIPPET {
+            return item;
+        }
         let insert_text = match self {
             Self::None => return item,
             Self::There => name.clone(),
@@ -110,6 +122,8 @@ fn proposed(
     tree: &SyntaxTree<'_>,
     offset: usize,
     vocabulary: &Vocabulary,
+    quotes: Quotes,
+    form: InsertTextFormat,
 ) -> Vec<CompletionItem> {
     let steps = path_at(tree, offset);
     let Some(last) = steps.last() else {
@@ -127,7 +141,19 @@ fn proposed(
             .collect();
     }
     let schemas = vocabulary.at(tree, &steps);
-    let mut items = keywords(&schemas);
+    let mut items: Vec<CompletionItem> = words(&schemas).into_iter().map(word_item).collect();
+    let is_json = match quotes {
+        Quotes::None => Some(false),
+        Quotes::Wanted => Some(true),
+        // An object does not stand between quotes.
+        Quotes::There => None,
+    };
+    items.extend(
+        is_json
+            .map(|is_json| snippet::items(&schemas, is_json, form))
+            .into_iter()
+            .flatten(),
+    );
     if is_file(&schemas) {
         items.extend(files(document.path.parent().unwrap_or(Path::new("."))));
     }
@@ -146,26 +172,33 @@ fn key_item((name, schema): (&str, &Value)) -> CompletionItem {
     }
 }
 
-/// The keywords that a value may be.
-fn keywords(schemas: &[&Map<String, Value>]) -> Vec<CompletionItem> {
-    let mut found: Vec<String> = Vec::new();
-    for schema in schemas {
-        let listed = schema.get("enum").and_then(Value::as_array);
-        let listed = listed.into_iter().flatten().map(plain);
-        let alone = schema.get("const").map(plain);
-        let reference = schema.get("type").and_then(Value::as_str) == Some("boolean");
-        let truths = ["true", "false"]
-            .iter()
-            .filter(|_| reference)
-            .map(|keyword| (*keyword).to_owned());
-        for keyword in listed.chain(alone).chain(truths) {
-            if !found.contains(&keyword) {
-                found.push(keyword);
+fn word_item((word, text): (String, Option<&str>)) -> CompletionItem {
+    CompletionItem {
+        documentation: text.map(str::to_owned),
+        ..CompletionItem::new(word, CompletionItemKind::VALUE)
+    }
+}
+
+/// The words that a value may be, with their meanings; not the deprecated ones.
+pub(super) fn words<'v>(schemas: &[&'v Map<String, Value>]) -> Vec<(String, Option<&'v str>)> {
+    let mut found: Vec<(String, Option<&str>)> = Vec::new();
+    let is_current = |schema: &&&'v Map<String, Value>| !schema.contains_key("deprecated");
+    for schema in schemas.iter().filter(is_current) {
+        let list = |key: &str| schema.get(key).and_then(Value::as_array);
+        let docs = list("enumDescriptions").into_iter().flatten();
+        let docs = docs.map(Value::as_str).chain(std::iter::repeat(None));
+        let listed = list("enum").into_iter().flatten().map(plain).zip(docs);
+        let alone = schema.get("const").map(|word| (plain(word), None));
+        let is_boolean = schema.get("type").and_then(Value::as_str) == Some("boolean");
+        let truths = ["true", "false"].iter().filter(|_| is_boolean);
+        let truths = truths.map(|word| ((*word).to_owned(), None));
+        for (word, doc) in listed.chain(alone).chain(truths) {
+            if !found.iter().any(|(known, _)| *known == word) {
+                found.push((word, doc));
             }
         }
     }
-    let item = |label| CompletionItem::new(label, CompletionItemKind::VALUE);
-    found.into_iter().map(item).collect()
+    found
 }
 
 /// Whether a value names a file.

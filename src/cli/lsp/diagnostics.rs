@@ -176,18 +176,29 @@ pub(super) fn actions(
             .map(|(hint, change)| {
                 let (start, end) = (change.span.start as usize, change.span.end as usize);
                 let edit = TextEdit::new(lines.range(start, end), change.text.clone());
-                let is_certain = !change.is_guess;
-                quick_fix(
-                    document,
-                    hint.text.clone(),
-                    is_certain,
-                    edit,
-                    reported.clone(),
-                )
+                let written = document.text.get(start..end).unwrap_or_default();
+                let title = title(written, &change.text).unwrap_or_else(|| hint.text.clone());
+                quick_fix(document, title, !change.is_guess, edit, reported.clone())
             })
             .collect::<Vec<_>>()
     });
-    fixes.collect()
+    let mut fixes: Vec<CodeAction> = fixes.collect();
+    // The sure ones first.
+    fixes.sort_by_key(|fix| fix.is_preferred != Some(true));
+    fixes
+}
+
+/// What a change does; `None` if its texts are long.
+fn title(written: &str, text: &str) -> Option<String> {
+    /// The maximum length of a text, in bytes.
+    const MOST: usize = 60;
+    let [before, after] = [written, text].map(str::trim);
+    let is_short = |text: &str| text.len() <= MOST && !text.contains('\n');
+    (is_short(before) && is_short(after)).then(|| match (before, after) {
+        ("", _) => format!("insert `{after}`"),
+        (_, "") => format!("remove `{before}`"),
+        _ => format!("replace `{before}` by `{after}`"),
+    })
 }
 
 fn quick_fix(
@@ -216,7 +227,7 @@ fn fix_all(document: &OpenText, reading: &Reading, lines: &TextLines<'_>) -> Opt
     }
     let edit = TextEdit::new(lines.range(0, document.text.len()), fixed.text);
     Some(CodeAction {
-        title: "do all that is sure to be meant, as `rtc check --fix`".to_owned(),
+        title: "make all sure fixes of the file, as `rtc check --fix`".to_owned(),
         kind: CodeActionKind::SOURCE_FIX_ALL,
         diagnostics: None,
         edit: change_of(document, edit),

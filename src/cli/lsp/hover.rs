@@ -1,5 +1,6 @@
 //! The meaning of a key, with its default and range, and of the code of a diagnostic.
 
+use super::completion::words;
 use super::effective;
 use super::open_text::OpenText;
 use super::path_at::{PathStep, path_at};
@@ -7,7 +8,7 @@ use super::protocol::{Hover, MarkupContent, MarkupKind, Position, Range};
 use super::text::Columns;
 use super::vocabulary::{MERGE, Vocabulary};
 use rtc_pipeline::explain_code;
-use rtc_source::tree::SyntaxTree;
+use rtc_source::tree::{NodeId, SyntaxTree};
 use serde_json::{Map, Value};
 
 /// The hover text at a position.
@@ -56,9 +57,10 @@ fn meaning(
         (_, None) => not_read(&tree, &steps[..last], vocabulary)?,
     };
     let facts = facts(&schemas);
+    let word = word(&tree, value, &schemas).unwrap_or_default();
     let here = aliased(&tree, value);
     let value = effective::value(document, &tree, [key, value]).unwrap_or_default();
-    let lines = [format!("**`{name}`** {text}"), facts, here, value];
+    let lines = [format!("**`{name}`** {text}"), word, facts, here, value];
     let lines = lines.into_iter().filter(|line| !line.is_empty());
     let span = tree.span(key);
     let reported = lines.collect::<Vec<_>>().join("\n\n");
@@ -90,7 +92,16 @@ fn not_read(tree: &SyntaxTree<'_>, steps: &[PathStep], vocabulary: &Vocabulary) 
     ))
 }
 
-/// The range, the keywords and the default of a value.
+/// The word that is written, and its meaning.
+fn word(tree: &SyntaxTree<'_>, value: NodeId, schemas: &[&Map<String, Value>]) -> Option<String> {
+    let written = tree.text(value)?;
+    let words = words(schemas).into_iter();
+    let mut known = words.filter(|(word, _)| word.eq_ignore_ascii_case(written));
+    let (word, meaning) = known.next()?;
+    Some(format!("`{word}`: {}", meaning?))
+}
+
+/// The range, the words and the default of a value.
 fn facts(schemas: &[&Map<String, Value>]) -> String {
     const LIMIT: f64 = 1e30;
     let mut facts = Vec::new();
@@ -105,16 +116,11 @@ fn facts(schemas: &[&Map<String, Value>]) -> String {
         let bound = bound.filter(|bound| bound.abs() < LIMIT);
         facts.extend(bound.map(|bound| format!("{keyword} {bound}")));
     }
-    let keywords = schemas
-        .iter()
-        .find_map(|schema| schema.get("enum")?.as_array());
-    facts.extend(keywords.map(|keywords| {
-        let keywords: Vec<_> = keywords
-            .iter()
-            .map(|keyword| format!("`{}`", plain(keyword)))
-            .collect();
-        format!("one of {}", keywords.join(", "))
-    }));
+    let words = words(schemas);
+    if !words.is_empty() {
+        let words: Vec<_> = words.iter().map(|(word, _)| format!("`{word}`")).collect();
+        facts.push(format!("one of {}", words.join(", ")));
+    }
     facts.extend(unit(schemas).map(|unit| format!("in {unit}")));
     let default = schemas.iter().find_map(|schema| schema.get("default"));
     facts.extend(default.map(|default| format!("default `{}`", plain(default))));
@@ -143,7 +149,7 @@ pub(super) fn plain(value: &Value) -> String {
 }
 
 /// The value of an alias.
-fn aliased(tree: &SyntaxTree<'_>, value: rtc_source::tree::NodeId) -> String {
+fn aliased(tree: &SyntaxTree<'_>, value: NodeId) -> String {
     /// The maximum length, in bytes.
     const MOST: usize = 400;
     let target = tree.target(value);

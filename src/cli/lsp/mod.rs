@@ -3,25 +3,35 @@
 //!
 //! `wire` reads and writes messages, `protocol` has their types, `workspace` the open documents.
 //! Each [`open_text`] is checked like a file by `rtc check`; `diagnostics` converts the result,
-//! with fixes. `answer` dispatches requests: `completion`, `hover`, `outline`. `path_at` finds the
+//! with fixes. `answer` dispatches requests: `completion` (with `snippet`), `hover`, `outline`,
+//! `inlay`, `anchor`, `folding`, `links`, `semantic`, `lens`; `traverse` visits the nodes of a document.
+//! `path_at` finds the
 //! key at a position, `vocabulary` its schema, `effective` its value in the IR. `text` converts
 //! positions, `uri` paths.
 //!
 //! Documents are checked when no message waits. An error in a message is a response; the server
 //! ends only when the editor closes the stream.
 
+mod anchor;
 mod answer;
 mod completion;
 mod diagnostics;
 mod effective;
+mod folding;
 mod hover;
+mod inlay;
+mod lens;
+mod links;
 mod method;
 mod open_text;
 mod outline;
 mod path_at;
 mod place;
 mod protocol;
+mod semantic;
+mod snippet;
 mod text;
+mod traverse;
 mod uri;
 mod vocabulary;
 mod wire;
@@ -31,7 +41,6 @@ use super::Failure;
 use super::args;
 use lsp_server::{ErrorCode, Message, Request, Response};
 use protocol::{CodeActionKind, TextDocumentSyncKind};
-use serde::Deserialize;
 use serde_json::{Value, json};
 use std::io::{self, BufReader, Stdout};
 use std::panic::{self, AssertUnwindSafe};
@@ -117,6 +126,10 @@ impl Server {
                     return is_asked.then_some(()).ok_or_else(failure);
                 }
                 Incoming::Message(message) => self.hear(message),
+                Incoming::Done(messages) => {
+                    messages.into_iter().for_each(|message| self.send(message));
+                }
+                Incoming::End => return Ok(()),
                 Incoming::Cancelled(id) => {
                     let error_text = "cancelled".to_owned();
                     let code = ErrorCode::RequestCanceled as i32;
@@ -172,6 +185,16 @@ impl Server {
                 self.state = SessionState::ShutDown;
                 Response::new_ok(id, Value::Null)
             }
+            (SessionState::Running, method::EXECUTE_COMMAND) => {
+                let Some((command, uri)) = lens::parsed(&request.params) else {
+                    return refused(ErrorCode::InvalidParams, "no such command");
+                };
+                let work = move || lens::carry_out(&command, &uri);
+                match self.inbox.work(work) {
+                    Ok(()) => Response::new_ok(id, Value::Null),
+                    Err(error) => refused(ErrorCode::InternalError, &error.to_string()),
+                }
+            }
             (SessionState::Running, _) => {
                 let answer = AssertUnwindSafe(|| self.workspace.answer(request));
                 let error_text = "internal error of rtc; please report it with the scene";
@@ -187,10 +210,7 @@ impl Server {
     /// The capabilities of the server, for an editor with the given position encoding.
     fn greet(&mut self, params: &Value) -> Value {
         // Other notifications are ignored.
-        let offered = params.pointer("/capabilities/general/positionEncodings");
-        let offered = offered.and_then(|own| Vec::deserialize(own).ok());
-        let columns = Columns::of(&offered.unwrap_or_default());
-        self.workspace.count_columns(columns);
+        let columns = self.workspace.adapt(params);
         json!({
             "capabilities": capabilities(columns),
             "serverInfo": { "name": "rtc", "version": env!("CARGO_PKG_VERSION") },
@@ -212,5 +232,25 @@ fn capabilities(columns: Columns) -> Value {
         "definitionProvider": true,
         "colorProvider": true,
         "inlayHintProvider": true,
+        "referencesProvider": true,
+        "renameProvider": { "prepareProvider": true },
+        "foldingRangeProvider": true,
+        "selectionRangeProvider": true,
+        "documentLinkProvider": {},
+        "codeLensProvider": {},
+        "executeCommandProvider": { "commands": [lens::RENDER, lens::COST] },
+        "diagnosticProvider": {
+            "identifier": "rtc",
+            "interFileDependencies": true,
+            "workspaceDiagnostics": false,
+        },
+        "semanticTokensProvider": {
+            "legend": {
+                "tokenTypes": semantic::TYPES,
+                "tokenModifiers": semantic::MODIFIERS,
+            },
+            "full": true,
+            "range": true,
+        },
     })
 }

@@ -37,8 +37,11 @@ pub(super) struct OpenText {
     pub(super) others: EditedFiles,
     /// The diagnostics of the current version; `None` until it is checked.
     pub(super) checked: Option<CheckedText>,
-    /// The diagnostics last sent to the editor, by file.
+    /// The diagnostics last found, by file, and the count of checks that found them.
     pub(super) reported: Vec<FileDiagnostics>,
+    pub(super) checks: u64,
+    /// Whether it is to be checked again although the editor did not change it.
+    pub(super) is_stale: bool,
 }
 
 /// The result of a check.
@@ -91,18 +94,26 @@ impl OpenText {
             others: EditedFiles::default(),
             checked: None,
             reported: Vec::new(),
+            checks: 0,
+            is_stale: false,
         }
     }
 
     /// The same document, opened again.
     pub(super) fn replace(&mut self, other: Self) {
         let reported = std::mem::take(&mut self.reported);
-        *self = Self { reported, ..other };
+        let checks = self.checks;
+        *self = Self {
+            reported,
+            checks,
+            ..other
+        };
     }
 
     /// Has it checked again.
     pub(super) fn forget(&mut self) {
         self.checked = None;
+        self.is_stale = true;
     }
 
     /// What kind of text it is.

@@ -1,21 +1,19 @@
-//! The contents of a document: outline, colours, inlay hints for defaults, and the targets of
-//! names.
+//! The contents of a document: outline, colours, and the targets of names.
 
 use super::completion::is_file;
-use super::hover::default;
 use super::open_text::OpenText;
 use super::path_at::path_at;
 use super::place;
 use super::protocol::{
-    ColorInformation, ColorPresentation, DocumentSymbol, EditorColor, InlayHint, Location,
-    Position, Range, SymbolKind,
+    ColorInformation, ColorPresentation, DocumentSymbol, EditorColor, Location, Position, Range,
+    SymbolKind,
 };
 use super::text::{Columns, TextLines};
 use super::vocabulary::Vocabulary;
 use rtc_source::tree::{NodeContent, NodeId, SyntaxTree};
 
 /// The maximum number of results of one kind.
-const MOST: usize = 5000;
+pub(super) const MOST: usize = 5000;
 
 /// The keys of the scene, and the items of their lists.
 pub(super) fn symbols(document: &OpenText, columns: Columns) -> Vec<DocumentSymbol> {
@@ -54,7 +52,8 @@ fn named(tree: &SyntaxTree<'_>, id: NodeId) -> Option<String> {
     found.filter(|name| !name.is_empty()).map(str::to_owned)
 }
 
-fn range(tree: &SyntaxTree<'_>, id: NodeId, lines: &TextLines<'_>) -> Range {
+/// The range of a node.
+pub(super) fn range(tree: &SyntaxTree<'_>, id: NodeId, lines: &TextLines<'_>) -> Range {
     let span = tree.span(id);
     lines.range(span.start as usize, span.end as usize)
 }
@@ -89,7 +88,7 @@ pub(super) fn colors(document: &OpenText, columns: Columns) -> Vec<ColorInformat
 }
 
 /// The maps that are written in the text, each once.
-fn maps(tree: &SyntaxTree<'_>) -> impl Iterator<Item = NodeId> {
+pub(super) fn maps(tree: &SyntaxTree<'_>) -> impl Iterator<Item = NodeId> {
     let is_written = |id: &NodeId| tree.is_map(*id) && tree.target(*id) == *id;
     tree.nodes().filter(is_written)
 }
@@ -138,51 +137,4 @@ pub(super) fn definition(
     let path = document.path.parent()?.join(file);
     path.is_file()
         .then(|| Some(Location::new(place::uri(&path)?, Range::default())))?
-}
-
-/// The defaults that the maps of some lines leave unsaid, at the end of their first lines.
-pub(super) fn hints(
-    document: &OpenText,
-    shown: Range,
-    vocabulary: &Vocabulary,
-    columns: Columns,
-) -> Vec<InlayHint> {
-    /// The maximum number of hints per map.
-    const FIRST: usize = 4;
-    /// Longer ones are passed over, as a matrix of glTF.
-    const LONGEST: usize = 32;
-    let Some(tree) = document.tree() else {
-        return Vec::new();
-    };
-    let lines = document.lines(columns);
-    let hint = |map: NodeId| {
-        let start = tree.span(map).start as usize;
-        let line = lines.line(start);
-        let is_shown = shown.start.line as usize <= line && line <= shown.end.line as usize;
-        if !is_shown || map == tree.root() {
-            return None;
-        }
-        // The path continues to the first key, which may begin with the map.
-        let mut steps = path_at(&tree, start);
-        while steps.last().is_some_and(|step| step.node() != map) {
-            steps.pop();
-        }
-        let keys = vocabulary.keys(&tree, &steps).into_iter();
-        let unsaid = keys.filter(|(name, _)| tree.get(map, name).is_none());
-        let defaults = unsaid.filter_map(|(name, schema)| {
-            let default = default(schema).filter(|own| own.len() <= LONGEST)?;
-            Some(format!("{name}: {default}"))
-        });
-        let mut defaults: Vec<String> = defaults.collect();
-        let more = defaults.len() > FIRST;
-        defaults.truncate(FIRST);
-        let end = if more { ", …" } else { "" };
-        let label = format!("{}{end}", defaults.join(", "));
-        (!defaults.is_empty()).then(|| InlayHint {
-            position: lines.position(lines.line_end(start)),
-            label,
-            padding_left: true,
-        })
-    };
-    maps(&tree).filter_map(hint).take(MOST).collect()
 }

@@ -120,12 +120,53 @@ pub(super) struct TextDocumentPositionParams {
     pub(super) position: Position,
 }
 
-/// A request for the hints in a range.
+/// A request for the hints or the tokens in a range.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct InlayHintParams {
+pub(super) struct RangeParams {
     pub(super) text_document: TextDocumentIdentifier,
     pub(super) range: Range,
+}
+
+/// A request for the places of a name.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct ReferenceParams {
+    pub(super) text_document: TextDocumentIdentifier,
+    pub(super) position: Position,
+    pub(super) context: ReferenceContext,
+}
+
+/// Whether the place that gives the name is asked for, too.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct ReferenceContext {
+    pub(super) include_declaration: bool,
+}
+
+/// A request for another name.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct RenameParams {
+    pub(super) text_document: TextDocumentIdentifier,
+    pub(super) position: Position,
+    pub(super) new_name: String,
+}
+
+/// A request for the ranges around some positions.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct SelectionRangeParams {
+    pub(super) text_document: TextDocumentIdentifier,
+    pub(super) positions: Vec<Position>,
+}
+
+/// A request for the diagnostics of a document, unless they are those of an earlier answer.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct DocumentDiagnosticParams {
+    pub(super) text_document: TextDocumentIdentifier,
+    pub(super) previous_result_id: Option<String>,
 }
 
 /// A request for the fixes in a range.
@@ -268,6 +309,8 @@ pub(super) struct CompletionItem {
     pub(super) insert_text: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) insert_text_format: Option<InsertTextFormat>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) sort_text: Option<String>,
 }
 
 impl CompletionItem {
@@ -280,6 +323,7 @@ impl CompletionItem {
             documentation: None,
             insert_text: None,
             insert_text_format: None,
+            sort_text: None,
         }
     }
 }
@@ -291,16 +335,19 @@ pub(super) struct CompletionItemKind(u8);
 impl CompletionItemKind {
     pub(super) const PROPERTY: Self = Self(10);
     pub(super) const VALUE: Self = Self(12);
+    pub(super) const SNIPPET: Self = Self(15);
     pub(super) const FILE: Self = Self(17);
     pub(super) const REFERENCE: Self = Self(18);
 }
 
 /// The syntax of the inserted text.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub(super) struct InsertTextFormat(u8);
 
 impl InsertTextFormat {
     pub(super) const PLAIN_TEXT: Self = Self(1);
+    /// With tab stops.
+    pub(super) const SNIPPET: Self = Self(2);
 }
 
 /// A part of a text that has a name; `selection_range` is that of the name.
@@ -352,4 +399,65 @@ pub(super) struct InlayHint {
     pub(super) position: Position,
     pub(super) label: String,
     pub(super) padding_left: bool,
+}
+
+/// The diagnostics of a document, or that they are those of an earlier answer.
+#[derive(Clone, Debug, Serialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+pub(super) enum DocumentDiagnosticReport {
+    /// All of them.
+    #[serde(rename_all = "camelCase")]
+    Full {
+        result_id: String,
+        items: Vec<EditorDiagnostic>,
+    },
+    /// Those of the answer with this id.
+    #[serde(rename_all = "camelCase")]
+    Unchanged { result_id: String },
+}
+
+/// Lines that can be folded.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct FoldingRange {
+    pub(super) start_line: u32,
+    pub(super) end_line: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) kind: Option<&'static str>,
+}
+
+/// A range, and the one around it.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct SelectionRange {
+    pub(super) range: Range,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) parent: Option<Box<Self>>,
+}
+
+/// A link to a file.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct DocumentLink {
+    pub(super) range: Range,
+    pub(super) target: DocumentUri,
+}
+
+/// A command above a range.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct CodeLens {
+    pub(super) range: Range,
+    pub(super) command: EditorCommand,
+}
+
+/// A command that an editor sends back when it is chosen.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct EditorCommand {
+    pub(super) title: String,
+    pub(super) command: &'static str,
+    pub(super) arguments: Vec<DocumentUri>,
+}
+
+/// Semantic tokens, five numbers each.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct SemanticTokens {
+    pub(super) data: Vec<u32>,
 }

@@ -18,6 +18,29 @@ impl Vocabulary {
         Self { schema }
     }
 
+    /// The schemas of the whole document.
+    pub(super) fn root<'v>(&'v self, tree: &SyntaxTree<'_>) -> Vec<&'v Map<String, Value>> {
+        self.plain(&self.schema, tree, tree.root())
+    }
+
+    /// The schemas one step below others.
+    pub(super) fn below<'v>(
+        &'v self,
+        here: &[&'v Map<String, Value>],
+        tree: &SyntaxTree<'_>,
+        step: PathStep,
+    ) -> Vec<&'v Map<String, Value>> {
+        let found: Vec<&Value> = match step {
+            PathStep::Key { key, .. } => {
+                let name = tree.text(key).unwrap_or_default();
+                here.iter().filter_map(|s| property(s, name)).collect()
+            }
+            PathStep::Item { at, .. } => here.iter().filter_map(|s| item(s, at)).collect(),
+        };
+        let plain = |schema| self.plain(schema, tree, step.node());
+        found.into_iter().flat_map(plain).collect()
+    }
+
     /// The schemas at the end of a path, without references.
     pub(super) fn at<'v>(
         &'v self,
@@ -37,25 +60,18 @@ impl Vocabulary {
         steps: &[PathStep],
         most: usize,
     ) -> Vec<&'v Map<String, Value>> {
-        let mut here = self.plain(&self.schema, tree, tree.root());
+        let mut here = self.root(tree);
         let mut is_merged = false;
         for step in steps {
-            let found: Vec<&Value> = match *step {
-                PathStep::Key { key, .. } => {
-                    let name = tree.text(key).unwrap_or_default();
-                    is_merged = name == MERGE;
-                    here.iter().filter_map(|s| property(s, name)).collect()
-                }
-                PathStep::Item { at, .. } => here.iter().filter_map(|s| item(s, at)).collect(),
-            };
             // A merged map has the keys of the map that it is merged into.
+            is_merged = match *step {
+                PathStep::Key { key, .. } => tree.is(key, MERGE),
+                PathStep::Item { .. } => is_merged,
+            };
             if is_merged {
                 continue;
             }
-            here = found
-                .into_iter()
-                .flat_map(|schema| self.plain(schema, tree, step.node()))
-                .collect();
+            here = self.below(&here, tree, *step);
             if here.is_empty()
                 && most > 0
                 && let Some(alias) = alias_of(tree, step.node())
@@ -77,8 +93,9 @@ impl Vocabulary {
         for schema in self.at(tree, to_map) {
             let properties = schema.get("properties").and_then(Value::as_object);
             for (name, property) in properties.into_iter().flatten() {
-                let is_old = property.get("deprecated").is_some();
-                if !is_old && !keys.iter().any(|(known, _)| known == name) {
+                // A rule may forbid a key: its schema is `false`.
+                let is_current = property.is_object() && property.get("deprecated").is_none();
+                if is_current && !keys.iter().any(|(known, _)| known == name) {
                     keys.push((name, property));
                 }
             }

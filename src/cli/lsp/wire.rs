@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use std::collections::VecDeque;
 use std::io::{self, BufRead, Read, Write};
-use std::sync::mpsc::{self, Receiver};
+use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 
 /// The largest message that is taken, in bytes.
@@ -27,6 +27,10 @@ pub(super) enum Incoming {
     Cancelled(RequestId),
     /// An invalid body, with the code and message of the response.
     NoMessage(i32, String),
+    /// Messages of ours for the editor, from a command that is done.
+    Done(Vec<Message>),
+    /// The end of the stream.
+    End,
     /// A stream error, with its message.
     Broken(String),
 }
@@ -34,6 +38,7 @@ pub(super) enum Incoming {
 /// The messages that wait, in their order.
 pub(super) struct Inbox {
     receiver: Receiver<Incoming>,
+    sender: Sender<Incoming>,
     waiting: VecDeque<Incoming>,
 }
 
@@ -44,14 +49,15 @@ impl Inbox {
     /// If there is no thread to be had.
     pub(super) fn of(mut input: impl BufRead + Send + 'static) -> io::Result<Self> {
         let (sender, receiver) = mpsc::channel();
+        let own = sender.clone();
         let read = move || {
             loop {
                 let (incoming, is_last) = match next(&mut input) {
                     Ok(Some(incoming)) => (incoming, false),
-                    Ok(None) => return,
+                    Ok(None) => (Incoming::End, true),
                     Err(error) => (Incoming::Broken(error.to_string()), true),
                 };
-                if sender.send(incoming).is_err() || is_last {
+                if own.send(incoming).is_err() || is_last {
                     return;
                 }
             }
@@ -60,8 +66,26 @@ impl Inbox {
         drop(reader.spawn(read)?);
         Ok(Self {
             receiver,
+            sender,
             waiting: VecDeque::new(),
         })
+    }
+
+    /// Does some work in a thread of its own; its messages arrive here.
+    ///
+    /// # Errors
+    /// If there is no thread to be had.
+    pub(super) fn work(
+        &self,
+        work: impl FnOnce() -> Vec<Message> + Send + 'static,
+    ) -> io::Result<()> {
+        let sender = self.sender.clone();
+        let done = move || {
+            // Without a reader the server has ended.
+            let _ = sender.send(Incoming::Done(work()));
+        };
+        let worker = thread::Builder::new().name("command".to_owned());
+        worker.spawn(done).map(drop)
     }
 
     /// The next message, if one is there.
@@ -72,7 +96,7 @@ impl Inbox {
         self.waiting.pop_front()
     }
 
-    /// The next message, which may be waited for; none where no more can come.
+    /// The next message, which may be waited for; `None` if no more can come.
     pub(super) fn wait(&mut self) -> Option<Incoming> {
         if let Some(incoming) = self.next() {
             return Some(incoming);
@@ -91,6 +115,8 @@ impl Inbox {
             Incoming::Message(Message::Response(_) | Message::Notification(_))
             | Incoming::Cancelled(_)
             | Incoming::NoMessage(..)
+            | Incoming::Done(_)
+            | Incoming::End
             | Incoming::Broken(_) => false,
         };
         if let Some(suggestion) = self.waiting.iter_mut().find(is_meant) {
@@ -185,6 +211,8 @@ mod tests {
             Incoming::Message(Message::Response(_)) => "response".to_owned(),
             Incoming::Cancelled(id) => format!("cancelled {id}"),
             Incoming::NoMessage(code, _) => format!("no message {code}"),
+            Incoming::Done(_) => "done".to_owned(),
+            Incoming::End => "end".to_owned(),
             Incoming::Broken(_) => "broken".to_owned(),
         };
         let mut all = Vec::new();
@@ -234,7 +262,7 @@ mod tests {
         let first = inbox.wait().unwrap();
         assert!(matches!(first, Incoming::Message(Message::Request(_))));
         let (mut others, mut cancelled) = (0, 0);
-        while let Some(own) = inbox.wait() {
+        while let Some(own) = inbox.wait().filter(|own| !matches!(own, Incoming::End)) {
             others += 1;
             cancelled += usize::from(matches!(own, Incoming::Cancelled(_)));
         }

@@ -5,17 +5,19 @@ use super::diagnostics::{self, FileDiagnostics};
 use super::method;
 use super::open_text::OpenText;
 use super::protocol::{
-    DidChangeTextDocumentParams, DidOpenTextDocumentParams, EditorDiagnostic, Position,
+    DidChangeTextDocumentParams, DidOpenTextDocumentParams, DocumentDiagnosticParams,
+    DocumentDiagnosticReport, EditorDiagnostic, InsertTextFormat, Position,
     PublishDiagnosticsParams, TextDocumentParams,
 };
 use super::text::Columns;
 use super::uri::DocumentUri;
 use super::vocabulary::Vocabulary;
-use lsp_server::{Message, Notification};
+use lsp_server::{Message, Notification, Request, RequestId};
 use rtc_codec as codec;
 use rtc_front::{course, gltf};
 use rtc_pipeline::SourceKind;
 use rtc_source::EditedFiles;
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -26,6 +28,12 @@ use std::sync::Arc;
 pub(super) struct Workspace {
     pub(super) reading: Reading,
     pub(super) columns: Columns,
+    /// The form of whole objects in completions that the editor knows.
+    pub(super) snippet_form: InsertTextFormat,
+    /// Whether the editor asks for the diagnostics of open documents, so that they are not sent.
+    pulls: bool,
+    /// Whether the editor can be told to ask again.
+    refreshes: bool,
     documents: Vec<OpenText>,
     scenes: Vocabulary,
     ir: Vocabulary,
@@ -39,6 +47,9 @@ impl Workspace {
         Self {
             reading,
             columns: Columns::Utf16,
+            snippet_form: InsertTextFormat::PLAIN_TEXT,
+            pulls: false,
+            refreshes: false,
             documents: Vec::new(),
             scenes: Vocabulary::new(course::schema()),
             ir: Vocabulary::new(codec::schema()),
@@ -47,9 +58,20 @@ impl Workspace {
         }
     }
 
-    /// Has columns counted so.
-    pub(super) fn count_columns(&mut self, columns: Columns) {
-        self.columns = columns;
+    /// Adapts to what an editor offers in `initialize`; returns the units of columns.
+    pub(super) fn adapt(&mut self, params: &Value) -> Columns {
+        let offered = params.pointer("/capabilities/general/positionEncodings");
+        let offered = offered.and_then(|own| Vec::deserialize(own).ok());
+        self.columns = Columns::of(&offered.unwrap_or_default());
+        let item = "/capabilities/textDocument/completion/completionItem/snippetSupport";
+        if params.pointer(item) == Some(&Value::Bool(true)) {
+            self.snippet_form = InsertTextFormat::SNIPPET;
+        }
+        let pull = params.pointer("/capabilities/textDocument/diagnostic");
+        self.pulls = pull.is_some();
+        let refresh = params.pointer("/capabilities/workspace/diagnostics/refreshSupport");
+        self.refreshes = refresh == Some(&Value::Bool(true));
+        self.columns
     }
 
     /// A text that is open.
@@ -192,18 +214,83 @@ impl Workspace {
 
     /// Checks a changed document, and returns the messages to send; `None` if all are checked.
     pub(super) fn check_next(&mut self) -> Option<Vec<Message>> {
-        let columns = self.columns;
         let at = self
             .documents
             .iter()
             .position(|document| document.checked.is_none())?;
+        let was_stale = self.documents[at].is_stale;
+        let mut files = self.renew(at);
+        if !self.pulls {
+            return Some(self.published(files));
+        }
+        files.retain(|file| self.document(file).is_none());
+        let mut messages = self.published(files);
+        if was_stale && self.refreshes {
+            let id = RequestId::from("refresh".to_owned());
+            let method = method::DIAGNOSTIC_REFRESH.to_owned();
+            messages.push(Request::new(id, method, Value::Null).into());
+        }
+        Some(messages)
+    }
+
+    /// Checks a document unless it is checked, and returns the files with diagnostics of it, before
+    /// or now.
+    fn renew(&mut self, at: usize) -> Vec<DocumentUri> {
+        let columns = self.columns;
+        let is_checked = self.documents[at].checked.is_some();
         self.check(at);
-        let document = self.documents.get_mut(at)?;
+        let document = &mut self.documents[at];
+        document.is_stale = false;
+        if is_checked {
+            return Vec::new();
+        }
+        document.checks += 1;
         let found = diagnostics::diagnostics(document, columns);
         let before = std::mem::replace(&mut document.reported, found);
         let mut files: Vec<DocumentUri> = before.into_iter().map(|(file, _)| file).collect();
         files.extend(document.reported.iter().map(|(file, _)| file.clone()));
-        Some(self.published(files))
+        files
+    }
+
+    /// The diagnostics of a document that an editor asks for.
+    pub(super) fn report(
+        &mut self,
+        params: &DocumentDiagnosticParams,
+    ) -> Option<DocumentDiagnosticReport> {
+        let DocumentDiagnosticParams {
+            text_document,
+            previous_result_id,
+        } = params;
+        // Those of other documents may stand in this one.
+        for at in 0..self.documents.len() {
+            drop(self.renew(at));
+        }
+        let checks = self.documents.iter().map(|own| own.checks);
+        let checks: Vec<String> = checks.map(|count| count.to_string()).collect();
+        let result_id = checks.join(".");
+        let is_known = previous_result_id.as_ref() == Some(&result_id);
+        self.document(&text_document.uri)?;
+        Some(match is_known {
+            true => DocumentDiagnosticReport::Unchanged { result_id },
+            false => DocumentDiagnosticReport::Full {
+                items: self.of_file(&text_document.uri),
+                result_id,
+            },
+        })
+    }
+
+    /// The diagnostics in a file, from any document.
+    fn of_file(&self, file: &DocumentUri) -> Vec<EditorDiagnostic> {
+        let (mut all, mut known) = (Vec::new(), BTreeSet::new());
+        let reported = self.documents.iter().flat_map(|own| &own.reported);
+        let of_file = reported.filter(|(path, _): &&FileDiagnostics| path == file);
+        for diagnostic in of_file.flat_map(|(_, list)| list) {
+            // A file and the scenes that name it may report the same diagnostic.
+            if known.insert(identity(diagnostic)) {
+                all.push(diagnostic.clone());
+            }
+        }
+        all
     }
 
     /// All diagnostics in some files, from any document.
@@ -211,22 +298,10 @@ impl Workspace {
         files.sort_unstable_by(|a, b| a.as_str().cmp(b.as_str()));
         files.dedup();
         let publish = |file: DocumentUri| {
-            let (mut all, mut known) = (Vec::new(), BTreeSet::new());
-            let reported = self
-                .documents
-                .iter()
-                .flat_map(|document| &document.reported);
-            let of_file = reported.filter(|(path, _): &&FileDiagnostics| *path == file);
-            for diagnostic in of_file.flat_map(|(_, list)| list) {
-                // A file and the scenes that name it may report the same diagnostic.
-                if known.insert(identity(diagnostic)) {
-                    all.push(diagnostic.clone());
-                }
-            }
             let version = self.document(&file).map(|document| document.version);
             let params = PublishDiagnosticsParams {
+                diagnostics: self.of_file(&file),
                 uri: file,
-                diagnostics: all,
                 version,
             };
             let method = method::PUBLISH_DIAGNOSTICS.to_owned();

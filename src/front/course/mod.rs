@@ -62,6 +62,7 @@ mod rotation;
 mod sampling;
 mod schema;
 mod settings;
+mod snippet;
 mod spelling;
 mod standard;
 mod suggestion;

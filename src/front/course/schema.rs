@@ -9,12 +9,21 @@ use super::object::{KINDS, ObjectKind};
 use super::reader::{COMMENT, MATERIAL};
 use super::record::{FieldDeclaration, Record, Requirement};
 use super::settings::Scene;
+use super::snippet::example;
 use serde_json::{Map, Value as Json, json};
 
 /// The schemas of the records so far, by their names.
 #[derive(Default)]
 pub(super) struct Definitions {
     schemas: Map<String, Json>,
+}
+
+impl Definitions {
+    /// The example of a record whose schema is known.
+    pub(super) fn example(&self, name: &str) -> Json {
+        let schema = self.schemas.get(name).unwrap_or(&Json::Null);
+        schema["defaultSnippets"][0]["body"].clone()
+    }
 }
 
 /// The JSON Schema (2020-12) of the format.
@@ -63,13 +72,23 @@ pub(super) fn operand(definitions: &mut Definitions) -> Json {
         }
         let mut kind = json!({ "anyOf": enumeration(KINDS.iter().flat_map(words)) });
         kind["description"] = json!("What kind of object this is.");
+        let snippets = KINDS.iter().map(|kind| {
+            let body = example(kind.record, definitions);
+            snippet(kind.names[0], kind.record.doc, &body)
+        });
         json!({
+            "defaultSnippets": snippets.collect::<Vec<_>>(),
             "type": "object",
             "properties": { "type": kind },
             "required": ["type"],
             "allOf": choices,
         })
     })
+}
+
+/// An object that editors propose to insert.
+fn snippet(label: &str, doc: &str, body: &Json) -> Json {
+    json!({ "label": label, "description": doc.trim(), "body": body })
 }
 
 /// The names of a type of objects, and the meaning of the first.
@@ -155,13 +174,21 @@ fn record_schema(record: &Record, definitions: &mut Definitions) -> Json {
             .collect();
         rules.push(json!({ "oneOf": variants }));
     }
+    let example = example(record, definitions);
+    let name = record.name.replace('`', "");
+    let snippets = (example != json!({})).then(|| vec![snippet(&name, record.doc, &example)]);
     let mut record_schema = json!({
         "description": record.doc.trim(),
         "type": "object",
         "properties": properties,
         "additionalProperties": false,
     });
-    for (key, list) in [("required", json!(required)), ("allOf", json!(rules))] {
+    let snippets = json!(snippets.unwrap_or_default());
+    for (key, list) in [
+        ("required", json!(required)),
+        ("allOf", json!(rules)),
+        ("defaultSnippets", snippets),
+    ] {
         if list.as_array().is_some_and(|list| !list.is_empty()) {
             record_schema[key] = list;
         }

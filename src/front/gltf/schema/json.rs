@@ -66,6 +66,8 @@ impl JsonWriter {
             map.extend(about.default.map(|value| ("default".to_owned(), value)));
             let unit = about.unit.map(|unit| ("x-unit".to_owned(), unit.into()));
             map.extend(unit);
+            // As in the scenes of the course.
+            map.extend((key.name == "uri").then(|| ("title".to_owned(), "file".into())));
         }
         schema
     }
