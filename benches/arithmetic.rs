@@ -12,11 +12,11 @@
 )]
 
 use rtc::internals::color::quantize8;
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Arithmetic, Plan, Rules};
-use rtc::internals::render::{self, Film, Job};
+use rtc::internals::plan::{Arithmetic, Plan, RuleSet};
+use rtc::internals::render::{self, Film, RenderSelection};
 use rtc::internals::source::{Loader, SourceMap};
 use rtc::internals::valid::ValidScene;
 use std::path::Path;
@@ -61,7 +61,11 @@ fn main() {
 
 /// The scene, no more than 160 pixels wide and high and with few samples.
 fn scene(file: &str) -> ValidScene {
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let (mut map, mut sink, options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     let read = Loader.file(Path::new(file), &mut map).unwrap();
     let mut lowered = pipeline::load(read, &mut map, &options, &mut sink).unwrap();
     let [width, height] = lowered.scene.camera.size;
@@ -79,8 +83,8 @@ fn scene(file: &str) -> ValidScene {
 fn render(scene: &ValidScene, arithmetic: Arithmetic) -> Film {
     render::render(
         scene,
-        &Plan::with_arithmetic(arithmetic, scene, Rules::ALL),
-        &Job::default(),
+        &Plan::with_arithmetic(arithmetic, scene, RuleSet::ALL),
+        &RenderSelection::default(),
         &|_| true,
     )
     .unwrap()

@@ -16,14 +16,14 @@ mod tampered;
 
 use rtc::internals::image::{FileFormat, WrittenPicture};
 use rtc::internals::pipeline::{
-    AuditDraw, AuditResult, PictureSetup, RenderError, RenderShard, ShardBy, ShardPlan,
+    AuditResult, PictureSetup, RenderError, RenderShard, ShardDivision, ShardPlan, TileDraw,
 };
 use rtc::internals::render::SimdLevel;
 use rtc::internals::study::least_faults;
 use std::path::Path;
 use std::process::ExitCode;
 use tampered::{
-    Made, OBSERVER, Recipe, Validated, audit, numbers, read, recipes, setup, validated,
+    Made, OBSERVER, Recipe, ValidatedScene, audit, numbers, read, recipes, setup, validated,
 };
 
 /// So many tiles are drawn of each tampered picture.
@@ -111,7 +111,7 @@ fn tampered_pictures(faults: &mut Faults) {
         for made in &made {
             for seed in 0..count {
                 let (written, tile) = tamper(made, &mut random);
-                let draws = [DRAWN, u64::MAX].map(|tiles| AuditDraw { tiles, seed });
+                let draws = [DRAWN, u64::MAX].map(|tiles| TileDraw { tiles, seed });
                 let at_once = |draw| audit(&written, &made.recipe, draw, (2, SimdLevel::best()));
                 let [some, all] = draws.map(at_once);
                 row[0] += 1;
@@ -164,7 +164,7 @@ fn stated_probability(faults: &mut Faults) {
         for damaged in [bound, bound.saturating_sub(1).max(1)] {
             let written = made.with_damaged_tiles(damaged);
             let missed = (0..SEEDS).filter(|seed| {
-                let draw = AuditDraw {
+                let draw = TileDraw {
                     tiles: drawn,
                     seed: seed + 10_000 * drawn,
                 };
@@ -193,8 +193,8 @@ fn stated_probability(faults: &mut Faults) {
 #[derive(Clone, Copy)]
 enum Way {
     Whole,
-    Merged(ShardBy),
-    Part(ShardBy),
+    Merged(ShardDivision),
+    Part(ShardDivision),
 }
 
 /// Audits what was made as it should be, mostly on other threads and at other levels than
@@ -210,19 +210,19 @@ fn false_alarms(faults: &mut Faults) {
         ("a picture", Way::Whole),
         (
             "a picture merged of parts by tiles",
-            Way::Merged(ShardBy::Tiles),
+            Way::Merged(ShardDivision::Tiles),
         ),
         (
             "a picture merged of parts by samples",
-            Way::Merged(ShardBy::Samples),
+            Way::Merged(ShardDivision::Samples),
         ),
-        ("a part by tiles", Way::Part(ShardBy::Tiles)),
-        ("a part by samples", Way::Part(ShardBy::Samples)),
+        ("a part by tiles", Way::Part(ShardDivision::Tiles)),
+        ("a part by samples", Way::Part(ShardDivision::Samples)),
     ];
     for (name, way) in ways {
         let by_samples = matches!(
             way,
-            Way::Merged(ShardBy::Samples) | Way::Part(ShardBy::Samples)
+            Way::Merged(ShardDivision::Samples) | Way::Part(ShardDivision::Samples)
         );
         let recipes: Vec<Recipe> = recipes()
             .into_iter()
@@ -268,7 +268,7 @@ fn pictures_of_another_machine(folder: &Path, faults: &mut Faults) {
     let [mut tiles, mut alarms] = [0, 0];
     for (index, recipe) in recipes().into_iter().enumerate() {
         let written = read(&std::fs::read(folder.join(index.to_string())).unwrap()).unwrap();
-        let all = AuditDraw {
+        let all = TileDraw {
             tiles: u64::MAX,
             seed: 0,
         };
@@ -294,7 +294,7 @@ fn audited(
     seed: u64,
     (made_on, audited_on): (Machine, Machine),
 ) -> AuditResult {
-    let all = AuditDraw {
+    let all = TileDraw {
         tiles: u64::MAX,
         seed,
     };
@@ -303,7 +303,7 @@ fn audited(
         simd,
         ..setup
     };
-    let Validated { setup, mut subject } = validated(recipe, on(setup(recipe), made_on));
+    let ValidatedScene { setup, mut subject } = validated(recipe, on(setup(recipe), made_on));
     let window = setup.window(&subject.validated.lowered.scene).unwrap();
     let mut part = |by, first, last| {
         let shares = ShardPlan {
@@ -333,7 +333,7 @@ fn audited(
         Way::Part(by) => {
             let part = part(by, 2, 2);
             let anew = on(part.setup().unwrap(), audited_on);
-            let Validated { setup, mut subject } = validated(recipe, anew);
+            let ValidatedScene { setup, mut subject } = validated(recipe, anew);
             part.audit(&setup, &mut subject, (all, u64::MAX), &OBSERVER)
                 .unwrap()
         }

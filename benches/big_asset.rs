@@ -11,9 +11,9 @@
 
 use cpu_time::ProcessTime;
 use libm::{cos, sin};
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::plan::{Plan, RuleSet};
 use rtc::internals::render::{Shape, World};
 use rtc::internals::source::{Loader, SourceMap};
 use std::f64::consts::{PI, TAU};
@@ -143,7 +143,11 @@ fn main() {
 
 /// Prints what stands between a file and the first hierarchy.
 fn start(path: &str) {
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let (mut map, mut sink, options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     let begin = ProcessTime::now();
     let file = Loader.file(Path::new(path), &mut map).unwrap();
     let read = begin.elapsed();
@@ -151,7 +155,7 @@ fn start(path: &str) {
     let loaded = begin.elapsed();
     let validated = pipeline::validate(&lowered, &options, &mut sink).unwrap();
     let checked = begin.elapsed();
-    let plan = Plan::new(&validated, Rules::ALL);
+    let plan = Plan::new(&validated, RuleSet::ALL);
     let planned = begin.elapsed();
     let world = World::<Shape>::prepare(&validated, &plan);
     let built = begin.elapsed();

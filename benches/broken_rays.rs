@@ -6,10 +6,10 @@
     clippy::unwrap_used,
     reason = "a measurement stops at the first surprise"
 )]
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::math::Vec3;
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::plan::{Plan, RuleSet};
 use rtc::internals::render::{Ray, World};
 use rtc::internals::source::SourceMap;
 use std::fmt::Write as _;
@@ -31,11 +31,15 @@ fn world() -> World {
         writeln!(text, "- {{type: sphere, position: [{x}, {y}, {z}], radius: 0.04, material: {{color: [1, 1, 1], ka: 0, kd: 1, ks: 0, n: 1}}}}")
             .unwrap();
     }
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let (mut map, mut sink, options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     let file = map.add("spheres", text.into_bytes());
     let lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
     let valid = pipeline::validate(&lowered, &options, &mut sink).unwrap();
-    World::prepare(&valid, &Plan::new(&valid, Rules::NONE))
+    World::prepare(&valid, &Plan::new(&valid, RuleSet::NONE))
 }
 
 /// Ray k, its components replaced from the list by turns, one at a time or all at once.

@@ -8,9 +8,9 @@
     clippy::disallowed_methods,
     reason = "a measurement stops at the first surprise and has a clock; an allocator is unsafe"
 )]
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::pipeline;
-use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::plan::{Plan, RuleSet};
 use rtc::internals::source::SourceMap;
 use rtc::internals::valid::ValidScene;
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -76,7 +76,7 @@ fn text(spheres: u32) -> String {
 fn text_to_proof(bytes: Vec<u8>) -> Option<ValidScene> {
     let mut map = SourceMap::default();
     let file = map.add("spheres", bytes);
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     let options = pipeline::Options::default();
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
     lowered.and_then(|lowered| pipeline::validate(&lowered, &options, &mut sink))
@@ -84,7 +84,7 @@ fn text_to_proof(bytes: Vec<u8>) -> Option<ValidScene> {
 
 #[inline(never)]
 fn proof_to_plan(scene: &ValidScene) -> Plan {
-    Plan::new(scene, Rules::ALL)
+    Plan::new(scene, RuleSet::ALL)
 }
 
 #[expect(clippy::print_stdout, reason = "it prints what it measured")]

@@ -18,8 +18,8 @@ use cpu_time::ProcessTime;
 use exr::prelude::{ReadChannels as _, ReadLayers as _, read};
 use rtc::internals::math::Vec3;
 use rtc::internals::pipeline;
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Film, Job, Values};
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::{Film, RenderSelection, Values};
 use serde_json::Value;
 use std::path::Path;
 
@@ -37,10 +37,10 @@ fn main() {
     let path = Path::new(&path);
     let lowered = setup::load_set_up(path, samples);
     let proof = setup::validate(&lowered);
-    let plan = Plan::new(&proof, Rules::ALL);
-    let job = Job {
+    let plan = Plan::new(&proof, RuleSet::ALL);
+    let job = RenderSelection {
         values: Values::Linear,
-        ..Job::default()
+        ..RenderSelection::default()
     };
     let start = ProcessTime::now();
     let film = pipeline::render(&proof, &plan, &job, 1, &|_| true)

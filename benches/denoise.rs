@@ -18,10 +18,10 @@ mod limits;
 
 use rtc::internals::image::{BackgroundFill, FileFormat, Image};
 use rtc::internals::passes::{IntegratorChoice, ViewAndLight};
-use rtc::internals::pipeline::{Input, Observer, Options, OutputTransform, PictureSetup};
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{AnyWorld, Job, Seeds};
-use rtc::internals::study::{Errors, LEVELS, RenderOrder, probe};
+use rtc::internals::pipeline::{Input, Options, OutputTransform, PictureSetup, RenderObserver};
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::{AnyWorld, RenderSelection, SamplingSeeds};
+use rtc::internals::study::{LEVELS, PictureErrors, RenderOrder, probe};
 use std::path::Path;
 
 /// The paths a pixel of a picture, and of the plain one it is to be as good as.
@@ -52,7 +52,7 @@ impl Case {
         });
         let loaded = input.load().unwrap();
         let mut subject = setup.validate(loaded, &mut input).unwrap().unwrap();
-        let observer = Observer {
+        let observer = RenderObserver {
             on_step: &|_| (),
             is_stopped: &|| false,
         };
@@ -60,7 +60,7 @@ impl Case {
         let window = setup.window(&subject.validated.lowered.scene).unwrap();
         let order = setup.order(&subject, window, None);
         let proof = &subject.validated.scene;
-        let world = AnyWorld::prepare(proof, &Plan::new(proof, Rules::ALL));
+        let world = AnyWorld::prepare(proof, &Plan::new(proof, RuleSet::ALL));
         Self {
             world,
             order,
@@ -68,17 +68,17 @@ impl Case {
         }
     }
 
-    fn job(&self, seed: u64) -> Job {
-        Job {
+    fn job(&self, seed: u64) -> RenderSelection {
+        RenderSelection {
             crop: Some(self.order.crop),
             values: self.order.values,
             background: self.order.background,
-            seeds: Seeds {
+            seeds: SamplingSeeds {
                 pixel: seed,
                 lens: seed,
                 path: seed,
             },
-            ..Job::default()
+            ..RenderSelection::default()
         }
     }
 
@@ -146,7 +146,7 @@ impl Tally {
             ..*a
         };
         let errors = |image: &Image| {
-            Errors::of(
+            PictureErrors::of(
                 std::slice::from_ref(image),
                 std::slice::from_ref(&middle),
                 1.0,

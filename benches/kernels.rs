@@ -13,9 +13,9 @@ mod setup;
 
 use cpu_time::ThreadTime;
 use rtc::internals::passes::Overrides;
-use rtc::internals::plan::{Features, PathFeatures, Plan, Rules, Shapes};
+use rtc::internals::plan::{PathFeatures, Plan, RuleSet, ShapeSet, WhittedFeatures};
 use rtc::internals::render::{
-    AnyWorld, Film, Job, KERNELS, PATH_KERNELS, choose, choose_for_paths,
+    AnyWorld, Film, KERNELS, PATH_KERNELS, RenderSelection, choose, choose_for_paths,
 };
 use rtc::internals::valid::ValidScene;
 use std::path::Path;
@@ -39,13 +39,13 @@ fn main() {
     let (which, file) = (args.next().unwrap(), args.next().unwrap());
     let size = args.next().map_or(SIZE, |size| size.parse().unwrap());
     let scene = scene(&file, size);
-    let planned = Plan::new(&scene, Rules::ALL);
+    let planned = Plan::new(&scene, RuleSet::ALL);
     match which.as_str() {
         "planned" => count(&scene, &planned),
         "next" => count(&scene, &by_next(&planned)),
         "all" => count(&scene, &for_all_shapes(&planned)),
         "everything" => count(&scene, &everything(&planned)),
-        "unpruned" => count(&scene, &Plan::new(&scene, Rules::NONE)),
+        "unpruned" => count(&scene, &Plan::new(&scene, RuleSet::NONE)),
         "names" => print_names(&planned),
         "time" => time(&scene, &planned),
         other => panic!("`{other}` is none of them"),
@@ -73,14 +73,14 @@ fn by_next(planned: &Plan) -> Plan {
 
 fn for_all_shapes(planned: &Plan) -> Plan {
     Plan {
-        shapes: Shapes::All,
+        shapes: ShapeSet::All,
         ..planned.clone()
     }
 }
 
 fn everything(planned: &Plan) -> Plan {
     let mut plan = for_all_shapes(planned);
-    plan.features = Features::EVERYTHING;
+    plan.features = WhittedFeatures::EVERYTHING;
     if let Some(paths) = &mut plan.paths {
         paths.features = PathFeatures::EVERYTHING;
     }
@@ -125,7 +125,9 @@ fn time(scene: &ValidScene, planned: &Plan) {
 
 #[inline(never)]
 fn picture(world: &AnyWorld) -> Film {
-    world.render(&Job::default(), &|_| true).unwrap()
+    world
+        .render(&RenderSelection::default(), &|_| true)
+        .unwrap()
 }
 
 fn scene(file: &str, size: u32) -> ValidScene {

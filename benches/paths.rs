@@ -3,7 +3,8 @@
 //! another noise.
 //!
 //! One line of JSON comes out: triangles, camera samples, seconds of the clock and CPU-seconds of
-//! rendering, without what is prepared before; CPU-seconds of the process; its peak of memory in MB.
+//! rendering, without what is prepared before; CPU-seconds of the process; its peak of memory in
+//! MB.
 
 #![expect(
     clippy::unwrap_used,
@@ -15,10 +16,10 @@
 mod setup;
 
 use cpu_time::ProcessTime;
-use rtc::internals::ir::{Lowered, Mode};
+use rtc::internals::ir::{LoweredScene, Mode};
 use rtc::internals::pipeline::Renderer;
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Film, Job, Seeds, Values};
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::{Film, RenderSelection, SamplingSeeds, Values};
 use rtc::internals::valid::{Shape, Surface, ValidScene};
 use serde_json::json;
 use std::path::Path;
@@ -32,16 +33,16 @@ fn main() {
     let lowered = load(Path::new(path), samples.parse().unwrap());
     let proof = setup::validate(&lowered);
     let seed = seed.parse().unwrap();
-    let job = Job {
+    let job = RenderSelection {
         values: Values::Linear,
-        seeds: Seeds {
+        seeds: SamplingSeeds {
             pixel: seed,
             lens: seed,
             path: seed,
         },
-        ..Job::default()
+        ..RenderSelection::default()
     };
-    let renderer = Renderer::new(&proof, &Plan::new(&proof, Rules::ALL), 1).unwrap();
+    let renderer = Renderer::new(&proof, &Plan::new(&proof, RuleSet::ALL), 1).unwrap();
     let (clock, cpu) = (Instant::now(), ProcessTime::now());
     let film = renderer.render(&job, &|_| true).unwrap();
     let (clock, cpu) = (clock.elapsed(), cpu.elapsed());
@@ -58,7 +59,7 @@ fn main() {
 }
 
 /// The scene of a set-up, or of any other file whose paths are traced, with so many paths a pixel.
-fn load(path: &Path, samples: u32) -> Lowered {
+fn load(path: &Path, samples: u32) -> LoweredScene {
     if path.extension().is_some_and(|ending| ending == "json") {
         return setup::load_set_up(path, samples);
     }

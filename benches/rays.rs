@@ -2,8 +2,8 @@
 //! traces the first COUNT rays of each SET, or all of them. A set is a file of little-endian f32,
 //! six per ray: origin and direction.
 //!
-//! One line of JSON comes out of the build and of each kind of work: CPU-seconds, rays, hits, and the
-//! sum of the first distances, so that others can be checked against it. All of one thread. For
+//! One line of JSON comes out of the build and of each kind of work: CPU-seconds, rays, hits, and
+//! the sum of the first distances, so that others can be checked against it. All of one thread. For
 //! callgrind, `closest_hits` and `any_hits` are the work, a batch a call.
 
 #![expect(
@@ -14,10 +14,10 @@
 )]
 
 use cpu_time::ProcessTime;
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::math::Vec3;
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::plan::{Plan, RuleSet};
 use rtc::internals::render::{Hit, Ray, World};
 use rtc::internals::source::{Loader, SourceMap};
 use serde_json::json;
@@ -51,11 +51,15 @@ fn main() {
 
 /// The world of an asset; the time of the build is that from the proof to the world.
 fn world(asset: &str) -> World {
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let (mut map, mut sink, options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     let file = Loader.file(Path::new(asset), &mut map).unwrap();
     let lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
     let proof = pipeline::validate(&lowered, &options, &mut sink).unwrap();
-    let plan = Plan::new(&proof, Rules::NONE);
+    let plan = Plan::new(&proof, RuleSet::NONE);
     let start = ProcessTime::now();
     let world = World::prepare(&proof, &plan);
     let seconds = start.elapsed().as_secs_f64();

@@ -9,20 +9,20 @@
 #[expect(dead_code, reason = "generated scenes are of honest.rs")]
 mod scenes;
 
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::image::Image;
 use rtc::internals::ir::{Pattern, Scene};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::render::{AnyWorld, ProgressiveFilm, Values};
 use rtc::internals::source::{Loader, SourceMap};
-use rtc::internals::study::Goal;
+use rtc::internals::study::RenderGoal;
 use std::path::Path;
 
 /// The renders of each number of samples, and to each target.
 const SEEDS: u64 = 8;
 
 fn load(path: &Path, height: u32) -> Scene {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = Loader
         .file(path, &mut map)
         .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
@@ -37,7 +37,7 @@ fn load(path: &Path, height: u32) -> Scene {
 
 /// A picture of a number of samples in each replicate of all pixels.
 fn uniform(world: &AnyWorld, scene: &Scene, count: u32, seed: u64) -> Image {
-    let order = scenes::order(scene, Goal::default(), seed);
+    let order = scenes::order(scene, RenderGoal::default(), seed);
     let mut film = ProgressiveFilm::new(order.crop, seed);
     (film.background, film.display) = (order.background, order.display);
     assert!(world.grow(&mut film, &|_| [count, 2], &|_| true));

@@ -5,7 +5,7 @@
 
 use crate::tampered::{Made, Recipe, audit, numbers, read, recipes};
 use rtc::internals::image::{FileFormat, WrittenPicture};
-use rtc::internals::pipeline::{AuditDraw, AuditResult, AuditSubject, RenderError};
+use rtc::internals::pipeline::{AuditResult, AuditSubject, RenderError, TileDraw};
 use rtc::internals::render::SimdLevel;
 
 /// A picture of three tiles.
@@ -16,8 +16,8 @@ fn small() -> Made {
     })
 }
 
-fn all(seed: u64) -> AuditDraw {
-    AuditDraw {
+fn all(seed: u64) -> TileDraw {
+    TileDraw {
         tiles: u64::MAX,
         seed,
     }
@@ -63,7 +63,7 @@ fn a_flipped_sample_is_found_if_and_only_if_its_tile_is_drawn() {
         let [mut found, mut missed] = [0, 0];
         for seed in 0..12 {
             let (written, tile) = made.with_flipped_sample(&mut random);
-            let draw = AuditDraw { tiles: 6, seed };
+            let draw = TileDraw { tiles: 6, seed };
             let result = audit(&written, &recipe, draw, (1, SimdLevel::best())).unwrap();
             let is_drawn = result.drawn.contains(&tile);
             let expected: &[AuditSubject] = match is_drawn {
@@ -214,7 +214,7 @@ fn each_flipped_bit_of_the_words_is_found_or_refused() {
 fn draws_miss_as_many_tiles_as_the_bound_rules_out_no_more_often_than_said() {
     let recipe = Recipe::of("one-light-shadows.yaml", FileFormat::Png8);
     let made = Made::new(recipe);
-    let draw = |seed| AuditDraw { tiles: 6, seed };
+    let draw = |seed| TileDraw { tiles: 6, seed };
     let on = (1, SimdLevel::best());
     let sound = audit(&made.written(), &recipe, draw(0), on).unwrap();
     // Of 15 tiles: C(9, 6) / C(15, 6) = 1.7 %.
@@ -249,7 +249,8 @@ fn each_flipped_bit_of_the_metadata_of_a_png_is_found() {
     let texts = ["Software", "rtc:scene", "rtc:settings"];
     let mut flips = 0;
     for (name, content) in chunks(&bytes) {
-        // Of a text what follows its name and the four bytes that end names and say how it is coded.
+        // Of a text what follows its name and the four bytes that end names and say how it is
+        // coded.
         let skipped = texts.iter().find_map(|text| {
             let has_name = bytes[content.clone()].starts_with(text.as_bytes());
             (&name == b"iTXt" && has_name).then_some(text.len() + 5)
@@ -293,7 +294,7 @@ fn a_large_picture_keeps_few_hashes_and_draws_a_few_tiles_at_once() {
         (made.tiles(), tree.tiles_of_node(), tree.nodes().len()),
         (1144, 4, 286)
     );
-    let draw = |seed| AuditDraw { tiles: 20, seed };
+    let draw = |seed| TileDraw { tiles: 20, seed };
     let result = audit(&written, &recipe, draw(1), (2, SimdLevel::best())).unwrap();
     assert_eq!(
         (result.findings.len(), result.all, result.film_tiles),

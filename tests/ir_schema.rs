@@ -12,7 +12,7 @@
     reason = "a test stops at the first surprise and reads what it checks"
 )]
 use rtc::internals::codec::{self, Encoding};
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::VERSION;
 use rtc::internals::source::SourceMap;
 use serde_json::{Value, json};
@@ -34,7 +34,7 @@ fn frozen() -> Value {
 
 /// The document as the decoder understands it.
 fn decoded(document: &Value) -> Option<Value> {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = map.add("mutant", document.to_string().into_bytes());
     let scene = codec::decode(Encoding::Json, file, &map, &mut sink)?;
     serde_json::from_slice(&codec::encode(Encoding::Json, &scene).unwrap()).unwrap()

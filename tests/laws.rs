@@ -12,11 +12,11 @@ use crate::scene_laws::{
     is_the_same_in_any_order, is_the_same_laid_out, makes_the_same_picture_times, powers,
 };
 use rtc::internals::codec::{self, Encoding};
-use rtc::internals::diag::Sink;
-use rtc::internals::ir::{Lowered, Scene, SourceSpans};
+use rtc::internals::diag::DiagnosticSink;
+use rtc::internals::ir::{LoweredScene, Scene, SourceSpans};
 use rtc::internals::pipeline::{self, Input, Options};
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Crop, Job, Seeds, Tiles};
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::{Crop, RenderSelection, SamplingSeeds, Tiles};
 use rtc::internals::source::SourceMap;
 use small::{WHOLE, bits, film, paths, small};
 use std::collections::BTreeSet;
@@ -27,7 +27,7 @@ fn the_ir_in_any_form_makes_the_same_picture() {
         let scene = small(&path);
         let picture = bits(&film(&scene, &WHOLE, 0));
         for encoding in [Encoding::Json, Encoding::Binary] {
-            let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+            let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
             let file = map.add("scene", codec::encode(encoding, &scene).unwrap());
             let decoded = pipeline::load(file, &mut map, &Options::default(), &mut sink)
                 .unwrap()
@@ -100,7 +100,7 @@ fn a_crop_is_a_part_of_the_whole() {
         let whole = film(&scene, &WHOLE, 0).image;
         let part = film(
             &scene,
-            &Job {
+            &RenderSelection {
                 crop: Some(crop),
                 ..WHOLE
             },
@@ -129,7 +129,7 @@ fn tiles_are_parts_of_the_whole() {
     };
     let part = film(
         &scene,
-        &Job {
+        &RenderSelection {
             tiles: Some(tiles),
             ..WHOLE
         },
@@ -163,8 +163,8 @@ fn seeds_change_the_noise_alone() {
     let seeded = |scene: &Scene, lens| {
         film(
             scene,
-            &Job {
-                seeds: Seeds {
+            &RenderSelection {
+                seeds: SamplingSeeds {
                     pixel: lens,
                     lens,
                     path: lens,
@@ -230,14 +230,14 @@ fn the_order_of_surfaces_does_not_matter() {
 /// Stopping gives no film at all.
 #[test]
 fn a_render_that_is_stopped_leaves_nothing() {
-    let (mut sink, options) = (Sink::default(), Options::default());
-    let lowered = Lowered {
+    let (mut sink, options) = (DiagnosticSink::default(), Options::default());
+    let lowered = LoweredScene {
         scene: small(&paths()[0]),
         source_spans: SourceSpans::default(),
     };
     let valid = pipeline::validate(&lowered, &options, &mut sink).unwrap();
     assert!(
-        pipeline::render(&valid, &Plan::new(&valid, Rules::ALL), &WHOLE, 2, &|_| {
+        pipeline::render(&valid, &Plan::new(&valid, RuleSet::ALL), &WHOLE, 2, &|_| {
             false
         })
         .unwrap()

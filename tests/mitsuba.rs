@@ -3,7 +3,7 @@
 
 use crate::repo::root;
 use crate::small::{WHOLE, film};
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::{Camera, Light, Mode, Scene, Shape};
 use rtc::internals::math::Vec3;
 use rtc::internals::pipeline::{Options, load};
@@ -18,7 +18,7 @@ fn read(path: &Path) -> (Scene, Vec<&'static str>) {
 }
 
 fn read_with(path: &Path, options: &Options) -> (Scene, Vec<&'static str>) {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = Loader.file(path, &mut map).unwrap();
     let lowered = load(file, &mut map, options, &mut sink);
     assert!(!sink.has_errors(), "{:?}", sink.kept());

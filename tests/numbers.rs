@@ -4,11 +4,11 @@
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 use crate::small::bits;
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::math::ldexp;
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Film, Job, Values};
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::{Film, RenderSelection, Values};
 use rtc::internals::source::SourceMap;
 use rtc::internals::valid::ValidScene;
 
@@ -19,17 +19,21 @@ fn list(v: [f64; 3], k: i32) -> String {
 }
 
 /// The scene of a text, and what is found in it.
-fn read(text: &str) -> (Option<ValidScene>, Sink) {
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+fn read(text: &str) -> (Option<ValidScene>, DiagnosticSink) {
+    let (mut map, mut sink, options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     let file = map.add("text.yaml", text.as_bytes().to_vec());
     let lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
     (pipeline::validate(&lowered, &options, &mut sink), sink)
 }
 
-fn job() -> Job {
-    Job {
+fn job() -> RenderSelection {
+    RenderSelection {
         values: Values::Linear,
-        ..Job::default()
+        ..RenderSelection::default()
     }
 }
 
@@ -38,7 +42,7 @@ fn validated(text: &str) -> ValidScene {
     scene.unwrap_or_else(|| panic!("{:?}\n{text}", sink.kept()))
 }
 
-fn film(scene: &ValidScene, rules: Rules) -> Film {
+fn film(scene: &ValidScene, rules: RuleSet) -> Film {
     pipeline::render(scene, &Plan::new(scene, rules), &job(), 2, &|_| true)
         .unwrap()
         .unwrap()
@@ -47,12 +51,14 @@ fn film(scene: &ValidScene, rules: Rules) -> Film {
 /// That the scene is drawn with and without the rules alike, and the bits of its picture.
 fn lawful(text: &str) -> Vec<u64> {
     let scene = validated(text);
-    let pruned = film(&scene, Rules::ALL);
+    let pruned = film(&scene, RuleSet::ALL);
     assert!(
-        bits(&pruned) == bits(&film(&scene, Rules::NONE)),
+        bits(&pruned) == bits(&film(&scene, RuleSet::NONE)),
         "a rule changes the picture of\n{text}"
     );
-    let verified = pipeline::verify(&scene, &Plan::new(&scene, Rules::ALL), &job(), 2, &|_| true);
+    let verified = pipeline::verify(&scene, &Plan::new(&scene, RuleSet::ALL), &job(), 2, &|_| {
+        true
+    });
     let verified = verified.unwrap().unwrap();
     assert!(verified.is_ok(), "{:?}", verified.err());
     bits(&pruned)

@@ -1,7 +1,7 @@
 //! Scenes of pbrt: what they lower to, and what they look like where that is known.
 
 use crate::small::{WHOLE, film};
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::{Mode, Scene, Shape};
 use rtc::internals::pipeline::{Options, load};
 use rtc::internals::source::{Loader, SourceMap};
@@ -10,7 +10,7 @@ use std::path::Path;
 
 /// The scene of a file, which has no error, and the codes of its diagnostics.
 fn read(path: &Path) -> (Scene, Vec<&'static str>) {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = Loader.file(path, &mut map).unwrap();
     let lowered = load(file, &mut map, &Options::default(), &mut sink);
     assert!(!sink.has_errors(), "{:?}", sink.kept());

@@ -3,17 +3,19 @@
 
 #![expect(clippy::unwrap_used, reason = "a test stops at a surprise")]
 
-use rtc::internals::diag::Sink;
-use rtc::internals::ir::{self, Lowered, Scene};
+use rtc::internals::diag::DiagnosticSink;
+use rtc::internals::ir::{self, LoweredScene, Scene};
 use rtc::internals::math::{DoubleDouble, Vec3, view_basis};
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Film, Intersect, Job, Shape, World, camera_ray, image_point};
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::{
+    Film, Intersect, RenderSelection, Shape, World, camera_ray, image_point,
+};
 use rtc::internals::valid::{self, ValidScene};
 
 fn validated(scene: Scene) -> ValidScene {
-    let (mut sink, options) = (Sink::default(), Options::default());
-    let lowered = Lowered {
+    let (mut sink, options) = (DiagnosticSink::default(), Options::default());
+    let lowered = LoweredScene {
         scene,
         source_spans: ir::SourceSpans::default(),
     };
@@ -23,8 +25,8 @@ fn validated(scene: Scene) -> ValidScene {
 fn film(scene: &ValidScene) -> Film {
     pipeline::render(
         scene,
-        &Plan::new(scene, Rules::ALL),
-        &Job::default(),
+        &Plan::new(scene, RuleSet::ALL),
+        &RenderSelection::default(),
         0,
         &|_| true,
     )
@@ -91,7 +93,7 @@ fn earth() -> Scene {
 #[test]
 fn the_outline_of_a_far_planet_is_exact_to_the_pixel() {
     let scene = validated(earth());
-    let world = World::<Shape>::prepare(&scene, &Plan::new(&scene, Rules::ALL));
+    let world = World::<Shape>::prepare(&scene, &Plan::new(&scene, RuleSet::ALL));
     let camera = &world.camera;
     let valid::Shape::Sphere(sphere) = &scene.surfaces()[0].shape else {
         panic!("the earth is a sphere")
@@ -119,7 +121,7 @@ fn the_outline_of_a_far_planet_is_exact_to_the_pixel() {
 #[test]
 fn the_day_side_of_a_far_planet_is_lit_all_over() {
     let scene = validated(earth());
-    let world = World::<Shape>::prepare(&scene, &Plan::new(&scene, Rules::ALL));
+    let world = World::<Shape>::prepare(&scene, &Plan::new(&scene, RuleSet::ALL));
     let camera = &world.camera;
     let film = film(&scene);
     let mut lit = 0;

@@ -4,8 +4,8 @@
 use rtc::internals::ir::{self, Mode, Scene};
 use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline;
-use rtc::internals::plan::{Effect, EffectState, Plan, Rules};
-use rtc::internals::render::{Counts, Film, Job, Values};
+use rtc::internals::plan::{Effect, EffectState, Plan, RuleSet};
+use rtc::internals::render::{Film, RayCounts, RenderSelection, Values};
 use rtc::internals::valid::ValidScene;
 
 /// The scene as the path integrator renders it, in few pixels, paths and bounces.
@@ -26,10 +26,10 @@ pub(crate) fn traced(mut scene: Scene) -> Scene {
     scene
 }
 
-pub(crate) fn film(scene: &ValidScene, rules: Rules) -> Film {
-    let job = Job {
+pub(crate) fn film(scene: &ValidScene, rules: RuleSet) -> Film {
+    let job = RenderSelection {
         values: Values::Linear,
-        ..Job::default()
+        ..RenderSelection::default()
     };
     pipeline::render(scene, &Plan::new(scene, rules), &job, 2, &|_| true)
         .unwrap()
@@ -37,7 +37,7 @@ pub(crate) fn film(scene: &ValidScene, rules: Rules) -> Film {
 }
 
 /// The difference of the picture with some rules from that without rules, if there is any.
-pub(crate) fn difference(scene: &ValidScene, unpruned: &Film, rules: Rules) -> Option<String> {
+pub(crate) fn difference(scene: &ValidScene, unpruned: &Film, rules: RuleSet) -> Option<String> {
     let pruned = film(scene, rules);
     let bits = |pixel: &[f64; 3]| pixel.map(f64::to_bits);
     let mut pairs = pruned.image.pixels.iter().zip(&unpruned.image.pixels);
@@ -52,9 +52,9 @@ pub(crate) fn difference(scene: &ValidScene, unpruned: &Film, rules: Rules) -> O
 /// The statuses that the ray counts of the picture contradict.
 pub(crate) fn contradictions(
     scene: &ValidScene,
-    counts: &Counts,
+    counts: &RayCounts,
 ) -> Vec<(Effect, EffectState, u64)> {
-    let plan = Plan::new(scene, Rules::ALL);
+    let plan = Plan::new(scene, RuleSet::ALL);
     let is_contradiction =
         |state: EffectState, count: u64| (state == EffectState::Needed) != (count > 0);
     let statuses = plan.statuses.iter().filter(|status| status.of.is_none());
@@ -67,7 +67,7 @@ pub(crate) fn contradictions(
 /// The effects with status needed that the picture does not count; panics if it counts one that is
 /// not needed.
 pub(crate) fn unused_effects(name: &str, scene: &ValidScene) -> Vec<String> {
-    let counts = film(scene, Rules::ALL).counts;
+    let counts = film(scene, RuleSet::ALL).counts;
     let name_of = |(effect, state, count): (Effect, EffectState, u64)| {
         assert_eq!(
             state,

@@ -1,6 +1,6 @@
-//! The README and the book show what the program prints: each command in them is run in a folder with
-//! copies of the files it names, and the lines shown are those of its output, `…` standing for any
-//! others. Times and counts of renders may differ.
+//! The README and the book show what the program prints: each command in them is run in a folder
+//! with copies of the files it names, and the lines shown are those of its output, `…` standing for
+//! any others. Times and counts of renders may differ.
 //!
 //! `rtc cost` takes too long here: its arguments are parsed, and its lines are about what those of
 //! a study with less work are about. `benches/readme.sh` runs everything in release and writes the
@@ -14,11 +14,11 @@
 )]
 
 use crate::repo::files;
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::render::Step;
+use rtc::internals::render::RenderStep;
 use rtc::internals::source::{Loader, SourceMap};
-use rtc::internals::study::{self, Clock, Effort, StudyProvenance, StudyRuntime};
+use rtc::internals::study::{self, Effort, StudyProvenance, StudyRuntime, WorkClock};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -204,20 +204,24 @@ fn is_same(args: &[String], a: &str, b: &str) -> bool {
 
 /// What `rtc cost` says of a scene for little work.
 fn cheap_study(path: &str) -> String {
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let (mut map, mut sink, options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     let file = Loader.file(&root().join(path), &mut map).unwrap();
     let scene = pipeline::load(file, &mut map, &options, &mut sink)
         .unwrap()
         .scene;
     let traced = AtomicU64::new(0);
     let clock = || Duration::from_micros(traced.load(Relaxed));
-    let on_pixel = |step: Step| {
+    let on_pixel = |step: RenderStep| {
         traced.fetch_add(step.rays, Relaxed);
         true
     };
     let bench = StudyRuntime::new(
         0,
-        Clock {
+        WorkClock {
             cpu: &clock,
             wall: &clock,
         },

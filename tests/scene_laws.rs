@@ -4,11 +4,11 @@
 use crate::scale::scaled;
 use crate::small::{WHOLE, bits, film, small};
 use rtc::internals::codec::{self, Encoding};
-use rtc::internals::diag::Sink;
-use rtc::internals::ir::{self, Lowered, Scene, SourceSpans};
+use rtc::internals::diag::DiagnosticSink;
+use rtc::internals::ir::{self, LoweredScene, Scene, SourceSpans};
 use rtc::internals::math::ldexp;
 use rtc::internals::pipeline::{self, FormatTextError, Input, Options};
-use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::plan::{Plan, RuleSet};
 use rtc::internals::render::{Intersect, WatertightRay, World, camera_ray, image_point};
 use std::path::Path;
 
@@ -35,7 +35,8 @@ pub(crate) fn makes_the_same_picture_times(path: &Path, powers: impl Iterator<It
     }
 }
 
-/// Of a file: laid out, it says the same, to the last bit of the IR; and it is laid out once for all.
+/// Of a file: laid out, it says the same, to the last bit of the IR; and it is laid out once for
+/// all.
 pub(crate) fn is_the_same_laid_out(path: &Path) {
     let options = Options::default;
     let edited = |text: &str| Input::edited(path, text.as_bytes().to_vec(), options());
@@ -76,12 +77,17 @@ fn has_tie(world: &World, factor: u32, index: usize) -> bool {
 }
 
 fn world(scene: &Scene) -> World {
-    let lowered = Lowered {
+    let lowered = LoweredScene {
         scene: scene.clone(),
         source_spans: SourceSpans::default(),
     };
-    let valid = pipeline::validate(&lowered, &Options::default(), &mut Sink::default()).unwrap();
-    World::prepare(&valid, &Plan::new(&valid, Rules::NONE))
+    let valid = pipeline::validate(
+        &lowered,
+        &Options::default(),
+        &mut DiagnosticSink::default(),
+    )
+    .unwrap();
+    World::prepare(&valid, &Plan::new(&valid, RuleSet::NONE))
 }
 
 /// The order of surfaces is no part of a scene's meaning, but where several are met at the very

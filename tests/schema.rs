@@ -10,7 +10,7 @@
     reason = "a test stops at the first surprise and reads what it checks"
 )]
 use crate::repo::{files, root};
-use rtc::internals::diag::{Severity, Sink};
+use rtc::internals::diag::{DiagnosticSink, Severity};
 use rtc::internals::front::{self, course, gltf};
 use rtc::internals::pipeline;
 use rtc::internals::source::{SourceMap, budget};
@@ -93,7 +93,7 @@ fn as_json(path: &Path) -> Option<Value> {
 fn errors(document: &Value) -> Vec<&'static str> {
     let mut map = SourceMap::default();
     let file = map.add("document", document.to_string().into_bytes());
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     let strict = front::FrontOptions {
         strict: true,
         ..front::FrontOptions::default()

@@ -2,12 +2,14 @@
 //! pictures.
 #![allow(dead_code, reason = "no suite needs all of it")]
 
-use rtc::internals::diag::Sink;
-use rtc::internals::ir::{Lowered, Scene, SourceSpans};
+use rtc::internals::diag::DiagnosticSink;
+use rtc::internals::ir::{LoweredScene, Scene, SourceSpans};
 use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Background, Film, Job, Seeds, Stride, Values};
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::{
+    Background, Film, PixelStride, RenderSelection, SamplingSeeds, Values,
+};
 use rtc::internals::source::{FileId, Loader, SourceMap};
 use rtc::internals::valid::ValidScene;
 use std::path::{Path, PathBuf};
@@ -41,7 +43,7 @@ pub(crate) fn small(path: &Path) -> Scene {
 /// A scene of a source, made small: 48 × 40 pixels, at most 4 sub-samples or paths, 4 points of the
 /// lens and 8 bounces.
 pub(crate) fn reduced(file: FileId, map: &mut SourceMap, options: &Options) -> Scene {
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     let scene = pipeline::load(file, map, options, &mut sink);
     assert!(!sink.has_errors(), "{:?}", sink.kept());
     let mut scene = scene.unwrap().scene;
@@ -60,31 +62,31 @@ pub(crate) fn reduced(file: FileId, map: &mut SourceMap, options: &Options) -> S
     scene
 }
 
-pub(crate) const WHOLE: Job = Job {
+pub(crate) const WHOLE: RenderSelection = RenderSelection {
     crop: None,
     values: Values::Linear,
     tiles: None,
-    seeds: Seeds::NONE,
-    stride: Stride::EVERY,
+    seeds: SamplingSeeds::NONE,
+    stride: PixelStride::EVERY,
     background: Background::Environment,
     samples: None,
     clamp: None,
 };
 
 pub(crate) fn validated(scene: &Scene) -> ValidScene {
-    let (mut sink, options) = (Sink::default(), Options::default());
-    let lowered = Lowered {
+    let (mut sink, options) = (DiagnosticSink::default(), Options::default());
+    let lowered = LoweredScene {
         scene: scene.clone(),
         source_spans: SourceSpans::default(),
     };
     pipeline::validate(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 
-pub(crate) fn film(scene: &Scene, job: &Job, threads: usize) -> Film {
+pub(crate) fn film(scene: &Scene, job: &RenderSelection, threads: usize) -> Film {
     let valid = validated(scene);
     pipeline::render(
         &valid,
-        &Plan::new(&valid, Rules::ALL),
+        &Plan::new(&valid, RuleSet::ALL),
         job,
         threads,
         &|_| true,

@@ -2,14 +2,14 @@
 //! benches that audit them.
 
 use rtc::internals::image::{
-    BackgroundFill, FileFormat, MerkleTree, Picture, PictureHead, TileHash, WrittenFile,
+    BackgroundFill, FileFormat, MerkleTree, Picture, PictureHeader, TileHash, WrittenFile,
     WrittenPicture,
 };
 use rtc::internals::math::mix;
 use rtc::internals::passes::{IntegratorChoice, ViewAndLight};
 use rtc::internals::pipeline::{
-    AuditDraw, AuditResult, Input, Observer, Options, OutputTransform, PictureAudit, PictureSetup,
-    RenderError, RenderSubject,
+    AuditResult, Input, Options, OutputTransform, PictureAudit, PictureSetup, RenderError,
+    RenderObserver, RenderSubject, TileDraw,
 };
 use rtc::internals::render::{Aov, Crop, SimdLevel};
 use std::path::PathBuf;
@@ -18,7 +18,7 @@ use std::path::PathBuf;
 const TILE: u32 = 16;
 
 /// Never stops.
-pub(crate) const OBSERVER: Observer<'static> = Observer {
+pub(crate) const OBSERVER: RenderObserver<'static> = RenderObserver {
     on_step: &|_| (),
     is_stopped: &|| false,
 };
@@ -94,7 +94,7 @@ pub(crate) fn numbers(mut seed: u64) -> impl FnMut(u64) -> u64 {
 }
 
 /// A setup and its scene, validated and lit.
-pub(crate) struct Validated {
+pub(crate) struct ValidatedScene {
     pub(crate) setup: PictureSetup,
     pub(crate) subject: RenderSubject,
 }
@@ -119,7 +119,7 @@ pub(crate) fn setup(recipe: &Recipe) -> PictureSetup {
 }
 
 /// The scene of a recipe in a setup.
-pub(crate) fn validated(recipe: &Recipe, mut setup: PictureSetup) -> Validated {
+pub(crate) fn validated(recipe: &Recipe, mut setup: PictureSetup) -> ValidatedScene {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     let path = path.join("scenes").join(recipe.scene);
     let mut input = Input::file(&path, Options::default());
@@ -130,14 +130,14 @@ pub(crate) fn validated(recipe: &Recipe, mut setup: PictureSetup) -> Validated {
     let loaded = input.load().unwrap();
     let mut subject = setup.validate(loaded, &mut input).unwrap().unwrap();
     setup.light(&mut subject, &mut input, &OBSERVER).unwrap();
-    Validated { setup, subject }
+    ValidatedScene { setup, subject }
 }
 
 /// A picture that was made.
 pub(crate) struct Made {
     pub(crate) recipe: Recipe,
     pub(crate) picture: Picture,
-    head: PictureHead,
+    head: PictureHeader,
 }
 
 impl Made {
@@ -153,7 +153,7 @@ impl Made {
             simd,
             ..setup(&recipe)
         };
-        let Validated { setup, mut subject } = validated(&recipe, setup);
+        let ValidatedScene { setup, mut subject } = validated(&recipe, setup);
         let window = setup.window(&subject.validated.lowered.scene).unwrap();
         let traced = setup.trace(&mut subject, (window, u64::MAX), &OBSERVER);
         let film = traced.unwrap().film;
@@ -161,9 +161,9 @@ impl Made {
         let sums = (film.image, film.coverage, &film.counts);
         let picture = setup.develop(&mut subject, sums, &[], input, &|| false);
         let picture = picture.unwrap();
-        let head = PictureHead {
+        let head = PictureHeader {
             metadata: setup.metadata(&subject.validated.lowered.scene),
-            ..PictureHead::of(&picture, form)
+            ..PictureHeader::of(&picture, form)
         };
         let made = Self {
             recipe,
@@ -315,7 +315,7 @@ pub(crate) fn read(bytes: &[u8]) -> Option<WrittenPicture> {
 pub(crate) fn audit(
     written: &WrittenPicture,
     recipe: &Recipe,
-    draw: AuditDraw,
+    draw: TileDraw,
     (threads, simd): (usize, SimdLevel),
 ) -> Result<AuditResult, RenderError> {
     let (audit, setup) = match PictureAudit::open(written)? {
@@ -327,6 +327,6 @@ pub(crate) fn audit(
         simd,
         ..setup
     };
-    let Validated { setup, mut subject } = validated(recipe, setup);
+    let ValidatedScene { setup, mut subject } = validated(recipe, setup);
     audit.run(&setup, &mut subject, (draw, u64::MAX), &OBSERVER)
 }

@@ -1,15 +1,15 @@
 //! Scenes written as texts with files beside them, and read again from those alone.
 
 use rtc::internals::codec;
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::emit::course::{WrittenScene, emit_with_files};
 use rtc::internals::ir::{ImageId, Material, MaterialId, MeshId, Scene, Shape, Texture, TextureId};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::source::{Loader, SourceMap};
 use std::fs;
 
-/// Asserts that a scene comes back from a text, in a folder that holds nothing else but the files that
-/// it names.
+/// Asserts that a scene comes back from a text, in a folder that holds nothing else but the files
+/// that it names.
 pub(crate) fn assert_comes_back(scene: &Scene) {
     let (expected, back) = (canonical(scene), canonical(&there_and_back(scene)));
     // Told part by part: all of it would be many pages.
@@ -37,15 +37,16 @@ fn there_and_back(scene: &Scene) -> Scene {
     }
     let path = folder.path().join("it.yaml");
     fs::write(&path, text).unwrap();
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = Loader.file(&path, &mut map).unwrap();
     let lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink).unwrap();
     assert!(sink.kept().is_empty(), "{:?}", sink.kept());
     lowered.scene
 }
 
-/// The scene with its materials, textures, images and meshes in the order in which its surfaces come to
-/// them, without those that none comes to, equal ones once, images and meshes without names; what has no name has an empty one.
+/// The scene with its materials, textures, images and meshes in the order in which its surfaces
+/// come to them, without those that none comes to, equal ones once, images and meshes without
+/// names; what has no name has an empty one.
 fn canonical(scene: &Scene) -> Scene {
     let mut own = Scene {
         materials: Vec::new(),

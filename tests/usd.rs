@@ -2,7 +2,7 @@
 
 use crate::assets::png;
 use crate::small::{WHOLE, film};
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::{Alpha, Material, Scene, Shape, Standard};
 use rtc::internals::pipeline::{Options, load};
 use rtc::internals::source::{Loader, SourceMap};
@@ -11,7 +11,7 @@ use std::path::Path;
 
 /// The scene of a file, which has no error, and the codes of its diagnostics.
 fn read_with(path: &Path, options: &Options) -> (Scene, Vec<&'static str>) {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = Loader.file(path, &mut map).unwrap();
     let lowered = load(file, &mut map, options, &mut sink);
     assert!(!sink.has_errors(), "{:?}", sink.kept());

@@ -3,7 +3,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::source::SourceMap;
 use serde_json::{Value, json};
@@ -35,7 +35,11 @@ fn sound() -> Value {
 
 /// The codes and pointers of the errors.
 fn errors(document: &Value) -> Vec<(&'static str, String)> {
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let (mut map, mut sink, options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     let file = map.add("scene.json", document.to_string().into_bytes());
     let lowered = pipeline::load(file, &mut map, &options, &mut sink)
         .unwrap_or_else(|| panic!("{:?}", sink.kept()));

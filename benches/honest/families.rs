@@ -4,7 +4,7 @@
 use super::patterns::{Pattern, grains, grid, quad};
 use super::scenes::{lowered, scene};
 use rtc::internals::codec::{self, Encoding};
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::Scene;
 use rtc::internals::source::SourceMap;
 
@@ -218,7 +218,7 @@ fn balls(roughness: f64, radius: f64, light: f64) -> Scene {
             "[1.6, 1.4, 1.2]",
             &format!("[{}, {}, {}]", 1.6 * light, 1.4 * light, 1.2 * light),
         );
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = map.add("paths.json", text.into_bytes());
     codec::decode(Encoding::Json, file, &map, &mut sink)
         .unwrap_or_else(|| panic!("{:?}", sink.kept()))

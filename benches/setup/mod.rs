@@ -7,10 +7,10 @@
     reason = "a measurement stops at the first surprise, and reads what it measures"
 )]
 
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::{
-    Camera, Emitter, Environment, Lens, Light, Lowered, Mode, PathSettings as Paths, Projection,
-    Punctual, Scene,
+    Camera, Environment, Lens, Light, LoweredScene, Mode, PathSettings as Paths, Projection,
+    Punctual, PunctualKind, Scene,
 };
 use rtc::internals::math::{Vec3, camera_basis};
 use rtc::internals::pipeline::{self, Options};
@@ -20,16 +20,19 @@ use serde_json::Value;
 use std::path::Path;
 
 /// The scene of an asset, by its file.
-pub(crate) fn load(asset: &Path) -> Lowered {
-    let (mut options, mut map, mut sink) =
-        (Options::default(), SourceMap::default(), Sink::default());
+pub(crate) fn load(asset: &Path) -> LoweredScene {
+    let (mut options, mut map, mut sink) = (
+        Options::default(),
+        SourceMap::default(),
+        DiagnosticSink::default(),
+    );
     options.front.asset_root = asset.parent().map(Path::to_path_buf);
     let file = map.add(asset.to_str().unwrap(), std::fs::read(asset).unwrap());
     pipeline::load(file, &mut map, &options, &mut sink).unwrap_or_else(|| panic!("{sink:?}"))
 }
 
 /// The scene of a set-up, by the file of that, with so many paths a pixel.
-pub(crate) fn load_set_up(path: &Path, samples: u32) -> Lowered {
+pub(crate) fn load_set_up(path: &Path, samples: u32) -> LoweredScene {
     let set_up: Value = serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap();
     let mut lowered = load(
         &path
@@ -42,8 +45,8 @@ pub(crate) fn load_set_up(path: &Path, samples: u32) -> Lowered {
 }
 
 /// The scene, proven.
-pub(crate) fn validate(lowered: &Lowered) -> ValidScene {
-    let mut sink = Sink::default();
+pub(crate) fn validate(lowered: &LoweredScene) -> ValidScene {
+    let mut sink = DiagnosticSink::default();
     pipeline::validate(lowered, &Options::default(), &mut sink)
         .unwrap_or_else(|| panic!("{sink:?}"))
 }
@@ -80,7 +83,7 @@ fn put_up(scene: &mut Scene, setup: &Value, samples: u32) {
         image_from_world: None,
     });
     let sun = |sun: &Value| {
-        let emitter = Emitter::Sun {
+        let emitter = PunctualKind::Sun {
             direction: triple(&sun["direction_to_light"]),
         };
         Light::Punctual(Punctual {

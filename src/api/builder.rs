@@ -6,10 +6,10 @@ use super::{
     Shape, Standard, Texture, TextureId, Tone,
 };
 use rtc_diag::{Diagnostic as Finding, codes};
-use rtc_ir::{self as ir, EntityKind, Lowered, Mode, SourceSpans, Surface};
+use rtc_ir::{self as ir, EntityKind, LoweredScene, Mode, SourceSpans, Surface};
 use rtc_math::to_u32;
 use rtc_passes::{self as passes, Overrides};
-use rtc_pipeline::{Input, Loaded, Options};
+use rtc_pipeline::{Input, LoadedScene, Options};
 
 /// A scene that is built in code, or a scene that [`Scene::edit`] changes.
 ///
@@ -42,7 +42,7 @@ use rtc_pipeline::{Input, Loaded, Options};
 #[derive(Clone, Debug)]
 #[must_use = "a builder is no scene before it is built"]
 pub struct SceneBuilder {
-    lowered: Lowered,
+    lowered: LoweredScene,
     /// A new camera, lowered at the end.
     camera: Option<Camera>,
     overrides: Overrides,
@@ -112,7 +112,7 @@ impl SceneBuilder {
     pub fn new(camera: Camera) -> Self {
         Self {
             camera: Some(camera),
-            ..Self::of(Lowered {
+            ..Self::of(LoweredScene {
                 scene: ir::Scene::new(placeholder(), ir::Settings::default()),
                 source_spans: SourceSpans::default(),
             })
@@ -120,7 +120,7 @@ impl SceneBuilder {
     }
 
     /// A scene to change.
-    pub(super) fn of(lowered: Lowered) -> Self {
+    pub(super) fn of(lowered: LoweredScene) -> Self {
         Self {
             lowered,
             camera: None,
@@ -136,12 +136,12 @@ impl SceneBuilder {
     /// `objects[3].material.ior`.
     pub fn build(self) -> Result<Scene, Vec<Diagnostic>> {
         let input = Input::built("scene".to_owned(), Options::default());
-        let empty = Loaded::built(ir::Scene::new(placeholder(), ir::Settings::default()));
+        let empty = LoadedScene::built(ir::Scene::new(placeholder(), ir::Settings::default()));
         Scene::of_builder(input.into(), empty, self)
     }
 
     /// The scene, the errors in its single values, and whether it has a new camera.
-    pub(super) fn finish(self) -> (Lowered, Vec<Finding>, bool) {
+    pub(super) fn finish(self) -> (LoweredScene, Vec<Finding>, bool) {
         let Self {
             mut lowered,
             camera,
@@ -380,7 +380,7 @@ impl SceneBuilder {
 
     /// Removes an object. The indices of those after it fall by one.
     pub fn remove(&mut self, object: ObjectId) {
-        let Lowered {
+        let LoweredScene {
             scene,
             source_spans,
         } = &mut self.lowered;

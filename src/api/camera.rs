@@ -2,7 +2,7 @@
 
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, Projection};
-use rtc_math::{BasisFault, Vec3, camera_basis, fallback_up, length, shortest, unit};
+use rtc_math::{CameraBasisError, Vec3, camera_basis, fallback_up, length, shortest, unit};
 
 /// A camera. The defaults are those of most scenes: +y is up, the vertical field of view has 45
 /// degrees, the picture 400 × 400 pixels, and all is in focus.
@@ -20,14 +20,14 @@ use rtc_math::{BasisFault, Vec3, camera_basis, fallback_up, length, shortest, un
 #[must_use = "a camera sees nothing without a scene"]
 pub struct Camera {
     ir: ir::Camera,
-    steps: Steps,
+    steps: PixelSteps,
     /// The vertical field of view in degrees, or the height of an orthographic picture.
     extent: Option<f64>,
 }
 
 /// The definition of the steps between pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Steps {
+enum PixelSteps {
     /// They are given.
     Given,
     /// By +y, or another axis if the camera looks along it.
@@ -45,14 +45,14 @@ impl Camera {
                 center,
                 ..placeholder()
             },
-            steps: Steps::Default,
+            steps: PixelSteps::Default,
             extent: Some(45.0),
         }
     }
 
     /// The upward direction, of any length but 0.
     pub fn up(mut self, up: [f64; 3]) -> Self {
-        self.steps = Steps::Up(up);
+        self.steps = PixelSteps::Up(up);
         self
     }
 
@@ -103,8 +103,8 @@ impl Camera {
             projection,
         } = self.ir;
         (moved.ir.size, moved.ir.lens, moved.ir.projection) = (size, lens, projection);
-        if let Steps::Up(up) = self.steps {
-            moved.steps = Steps::Up(up);
+        if let PixelSteps::Up(up) = self.steps {
+            moved.steps = PixelSteps::Up(up);
         }
         moved
     }
@@ -147,7 +147,7 @@ impl Camera {
     pub(super) fn of(camera: &ir::Camera) -> Self {
         Self {
             ir: camera.clone(),
-            steps: Steps::Given,
+            steps: PixelSteps::Given,
             extent: None,
         }
     }
@@ -160,7 +160,7 @@ impl Camera {
         let mut camera = self.ir.clone();
         let is_flat = camera.projection == Projection::Orthographic;
         let rows = f64::from(camera.size[1].max(1));
-        if let (Steps::Default | Steps::Up(_), size) = (self.steps, self.extent) {
+        if let (PixelSteps::Default | PixelSteps::Up(_), size) = (self.steps, self.extent) {
             let pixel = size.filter(|_| is_flat).map_or(1.0, |height| height / rows);
             let (right, up) = self.basis(pixel).map_err(basis_fault)?;
             (camera.right, camera.up) = (right.to_array(), up.to_array());
@@ -184,17 +184,19 @@ impl Camera {
     }
 
     /// The steps between pixels of this size.
-    fn basis(&self, pixel: f64) -> Result<(Vec3, Vec3), BasisFault> {
+    fn basis(&self, pixel: f64) -> Result<(Vec3, Vec3), CameraBasisError> {
         let [eye, center] = [self.ir.eye, self.ir.center].map(Vec3::from_array);
         let upward = |up: Vec3| unit(up).unwrap_or(Vec3::ZERO) * pixel;
         match self.steps {
-            Steps::Up(up) => camera_basis(eye, center, upward(Vec3::from_array(up))),
-            Steps::Default | Steps::Given => match camera_basis(eye, center, upward(Vec3::Y)) {
-                Err(BasisFault::Parallel) => {
-                    camera_basis(eye, center, upward(fallback_up(center - eye, Vec3::Y)))
+            PixelSteps::Up(up) => camera_basis(eye, center, upward(Vec3::from_array(up))),
+            PixelSteps::Default | PixelSteps::Given => {
+                match camera_basis(eye, center, upward(Vec3::Y)) {
+                    Err(CameraBasisError::Parallel) => {
+                        camera_basis(eye, center, upward(fallback_up(center - eye, Vec3::Y)))
+                    }
+                    basis => basis,
                 }
-                basis => basis,
-            },
+            }
         }
     }
 }
@@ -207,15 +209,15 @@ pub(super) fn placeholder() -> ir::Camera {
     }
 }
 
-fn basis_fault(fault: BasisFault) -> Box<Diagnostic> {
+fn basis_fault(fault: CameraBasisError) -> Box<Diagnostic> {
     let (code, pointer, message) = match fault {
-        BasisFault::ZeroGaze => (
+        CameraBasisError::ZeroGaze => (
             &codes::EYE_IS_CENTER,
             "/camera/center",
             "the camera looks at the point where it stands",
         ),
-        BasisFault::ZeroUp => (&codes::ZERO_UP, "/camera/up", "`up` has no length"),
-        BasisFault::Parallel => (
+        CameraBasisError::ZeroUp => (&codes::ZERO_UP, "/camera/up", "`up` has no length"),
+        CameraBasisError::Parallel => (
             &codes::UP_PARALLEL,
             "/camera/up",
             "`up` points along the view",

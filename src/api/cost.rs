@@ -1,12 +1,14 @@
 //! What accuracy costs in a scene.
 
 use super::clock::Stopwatch;
-use super::scene::Run;
+use super::scene::SceneTask;
 use super::{Error, Options, Scene};
 use cpu_time::ThreadTime;
 use rtc_ir as ir;
 use rtc_pipeline as pipeline;
-use rtc_study::{self as study, Clock, Estimate, Stopped, Study, StudyProvenance, StudyRuntime};
+use rtc_study::{
+    self as study, Estimate, Stopped, Study, StudyProvenance, StudyRuntime, WorkClock,
+};
 use std::time::Duration;
 
 /// How much a study of the cost renders.
@@ -107,7 +109,7 @@ impl Scene {
     }
 }
 
-impl Run<'_> {
+impl SceneTask<'_> {
     fn cost(
         mut self,
         effort: Effort,
@@ -128,7 +130,7 @@ impl Run<'_> {
         let stopwatch = Stopwatch::start();
         let cpu = || ThreadTime::try_now().map_or(Duration::ZERO, |time| time.as_duration());
         let wall = || stopwatch.elapsed();
-        let clock = Clock {
+        let clock = WorkClock {
             cpu: &cpu,
             wall: &wall,
         };

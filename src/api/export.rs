@@ -1,8 +1,8 @@
 //! Scenes as files of other programs.
 
-use super::scene::Run;
+use super::scene::SceneTask;
 use super::{Diagnostic, Error, Options, Scene};
-use rtc_pipeline::{ExportFormat, ExportedFiles, Observer, sidecar_folder};
+use rtc_pipeline::{ExportFormat, ExportedFiles, RenderObserver, sidecar_folder};
 use std::path::Path;
 
 /// A scene as a file, with the files that it names; [`Scene::export`] makes it.
@@ -39,7 +39,7 @@ impl Scene {
     }
 }
 
-impl Run<'_> {
+impl SceneTask<'_> {
     fn export(mut self, name: &str) -> Result<Export, Error> {
         let refused = |reason: &str| Error::Refused(format!("`{name}` can't be written: {reason}"));
         let format = ExportFormat::of(name).ok_or_else(|| {
@@ -58,7 +58,7 @@ impl Run<'_> {
         let mut subject = self.validate(&options, &mut setup)?;
         // What is rendered is in the light of its picture, and a scene text in its settings.
         if format == ExportFormat::Text || format.is_of_renderer() {
-            let observer = Observer {
+            let observer = RenderObserver {
                 on_step: &|_| (),
                 is_stopped: &|| false,
             };
@@ -118,7 +118,7 @@ impl Export {
             let path = folder.join(name);
             let parent = path.parent().unwrap_or(folder);
             let made = std::fs::create_dir_all(parent);
-            let written = made.and_then(|()| rtc_pipeline::NewFile::save(&path, bytes));
+            let written = made.and_then(|()| rtc_pipeline::AtomicFile::save(&path, bytes));
             written.map_err(|error| Error::Unwritable { path, error })
         };
         for (name, bytes) in self.files() {

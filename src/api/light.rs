@@ -1,6 +1,6 @@
 //! Lights.
 
-use rtc_ir::{self as ir, Emitter, Photometry, PointLight, Punctual};
+use rtc_ir::{self as ir, Photometry, PointLight, Punctual, PunctualKind};
 
 /// A light. Colours are linear red, green and blue, each at least 0; lengths are in scene units.
 ///
@@ -21,14 +21,14 @@ impl Light {
     /// on a surface that faces it.
     #[must_use]
     pub fn sun(direction: [f64; 3], irradiance: [f64; 3]) -> Self {
-        Self::physical(Emitter::Sun { direction }, irradiance)
+        Self::physical(PunctualKind::Sun { direction }, irradiance)
     }
 
     /// A point light. `intensity` is the radiant intensity, power per steradian.
     #[must_use]
     pub fn point(position: [f64; 3], intensity: [f64; 3]) -> Self {
         let range = None;
-        Self::physical(Emitter::Point { position, range }, intensity)
+        Self::physical(PunctualKind::Point { position, range }, intensity)
     }
 
     /// A spot light with axis `direction`: full `intensity` within the angle `inner` from the axis,
@@ -40,7 +40,7 @@ impl Light {
         [inner, outer]: [f64; 2],
         intensity: [f64; 3],
     ) -> Self {
-        let emitter = Emitter::Spot {
+        let emitter = PunctualKind::Spot {
             position,
             direction,
             inner_angle: inner,
@@ -78,7 +78,7 @@ impl Light {
             horizontal: horizontal.to_vec(),
             candela: candela.to_vec(),
         };
-        let emitter = Emitter::Photometric {
+        let emitter = PunctualKind::Photometric {
             position,
             direction,
             horizontal: start,
@@ -91,7 +91,8 @@ impl Light {
     #[must_use]
     pub fn range(mut self, distance: f64) -> Self {
         if let ir::Light::Punctual(light) = &mut self.0
-            && let Emitter::Point { range, .. } | Emitter::Spot { range, .. } = &mut light.emitter
+            && let PunctualKind::Point { range, .. } | PunctualKind::Spot { range, .. } =
+                &mut light.emitter
         {
             *range = Some(distance);
         }
@@ -145,7 +146,7 @@ impl Light {
         }
     }
 
-    fn physical(emitter: Emitter, intensity: [f64; 3]) -> Self {
+    fn physical(emitter: PunctualKind, intensity: [f64; 3]) -> Self {
         Self(ir::Light::Punctual(Punctual { emitter, intensity }))
     }
 }

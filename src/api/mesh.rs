@@ -1,7 +1,7 @@
 //! Meshes of scenes that are built in code.
 
 use rtc_ir as ir;
-use rtc_math::Column;
+use rtc_math::VertexColumn;
 
 /// Triangles over one list of vertices, from slices of 32-bit or 64-bit floats. All copies share
 /// the vertices.
@@ -83,7 +83,7 @@ pub enum Vertices<'a, const N: usize> {
 }
 
 impl<const N: usize> Vertices<'_, N> {
-    fn column(self) -> Column<N> {
+    fn column(self) -> VertexColumn<N> {
         match self {
             Self::Single(vertices) => vertices.to_vec().into(),
             Self::Double(vertices) => vertices.to_vec().into(),

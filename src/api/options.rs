@@ -1,10 +1,12 @@
 //! Options of reading a scene and of rendering a picture.
 
-use super::progress::OnProgress;
+use super::progress::ProgressCallback;
 use super::{Aov, Error, Progress, Scene, Tone};
 use rtc_image::BackgroundFill;
 use rtc_image::FileFormat;
-use rtc_passes::{EnvironmentOverride, IntegratorChoice, Orbit, Overrides, View, ViewAndLight};
+use rtc_passes::{
+    EnvironmentOverride, IntegratorChoice, OrbitAngles, Overrides, View, ViewAndLight,
+};
 use rtc_pipeline::{self as pipeline, Exposure, Input, OutputTransform, PictureSetup};
 use rtc_plan::Arithmetic;
 use rtc_render::Crop;
@@ -195,7 +197,7 @@ pub struct Options {
     time_budget: Option<Duration>,
     denoise: bool,
     arithmetic: Arithmetic,
-    pub(super) on_progress: Option<OnProgress>,
+    pub(super) on_progress: Option<ProgressCallback>,
 }
 
 impl Options {
@@ -269,7 +271,7 @@ impl Options {
     /// Calls `on_progress` about a hundred times during a render, from any of its threads but one
     /// at a time, and once at its end.
     pub fn on_progress(mut self, on_progress: impl Fn(Progress) + Send + Sync + 'static) -> Self {
-        self.on_progress = Some(OnProgress(Arc::new(on_progress)));
+        self.on_progress = Some(ProgressCallback(Arc::new(on_progress)));
         self
     }
 
@@ -342,7 +344,7 @@ impl Options {
     /// Frames the whole scene from an angle, in radians: azimuth from the front to the right, and
     /// elevation above the horizon.
     pub fn orbit(mut self, azimuth: f64, elevation: f64) -> Self {
-        self.view.orbit = Some(Orbit {
+        self.view.orbit = Some(OrbitAngles {
             azimuth,
             elevation,
             roll: 0.0,

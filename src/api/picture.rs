@@ -4,7 +4,7 @@ use super::{Aov, Diagnostic, Error, Format, Tone};
 use rtc_color::quantize8;
 use rtc_image::{self as image, PictureMetadata};
 use rtc_pipeline::ResolvedOutputTransform;
-use rtc_render::Counts;
+use rtc_render::RayCounts;
 
 /// A picture: rows from top to bottom, each from left to right.
 ///
@@ -60,7 +60,7 @@ impl Picture {
     pub(super) fn new(
         (held, look, metadata): (image::Picture, ResolvedOutputTransform, PictureMetadata),
         format: Format,
-        (counts, error): (&Counts, Option<f64>),
+        (counts, error): (&RayCounts, Option<f64>),
         diagnostics: Vec<Diagnostic>,
     ) -> Self {
         Self {
@@ -129,7 +129,7 @@ impl Picture {
     /// was not requested.
     #[must_use]
     pub fn layer(&self, aov: Aov) -> Option<Vec<f32>> {
-        let image::Layers { names, values } = &self.held.layers;
+        let image::PixelLayers { names, values } = &self.held.layers;
         let channels = aov.channels();
         let first = names
             .iter()
@@ -192,7 +192,7 @@ impl Picture {
             )));
         }
         let bytes = self.encode()?;
-        rtc_pipeline::NewFile::save(path, &bytes).map_err(|error| Error::Unwritable {
+        rtc_pipeline::AtomicFile::save(path, &bytes).map_err(|error| Error::Unwritable {
             path: path.to_owned(),
             error,
         })

@@ -1,7 +1,7 @@
 //! The progress of a render.
 
 use super::clock::Stopwatch;
-use rtc_render::Step;
+use rtc_render::RenderStep;
 use std::fmt;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -34,9 +34,9 @@ pub struct Progress {
 
 /// The callback of [`Options::on_progress`](super::Options::on_progress).
 #[derive(Clone)]
-pub(super) struct OnProgress(pub(super) Arc<dyn Fn(Progress) + Send + Sync>);
+pub(super) struct ProgressCallback(pub(super) Arc<dyn Fn(Progress) + Send + Sync>);
 
-impl fmt::Debug for OnProgress {
+impl fmt::Debug for ProgressCallback {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("OnProgress")
     }
@@ -56,8 +56,8 @@ pub(super) enum ProgressMeasure<'a> {
 }
 
 /// Counts the steps of one render and reports them.
-pub(super) struct ProgressCounter<'a> {
-    on_progress: Option<&'a OnProgress>,
+pub(super) struct ProgressReporter<'a> {
+    on_progress: Option<&'a ProgressCallback>,
     /// The pixels of the picture.
     pixels: u64,
     measure: ProgressMeasure<'a>,
@@ -66,9 +66,9 @@ pub(super) struct ProgressCounter<'a> {
     share: Mutex<f64>,
 }
 
-impl<'a> ProgressCounter<'a> {
+impl<'a> ProgressReporter<'a> {
     pub(super) fn new(
-        on_progress: Option<&'a OnProgress>,
+        on_progress: Option<&'a ProgressCallback>,
         pixels: u64,
         measure: ProgressMeasure<'a>,
     ) -> Self {
@@ -83,7 +83,7 @@ impl<'a> ProgressCounter<'a> {
     }
 
     /// A step of the render, from any of its threads.
-    pub(super) fn step(&self, step: Step) {
+    pub(super) fn step(&self, step: RenderStep) {
         let rays = self.rays.fetch_add(step.rays, Relaxed) + step.rays;
         if self.on_progress.is_none() || !step.is_done {
             return;
@@ -112,7 +112,7 @@ impl<'a> ProgressCounter<'a> {
 
     /// The end of the render.
     pub(super) fn finish(&self, rays: u64) {
-        if let Some(OnProgress(on_progress)) = self.on_progress {
+        if let Some(ProgressCallback(on_progress)) = self.on_progress {
             let rays = rays.max(self.rays.load(Relaxed));
             on_progress(Progress { done: 1.0, rays });
         }
@@ -122,7 +122,7 @@ impl<'a> ProgressCounter<'a> {
     fn report(&self, share: f64, rays: u64) {
         /// The largest progress before the end.
         const MOST: f64 = 0.999;
-        let Some(OnProgress(on_progress)) = self.on_progress else {
+        let Some(ProgressCallback(on_progress)) = self.on_progress else {
             return;
         };
         let mut last = self.share.lock().unwrap_or_else(PoisonError::into_inner);

@@ -1,17 +1,18 @@
 //! A scene that was read or built.
 
 use super::clock::Stopwatch;
-use super::progress::{ProgressCounter, ProgressMeasure};
+use super::progress::{ProgressMeasure, ProgressReporter};
 use super::{
     Diagnostic, Effect, Error, Light, Options, Picture, Reading, SceneBuilder, SceneContents,
     Severity,
 };
 use rtc_pipeline::{
-    self as pipeline, Input, Loaded, Observer, PictureSetup, RenderSubject, Rounds, Traced,
+    self as pipeline, Input, LoadedScene, PictureSetup, RenderObserver, RenderSubject, Rounds,
+    Traced,
 };
-use rtc_plan::{Plan, Rules};
-use rtc_render::{Counts, Crop, Film};
-use rtc_study::{Goal, PixelQuality};
+use rtc_plan::{Plan, RuleSet};
+use rtc_render::{Crop, Film, RayCounts};
+use rtc_study::{PixelQuality, RenderGoal};
 use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
@@ -47,7 +48,7 @@ pub struct Scene {
     /// The files, with the diagnostics of reading; not changed any more.
     input: Arc<Input>,
     /// The scene with its changes; `None` if it has errors.
-    loaded: Option<Arc<Loaded>>,
+    loaded: Option<Arc<LoadedScene>>,
     /// Whether some of its values are not from files.
     is_built: bool,
 }
@@ -101,7 +102,7 @@ impl Scene {
     /// The scene of a builder, validated, instead of `loaded`.
     pub(super) fn of_builder(
         input: Arc<Input>,
-        mut loaded: Loaded,
+        mut loaded: LoadedScene,
         builder: SceneBuilder,
     ) -> Result<Self, Vec<Diagnostic>> {
         let (lowered, faults, has_camera) = builder.finish();
@@ -142,7 +143,7 @@ impl Scene {
         let mut builder = SceneBuilder::of(loaded.lowered.clone());
         change(&mut builder);
         let input = Arc::clone(&self.input);
-        *self = Self::of_builder(input, Loaded::clone(loaded), builder)?;
+        *self = Self::of_builder(input, LoadedScene::clone(loaded), builder)?;
         Ok(())
     }
 
@@ -153,7 +154,7 @@ impl Scene {
     /// As [`Scene::render`].
     pub fn effects(&self, options: &Options) -> Result<Vec<Effect>, Error> {
         let subject = self.run().validate(options, &mut options.setup()?)?;
-        let plan = Plan::new(&subject.validated.scene, Rules::ALL);
+        let plan = Plan::new(&subject.validated.scene, RuleSet::ALL);
         Ok(plan.statuses.iter().map(Effect::new).collect())
     }
 
@@ -210,8 +211,8 @@ impl Scene {
         self.run().render(options, is_stopped)
     }
 
-    pub(super) fn run(&self) -> Run<'_> {
-        Run {
+    pub(super) fn run(&self) -> SceneTask<'_> {
+        SceneTask {
             input: Input::clone(&self.input),
             scene: self,
         }
@@ -219,19 +220,19 @@ impl Scene {
 }
 
 /// One check or one render of a scene, with the diagnostics of reading and its own.
-pub(super) struct Run<'a> {
+pub(super) struct SceneTask<'a> {
     pub(super) input: Input,
     scene: &'a Scene,
 }
 
 /// A film, the quality of its pixels if it grew towards a goal, and its error if that is known.
-type Rendered = (Film, Vec<PixelQuality>, Option<f64>);
+type RenderedFilm = (Film, Vec<PixelQuality>, Option<f64>);
 
-impl Run<'_> {
+impl SceneTask<'_> {
     fn check(mut self) -> Vec<Diagnostic> {
         if let Some(loaded) = &self.scene.loaded {
             self.input.unstage();
-            self.input.validate(Loaded::clone(loaded), |_, _| ());
+            self.input.validate(LoadedScene::clone(loaded), |_, _| ());
         }
         self.diagnostics()
     }
@@ -244,7 +245,7 @@ impl Run<'_> {
     ) -> Result<RenderSubject, Error> {
         self.input.stage(options.stage());
         let validated = match &self.scene.loaded {
-            Some(loaded) => setup.validate(Loaded::clone(loaded), &mut self.input),
+            Some(loaded) => setup.validate(LoadedScene::clone(loaded), &mut self.input),
             None => Ok(None),
         };
         let validated = validated.map_err(|error| self.error(error))?;
@@ -287,10 +288,10 @@ impl Run<'_> {
         setup: &mut PictureSetup,
         subject: &mut RenderSubject,
         is_stopped: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Rendered, pipeline::RenderError> {
+    ) -> Result<RenderedFilm, pipeline::RenderError> {
         // Measure exposure and light, and check the limits of memory.
         let stopwatch = Stopwatch::start();
-        let observer = |on_step| Observer {
+        let observer = |on_step| RenderObserver {
             on_step,
             is_stopped,
         };
@@ -299,14 +300,14 @@ impl Run<'_> {
         setup.check_memory(subject, window)?;
         setup.check_layers()?;
         // Progress is measured by time, error or pixels.
-        let has_goal = setup.goal != Goal::default();
+        let has_goal = setup.goal != RenderGoal::default();
         let measure = match setup.goal.time {
             Some(time) => ProgressMeasure::Time(&stopwatch, time),
             None if has_goal => ProgressMeasure::Error,
             None => ProgressMeasure::Pixels,
         };
         let pixels = window.pixels() as u64;
-        let counter = ProgressCounter::new(options.on_progress.as_ref(), pixels, measure);
+        let counter = ProgressReporter::new(options.on_progress.as_ref(), pixels, measure);
         let on_step = |step| counter.step(step);
         // Render until the goal is met, or once.
         let order = (window, options.rays.unwrap_or(self.input.rays()));
@@ -318,7 +319,7 @@ impl Run<'_> {
             let verified = probed.filter(|probed| probed.undersampled.is_none());
             (film, Vec::new(), verified.map(|probed| probed.error))
         };
-        let counts: &Counts = &rendered.0.counts;
+        let counts: &RayCounts = &rendered.0.counts;
         // Report the end.
         counter.finish(counts.rays());
         Ok(rendered)
@@ -351,10 +352,10 @@ fn approach(
     setup: &PictureSetup,
     subject: &mut RenderSubject,
     order: (Crop, u64),
-    observer: &Observer<'_>,
-    (counter, stopwatch): (&ProgressCounter<'_>, &Stopwatch),
-) -> Result<Rendered, pipeline::RenderError> {
-    let Goal { error, time } = setup.goal;
+    observer: &RenderObserver<'_>,
+    (counter, stopwatch): (&ProgressReporter<'_>, &Stopwatch),
+) -> Result<RenderedFilm, pipeline::RenderError> {
+    let RenderGoal { error, time } = setup.goal;
     let elapsed = || stopwatch.elapsed();
     let begin = |progress: rtc_study::Progress| {
         // The error falls with the square root of the samples.

@@ -1,7 +1,7 @@
 //! The contents of a scene, read-only.
 
 use super::{Camera, Light, Location, Material, MaterialId, ObjectId, Shape};
-use rtc_ir::{self as ir, EntityKind, Field, Lowered, ValuePath};
+use rtc_ir::{self as ir, EntityField, EntityKind, LoweredScene, ValuePath};
 use rtc_math::Vec3;
 use rtc_source::{SourceMap, Span};
 use std::sync::OnceLock;
@@ -31,7 +31,7 @@ use std::sync::OnceLock;
 /// # }
 /// ```
 pub struct SceneContents<'a> {
-    lowered: &'a Lowered,
+    lowered: &'a LoweredScene,
     map: &'a SourceMap,
     /// The bounding box of each mesh.
     boxes: OnceLock<Vec<[Vec3; 2]>>,
@@ -61,7 +61,7 @@ pub struct Object<'a> {
 }
 
 impl<'a> SceneContents<'a> {
-    pub(super) fn new(lowered: &'a Lowered, map: &'a SourceMap) -> Self {
+    pub(super) fn new(lowered: &'a LoweredScene, map: &'a SourceMap) -> Self {
         let boxes = OnceLock::new();
         Self {
             lowered,
@@ -142,7 +142,7 @@ impl<'a> SceneContents<'a> {
     }
 
     fn location(&self, entity: EntityKind, index: usize) -> Option<Location> {
-        let whole = ValuePath::new(entity, index, Field::Whole);
+        let whole = ValuePath::new(entity, index, EntityField::Whole);
         let span: Span = self.lowered.source_spans.span(whole)?;
         Some(Location::new(span, self.map))
     }

@@ -2,7 +2,7 @@
 //! to the files of other renderers.
 
 use super::Failure;
-use super::args::{Compile, Emit, Explanation, MessageFormat};
+use super::args::{CompileArgs, Emit, Explanation, MessageFormat};
 use super::input;
 use super::interrupt::Interrupt;
 use super::output::{self, Output, SidecarFiles};
@@ -13,11 +13,11 @@ use rtc_codec::{self as codec, Encoding};
 use rtc_emit as emit;
 use rtc_emit::course::WrittenScene;
 use rtc_image::{BackgroundFill, FileFormat};
-use rtc_pipeline::{ExportFormat, Exposure, Input, OutputTransform, PictureSetup, Validated};
+use rtc_pipeline::{ExportFormat, Exposure, Input, OutputTransform, PictureSetup, ValidatedScene};
 use std::path::Path;
 
 /// Compiles the scene and writes it.
-pub(super) fn run(args: &Compile) -> Result<(), Failure> {
+pub(super) fn run(args: &CompileArgs) -> Result<(), Failure> {
     let target = target(args).unwrap_or(Path::new("-"));
     let emit = args.emit.map_or_else(|| by_extension(target), Ok)?;
     if matches!(emit, Emit::IrBin | Emit::Glb) {
@@ -33,7 +33,7 @@ pub(super) fn run(args: &Compile) -> Result<(), Failure> {
     outcome
 }
 
-fn carry_out(args: &Compile, emit: Emit, reporter: &mut Reporter) -> Result<(), Failure> {
+fn carry_out(args: &CompileArgs, emit: Emit, reporter: &mut Reporter) -> Result<(), Failure> {
     let input = input::staged(&args.file, &args.reading, &args.stage)?;
     match emit {
         Emit::Ir => carry_out_ir(args, Encoding::Json, input, reporter),
@@ -48,7 +48,7 @@ fn carry_out(args: &Compile, emit: Emit, reporter: &mut Reporter) -> Result<(), 
 
 /// Writes the IR.
 fn carry_out_ir(
-    args: &Compile,
+    args: &CompileArgs,
     encoding: Encoding,
     mut input: Input,
     reporter: &mut Reporter,
@@ -59,14 +59,15 @@ fn carry_out_ir(
         return Ok(());
     };
     let encoded = codec::prepare(encoding, &validated.lowered.scene);
-    let encoded = encoded.map_err(|codec::NotFinite| cannot(&input, "a number is not finite"))?;
+    let encoded =
+        encoded.map_err(|codec::NonFiniteNumber| cannot(&input, "a number is not finite"))?;
     let interrupt = Interrupt::listen()?;
     Output::open(target, &input)?.commit_by(&|out| encoded.write(out), &interrupt)
 }
 
 /// Writes the scene as glTF, and beside a text the files that it names.
 fn carry_out_gltf(
-    args: &Compile,
+    args: &CompileArgs,
     emit: Emit,
     mut input: Input,
     reporter: &mut Reporter,
@@ -93,7 +94,7 @@ const NO_FOLDER: &str = "its vertices and images are files beside the text: give
 /// Writes the scene for another renderer in the light of its picture, which the studio may fill in,
 /// with its files beside it.
 fn carry_out_exported(
-    args: &Compile,
+    args: &CompileArgs,
     format: ExportFormat,
     mut input: Input,
     reporter: &mut Reporter,
@@ -127,7 +128,7 @@ fn lit(
     input: &mut Input,
     interrupt: &Interrupt,
     reporter: &mut Reporter,
-) -> Result<(OutputTransform, Validated), Failure> {
+) -> Result<(OutputTransform, ValidatedScene), Failure> {
     let look = OutputTransform::new(FileFormat::Png8, None, exposure, BackgroundFill::Film, &[]);
     let mut setup = PictureSetup {
         simd: simd::level()?,
@@ -166,7 +167,7 @@ fn write_sidecar<'f>(
 
 /// The same for the canonical spelling, which includes the output settings.
 fn carry_out_text(
-    args: &Compile,
+    args: &CompileArgs,
     mut input: Input,
     reporter: &mut Reporter,
 ) -> Result<(), Failure> {
@@ -181,7 +182,7 @@ fn carry_out_text(
 }
 
 /// Reports the plan, if requested.
-fn explain(args: &Compile, validated: &Validated, input: &Input) -> Result<(), Failure> {
+fn explain(args: &CompileArgs, validated: &ValidatedScene, input: &Input) -> Result<(), Failure> {
     let Some(form) = args.explain else {
         return Ok(());
     };
@@ -197,7 +198,7 @@ fn explain(args: &Compile, validated: &Validated, input: &Input) -> Result<(), F
 /// scene text without assets are there.
 fn write_text(
     target: &Path,
-    validated: &Validated,
+    validated: &ValidatedScene,
     input: &Input,
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
@@ -226,7 +227,7 @@ fn cannot(input: &Input, reason: &str) -> Failure {
 }
 
 /// The destination of the IR, if any: an explanation goes to standard output instead.
-fn target(args: &Compile) -> Option<&Path> {
+fn target(args: &CompileArgs) -> Option<&Path> {
     let default = args.explain.is_none().then_some(Path::new("-"));
     args.output.as_deref().or(default)
 }

@@ -18,7 +18,7 @@ use rtc_ir::Scene;
 use rtc_pipeline::{self as pipeline, Input};
 use rtc_render::PixelObserver;
 use rtc_source::{Loader, SourceMap};
-use rtc_study::{self as study, Clock, Journal, Stopped, Study, StudyProvenance, StudyRuntime};
+use rtc_study::{self as study, Journal, Stopped, Study, StudyProvenance, StudyRuntime, WorkClock};
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -28,14 +28,14 @@ use std::time::{Duration, Instant};
 const MAX_BYTES: u64 = 1 << 36;
 
 /// Studies the scene, or compares it with its reference, and writes the report.
-pub(super) fn run(args: &args::Cost) -> Result<(), Failure> {
+pub(super) fn run(args: &args::CostArgs) -> Result<(), Failure> {
     match args.files.as_slice() {
         [first, second] => versus::run(args, [first, second]),
         files => alone(args, &files[0]),
     }
 }
 
-fn alone(args: &args::Cost, file: &Path) -> Result<(), Failure> {
+fn alone(args: &args::CostArgs, file: &Path) -> Result<(), Failure> {
     if args.gate.is_some() {
         let message = "`--gate` is for a scene and its reference: `rtc cost new.yaml old.yaml \
             --gate 'time<=1.2x'`";
@@ -49,7 +49,11 @@ fn alone(args: &args::Cost, file: &Path) -> Result<(), Failure> {
     outcome
 }
 
-fn carry_out(args: &args::Cost, input: &mut Input, reporter: &mut Reporter) -> Result<(), Failure> {
+fn carry_out(
+    args: &args::CostArgs,
+    input: &mut Input,
+    reporter: &mut Reporter,
+) -> Result<(), Failure> {
     // A study has its own measure of work, and reports on settings that take more than anyone
     // renders.
     input.lift_rays();
@@ -109,12 +113,12 @@ fn write_maps(
 }
 
 /// The number of threads, 0 for one per core.
-pub(super) fn threads(args: &args::Cost) -> usize {
+pub(super) fn threads(args: &args::CostArgs) -> usize {
     args.threads.map_or(0, usize::from)
 }
 
 fn measure(
-    args: &args::Cost,
+    args: &args::CostArgs,
     (about, journal): (StudyProvenance, Option<Journal>),
     scene: &Scene,
     progress: (&Interrupt, &Reporter),
@@ -171,7 +175,7 @@ pub(super) fn with_runtime<T>(
     let (simd, start) = (simd::level()?, Instant::now());
     let cpu = || ThreadTime::try_now().map_or(Duration::ZERO, |time| time.as_duration());
     let wall = || start.elapsed();
-    let clock = Clock {
+    let clock = WorkClock {
         cpu: &cpu,
         wall: &wall,
     };
@@ -183,7 +187,7 @@ pub(super) fn with_runtime<T>(
 
 /// The finished renders of the study, if they are saved.
 fn journal(
-    args: &args::Cost,
+    args: &args::CostArgs,
     about: &StudyProvenance,
     input: &Input,
 ) -> Result<Option<Journal>, Failure> {

@@ -1,6 +1,6 @@
 //! The descriptions of rtc itself: `rtc schema`, `rtc completions`, `rtc man`.
 
-use super::args::{Cli, Completions, Man, Schema, SchemaFormat};
+use super::args::{Cli, CompletionsArgs, ManArgs, SchemaArgs, SchemaFormat};
 use super::audit::AuditReport;
 use super::diff::DiffReport;
 use super::info::InfoReport;
@@ -16,7 +16,7 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 
 /// Prints the JSON Schema of a format, or its page.
-pub(super) fn schema(args: &Schema) -> Result<(), Failure> {
+pub(super) fn schema(args: &SchemaArgs) -> Result<(), Failure> {
     let text = match args.of {
         SchemaFormat::Scene => format!("{:#}\n", course::schema()),
         SchemaFormat::Ir => format!("{:#}\n", codec::schema()),
@@ -56,14 +56,14 @@ fn of_report<T: JsonSchema>() -> String {
 }
 
 /// Prints a completion script.
-pub(super) fn completions(args: &Completions) -> Result<(), Failure> {
+pub(super) fn completions(args: &CompletionsArgs) -> Result<(), Failure> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "rtc", &mut script);
     output::to_stdout(&script)
 }
 
 /// Prints the manual page of rtc or of one of its commands.
-pub(super) fn man(args: &Man) -> Result<(), Failure> {
+pub(super) fn man(args: &ManArgs) -> Result<(), Failure> {
     let mut rtc = Cli::command();
     rtc.build();
     let command = match &args.command {

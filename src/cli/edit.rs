@@ -1,7 +1,7 @@
 //! A text file that is changed: shown as a unified diff, or written.
 
 use super::Failure;
-use rtc_pipeline::NewFile;
+use rtc_pipeline::AtomicFile;
 use rtc_source::{Loader, SourceMap};
 use similar::TextDiff;
 use std::io;
@@ -36,5 +36,5 @@ fn put(path: &Path, before: &str, after: &str) -> io::Result<()> {
     if !now.is_ok_and(|now| now == before.as_bytes()) {
         return Err(io::Error::other("it has changed since it was read"));
     }
-    NewFile::edit(path, after.as_bytes())
+    AtomicFile::edit(path, after.as_bytes())
 }

@@ -1,13 +1,13 @@
 //! `rtc explain`: the long text of a code, or of all of them as a page of Markdown.
 
-use super::args::Explain;
+use super::args::ExplainArgs;
 use super::{Failure, output};
 use rtc_diag::{clip, codes};
 use rtc_pipeline::{explain_code, explanation};
 use rtc_plan::Rule;
 
 /// Prints the text of a code.
-pub(super) fn run(args: &Explain) -> Result<(), Failure> {
+pub(super) fn run(args: &ExplainArgs) -> Result<(), Failure> {
     let text = match &args.code {
         Some(id) => explanation(id).ok_or_else(|| unknown(id))?,
         None if args.all => page(),

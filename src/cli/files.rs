@@ -19,7 +19,7 @@ use walkdir::{DirEntry, WalkDir};
 const WILD: [char; 3] = ['*', '?', '['];
 
 /// Whether a file of this name is meant where a folder is given.
-type NameTest = fn(&str) -> bool;
+type FileNameFilter = fn(&str) -> bool;
 
 /// The extensions of scenes that other programs use for files of their own, or that parts of scenes
 /// have, too.
@@ -72,7 +72,11 @@ fn looks_like_scene(path: &Path) -> bool {
     !is_shared || bytes().map_or(true, |bytes| is_scene(&path.to_string_lossy(), &bytes))
 }
 
-fn named(paths: &[PathBuf], is_meant: NameTest, skip_others: bool) -> Result<SceneFiles, Failure> {
+fn named(
+    paths: &[PathBuf],
+    is_meant: FileNameFilter,
+    skip_others: bool,
+) -> Result<SceneFiles, Failure> {
     let (mut scenes, mut known, mut skipped) = (Vec::new(), BTreeSet::new(), 0);
     for path in paths {
         let found = if path.is_dir() {
@@ -112,7 +116,7 @@ fn is_pattern(path: &Path) -> bool {
 }
 
 /// The files that fit a pattern, and the scenes below the folders that do: at least one.
-fn fitting(pattern: &Path, is_meant: NameTest) -> Result<Vec<PathBuf>, Failure> {
+fn fitting(pattern: &Path, is_meant: FileNameFilter) -> Result<Vec<PathBuf>, Failure> {
     let shown = pattern.display();
     let refused = |message: &str| Failure::Failed(format!("`{shown}`: {message}"));
     let pattern = FilePattern::new(pattern).map_err(|message| refused(&message))?;
@@ -202,7 +206,7 @@ impl FilePattern {
 }
 
 /// All scenes below a folder: at least one.
-fn below(folder: &Path, is_meant: NameTest) -> Result<Vec<PathBuf>, Failure> {
+fn below(folder: &Path, is_meant: FileNameFilter) -> Result<Vec<PathBuf>, Failure> {
     let refused = |message: &str| Failure::Failed(format!("`{}`: {message}", folder.display()));
     let mut found = Vec::new();
     let entries = WalkDir::new(folder).sort_by_file_name().into_iter();

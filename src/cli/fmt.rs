@@ -1,13 +1,13 @@
 //! `rtc fmt`: formats scene texts, each by itself.
 
-use super::args::Fmt;
+use super::args::FmtArgs;
 use super::reporter::{self, Reporter};
 use super::{Failure, edit, files, input, output};
 use rtc_pipeline::{FormatTextError, Input, Options};
 use std::path::Path;
 
 /// Formats the files, or lists the unformatted ones.
-pub(super) fn run(args: &Fmt) -> Result<(), Failure> {
+pub(super) fn run(args: &FmtArgs) -> Result<(), Failure> {
     let mut reporter = Reporter::beside_result(&args.reporter);
     let mut worst = Ok(());
     let scenes = files::texts(&args.files)?;
@@ -32,7 +32,7 @@ pub(super) fn run(args: &Fmt) -> Result<(), Failure> {
     worst
 }
 
-fn one(path: &Path, args: &Fmt, reporter: &mut Reporter) -> Result<(), Failure> {
+fn one(path: &Path, args: &FmtArgs, reporter: &mut Reporter) -> Result<(), Failure> {
     let mut input = input::open(path, None, Options::default());
     let formatted = input.format_text();
     input::report_diagnostics(&mut input, reporter)?;

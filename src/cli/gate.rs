@@ -7,7 +7,7 @@ use std::fmt;
 
 /// The unit after a limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Unit {
+enum LimitUnit {
     /// Nothing.
     Plain,
     /// `%`: a fraction in hundredths.
@@ -17,23 +17,23 @@ enum Unit {
 }
 
 /// The measures of a command.
-type Measures = [(&'static str, Unit)];
+type MeasuredValues = [(&'static str, LimitUnit)];
 
 /// The measures of the difference of two pictures.
-const OF_PICTURES: &Measures = &[
-    ("rmse", Unit::Plain),
-    ("max", Unit::Plain),
-    ("relmse", Unit::Plain),
-    ("flip", Unit::Plain),
-    ("share", Unit::Share),
+const OF_PICTURES: &MeasuredValues = &[
+    ("rmse", LimitUnit::Plain),
+    ("max", LimitUnit::Plain),
+    ("relmse", LimitUnit::Plain),
+    ("flip", LimitUnit::Plain),
+    ("share", LimitUnit::Share),
 ];
 
 /// The measures of one scene against another.
-const OF_SCENES: &Measures = &[
-    ("error", Unit::Plain),
-    ("time", Unit::Ratio),
-    ("rays", Unit::Ratio),
-    ("noise", Unit::Ratio),
+const OF_SCENES: &MeasuredValues = &[
+    ("error", LimitUnit::Plain),
+    ("time", LimitUnit::Ratio),
+    ("rays", LimitUnit::Ratio),
+    ("noise", LimitUnit::Ratio),
 ];
 
 /// The limits of a `--gate`, as `rmse<=1,share<=0.5%`.
@@ -63,7 +63,7 @@ pub(super) fn scene_limits(text: &str) -> Result<MeasureLimits, String> {
     gates(text, OF_SCENES)
 }
 
-fn gates(text: &str, measures: &Measures) -> Result<MeasureLimits, String> {
+fn gates(text: &str, measures: &MeasuredValues) -> Result<MeasureLimits, String> {
     text.split(',')
         .map(|gate| MeasureLimit::read(gate.trim(), measures))
         .collect::<Result<_, _>>()
@@ -81,7 +81,7 @@ pub(super) fn pass(gates: &[GateResult], is_quiet: bool) -> Result<(), Failure> 
 }
 
 impl MeasureLimit {
-    fn read(text: &str, measures: &Measures) -> Result<Self, String> {
+    fn read(text: &str, measures: &MeasuredValues) -> Result<Self, String> {
         let (name, most) = text.split_once("<=").ok_or_else(|| {
             let first = measures[0].0;
             format!("`{text}` is no gate; write `MEASURE<=VALUE`, as `{first}<=1`")
@@ -100,11 +100,13 @@ impl MeasureLimit {
                 .filter(|value| *value >= 0.0)
         };
         let most = match (most.strip_suffix('%'), most.strip_suffix('x')) {
-            (Some(percent), _) if unit == Unit::Share => number(percent).map(|value| value / 100.0),
+            (Some(percent), _) if unit == LimitUnit::Share => {
+                number(percent).map(|value| value / 100.0)
+            }
             (Some(_), _) => {
                 return Err(format!("`{measure}` is no share, so its limit has no `%`"));
             }
-            (None, Some(times)) if unit == Unit::Ratio => number(times),
+            (None, Some(times)) if unit == LimitUnit::Ratio => number(times),
             (None, Some(_)) => {
                 return Err(format!("`{measure}` is no ratio, so its limit has no `x`"));
             }

@@ -1,23 +1,25 @@
 //! The input of a command: a scene from a file or standard input, as the arguments say.
 
 use super::Failure;
-use super::args::{self, GroundArg, Reading};
+use super::args::{self, GroundArg, ReadArgs};
 use super::interrupt::Interrupt;
 use super::project::Project;
 use super::reporter::Reporter;
 use rtc_front as front;
-use rtc_ir::Lowered;
+use rtc_ir::LoweredScene;
 use rtc_passes::{
     self as passes, EnvironmentOverride, FillLight, StudioChoice, View, ViewAndLight,
 };
-use rtc_pipeline::{Input, Observer, Options, PictureSetup, Provenance, RenderSubject, Validated};
+use rtc_pipeline::{
+    Input, Options, PictureSetup, Provenance, RenderObserver, RenderSubject, ValidatedScene,
+};
 use rtc_source::EditedFiles;
 use rtc_valid as valid;
 use std::io;
 use std::path::Path;
 
 /// Reads the file at `path`, or standard input if it is `-`.
-pub(super) fn read(path: &Path, reading: &Reading) -> Result<Input, Failure> {
+pub(super) fn read(path: &Path, reading: &ReadArgs) -> Result<Input, Failure> {
     let project = Project::of(path, reading)?;
     let options = options(reading, project.as_ref())?;
     let mut input = open(path, reading.stdin_name.as_deref(), options);
@@ -38,8 +40,8 @@ pub(super) fn open(path: &Path, stdin_name: Option<&str>, options: Options) -> I
 }
 
 /// The input options before the `rtc.toml` of the project.
-pub(super) fn options(reading: &Reading, project: Option<&Project>) -> Result<Options, Failure> {
-    let Reading {
+pub(super) fn options(reading: &ReadArgs, project: Option<&Project>) -> Result<Options, Failure> {
+    let ReadArgs {
         stdin_name: _,
         strict,
         lenient,
@@ -90,7 +92,7 @@ pub(super) fn options(reading: &Reading, project: Option<&Project>) -> Result<Op
 /// light given.
 pub(super) fn staged(
     path: &Path,
-    reading: &Reading,
+    reading: &ReadArgs,
     stage: &args::StageArgs,
 ) -> Result<Input, Failure> {
     set_stage(read(path, reading)?, stage)
@@ -160,7 +162,7 @@ pub(super) fn light(
     interrupt: &Interrupt,
     reporter: &mut Reporter,
 ) -> Result<(), Failure> {
-    let observer = Observer {
+    let observer = RenderObserver {
         on_step: &|_| (),
         is_stopped: &|| interrupt.is_raised(),
     };
@@ -172,8 +174,8 @@ pub(super) fn light(
 pub(super) fn require(
     input: &mut Input,
     reporter: &mut Reporter,
-    change: impl FnOnce(&mut Lowered, &Provenance),
-) -> Result<Validated, Failure> {
+    change: impl FnOnce(&mut LoweredScene, &Provenance),
+) -> Result<ValidatedScene, Failure> {
     let validated = input
         .load()
         .and_then(|loaded| input.validate(loaded, change));
@@ -220,7 +222,7 @@ pub(super) fn unless_refused<T>(
 
 /// Adds the studio as a fill light if requested, for commands that do not measure the scene's own
 /// light.
-pub(super) fn fill(lowered: &mut Lowered, provenance: &Provenance) {
+pub(super) fn fill(lowered: &mut LoweredScene, provenance: &Provenance) {
     if provenance.fill == FillLight::Always {
         passes::fill(&mut lowered.scene, 0.0);
     }

@@ -1,14 +1,14 @@
 //! `rtc merge`: parts of a picture to the picture, or to a larger part.
 
-use super::args::Merge;
+use super::args::MergeArgs;
 use super::audit::{self, AuditScene, AuditedScene};
 use super::interrupt::Interrupt;
 use super::output::Output;
 use super::render::kind;
 use super::reporter::{self, Reporter};
 use super::{Failure, progress};
-use rtc_diag::Sink;
-use rtc_pipeline::{AuditDraw, RenderShard, ShardError};
+use rtc_diag::DiagnosticSink;
+use rtc_pipeline::{RenderShard, ShardError, TileDraw};
 use rtc_source::{Loader, Resource, SourceMap};
 use std::fmt;
 use std::path::Path;
@@ -17,7 +17,7 @@ use std::path::Path;
 const MAX_BYTES: u64 = 1 << 36;
 
 /// Merges the parts and writes the result.
-pub(super) fn run(args: &Merge) -> Result<(), Failure> {
+pub(super) fn run(args: &MergeArgs) -> Result<(), Failure> {
     let limits = args.reading.limits(|_| ());
     let map = SourceMap::with_limits(limits);
     let mut reporter = Reporter::beside_result(&args.reporter);
@@ -40,7 +40,7 @@ pub(super) fn run(args: &Merge) -> Result<(), Failure> {
     refuse_other_kind(args, &merged)?;
     // Develop the merged film and report what it lacks.
     let (picture, counts, found) = merged.develop().map_err(|error| refused(error, &merged))?;
-    let mut sink = Sink::within(&limits);
+    let mut sink = DiagnosticSink::within(&limits);
     found
         .into_iter()
         .for_each(|diagnostic| sink.push(diagnostic));
@@ -59,7 +59,11 @@ pub(super) fn run(args: &Merge) -> Result<(), Failure> {
 }
 
 /// All parts as one.
-fn merged(args: &Merge, map: &SourceMap, reporter: &mut Reporter) -> Result<RenderShard, Failure> {
+fn merged(
+    args: &MergeArgs,
+    map: &SourceMap,
+    reporter: &mut Reporter,
+) -> Result<RenderShard, Failure> {
     let max_pixels = map.budget().limit(Resource::Pixels);
     let (mut all, mut audited) = (None::<RenderShard>, None);
     for path in &args.parts {
@@ -79,7 +83,7 @@ fn merged(args: &Merge, map: &SourceMap, reporter: &mut Reporter) -> Result<Rend
 fn audit_part(
     (path, part): (&Path, &RenderShard),
     tiles: u64,
-    args: &Merge,
+    args: &MergeArgs,
     audited: &mut Option<AuditedScene>,
     reporter: &mut Reporter,
 ) -> Result<(), Failure> {
@@ -98,7 +102,7 @@ fn audit_part(
         }
     };
     let seed = audit::seed(args.seed)?;
-    let result = audited.part((path, part), AuditDraw { tiles, seed }, reporter)?;
+    let result = audited.part((path, part), TileDraw { tiles, seed }, reporter)?;
     audit::judge_part(path, args, seed, &result)
 }
 
@@ -128,7 +132,7 @@ fn message_of(path: &Path, error: &dyn fmt::Display) -> String {
 }
 
 /// Rejects a picture format other than that of the parts.
-fn refuse_other_kind(args: &Merge, merged: &RenderShard) -> Result<(), Failure> {
+fn refuse_other_kind(args: &MergeArgs, merged: &RenderShard) -> Result<(), Failure> {
     let requested = kind(&args.output, None)?;
     let (own, requested) = (merged.look().kind.traits(), requested.traits());
     if own.extensions == requested.extensions {
@@ -157,7 +161,7 @@ fn refused(error: ShardError, merged: &RenderShard) -> Failure {
     Failure::Input(text)
 }
 
-fn print_result(args: &Merge, text: &str) -> Result<(), Failure> {
+fn print_result(args: &MergeArgs, text: &str) -> Result<(), Failure> {
     if !args.reporter.quiet {
         reporter::print_message(&format!("{}: {text}", args.output.display()));
     }

@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::interrupt::Interrupt;
-use rtc_pipeline::{Input, NewFile, sidecar_folder};
+use rtc_pipeline::{AtomicFile, Input, sidecar_folder};
 use rtc_source::{Loader, SourceMap};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, IsTerminal, Write};
@@ -30,7 +30,7 @@ enum OutputTarget {
     Stdout,
     /// A device or a pipe, which cannot be replaced.
     OutputStream(PathBuf),
-    File(NewFile),
+    File(AtomicFile),
 }
 
 /// What writes a result.
@@ -57,7 +57,7 @@ impl Output {
                 "can't write {name}: it is an input of this run"
             )));
         }
-        let file = NewFile::at(path).map_err(|error| failure(&name, &error))?;
+        let file = AtomicFile::at(path).map_err(|error| failure(&name, &error))?;
         let place = file.map_or_else(
             || OutputTarget::OutputStream(path.to_owned()),
             OutputTarget::File,
@@ -158,7 +158,7 @@ impl SidecarFiles {
             Err(_) => {}
         }
         let written = self.make_folder(&target).and_then(|()| {
-            let file = NewFile::at(&target)?.ok_or(ErrorKind::AlreadyExists)?;
+            let file = AtomicFile::at(&target)?.ok_or(ErrorKind::AlreadyExists)?;
             file.write(&|out| out.write_all(bytes), interrupt)
         });
         match written {

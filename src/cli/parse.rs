@@ -2,7 +2,7 @@
 
 use super::args::BackgroundArg;
 use rtc_image::BackgroundFill;
-use rtc_passes::{Orbit, Sun};
+use rtc_passes::{OrbitAngles, SunLight};
 use rtc_pipeline::{Exposure, MAX_SHARDS};
 use rtc_plan::Rule;
 use rtc_render::Crop;
@@ -131,13 +131,13 @@ pub(super) fn color(text: &str) -> Result<[f64; 3], String> {
         .ok_or_else(|| "expected one number or three of at least 0, as 0.5 or 1,0.9,0.8".to_owned())
 }
 
-pub(super) fn sun(text: &str) -> Result<Sun, String> {
+pub(super) fn sun(text: &str) -> Result<SunLight, String> {
     let numbers = numbers(text).unwrap_or_default();
     let (direction, irradiance) = numbers.split_first_chunk().unwrap_or((&[0.0; 3], &[]));
     let direction = Some(*direction).filter(|direction| *direction != [0.0; 3]);
     let sun = direction
         .zip(light(irradiance))
-        .map(|(direction, irradiance)| Sun {
+        .map(|(direction, irradiance)| SunLight {
             direction,
             irradiance,
         });
@@ -204,7 +204,7 @@ pub(super) fn setting(text: &str) -> Result<(String, String), String> {
 }
 
 /// The angles of an orbit in degrees.
-pub(super) fn orbit(text: &str) -> Result<Orbit, String> {
+pub(super) fn orbit(text: &str) -> Result<OrbitAngles, String> {
     let angles = numbers(text).unwrap_or_default();
     let (azimuth, elevation, roll) = match angles[..] {
         [azimuth, elevation] => (azimuth, elevation, 0.0),
@@ -214,7 +214,7 @@ pub(super) fn orbit(text: &str) -> Result<Orbit, String> {
     if !(-90.0..=90.0).contains(&elevation) {
         return Err("the elevation is -90 to 90 degrees".to_owned());
     }
-    Ok(Orbit {
+    Ok(OrbitAngles {
         azimuth: azimuth.to_radians(),
         elevation: elevation.to_radians(),
         roll: roll.to_radians(),
@@ -371,7 +371,7 @@ mod tests {
 
     #[test]
     fn suns_have_a_direction_and_light() {
-        let wanted = Sun {
+        let wanted = SunLight {
             direction: [0.0, -1.0, 0.0],
             irradiance: [2.0; 3],
         };

@@ -3,7 +3,7 @@
 use indicatif::{
     HumanCount, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle,
 };
-use rtc_render::Step;
+use rtc_render::RenderStep;
 use std::fmt::Write;
 use std::io::{self, IsTerminal};
 use std::sync::Arc;
@@ -40,7 +40,7 @@ impl RenderProgress {
     }
 
     /// A step of the work is done.
-    pub(super) fn step(&self, step: Step) {
+    pub(super) fn step(&self, step: RenderStep) {
         if self.is_hidden {
             return;
         }
@@ -54,7 +54,7 @@ impl RenderProgress {
     }
 
     /// A step of work that is measured in rays.
-    pub(super) fn step_rays(&self, step: Step) {
+    pub(super) fn step_rays(&self, step: RenderStep) {
         if self.is_hidden {
             return;
         }

@@ -7,9 +7,11 @@
 use super::Failure;
 use super::args::Explanation;
 use indicatif::HumanCount;
-use rtc_pipeline::{self as pipeline, Input, Validated};
-use rtc_plan::{Caustics, EffectState, EffectStatus, PathPlan, Plan, Rule, Rules};
-use rtc_render::{Counts, Job, KERNELS, PATH_KERNELS, Stride, choose, choose_for_paths};
+use rtc_pipeline::{self as pipeline, Input, ValidatedScene};
+use rtc_plan::{Caustics, EffectState, EffectStatus, PathPlan, Plan, Rule, RuleSet};
+use rtc_render::{
+    KERNELS, PATH_KERNELS, PixelStride, RayCounts, RenderSelection, choose, choose_for_paths,
+};
 use rtc_valid::{Mode, ValidScene};
 use serde_json::{Value, json};
 use std::num::NonZeroU32;
@@ -33,13 +35,13 @@ pub(super) struct PlanReport {
     counter: SampledPaths,
     planned: u64,
     unpruned: u64,
-    rows: Vec<ReportRow>,
+    rows: Vec<EffectReportRow>,
 }
 
 /// The samples of the picture whose rays were counted.
 #[derive(Clone, Copy)]
 struct SampledPaths {
-    stride: Stride,
+    stride: PixelStride,
     /// Samples of each of those pixels.
     samples: u64,
     /// All of them.
@@ -69,9 +71,9 @@ fn kernel(plan: &Plan) -> (&'static str, usize) {
 /// the picture without the rule, less those as planned.
 fn saved(
     status: &EffectStatus,
-    counter: &Counter<'_>,
-    planned: &Counts,
-    unpruned: &Counts,
+    counter: &SampledRayCounter<'_>,
+    planned: &RayCounts,
+    unpruned: &RayCounts,
 ) -> Result<u64, Failure> {
     let is_path = matches!(counter.scene.settings().mode, Mode::Path(_));
     match status.rule.filter(|_| status.state == EffectState::Pruned) {
@@ -80,14 +82,14 @@ fn saved(
             .of(status.effect)
             .saturating_sub(planned.of(status.effect))),
         Some(rule) => {
-            let without = counter.count(Rules::ALL.without(rule))?;
+            let without = counter.count(RuleSet::ALL.without(rule))?;
             Ok(without.rays().saturating_sub(planned.rays()))
         }
     }
 }
 
 /// The status of one effect, with its cost.
-struct ReportRow {
+struct EffectReportRow {
     status: EffectStatus,
     /// `file:line` of the values that decided.
     places: Vec<String>,
@@ -99,12 +101,12 @@ struct ReportRow {
     saves: u64,
 }
 
-impl ReportRow {
+impl EffectReportRow {
     /// The row of a status, with the rays that it takes and saves.
     fn new(
         status: &EffectStatus,
         [costs, saves]: [u64; 2],
-        validated: &Validated,
+        validated: &ValidatedScene,
         input: &Input,
     ) -> Self {
         let spans = status
@@ -157,11 +159,11 @@ impl ReportRow {
 
 impl PlanReport {
     /// Plans the picture and counts rays.
-    pub(super) fn new(validated: &Validated, input: &Input) -> Result<Self, Failure> {
-        let plan = Plan::new(&validated.scene, Rules::ALL);
-        let counter = Counter::new(&validated.scene);
-        let planned = counter.count(Rules::ALL)?;
-        let unpruned = counter.count(Rules::NONE)?;
+    pub(super) fn new(validated: &ValidatedScene, input: &Input) -> Result<Self, Failure> {
+        let plan = Plan::new(&validated.scene, RuleSet::ALL);
+        let counter = SampledRayCounter::new(&validated.scene);
+        let planned = counter.count(RuleSet::ALL)?;
+        let unpruned = counter.count(RuleSet::NONE)?;
         let row = |status: &EffectStatus| {
             let is_whole = status.of.is_none();
             let saves = if is_whole {
@@ -174,7 +176,12 @@ impl PlanReport {
             } else {
                 0
             };
-            Ok(ReportRow::new(status, [costs, saves], validated, input))
+            Ok(EffectReportRow::new(
+                status,
+                [costs, saves],
+                validated,
+                input,
+            ))
         };
         Ok(Self {
             kernel: kernel(&plan),
@@ -191,9 +198,9 @@ impl PlanReport {
     }
 
     /// The verdicts of a plan as a table, without counts.
-    pub(super) fn statuses(validated: &Validated, input: &Input) -> String {
-        let plan = Plan::new(&validated.scene, Rules::ALL);
-        let row = |status: &EffectStatus| ReportRow::new(status, [0; 2], validated, input);
+    pub(super) fn statuses(validated: &ValidatedScene, input: &Input) -> String {
+        let plan = Plan::new(&validated.scene, RuleSet::ALL);
+        let row = |status: &EffectStatus| EffectReportRow::new(status, [0; 2], validated, input);
         let lines = plan.statuses.iter().map(|status| row(status).lines(""));
         lines.collect()
     }
@@ -242,7 +249,7 @@ impl PlanReport {
     }
 
     fn object(&self) -> Value {
-        let row = |row: &ReportRow| {
+        let row = |row: &EffectReportRow| {
             json!({
                 "effect": row.status.effect.name(),
                 "of": row.of,
@@ -270,12 +277,12 @@ impl PlanReport {
 }
 
 /// Counts the rays of a picture, on a part of its samples that is quick.
-struct Counter<'scene> {
+struct SampledRayCounter<'scene> {
     scene: &'scene ValidScene,
     sampled: SampledPaths,
 }
 
-impl<'scene> Counter<'scene> {
+impl<'scene> SampledRayCounter<'scene> {
     fn new(scene: &'scene ValidScene) -> Self {
         let pixel = samples_of_pixel(scene);
         let [width, height] = [scene.camera().width.get(), scene.camera().height.get()];
@@ -295,7 +302,7 @@ impl<'scene> Counter<'scene> {
         while u64::from(k + 1) * u64::from(k + 1) * wanted <= pixels {
             k += 1;
         }
-        let stride = Stride::new(k);
+        let stride = PixelStride::new(k);
         let hit = u64::from(stride.of(width)) * u64::from(stride.of(height));
         let sampled = SampledPaths {
             stride,
@@ -307,7 +314,7 @@ impl<'scene> Counter<'scene> {
     }
 
     /// The rays of the whole picture, scaled from those of a part.
-    fn count(&self, rules: Rules) -> Result<Counts, Failure> {
+    fn count(&self, rules: RuleSet) -> Result<RayCounts, Failure> {
         let SampledPaths {
             stride,
             samples,
@@ -315,10 +322,10 @@ impl<'scene> Counter<'scene> {
             all,
         } = self.sampled;
         let samples = NonZeroU32::new(u32::try_from(samples).unwrap_or(u32::MAX));
-        let job = Job {
+        let job = RenderSelection {
             stride,
             samples,
-            ..Job::default()
+            ..RenderSelection::default()
         };
         let plan = Plan::new(self.scene, rules);
         let film = pipeline::render(self.scene, &plan, &job, 0, &|_| true);

@@ -1,10 +1,10 @@
 //! Messages and their streams: diagnostics for people on standard error, those for programs on
 //! standard output.
 
-use super::render::MadePicture;
+use super::render::FinishedPicture;
 use super::{Failure, args, output};
 use anstream::{AutoStream, ColorChoice};
-use rtc_diag::{Format, PrintOptions, Printer, Severity, Sink};
+use rtc_diag::{DiagnosticPrinter, DiagnosticSink, Format, PrintOptions, Severity};
 use rtc_source::SourceMap;
 use std::io::{self, IsTerminal, Write};
 
@@ -13,7 +13,7 @@ const WIDTH: usize = 100;
 
 /// Reports the diagnostics of one file after another.
 pub(super) struct Reporter {
-    printer: Printer,
+    printer: DiagnosticPrinter,
     to_stdout: bool,
     quiet: bool,
     verbose: bool,
@@ -58,7 +58,7 @@ impl Reporter {
             max: max_errors as usize,
         };
         Self {
-            printer: Printer::new(message_format.into(), options),
+            printer: DiagnosticPrinter::new(message_format.into(), options),
             to_stdout: false,
             quiet,
             verbose,
@@ -68,14 +68,19 @@ impl Reporter {
     }
 
     /// Reports the diagnostics of the file `name`.
-    pub(super) fn file(&mut self, name: &str, sink: Sink, map: &SourceMap) -> Result<(), Failure> {
+    pub(super) fn file(
+        &mut self,
+        name: &str,
+        sink: DiagnosticSink,
+        map: &SourceMap,
+    ) -> Result<(), Failure> {
         let text = self.printer.file(name, sink, map);
         self.has_reported |= !text.is_empty();
         write(self.to_stdout, &text)
     }
 
     /// Reports a finished picture: as text, or as an object where diagnostics are objects.
-    pub(super) fn made(&self, picture: &MadePicture) {
+    pub(super) fn made(&self, picture: &FinishedPicture) {
         if self.quiet {
             return;
         }
@@ -115,10 +120,10 @@ fn write(to_stdout: bool, text: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-fn is_colored(color: args::Color) -> bool {
+fn is_colored(color: args::ColorArg) -> bool {
     match color {
-        args::Color::Always => true,
-        args::Color::Never => false,
-        args::Color::Auto => AutoStream::choice(&io::stderr()) != ColorChoice::Never,
+        args::ColorArg::Always => true,
+        args::ColorArg::Never => false,
+        args::ColorArg::Auto => AutoStream::choice(&io::stderr()) != ColorChoice::Never,
     }
 }

@@ -1,8 +1,8 @@
 //! Picture files that a command is given, read within the budget of the run.
 
 use super::Failure;
-use rtc_image::{DecodeCost, ShownFile, ShownPicture};
-use rtc_source::{Budget, Exceeded, Loader, Resource, SourceMap};
+use rtc_image::{DecodeCost, DisplayedFile, DisplayedPicture};
+use rtc_source::{Budget, LimitExceeded, Loader, Resource, SourceMap};
 use std::path::Path;
 
 /// The largest picture file that is read, in bytes.
@@ -21,8 +21,8 @@ pub(super) fn opened<'b>(
     path: &Path,
     bytes: &'b [u8],
     budget: &Budget,
-) -> Result<ShownFile<'b>, Failure> {
-    let file = ShownFile::open(bytes, budget.limit(Resource::Pixels));
+) -> Result<DisplayedFile<'b>, Failure> {
+    let file = DisplayedFile::open(bytes, budget.limit(Resource::Pixels));
     file.map_err(|error| Failure::Failed(format!("`{}` {error}", path.display())))
 }
 
@@ -41,12 +41,12 @@ pub(super) fn charge(path: &Path, cost: DecodeCost, budget: &Budget) -> Result<(
 }
 
 /// The picture in a file that was charged.
-pub(super) fn decoded(path: &Path, file: ShownFile<'_>) -> Result<ShownPicture, Failure> {
+pub(super) fn decoded(path: &Path, file: DisplayedFile<'_>) -> Result<DisplayedPicture, Failure> {
     let picture = file.decode();
     picture.map_err(|error| Failure::Failed(format!("`{}` {error}", path.display())))
 }
 
 /// The error that the memory exceeds the limit.
-pub(super) fn over_limit(what: &str, fault: &Exceeded) -> Failure {
+pub(super) fn over_limit(what: &str, fault: &LimitExceeded) -> Failure {
     Failure::Failed(format!("{what}: {fault}; {}", fault.hint()))
 }

@@ -3,7 +3,7 @@
 use super::Failure;
 use rtc_ir::{Camera, Scene};
 use rtc_math::{Vec3, unit};
-use rtc_pipeline::Validated;
+use rtc_pipeline::ValidatedScene;
 use std::f64::consts::TAU;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -17,14 +17,14 @@ pub(super) struct Turntable {
 }
 
 /// Which views of a turntable are shown.
-pub(super) struct Views {
+pub(super) struct TurntableViews {
     /// The number of views.
     pub(super) count: u32,
     /// Those that are shown, from 0.
     pub(super) shown: Range<u32>,
 }
 
-impl Views {
+impl TurntableViews {
     /// The number of views, and the range of them to render, from 1, if any.
     pub(super) fn new(
         count: Option<u32>,
@@ -65,7 +65,7 @@ impl Turntable {
     }
 
     /// Sets the scene to one frame, from 0; the camera moves anticlockwise, seen from above.
-    pub(super) fn turn(&self, validated: &mut Validated, frame: u32) -> Result<(), Failure> {
+    pub(super) fn turn(&self, validated: &mut ValidatedScene, frame: u32) -> Result<(), Failure> {
         let angle = TAU * f64::from(frame) / f64::from(self.count);
         let camera = match frame {
             0 => self.camera.clone(),

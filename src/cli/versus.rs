@@ -10,7 +10,7 @@ use super::output::Output;
 use super::reporter::Reporter;
 use rtc_ir::Scene;
 use rtc_pipeline::Input;
-use rtc_study::{Stopped, StudyProvenance, Versus, versus, versus_table};
+use rtc_study::{SceneComparison, Stopped, StudyProvenance, versus, versus_table};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::path::Path;
@@ -19,13 +19,13 @@ use std::path::Path;
 #[derive(Serialize, JsonSchema)]
 pub(super) struct VersusReport<'a> {
     #[serde(flatten)]
-    found: &'a Versus,
+    found: &'a SceneComparison,
     /// The gates of `--gate`, in their order.
     gates: &'a [GateResult],
 }
 
 /// Compares the scenes and writes the report.
-pub(super) fn run(args: &args::Cost, files: [&Path; 2]) -> Result<(), Failure> {
+pub(super) fn run(args: &args::CostArgs, files: [&Path; 2]) -> Result<(), Failure> {
     refuse_others(args, files)?;
     let mut reporter = Reporter::beside_result(&args.reporter);
     let outcome = carry_out(args, files, &mut reporter);
@@ -34,7 +34,7 @@ pub(super) fn run(args: &args::Cost, files: [&Path; 2]) -> Result<(), Failure> {
 }
 
 /// Rejects options for the study of one scene.
-fn refuse_others(args: &args::Cost, files: [&Path; 2]) -> Result<(), Failure> {
+fn refuse_others(args: &args::CostArgs, files: [&Path; 2]) -> Result<(), Failure> {
     let refused = if args.html.is_some() {
         "`--html` is for the study of one scene"
     } else if args.maps.is_some() {
@@ -51,7 +51,11 @@ fn refuse_others(args: &args::Cost, files: [&Path; 2]) -> Result<(), Failure> {
     Err(Failure::Failed(refused.to_owned()))
 }
 
-fn carry_out(args: &args::Cost, files: [&Path; 2], reporter: &mut Reporter) -> Result<(), Failure> {
+fn carry_out(
+    args: &args::CostArgs,
+    files: [&Path; 2],
+    reporter: &mut Reporter,
+) -> Result<(), Failure> {
     // Validate both scenes; their pictures have one size.
     let [first, second] = files.map(|file| input::staged(file, &args.reading, &args.stage));
     let mut inputs = [first?, second?];
@@ -101,7 +105,7 @@ fn validated(
     Ok((about(input.name(), &scene), scene))
 }
 
-fn measure(found: &Versus, name: &str) -> f64 {
+fn measure(found: &SceneComparison, name: &str) -> f64 {
     match name {
         "error" => found.error.value,
         "time" => found.time.value,
@@ -110,7 +114,7 @@ fn measure(found: &Versus, name: &str) -> f64 {
     }
 }
 
-fn json(found: &Versus, gates: &[GateResult]) -> Result<String, Failure> {
+fn json(found: &SceneComparison, gates: &[GateResult]) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(&VersusReport { found, gates });
     text.map(|text| text + "\n")
         .map_err(|error| Failure::Failed(error.to_string()))

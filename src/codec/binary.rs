@@ -6,10 +6,10 @@
 //! memory in proportion to the length of the file only. Files are read, not memory-mapped: reading
 //! takes 40 ms for a million triangles, and a mapped file could be truncated by another process.
 
-use super::columns::{self, SectionReader, Table};
+use super::columns::{self, EntityTable, SectionReader};
 use super::section::{self, ALIGNMENT, SectionEntry, SectionWriter};
 use super::{
-    CHECKSUMS_COUNT, Decoded, NotFinite, VersionHead, image, mesh, newer, span, tree, typed,
+    CHECKSUMS_COUNT, Decoded, NonFiniteNumber, VersionField, image, mesh, newer, span, tree, typed,
     wrong_shape,
 };
 use rtc_diag::{Code, Diagnostic, codes};
@@ -42,7 +42,7 @@ struct Header {
     #[serde(default)]
     scene: Map<String, Value>,
     #[serde(default)]
-    tables: Vec<Table>,
+    tables: Vec<EntityTable>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     images: Vec<image::StoredImage>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -81,7 +81,7 @@ impl ContainerDraft<'_> {
 pub(super) fn encode<'s>(
     scene: &'s Scene,
     display: &Display,
-) -> Result<ContainerDraft<'s>, NotFinite> {
+) -> Result<ContainerDraft<'s>, NonFiniteNumber> {
     // Reject numbers that have no encoding.
     let Scene {
         camera,
@@ -97,7 +97,7 @@ pub(super) fn encode<'s>(
         display: _,
     } = scene;
     if !meshes.iter().all(Mesh::is_finite) {
-        return Err(NotFinite);
+        return Err(NonFiniteNumber);
     }
     // Move lists of entities, pixels and mesh columns into sections.
     let mut body = SectionWriter::default();
@@ -291,7 +291,7 @@ impl Container<'_> {
                 end,
             )
         };
-        let VersionHead { ir_version } = serde_json::from_slice(text).map_err(malformed)?;
+        let VersionField { ir_version } = serde_json::from_slice(text).map_err(malformed)?;
         if ir_version > VERSION {
             return Err(newer(
                 ir_version,

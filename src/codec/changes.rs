@@ -1,8 +1,8 @@
 //! The differences between two scenes, value by value, each with its path in the IR as in `rtc
 //! schema ir`. Vertices and pixels are compared by count and hash.
 
-use super::{NotFinite, tree};
-use rtc_ir::{Column, Image, Mesh, Scene};
+use super::{NonFiniteNumber, tree};
+use rtc_ir::{Image, Mesh, Scene, VertexColumn};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -11,7 +11,7 @@ use xxhash_rust::xxh3::{Xxh3Default, xxh3_64};
 
 /// A value that differs.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Change {
+pub struct ValueChange {
     /// The path, for example `materials[2].phong.kd`. Its index is that in the new scene, or in the
     /// old scene for a removed value.
     pub path: String,
@@ -26,7 +26,7 @@ pub struct Change {
 ///
 /// # Errors
 /// If a number is not finite.
-pub fn changes(new: &Scene, old: &Scene) -> Result<Vec<Change>, NotFinite> {
+pub fn changes(new: &Scene, old: &Scene) -> Result<Vec<ValueChange>, NonFiniteNumber> {
     let (new, mut old) = (document(new)?, document(old)?);
     rename_materials(&new, &mut old);
     let mut found = Vec::new();
@@ -54,7 +54,7 @@ fn rename_materials(new: &Value, old: &mut Value) {
 }
 
 /// A scene as a JSON tree, with count and hash for vertices and pixels.
-fn document(scene: &Scene) -> Result<Value, NotFinite> {
+fn document(scene: &Scene) -> Result<Value, NonFiniteNumber> {
     let Scene {
         camera,
         settings,
@@ -128,7 +128,7 @@ fn mesh(mesh: &Mesh) -> Value {
     })
 }
 
-fn column<const N: usize>(column: &Column<N>) -> String {
+fn column<const N: usize>(column: &VertexColumn<N>) -> String {
     let mut hash = Xxh3Default::default();
     let numbers = column.iter().flatten();
     numbers.for_each(|number| hash.update(&number.to_le_bytes()));
@@ -143,7 +143,7 @@ fn summary(count: usize, hash: u64) -> String {
     }
 }
 
-fn compare(path: &str, new: &Value, old: &Value, found: &mut Vec<Change>) {
+fn compare(path: &str, new: &Value, old: &Value, found: &mut Vec<ValueChange>) {
     match (new, old) {
         _ if new == old => {}
         (Value::Object(a), Value::Object(b)) => maps(path, a, b, found),
@@ -154,8 +154,8 @@ fn compare(path: &str, new: &Value, old: &Value, found: &mut Vec<Change>) {
     }
 }
 
-fn change(path: &str, new: Option<&Value>, old: Option<&Value>) -> Change {
-    Change {
+fn change(path: &str, new: Option<&Value>, old: Option<&Value>) -> ValueChange {
+    ValueChange {
         path: path.to_owned(),
         new: new.cloned(),
         old: old.cloned(),
@@ -167,7 +167,12 @@ fn is_vector(list: &[Value]) -> bool {
     list.iter().all(Value::is_number)
 }
 
-fn maps(path: &str, new: &Map<String, Value>, old: &Map<String, Value>, found: &mut Vec<Change>) {
+fn maps(
+    path: &str,
+    new: &Map<String, Value>,
+    old: &Map<String, Value>,
+    found: &mut Vec<ValueChange>,
+) {
     let is_gone = |name: &&String| !new.contains_key(*name);
     for name in new.keys().chain(old.keys().filter(is_gone)) {
         let path = match path {
@@ -181,7 +186,7 @@ fn maps(path: &str, new: &Map<String, Value>, old: &Map<String, Value>, found: &
     }
 }
 
-fn lists(path: &str, new: &[Value], old: &[Value], found: &mut Vec<Change>) {
+fn lists(path: &str, new: &[Value], old: &[Value], found: &mut Vec<ValueChange>) {
     for pair in pairs(new, old) {
         match pair {
             (Some(at), Some(from)) => {
@@ -264,7 +269,7 @@ mod tests {
         let mut found = Vec::new();
         compare("", new, old, &mut found);
         let summary = |value: &Option<Value>| value.as_ref().map_or("-".into(), Value::to_string);
-        let line = |c: &Change| format!("{} {} {}", c.path, summary(&c.new), summary(&c.old));
+        let line = |c: &ValueChange| format!("{} {} {}", c.path, summary(&c.new), summary(&c.old));
         found.iter().map(line).collect()
     }
 

@@ -6,9 +6,9 @@
 //! decodes to the tree of that version. Integers stay integers and floats keep every bit.
 
 use super::binary::Container;
-use super::run::{self, Run};
+use super::run::{self, ValueSection};
 use super::section::{ElementType, Section, SectionContent, SectionWriter};
-use super::{Decoded, NotFinite, tree};
+use super::{Decoded, NonFiniteNumber, tree};
 use rtc_diag::codes;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 /// One list of the scene.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct Table {
+pub(super) struct EntityTable {
     /// Its key in the scene.
     pub(super) key: String,
     /// The section with the template index of each entity, in order.
@@ -39,7 +39,7 @@ struct EntityTemplate {
     integers: usize,
     /// The long lists and strings, entity by entity.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    runs: Vec<Run>,
+    runs: Vec<ValueSection>,
 }
 
 /// The value that a null replaces.
@@ -58,7 +58,7 @@ struct ExtractedNumbers {
     slots: Vec<TemplateSlot>,
     floats: Vec<u8>,
     integers: Vec<u8>,
-    runs: Vec<Run>,
+    runs: Vec<ValueSection>,
 }
 
 /// Moves the numbers of `entities` into sections of `body`. Only one entity at a time is a tree.
@@ -66,7 +66,7 @@ pub(super) fn pack<T: Serialize>(
     key: &str,
     entities: &[T],
     body: &mut SectionWriter<'_>,
-) -> Result<Table, NotFinite> {
+) -> Result<EntityTable, NonFiniteNumber> {
     // Extract the numbers of each entity and group entities by template.
     let mut found: BTreeMap<String, u32> = BTreeMap::new();
     let mut kinds: Vec<(Value, ExtractedNumbers)> = Vec::new();
@@ -95,7 +95,7 @@ pub(super) fn pack<T: Serialize>(
         .into_iter()
         .map(|(entity, extracted)| store(entity, extracted, body))
         .collect();
-    Ok(Table {
+    Ok(EntityTable {
         key: key.to_owned(),
         order,
         kinds,
@@ -194,7 +194,7 @@ impl<'a> SectionReader<'a> {
     }
 
     /// Takes the sections of these runs; false if a run is invalid or its section was taken before.
-    fn spend(&mut self, runs: &[Run]) -> bool {
+    fn spend(&mut self, runs: &[ValueSection]) -> bool {
         runs.iter().all(|run| {
             self.take(run.section)
                 .is_some_and(|section| run.is_sound(section))
@@ -204,7 +204,7 @@ impl<'a> SectionReader<'a> {
 
 /// Decodes a table; calls `take` with each entity in order.
 pub(super) fn unpack(
-    table: &Table,
+    table: &EntityTable,
     reader: &mut SectionReader<'_>,
     file: &Container,
     mut take: impl FnMut(Value) -> Decoded<()>,
@@ -260,7 +260,7 @@ struct NullSource<'a> {
     integers: &'a Section<'a>,
     next_float: usize,
     next_integer: usize,
-    runs: std::slice::Iter<'a, Run>,
+    runs: std::slice::Iter<'a, ValueSection>,
     sections: &'a [Section<'a>],
 }
 

@@ -35,10 +35,10 @@ mod section;
 mod text;
 mod upgrade;
 
-pub use changes::{Change, changes};
+pub use changes::{ValueChange, changes};
 pub use schema::schema;
 
-use rtc_diag::{Diagnostic, Sink, clip_words, codes};
+use rtc_diag::{Diagnostic, DiagnosticSink, clip_words, codes};
 use rtc_ir::{Display, Scene, VERSION};
 use rtc_source::{FileId, SourceMap, Span};
 use serde::{Deserialize, Serialize};
@@ -68,7 +68,12 @@ pub fn detect_format(bytes: &[u8]) -> Option<Encoding> {
 }
 
 /// Decodes a scene and reports errors to the sink. The scene still has to be validated.
-pub fn decode(encoding: Encoding, file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<Scene> {
+pub fn decode(
+    encoding: Encoding,
+    file: FileId,
+    map: &SourceMap,
+    sink: &mut DiagnosticSink,
+) -> Option<Scene> {
     let scene = match encoding {
         Encoding::Json => text::decode(file, map.bytes(file), map.budget()),
         Encoding::Binary => binary::decode(file, map.bytes(file)).map_err(|fault| vec![*fault]),
@@ -80,17 +85,17 @@ pub fn decode(encoding: Encoding, file: FileId, map: &SourceMap, sink: &mut Sink
 
 /// A scene that can't be encoded because a number is not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NotFinite;
+pub struct NonFiniteNumber;
 
 /// An encoded scene that has not been written yet.
-pub struct Encoded<'s>(Writing<'s>);
+pub struct EncodedScene<'s>(Writing<'s>);
 
 enum Writing<'s> {
     Json(Vec<u8>),
     Binary(binary::ContainerDraft<'s>),
 }
 
-impl Encoded<'_> {
+impl EncodedScene<'_> {
     /// Writes the file in pieces: columns and pixels are not copied in memory.
     ///
     /// # Errors
@@ -107,8 +112,8 @@ impl Encoded<'_> {
 ///
 /// # Errors
 /// If a number is not finite: JSON has no syntax for it.
-pub fn prepare(encoding: Encoding, scene: &Scene) -> Result<Encoded<'_>, NotFinite> {
-    Ok(Encoded(match encoding {
+pub fn prepare(encoding: Encoding, scene: &Scene) -> Result<EncodedScene<'_>, NonFiniteNumber> {
+    Ok(EncodedScene(match encoding {
         Encoding::Json => {
             let mut text = Vec::new();
             print::document(scene, &mut text)?;
@@ -122,7 +127,7 @@ pub fn prepare(encoding: Encoding, scene: &Scene) -> Result<Encoded<'_>, NotFini
 ///
 /// # Errors
 /// As [`prepare`].
-pub fn encode(encoding: Encoding, scene: &Scene) -> Result<Vec<u8>, NotFinite> {
+pub fn encode(encoding: Encoding, scene: &Scene) -> Result<Vec<u8>, NonFiniteNumber> {
     let mut bytes = Vec::new();
     prepare(encoding, scene)?
         .write(&mut bytes)
@@ -135,19 +140,19 @@ pub fn encode(encoding: Encoding, scene: &Scene) -> Result<Vec<u8>, NotFinite> {
 ///
 /// # Errors
 /// As [`prepare`].
-pub fn hash(scene: &Scene) -> Result<u128, NotFinite> {
-    let mut hash = section::Hash::default();
+pub fn hash(scene: &Scene) -> Result<u128, NonFiniteNumber> {
+    let mut hash = section::HashWriter::default();
     let draft = binary::encode(scene, &Display::default())?;
     draft.write(&mut hash).expect("hashing does not fail");
     Ok(hash.0.digest128())
 }
 
 /// A part of a scene as a JSON tree.
-fn tree(part: &impl Serialize) -> Result<Value, NotFinite> {
+fn tree(part: &impl Serialize) -> Result<Value, NonFiniteNumber> {
     let tree = serde_json::to_value(part)
         .expect("a scene is structs, lists and numbers, which JSON holds");
     if has_null(&tree) {
-        Err(NotFinite)
+        Err(NonFiniteNumber)
     } else {
         Ok(tree)
     }
@@ -170,7 +175,7 @@ const CHECKSUMS_COUNT: bool = !cfg!(fuzzing);
 /// The field that every version of either encoding has.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct VersionHead {
+struct VersionField {
     ir_version: u32,
 }
 

@@ -2,7 +2,7 @@
 
 use super::columns::SectionReader;
 use super::section::{ElementType, Section, SectionContent, SectionWriter};
-use rtc_ir::{Column, Mesh};
+use rtc_ir::{Mesh, VertexColumn};
 use serde::{Deserialize, Serialize};
 
 /// A mesh with the section index of each column; absent for an empty column.
@@ -57,15 +57,18 @@ pub(super) fn store<'s>(mesh: &'s Mesh, body: &mut SectionWriter<'s>) -> StoredM
     }
 }
 
-fn put<'s, const N: usize>(column: &'s Column<N>, body: &mut SectionWriter<'s>) -> Option<usize> {
+fn put<'s, const N: usize>(
+    column: &'s VertexColumn<N>,
+    body: &mut SectionWriter<'s>,
+) -> Option<usize> {
     match column {
         _ if column.is_empty() => None,
-        Column::Single(vectors) => Some(body.push(
+        VertexColumn::Single(vectors) => Some(body.push(
             ElementType::F32,
             N,
             SectionContent::F32(vectors.as_flattened()),
         )),
-        Column::Double(vectors) => Some(body.push(
+        VertexColumn::Double(vectors) => Some(body.push(
             ElementType::F64,
             N,
             SectionContent::F64(vectors.as_flattened()),
@@ -96,19 +99,19 @@ impl StoredMesh {
 fn column<const N: usize>(
     section: Option<usize>,
     reader: &mut SectionReader<'_>,
-) -> Option<Column<N>> {
+) -> Option<VertexColumn<N>> {
     let Some(section) = section else {
-        return Some(Column::default());
+        return Some(VertexColumn::default());
     };
     let section: &Section<'_> = reader.take(section)?;
     let single = || {
         section
             .vectors(ElementType::F32, f32::from_le_bytes)
-            .map(Column::from)
+            .map(VertexColumn::from)
     };
     single().or_else(|| {
         section
             .vectors(ElementType::F64, f64::from_le_bytes)
-            .map(Column::from)
+            .map(VertexColumn::from)
     })
 }

@@ -3,7 +3,7 @@
 //!
 //! So each entity and each setting is one line, and a change of one is a change of one line.
 
-use super::NotFinite;
+use super::NonFiniteNumber;
 use rtc_ir::{Scene, VERSION};
 use serde::Serialize;
 use serde_json::Serializer;
@@ -23,7 +23,7 @@ struct WrittenDocument<'s> {
 }
 
 /// Writes a scene as JSON, `irVersion` first, ending with a newline. `out` must not fail.
-pub(super) fn document(scene: &Scene, out: &mut impl Write) -> Result<(), NotFinite> {
+pub(super) fn document(scene: &Scene, out: &mut impl Write) -> Result<(), NonFiniteNumber> {
     let mut serializer = Serializer::with_formatter(&mut *out, JsonLayout::default());
     // Only the layout can fail: it rejects numbers that are not finite.
     WrittenDocument {
@@ -31,10 +31,10 @@ pub(super) fn document(scene: &Scene, out: &mut impl Write) -> Result<(), NotFin
         scene,
     }
     .serialize(&mut serializer)
-    .map_err(|_| NotFinite)?;
+    .map_err(|_| NonFiniteNumber)?;
     out.write_all(b"\n")
         .and_then(|()| out.flush())
-        .map_err(|_| NotFinite)
+        .map_err(|_| NonFiniteNumber)
 }
 
 #[derive(Default)]

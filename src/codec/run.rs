@@ -17,18 +17,18 @@ const LONG_TEXT: usize = 256;
 /// each.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct Run {
+pub(super) struct ValueSection {
     pub(super) section: usize,
     /// Each record is a list.
     nested: bool,
 }
 
 /// Puts the value into a section if it is long and uniform.
-pub(super) fn store(value: &Value, body: &mut SectionWriter<'_>) -> Option<Run> {
+pub(super) fn store(value: &Value, body: &mut SectionWriter<'_>) -> Option<ValueSection> {
     match value {
         Value::String(text) if text.len() > LONG_TEXT => {
             let bytes = SectionContent::Bytes(text.as_bytes().to_vec().into());
-            Some(Run {
+            Some(ValueSection {
                 section: body.push(ElementType::U8, 1, bytes),
                 nested: false,
             })
@@ -36,7 +36,7 @@ pub(super) fn store(value: &Value, body: &mut SectionWriter<'_>) -> Option<Run> 
         Value::Array(items) if items.len() > LONG_LIST => {
             let stride = items[0].as_array().map(Vec::len);
             let (element, bytes) = numbers(items, stride)?;
-            Some(Run {
+            Some(ValueSection {
                 section: body.push(
                     element,
                     stride.unwrap_or(1),
@@ -128,7 +128,7 @@ pub(super) fn number(section: &Section<'_>, at: usize) -> Value {
     }
 }
 
-impl Run {
+impl ValueSection {
     /// Whether the section holds a valid value of this run.
     pub(super) fn is_sound(&self, section: &Section<'_>) -> bool {
         match section.element {
@@ -140,7 +140,7 @@ impl Run {
         }
     }
 
-    /// The value of a section for which [`Run::is_sound`] holds.
+    /// The value of a section for which [`ValueSection::is_sound`] holds.
     pub(super) fn value(&self, section: &Section<'_>) -> Value {
         if let Some(text) = section.as_str() {
             return Value::from(text);

@@ -115,7 +115,7 @@ impl<'s> SectionWriter<'s> {
         stride: usize,
         content: SectionContent<'s>,
     ) -> usize {
-        let mut hash = Hash::default();
+        let mut hash = HashWriter::default();
         content.write(&mut hash).expect("hashing does not fail");
         let (offset, length) = (self.length.next_multiple_of(ALIGNMENT), content.length());
         self.length = offset + length;
@@ -146,9 +146,9 @@ impl<'s> SectionWriter<'s> {
 
 /// A writer that only hashes.
 #[derive(Default)]
-pub(super) struct Hash(pub(super) Xxh3Default);
+pub(super) struct HashWriter(pub(super) Xxh3Default);
 
-impl Write for Hash {
+impl Write for HashWriter {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.0.update(bytes);
         Ok(bytes.len())

@@ -4,7 +4,7 @@
 //! Memory and depth are bounded by the length of the text. Numbers out of range, duplicate keys and
 //! deep nesting are errors with a position.
 
-use super::{Decoded, VersionHead, faults, locate, newer, span, typed, wrong_shape};
+use super::{Decoded, VersionField, faults, locate, newer, span, typed, wrong_shape};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{
     Camera, Display, Environment, Image, Light, Material, Mesh, Scene, Settings, Surface, Texture,
@@ -106,31 +106,31 @@ pub(super) fn decode(
         .map_or((0, text), |text| (BOM.len(), text));
     let source = TextSlice { file, base, text };
     scene(&source, bytes.len()).map_err(|stop| match stop {
-        Stop::Reported(fault) => vec![*fault],
-        Stop::Json(error) => source.faults(&error, budget),
+        DecodeStop::Reported(fault) => vec![*fault],
+        DecodeStop::Json(error) => source.faults(&error, budget),
     })
 }
 
 /// Why decoding ended.
-enum Stop {
+enum DecodeStop {
     /// The only error to report.
     Reported(Box<Diagnostic>),
     /// The text is not a document of the current version.
     Json(serde_json::Error),
 }
 
-fn scene(source: &TextSlice<'_>, end: usize) -> Result<Scene, Stop> {
+fn scene(source: &TextSlice<'_>, end: usize) -> Result<Scene, DecodeStop> {
     let TextSlice { file, text, .. } = *source;
-    let VersionHead { ir_version } = serde_json::from_str(text).map_err(Stop::Json)?;
+    let VersionField { ir_version } = serde_json::from_str(text).map_err(DecodeStop::Json)?;
     if ir_version > VERSION {
         let (start, end) = source.version_range();
         let span = span(file, start, end);
-        Err(Stop::Reported(newer(ir_version, "IR", VERSION, span)))
+        Err(DecodeStop::Reported(newer(ir_version, "IR", VERSION, span)))
     } else if ir_version == VERSION {
-        let document: DecodedDocument = serde_json::from_str(text).map_err(Stop::Json)?;
+        let document: DecodedDocument = serde_json::from_str(text).map_err(DecodeStop::Json)?;
         Ok(document.into())
     } else {
-        older(source, ir_version, end).map_err(Stop::Reported)
+        older(source, ir_version, end).map_err(DecodeStop::Reported)
     }
 }
 
@@ -226,7 +226,7 @@ impl<'a> TextSlice<'a> {
         }
         // Decode the tree and collect all errors.
         let mut faults = Vec::new();
-        for faults::TextFault {
+        for faults::JsonTextError {
             span,
             pointer,
             what,

@@ -1,8 +1,9 @@
 //! Diagnostics: one struct, one table of codes, one sink, and the printers.
 //!
 //! A stage that detects an error of the user creates a [`Diagnostic`] and pushes it into the
-//! [`Sink`]; a user's error is never an `Err`. The stage continues, so that one run reports all
-//! errors. When a file is finished, a [`Printer`] turns the contents of the sink into text:
+//! [`DiagnosticSink`]; a user's error is never an `Err`. The stage continues, so that one run
+//! reports all errors. When a file is finished, a [`DiagnosticPrinter`] turns the contents of the
+//! sink into text:
 //!
 //! ```text
 //! stage → Diagnostic → Sink (levels, capacity) → Printer (sort, fold, cap) → text
@@ -12,8 +13,10 @@
 //!   with replacements, and for JSON a pointer.
 //! - [`codes`]: the table of codes. The page of each code is a Markdown file in `codes/pages`.
 //! - [`DiagnosticLevels`]: the levels that `--deny`, `--warn` and `--allow` set for a code.
-//! - [`Sink`]: applies the levels, counts errors, and keeps a limited number of diagnostics.
-//! - [`Printer`]: formats for people ([`Format::Human`]), editors, programs, SARIF and GitHub.
+//! - [`DiagnosticSink`]: applies the levels, counts errors, and keeps a limited number of
+//!   diagnostics.
+//! - [`DiagnosticPrinter`]: formats for people ([`Format::Human`]), editors, programs, SARIF and
+//!   GitHub.
 //!
 //! Callers may rely on this: no text of the input can send commands to a terminal, an error is kept
 //! even after a flood of notes, and the order of the output depends on the input alone.
@@ -32,8 +35,8 @@ pub use clip::{clip, clip_path, clip_words};
 pub use codes::{Code, Severity};
 pub use levels::{DiagnosticLevel, DiagnosticLevels, LevelSubject};
 pub use nearest::nearest;
-pub use print::{Format, PrintOptions, Printer, json_schema, one};
-pub use sink::Sink;
+pub use print::{DiagnosticPrinter, Format, PrintOptions, json_schema, one};
+pub use sink::DiagnosticSink;
 
 use rtc_source::Span;
 

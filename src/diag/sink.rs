@@ -6,7 +6,7 @@ use rtc_source::{Limits, Resource};
 
 /// The collection into which every stage pushes its diagnostics.
 #[derive(Clone, Debug)]
-pub struct Sink {
+pub struct DiagnosticSink {
     /// The largest number of diagnostics that are kept; the others are counted.
     capacity: usize,
     kept: Vec<Diagnostic>,
@@ -15,13 +15,13 @@ pub struct Sink {
     levels: DiagnosticLevels,
 }
 
-impl Default for Sink {
+impl Default for DiagnosticSink {
     fn default() -> Self {
         Self::within(&Limits::default())
     }
 }
 
-impl Sink {
+impl DiagnosticSink {
     /// An empty sink whose capacity is the limit [`Resource::Findings`].
     #[must_use]
     pub fn within(limits: &Limits) -> Self {
@@ -72,7 +72,7 @@ impl Sink {
         self.errors > 0
     }
 
-    /// The diagnostics that were kept, in the order of creation, or of [`Sink::sort`].
+    /// The diagnostics that were kept, in the order of creation, or of [`DiagnosticSink::sort`].
     #[must_use]
     pub fn kept(&self) -> &[Diagnostic] {
         &self.kept
@@ -127,7 +127,7 @@ mod tests {
             .set(of(&codes::UNKNOWN_KEY), DiagnosticLevel::Allow)
             .unwrap();
         levels.set(of(&codes::TAG), DiagnosticLevel::Warn).unwrap();
-        let mut sink = Sink::default().with_levels(levels);
+        let mut sink = DiagnosticSink::default().with_levels(levels);
         let made = |code, severity| Diagnostic::new(code, "x").severity(severity);
         for (code, severity) in [
             (&codes::UNKNOWN_KEY, Severity::Warning),
@@ -158,7 +158,7 @@ mod tests {
     fn a_flood_of_warnings_hides_no_error() {
         let mut limits = Limits::default();
         limits.set(Resource::Findings, 10);
-        let mut sink = Sink::within(&limits);
+        let mut sink = DiagnosticSink::within(&limits);
         for _ in 0..15 {
             sink.push(Diagnostic::new(&codes::UNKNOWN_KEY, "x"));
         }

@@ -3,7 +3,8 @@
 use super::reporter::ExportReporter;
 use rtc_diag::{clip, codes};
 use rtc_ir::{
-    Emitter, EntityKind, Field, Material, Scene, Settings, Shape, ShapeKind, Surface, ValuePath,
+    EntityField, EntityKind, Material, PunctualKind, Scene, Settings, Shape, ShapeKind, Surface,
+    ValuePath,
 };
 use rtc_math::shortest;
 use rtc_source::{Budget, Resource};
@@ -34,10 +35,14 @@ impl ExportReporter<'_> {
             }
         };
         let background = "the background is left out: mirrors would show it";
-        left_out(settings.background.is_some(), Field::Background, background);
+        left_out(
+            settings.background.is_some(),
+            EntityField::Background,
+            background,
+        );
         left_out(
             settings.stereo > 0.0,
-            Field::Stereo,
+            EntityField::Stereo,
             "the camera is written with one eye",
         );
     }
@@ -46,20 +51,25 @@ impl ExportReporter<'_> {
     pub(super) fn shines(&mut self, shines: bool) -> Option<()> {
         if !shines {
             let message = "nothing in the file would emit light: its picture would be black";
-            let path = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
+            let path = ValuePath::new(EntityKind::Settings, 0, EntityField::Whole);
             self.report_error(&codes::NO_TWIN, message, path);
         }
         shines.then_some(())
     }
 
     /// Reports a light that another renderer has without its range or its IES profile.
-    pub(super) fn simplified_light(&mut self, emitter: &Emitter, renderer: &str, path: ValuePath) {
+    pub(super) fn simplified_light(
+        &mut self,
+        emitter: &PunctualKind,
+        renderer: &str,
+        path: ValuePath,
+    ) {
         if emitter.range().is_some() {
             let message =
                 format!("{renderer}'s lights have no range: this one shines beyond its own");
             self.unsupported(&message, path);
         }
-        if let Emitter::Photometric { photometry, .. } = emitter {
+        if let PunctualKind::Photometric { photometry, .. } = emitter {
             let message = format!(
                 "the IES light `{}` is written as a uniform point light",
                 clip(&photometry.name)
@@ -82,7 +92,7 @@ impl ExportReporter<'_> {
 }
 
 /// The mean over all directions of what a light emits, as a factor of its intensity.
-pub(super) fn mean_over_directions(emitter: &Emitter) -> f64 {
+pub(super) fn mean_over_directions(emitter: &PunctualKind) -> f64 {
     let solid_angle = emitter.profile().map_or(0.0, |all| all.solid_angle());
     solid_angle / (4.0 * PI)
 }
@@ -94,7 +104,7 @@ pub(super) fn used_materials(scene: &Scene) -> impl Iterator<Item = (usize, &Mat
         .iter()
         .map(|surface| surface.material.0 as usize);
     let used_materials: BTreeSet<_> = used_materials.collect();
-    let path = |index| ValuePath::new(EntityKind::Material, index, Field::Whole);
+    let path = |index| ValuePath::new(EntityKind::Material, index, EntityField::Whole);
     let material = move |index| Some((index, scene.materials.get(index)?, path(index)));
     used_materials.into_iter().filter_map(material)
 }

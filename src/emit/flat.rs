@@ -1,7 +1,7 @@
 //! Replaces planes by squares and flat quadrilaterals by triangles.
 
 use rtc_ir::{BoundingSphere, Cylinder, InfiniteCylinder, Plane, Scene};
-use rtc_math::{Basis, Vec3, cross, unit};
+use rtc_math::{OrthonormalBasis, Vec3, cross, unit};
 
 /// The half side of the square of a plane, in radii of the scene.
 const PLANE: f64 = 4.0;
@@ -28,7 +28,7 @@ pub(super) fn around(scene: &Scene) -> BoundingSphere {
 /// A square around the point of a plane that is closest to the centre of the scene.
 pub(super) fn square(plane: &Plane, around: BoundingSphere) -> [Vec3; 4] {
     let Plane { center, normal } = plane;
-    let basis = Basis::around(unit(Vec3::from_array(*normal)).unwrap_or(Vec3::Z));
+    let basis = OrthonormalBasis::around(unit(Vec3::from_array(*normal)).unwrap_or(Vec3::Z));
     let above = (around.center - Vec3::from_array(*center)).dot(basis.normal);
     let middle = around.center - basis.normal * above;
     let (x, y) = (basis.tangent * side(around), basis.bitangent * side(around));

@@ -11,7 +11,7 @@ const PATTERN_SIDE: u32 = 512;
 
 /// How the values of a picture are coded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Coding {
+pub(super) enum ColorCoding {
     /// Colours; bytes are encoded with sRGB.
     Srgb,
     /// Numbers, without an encoding.
@@ -20,7 +20,7 @@ pub(super) enum Coding {
 
 /// A texture of which a picture is made.
 pub(super) struct TexturePicture<'s> {
-    source: TexelSource<'s>,
+    source: TextureValueSource<'s>,
     pub(super) size: [u32; 2],
     pub(super) wrap: [Wrap; 2],
     pub(super) filter: Filter,
@@ -28,7 +28,7 @@ pub(super) struct TexturePicture<'s> {
     pub(super) is_upward: bool,
 }
 
-enum TexelSource<'s> {
+enum TextureValueSource<'s> {
     Image(&'s ir::Image),
     Pattern(&'s ir::Procedural),
     Uv,
@@ -45,7 +45,7 @@ impl<'s> TexturePicture<'s> {
             is_upward: true,
         };
         let of_image = |image: &'s ir::Image, wrap, filter, is_upward| Self {
-            source: TexelSource::Image(image),
+            source: TextureValueSource::Image(image),
             size: [image.width, image.height],
             wrap,
             filter,
@@ -54,7 +54,7 @@ impl<'s> TexturePicture<'s> {
         match &scene.textures[id as usize] {
             ir::Texture::Uv => Self {
                 wrap: [Wrap::Clamp; 2],
-                ..drawn(TexelSource::Uv, PATTERN_SIDE / 2)
+                ..drawn(TextureValueSource::Uv, PATTERN_SIDE / 2)
             },
             ir::Texture::Image(id) => of_image(image(*id), [Wrap::Repeat; 2], Filter::Linear, true),
             ir::Texture::Sampled(Sampled {
@@ -65,7 +65,7 @@ impl<'s> TexturePicture<'s> {
             ir::Texture::Procedural(pattern) => {
                 let is_in_space = pattern.mapping == TextureMapping::World;
                 let side = if is_in_space { 1 } else { PATTERN_SIDE };
-                drawn(TexelSource::Pattern(pattern), side)
+                drawn(TextureValueSource::Pattern(pattern), side)
             }
         }
     }
@@ -73,15 +73,15 @@ impl<'s> TexturePicture<'s> {
     /// The name of its file, if it has one.
     pub(super) fn name(&self) -> &'s str {
         match self.source {
-            TexelSource::Image(image) => &image.name,
-            TexelSource::Pattern(_) | TexelSource::Uv => "",
+            TextureValueSource::Image(image) => &image.name,
+            TextureValueSource::Pattern(_) | TextureValueSource::Uv => "",
         }
     }
 
     /// Bytes of memory that its picture takes.
     pub(super) fn cost(&self) -> u64 {
         let is_float =
-            matches!(self.source, TexelSource::Image(image) if image.kind == Pixels::Rgb32f);
+            matches!(self.source, TextureValueSource::Image(image) if image.kind == Pixels::Rgb32f);
         let each = if is_float { 40 } else { 4 };
         u64::from(self.size[0]) * u64::from(self.size[1]) * each
     }
@@ -102,7 +102,7 @@ impl<'s> TexturePicture<'s> {
     /// bytes and the extension.
     pub(super) fn encode(
         &self,
-        coding: Coding,
+        coding: ColorCoding,
         change: impl Fn([f64; 4]) -> [f64; 3],
     ) -> Result<(Vec<u8>, &'static str), EncodeError> {
         let [width, height] = self.size;
@@ -112,8 +112,8 @@ impl<'s> TexturePicture<'s> {
         };
         if pixels().flatten().all(|value| value <= 1.0) {
             let byte = |value: f64| match coding {
-                Coding::Srgb => nearest8(srgb_encoded(value)),
-                Coding::Linear => nearest8(value),
+                ColorCoding::Srgb => nearest8(srgb_encoded(value)),
+                ColorCoding::Linear => nearest8(value),
             };
             let bytes: Vec<u8> = pixels().flatten().map(byte).collect();
             return Ok((png_bytes(self.size, false, &bytes), "png"));
@@ -127,7 +127,7 @@ impl<'s> TexturePicture<'s> {
     }
 
     /// The mean colour, linear by `coding`.
-    pub(super) fn mean(&self, coding: Coding) -> [f64; 3] {
+    pub(super) fn mean(&self, coding: ColorCoding) -> [f64; 3] {
         let [width, height] = self.size;
         let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
         let colors = places.map(|(x, y)| {
@@ -139,14 +139,14 @@ impl<'s> TexturePicture<'s> {
     }
 
     /// A texel, counted from the top left.
-    fn texel(&self, x: u32, y: u32, coding: Coding) -> [f64; 4] {
+    fn texel(&self, x: u32, y: u32, coding: ColorCoding) -> [f64; 4] {
         let [u, v] = [
             (f64::from(x) + 0.5) / f64::from(self.size[0]),
             1.0 - (f64::from(y) + 0.5) / f64::from(self.size[1]),
         ];
         match self.source {
-            TexelSource::Uv => [u, 0.0, v, 1.0],
-            TexelSource::Pattern(pattern) => {
+            TextureValueSource::Uv => [u, 0.0, v, 1.0],
+            TextureValueSource::Pattern(pattern) => {
                 let color = pattern.solid().map_or(Vec3::ZERO, |solid| {
                     match pattern.mapping == TextureMapping::World {
                         true => solid.mean(),
@@ -155,7 +155,7 @@ impl<'s> TexturePicture<'s> {
                 });
                 color.extend(1.0).to_array()
             }
-            TexelSource::Image(image) => {
+            TextureValueSource::Image(image) => {
                 let index = y as usize * image.width as usize + x as usize;
                 stored(image, index, coding)
             }
@@ -164,12 +164,12 @@ impl<'s> TexturePicture<'s> {
 }
 
 /// A pixel of an image.
-fn stored(image: &ir::Image, index: usize, coding: Coding) -> [f64; 4] {
+fn stored(image: &ir::Image, index: usize, coding: ColorCoding) -> [f64; 4] {
     let size = image.kind.bytes();
     let bytes = &image.pixels[index * size..][..size];
     let color = |byte: u8| match coding {
-        Coding::Srgb => srgb_decoded(f64::from(byte) / 255.0),
-        Coding::Linear => f64::from(byte) / 255.0,
+        ColorCoding::Srgb => srgb_decoded(f64::from(byte) / 255.0),
+        ColorCoding::Linear => f64::from(byte) / 255.0,
     };
     match image.kind {
         Pixels::Rgb8 => [color(bytes[0]), color(bytes[1]), color(bytes[2]), 1.0],
@@ -205,7 +205,11 @@ pub(super) fn environment_at(image: &ir::Image, [u, v]: [f64; 2]) -> Vec3 {
     let at = |column: f64, row: f64| {
         let column = column.rem_euclid(width) as usize;
         let row = row.min(height - 1.0) as usize;
-        let [r, g, b, _] = stored(image, row * image.width as usize + column, Coding::Srgb);
+        let [r, g, b, _] = stored(
+            image,
+            row * image.width as usize + column,
+            ColorCoding::Srgb,
+        );
         Vec3::new(r, g, b)
     };
     let row = |row: f64| at(left, row) * (1.0 - dx) + at(left + 1.0, row) * dx;
@@ -222,7 +226,7 @@ pub(super) fn environment(image: &ir::Image, factor: [f64; 3]) -> Result<Vec<u8>
     let [width, height] = [image.width, image.height];
     let at = |x: u32, y: u32| {
         let row = y as usize * width as usize;
-        let [r, g, b, _] = stored(image, row + x as usize, Coding::Srgb);
+        let [r, g, b, _] = stored(image, row + x as usize, ColorCoding::Srgb);
         Vec3::new(r, g, b) * Vec3::from_array(factor)
     };
     let rows = if height < FEW_ROWS {

@@ -5,7 +5,7 @@
 //! coordinates, `tx ty tz tw` the tangent with its handedness, and `linear_red` to `linear_alpha`
 //! the linear colour.
 
-use rtc_ir::{Column, Mesh};
+use rtc_ir::{Mesh, VertexColumn};
 use std::fmt::Write as _;
 
 /// The PLY file of a mesh.
@@ -17,7 +17,7 @@ pub(super) fn encode(mesh: &Mesh) -> Vec<u8> {
 /// The PLY file of a mesh, with other colours in place of its own, by their property names.
 pub(super) fn encode_with<const N: usize>(
     mesh: &Mesh,
-    colors: &Column<N>,
+    colors: &VertexColumn<N>,
     color_names: [&str; N],
 ) -> Vec<u8> {
     let Mesh {
@@ -65,11 +65,11 @@ pub(super) fn encode_with<const N: usize>(
 }
 
 /// Declares the properties of a column, unless it is empty.
-fn declare<const N: usize>(column: &Column<N>, names: [&str; N], head: &mut String) {
+fn declare<const N: usize>(column: &VertexColumn<N>, names: [&str; N], head: &mut String) {
     let kind = match column {
         _ if column.is_empty() => return,
-        Column::Single(_) => "float",
-        Column::Double(_) => "double",
+        VertexColumn::Single(_) => "float",
+        VertexColumn::Double(_) => "double",
     };
     for name in names {
         writeln!(head, "property {kind} {name}").expect("a string takes all that is written to it");
@@ -77,13 +77,13 @@ fn declare<const N: usize>(column: &Column<N>, names: [&str; N], head: &mut Stri
 }
 
 /// Writes the values of a vertex; skips an empty column.
-fn store<const N: usize>(column: &Column<N>, vertex: usize, bytes: &mut Vec<u8>) {
+fn store<const N: usize>(column: &VertexColumn<N>, vertex: usize, bytes: &mut Vec<u8>) {
     match column {
-        Column::Single(vectors) => {
+        VertexColumn::Single(vectors) => {
             let vector = vectors.get(vertex).into_iter().flatten();
             bytes.extend(vector.flat_map(|number| number.to_le_bytes()));
         }
-        Column::Double(vectors) => {
+        VertexColumn::Double(vectors) => {
             let vector = vectors.get(vertex).into_iter().flatten();
             bytes.extend(vector.flat_map(|number| number.to_le_bytes()));
         }

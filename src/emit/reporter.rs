@@ -1,16 +1,16 @@
 //! Diagnostics raised while exporting a scene.
 
-use rtc_diag::{Code, Diagnostic, Severity, Sink};
+use rtc_diag::{Code, Diagnostic, DiagnosticSink, Severity};
 use rtc_ir::{SourceSpans, ValuePath};
 
 /// Pushes diagnostics at values of the scene to a sink.
 pub(super) struct ExportReporter<'t> {
     source_spans: &'t SourceSpans,
-    sink: &'t mut Sink,
+    sink: &'t mut DiagnosticSink,
 }
 
 impl<'t> ExportReporter<'t> {
-    pub(super) fn new(source_spans: &'t SourceSpans, sink: &'t mut Sink) -> Self {
+    pub(super) fn new(source_spans: &'t SourceSpans, sink: &'t mut DiagnosticSink) -> Self {
         Self { source_spans, sink }
     }
 

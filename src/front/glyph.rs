@@ -3,7 +3,7 @@
 
 use crate::gltf;
 use glam::{DAffine3, DMat3};
-use rtc_ir::{BoundingSphere, Column, Mesh};
+use rtc_ir::{BoundingSphere, Mesh, VertexColumn};
 use rtc_math::{Vec3, unit};
 
 /// The number of points or lines from which on they have the simplest glyph.
@@ -11,7 +11,7 @@ const SIMPLIFIED_FROM: u64 = 1 << 15;
 
 /// The shape of a point or a line. With normals it is a disc or a ribbon that faces the normal, so
 /// that shading uses it; without, a polyhedron.
-pub(crate) struct Glyph {
+pub(crate) struct StrokeShape {
     /// The corners: the end of the line, and the offset from it for a radius of 1. z is along the
     /// line and y along its normal; for a point z is along its normal.
     pub(crate) corners: &'static [(usize, [f64; 3])],
@@ -21,7 +21,7 @@ pub(crate) struct Glyph {
 /// 1/√3.
 const EDGE: f64 = 0.577_350_269_189_625_8;
 
-static TETRAHEDRON: Glyph = Glyph {
+static TETRAHEDRON: StrokeShape = StrokeShape {
     corners: &[
         (0, [EDGE, EDGE, EDGE]),
         (0, [EDGE, -EDGE, -EDGE]),
@@ -31,7 +31,7 @@ static TETRAHEDRON: Glyph = Glyph {
     triangles: &[[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]],
 };
 
-static OCTAHEDRON: Glyph = Glyph {
+static OCTAHEDRON: StrokeShape = StrokeShape {
     corners: &[
         (0, [1.0, 0.0, 0.0]),
         (0, [0.0, 1.0, 0.0]),
@@ -53,7 +53,7 @@ static OCTAHEDRON: Glyph = Glyph {
 };
 
 /// A prism with four sides and without caps, which are too small to be visible.
-static PRISM: Glyph = Glyph {
+static PRISM: StrokeShape = StrokeShape {
     corners: &[
         (0, [1.0, 0.0, 0.0]),
         (0, [0.0, 1.0, 0.0]),
@@ -79,7 +79,7 @@ static PRISM: Glyph = Glyph {
 /// √3/2.
 const HEIGHT: f64 = 0.866_025_403_784_438_6;
 
-static DISC: Glyph = Glyph {
+static DISC: StrokeShape = StrokeShape {
     corners: &[
         (0, [1.0, 0.0, 0.0]),
         (0, [0.5, HEIGHT, 0.0]),
@@ -91,7 +91,7 @@ static DISC: Glyph = Glyph {
     triangles: &[[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]],
 };
 
-static RIBBON: Glyph = Glyph {
+static RIBBON: StrokeShape = StrokeShape {
     corners: &[
         (0, [1.0, 0.0, 0.0]),
         (0, [-1.0, 0.0, 0.0]),
@@ -103,7 +103,7 @@ static RIBBON: Glyph = Glyph {
 
 /// The glyph of one of many lines: a tetrahedron with an edge across each end, visible from all
 /// sides.
-static WEDGE: Glyph = Glyph {
+static WEDGE: StrokeShape = StrokeShape {
     corners: &[
         (0, [1.0, 0.0, 0.0]),
         (0, [-1.0, 0.0, 0.0]),
@@ -114,7 +114,7 @@ static WEDGE: Glyph = Glyph {
 };
 
 /// The glyph of one of many points with normals.
-static TRIANGLE: Glyph = Glyph {
+static TRIANGLE: StrokeShape = StrokeShape {
     corners: &[
         (0, [1.0, 0.0, 0.0]),
         (0, [-0.5, HEIGHT, 0.0]),
@@ -131,7 +131,7 @@ pub(crate) fn radius(ball: BoundingSphere) -> f64 {
     RADIUS * gltf::pixel(ball)
 }
 
-impl Glyph {
+impl StrokeShape {
     /// The glyph for `count` points or lines, with or without normals.
     pub(crate) fn of(are_points: bool, have_normals: bool, count: u64) -> &'static Self {
         match (are_points, have_normals) {
@@ -152,8 +152,8 @@ pub(crate) fn thin_glyphs(
     source: &Mesh,
     ends: &[[u32; 2]],
     world: DAffine3,
-    glyph: &Glyph,
-) -> Option<(Mesh, Column<3>, DAffine3)> {
+    glyph: &StrokeShape,
+) -> Option<(Mesh, VertexColumn<3>, DAffine3)> {
     let position = |vertex: u32| {
         let point = Vec3::from_array(source.positions.at(vertex as usize));
         world.transform_point3(point)
@@ -178,23 +178,23 @@ pub(crate) fn thin_glyphs(
     }
     let anchor = position(*vertices.first()?);
     let mut mesh = Mesh {
-        tangents: Column::default(),
+        tangents: VertexColumn::default(),
         ..source.clone()
     };
     pick(&mut mesh, &vertices);
-    mesh.positions = Column::rounded(
+    mesh.positions = VertexColumn::rounded(
         vertices
             .iter()
             .map(|at| (position(*at) - anchor).to_array()),
     );
     if !mesh.normals.is_empty() {
         let normals = vertices.iter().map(|at| normal(*at).unwrap_or(Vec3::Z));
-        mesh.normals = Column::rounded(normals.map(|normal| normal.to_array()));
+        mesh.normals = VertexColumn::rounded(normals.map(|normal| normal.to_array()));
     }
     mesh.triangles = triangles.into();
     let is_sound = anchor.is_finite() && mesh.is_finite();
     let world = DAffine3::from_translation(anchor);
-    is_sound.then(|| (mesh, Column::rounded(offsets), world))
+    is_sound.then(|| (mesh, VertexColumn::rounded(offsets), world))
 }
 
 /// The axes of the glyph of a point or a line.
@@ -259,7 +259,7 @@ mod tests {
     }
 
     /// The volume by the divergence theorem; for a prism of height 1 the contribution of its sides.
-    fn volume(glyph: &Glyph) -> f64 {
+    fn volume(glyph: &StrokeShape) -> f64 {
         let corner = |at: u32| {
             let (end, offset) = glyph.corners[at as usize];
             Vec3::from_array(offset) + Vec3::Z * if end == 1 { 1.0 } else { 0.0 }

@@ -13,7 +13,7 @@
 //! [`foreign()`] explains files of other formats.
 //!
 //! Each front end takes a `FileId` of the source map, [`FrontOptions`] and a sink, and returns an
-//! `rtc_ir::Lowered`: the scene with the span of every value. Callers may rely on this:
+//! `rtc_ir::LoweredScene`: the scene with the span of every value. Callers may rely on this:
 //!
 //! * Mistakes of the user are never `Err`. They are pushed into the sink, all in one run; `None`
 //!   means that at least one error was reported.
@@ -38,7 +38,7 @@ pub use foreign::foreign;
 
 use rtc_diag::{Diagnostic, codes};
 use rtc_math::Vec3;
-use rtc_source::Exceeded;
+use rtc_source::LimitExceeded;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -117,7 +117,7 @@ pub fn is_scene_text_name(name: &str) -> bool {
 }
 
 /// The diagnostic that a file exceeds the budget.
-fn over_limit(what: &str, fault: &Exceeded) -> Diagnostic {
+fn over_limit(what: &str, fault: &LimitExceeded) -> Diagnostic {
     Diagnostic::new(
         &codes::OVER_LIMIT,
         format!("{what} exceeds a limit: {fault}"),

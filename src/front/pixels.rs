@@ -6,10 +6,10 @@ use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use rtc_diag::{Diagnostic, codes};
 use rtc_image::{
-    DecodeCost, DecodeError, Opacity, PixelFile, Pixels, Radiance, RadianceFile, is_picture,
+    DecodeCost, DecodeError, OpacityUse, PixelFile, Pixels, Radiance, RadianceFile, is_picture,
 };
 use rtc_ir as ir;
-use rtc_source::{Budget, Exceeded, FileKind, Resource};
+use rtc_source::{Budget, FileKind, LimitExceeded, Resource};
 
 /// The image formats of textures.
 pub const PICTURES: FileKind = FileKind {
@@ -19,14 +19,14 @@ pub const PICTURES: FileKind = FileKind {
 
 /// Why an image could not be decoded.
 #[derive(Debug)]
-pub enum PixelFault {
+pub enum PixelDecodeError {
     /// The file is invalid.
     File(DecodeError),
     /// The image exceeds the budget.
-    Limit(Exceeded),
+    Limit(LimitExceeded),
 }
 
-impl From<DecodeError> for PixelFault {
+impl From<DecodeError> for PixelDecodeError {
     fn from(error: DecodeError) -> Self {
         Self::File(error)
     }
@@ -36,7 +36,11 @@ impl From<DecodeError> for PixelFault {
 ///
 /// # Errors
 /// If the file has another format, is damaged, or exceeds the budget.
-pub fn decode(bytes: &[u8], opacity: Opacity, budget: &Budget) -> Result<Pixels, PixelFault> {
+pub fn decode(
+    bytes: &[u8],
+    opacity: OpacityUse,
+    budget: &Budget,
+) -> Result<Pixels, PixelDecodeError> {
     let file = PixelFile::open(bytes, opacity, budget.limit(Resource::Pixels))?;
     charge(file.cost(), Resource::Textures, budget)?;
     Ok(file.decode()?)
@@ -45,7 +49,7 @@ pub fn decode(bytes: &[u8], opacity: Opacity, budget: &Budget) -> Result<Pixels,
 /// A pixel file whose cost is charged, not decoded yet.
 pub struct ChargedFile<'a> {
     bytes: &'a [u8],
-    opacity: Opacity,
+    opacity: OpacityUse,
     most_pixels: u64,
     /// The bytes that decoding needs besides the pixels.
     scratch: u64,
@@ -58,9 +62,9 @@ pub struct ChargedFile<'a> {
 /// As [`decode`], except for errors behind the header.
 pub fn charge_file<'a>(
     bytes: &'a [u8],
-    opacity: Opacity,
+    opacity: OpacityUse,
     budget: &Budget,
-) -> Result<ChargedFile<'a>, PixelFault> {
+) -> Result<ChargedFile<'a>, PixelDecodeError> {
     let most_pixels = budget.limit(Resource::Pixels);
     let cost = PixelFile::open(bytes, opacity, most_pixels)?.cost();
     charge(cost, Resource::Textures, budget)?;
@@ -103,7 +107,7 @@ pub fn decode_all(
 ///
 /// # Errors
 /// As [`decode`].
-pub fn decode_radiance(bytes: &[u8], budget: &Budget) -> Result<Radiance, PixelFault> {
+pub fn decode_radiance(bytes: &[u8], budget: &Budget) -> Result<Radiance, PixelDecodeError> {
     let file = RadianceFile::open(bytes, budget.limit(Resource::Pixels))?;
     charge(file.cost(), Resource::Memory, budget)?;
     Ok(file.decode()?)
@@ -113,7 +117,11 @@ pub fn decode_radiance(bytes: &[u8], budget: &Budget) -> Result<Radiance, PixelF
 ///
 /// # Errors
 /// As [`decode`].
-pub fn environment(name: &str, bytes: &[u8], budget: &Budget) -> Result<ir::Image, PixelFault> {
+pub fn environment(
+    name: &str,
+    bytes: &[u8],
+    budget: &Budget,
+) -> Result<ir::Image, PixelDecodeError> {
     budget.read(bytes.len());
     let Radiance {
         width,
@@ -131,17 +139,17 @@ pub fn environment(name: &str, bytes: &[u8], budget: &Budget) -> Result<ir::Imag
 
 /// The diagnostic for an environment file that can't be decoded.
 #[must_use]
-pub fn environment_rejection(fault: &PixelFault, name: &str) -> Diagnostic {
+pub fn environment_rejection(fault: &PixelDecodeError, name: &str) -> Diagnostic {
     let formats = "environments are Radiance HDR or OpenEXR";
     rejection(fault, &format!("the environment `{name}`"), formats)
 }
 
 /// The diagnostic for a file that can't be decoded. `what` names it, `formats` lists the accepted
 /// formats.
-pub(super) fn rejection(fault: &PixelFault, what: &str, formats: &'static str) -> Diagnostic {
+pub(super) fn rejection(fault: &PixelDecodeError, what: &str, formats: &'static str) -> Diagnostic {
     let fault = match fault {
-        PixelFault::Limit(fault) => return over_limit(what, fault),
-        PixelFault::File(fault) => fault,
+        PixelDecodeError::Limit(fault) => return over_limit(what, fault),
+        PixelDecodeError::File(fault) => fault,
     };
     let (code, hint) = match fault {
         DecodeError::Format(_) | DecodeError::Unsupported(_) => (&codes::BAD_PICTURE, formats),
@@ -157,7 +165,7 @@ pub(super) fn rejection(fault: &PixelFault, what: &str, formats: &'static str) -
     Diagnostic::new(code, format!("{what} {fault}")).hint(hint)
 }
 
-fn charge(cost: DecodeCost, resource: Resource, budget: &Budget) -> Result<(), PixelFault> {
+fn charge(cost: DecodeCost, resource: Resource, budget: &Budget) -> Result<(), PixelDecodeError> {
     let DecodeCost {
         pixels,
         memory,
@@ -165,15 +173,17 @@ fn charge(cost: DecodeCost, resource: Resource, budget: &Budget) -> Result<(), P
     } = cost;
     budget
         .charge(Resource::Pixels, pixels)
-        .map_err(PixelFault::Limit)?;
+        .map_err(PixelDecodeError::Limit)?;
     // Scratch memory is freed again, so it is checked and not charged.
     budget
         .has(Resource::Memory, scratch)
-        .map_err(PixelFault::Limit)?;
+        .map_err(PixelDecodeError::Limit)?;
     if resource == Resource::Memory {
         budget
             .has(resource, memory.saturating_add(scratch))
-            .map_err(PixelFault::Limit)?;
+            .map_err(PixelDecodeError::Limit)?;
     }
-    budget.charge(resource, memory).map_err(PixelFault::Limit)
+    budget
+        .charge(resource, memory)
+        .map_err(PixelDecodeError::Limit)
 }

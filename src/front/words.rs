@@ -1,7 +1,7 @@
 //! Splits text files of meshes and profiles into lines of words with their spans: bytes in any
 //! encoding, without comments, and with lines joined by `\`.
 
-use rtc_source::{Exceeded, FileId, Span};
+use rtc_source::{FileId, LimitExceeded, Span};
 use std::ops::Range;
 
 /// A word of a file: bytes without white space.
@@ -21,7 +21,7 @@ pub struct WordSpan {
 
 /// An error in such a file.
 #[derive(Debug)]
-pub struct WordFault {
+pub struct WordError {
     at: WordSpan,
     /// The message.
     pub message: String,
@@ -31,15 +31,15 @@ pub struct WordFault {
 
 /// Why such a file could not be parsed.
 #[derive(Debug)]
-pub enum ParseFault {
+pub enum TextParseError {
     /// The errors in the order of the file, at least one.
-    Faults(Vec<WordFault>),
+    Faults(Vec<WordError>),
     /// The file exceeds the budget.
-    Limit(Exceeded),
+    Limit(LimitExceeded),
 }
 
-impl From<Exceeded> for ParseFault {
-    fn from(fault: Exceeded) -> Self {
+impl From<LimitExceeded> for TextParseError {
+    fn from(fault: LimitExceeded) -> Self {
         Self::Limit(fault)
     }
 }
@@ -54,7 +54,7 @@ impl WordSpan {
     }
 }
 
-impl WordFault {
+impl WordError {
     /// An error in some bytes of a file.
     pub(super) fn new(
         bytes: Range<usize>,
@@ -96,8 +96,8 @@ impl<'a> Word<'a> {
     }
 
     /// An error at this word.
-    pub(super) fn fault(&self, message: impl Into<String>, label: impl Into<String>) -> WordFault {
-        WordFault::new(self.range(), message, label)
+    pub(super) fn fault(&self, message: impl Into<String>, label: impl Into<String>) -> WordError {
+        WordError::new(self.range(), message, label)
     }
 
     /// Its range in the file.
@@ -133,7 +133,7 @@ impl<'a> Word<'a> {
     }
 
     /// The word as a finite number.
-    pub(super) fn number(&self) -> Result<f64, WordFault> {
+    pub(super) fn number(&self) -> Result<f64, WordError> {
         let number: Option<f64> = std::str::from_utf8(self.bytes)
             .ok()
             .and_then(|text| text.parse().ok());
@@ -147,7 +147,7 @@ impl<'a> Word<'a> {
     }
 
     /// The word as an integer.
-    pub(super) fn integer(&self) -> Result<i64, WordFault> {
+    pub(super) fn integer(&self) -> Result<i64, WordError> {
         let integer = std::str::from_utf8(self.bytes)
             .ok()
             .and_then(|text| text.parse().ok());
@@ -164,7 +164,7 @@ impl<'a> Word<'a> {
 pub(super) fn numbers<const N: usize>(
     line: &Word<'_>,
     words: &[Word<'_>],
-) -> Result<[f64; N], WordFault> {
+) -> Result<[f64; N], WordError> {
     let mut values = [0.0; N];
     for (at, value) in values.iter_mut().enumerate() {
         let missing = || {
@@ -179,12 +179,12 @@ pub(super) fn numbers<const N: usize>(
 }
 
 /// The lines of a file that have words.
-pub(super) struct Lines<'a> {
+pub(super) struct WordLines<'a> {
     file: &'a [u8],
     at: usize,
 }
 
-impl<'a> Lines<'a> {
+impl<'a> WordLines<'a> {
     pub(super) fn new(file: &'a [u8]) -> Self {
         let at = if file.starts_with(b"\xef\xbb\xbf") {
             3

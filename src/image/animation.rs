@@ -2,7 +2,7 @@
 //! picture is that of programs which show no other.
 
 use super::Picture;
-use super::file::PictureHead;
+use super::file::PictureHeader;
 use super::png::pack;
 use ::png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent, Writer};
 use std::io::{self, Write};
@@ -19,7 +19,7 @@ impl<W: Write> AnimatedPng<W> {
     ///
     /// # Errors
     /// If it can't be written, or there are no pictures or pixels.
-    pub fn begin(head: &PictureHead, frames: u32, rate: u16, out: W) -> io::Result<Self> {
+    pub fn begin(head: &PictureHeader, frames: u32, rate: u16, out: W) -> io::Result<Self> {
         let [width, height] = head.size;
         let mut encoder = Encoder::new(out, width, height);
         encoder.set_color(if head.has_alpha {
@@ -70,7 +70,7 @@ mod tests {
             height: 2,
             pixels: vec![[0.5; 3]; 6],
         });
-        let head = PictureHead::of(&picture, FileFormat::Png8);
+        let head = PictureHeader::of(&picture, FileFormat::Png8);
         let written = |frames: u32| {
             let mut bytes = Vec::new();
             let mut animation = AnimatedPng::begin(&head, 2, 12, &mut bytes)?;

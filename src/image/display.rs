@@ -1,7 +1,7 @@
 //! The display transform: it turns a film of linear values into a picture by exposure, tone map and
 //! background.
 
-use super::{Image, Layers, Picture};
+use super::{Image, Picture, PixelLayers};
 use rtc_color::Tone;
 use serde::{Deserialize, Serialize};
 
@@ -20,7 +20,7 @@ pub enum BackgroundFill {
 
 /// The association of colours and opacity in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Association {
+pub enum AlphaAssociation {
     /// Colours are not multiplied by the opacity, as in PNG.
     Straight,
     /// Colours are multiplied by the opacity, as in EXR.
@@ -52,7 +52,7 @@ impl DisplayTransform {
         &self,
         mut film: Image,
         coverage: Vec<f32>,
-        association: Association,
+        association: AlphaAssociation,
     ) -> Picture {
         let exposure = exposure(self.stops);
         for (pixel, alpha) in film.pixels.iter_mut().zip(&coverage) {
@@ -67,8 +67,10 @@ impl DisplayTransform {
             let shown = self.tone.display(pixel.map(|v| v * scale));
             *pixel = match (self.background, association) {
                 (BackgroundFill::Film, _)
-                | (BackgroundFill::Transparent, Association::Straight) => shown,
-                (BackgroundFill::Transparent, Association::Associated) => shown.map(|v| v * alpha),
+                | (BackgroundFill::Transparent, AlphaAssociation::Straight) => shown,
+                (BackgroundFill::Transparent, AlphaAssociation::Associated) => {
+                    shown.map(|v| v * alpha)
+                }
                 (BackgroundFill::Color(color), _) => {
                     [0, 1, 2].map(|k| shown[k] * alpha + color[k] * (1.0 - alpha))
                 }
@@ -78,7 +80,7 @@ impl DisplayTransform {
         Picture {
             image: film,
             alpha,
-            layers: Layers::default(),
+            layers: PixelLayers::default(),
             tiles: Vec::new(),
         }
     }
@@ -109,7 +111,7 @@ mod tests {
         stops: f64,
         tone: Tone,
         background: BackgroundFill,
-        association: Association,
+        association: AlphaAssociation,
     ) -> Picture {
         let (image, coverage) = film();
         DisplayTransform {
@@ -122,7 +124,12 @@ mod tests {
 
     #[test]
     fn without_a_look_a_film_is_its_picture() {
-        let picture = develop(0.0, Tone::None, BackgroundFill::Film, Association::Straight);
+        let picture = develop(
+            0.0,
+            Tone::None,
+            BackgroundFill::Film,
+            AlphaAssociation::Straight,
+        );
         assert_eq!((picture.image, picture.alpha), (film().0, None));
     }
 
@@ -132,7 +139,7 @@ mod tests {
             -1.0,
             Tone::Srgb,
             BackgroundFill::Film,
-            Association::Straight,
+            AlphaAssociation::Straight,
         );
         assert_eq!(
             picture.image.pixels[2],
@@ -146,7 +153,7 @@ mod tests {
             1.0,
             Tone::Agx,
             BackgroundFill::Transparent,
-            Association::Straight,
+            AlphaAssociation::Straight,
         );
         let whole = Tone::Agx.display([1.0, 0.0, 4.0]);
         assert_eq!(straight.image.pixels[1..], [whole; 2]);
@@ -155,7 +162,7 @@ mod tests {
             1.0,
             Tone::None,
             BackgroundFill::Transparent,
-            Association::Associated,
+            AlphaAssociation::Associated,
         );
         assert_eq!(
             linear.image.pixels,
@@ -170,7 +177,7 @@ mod tests {
             0.0,
             Tone::Srgb,
             BackgroundFill::Color(color),
-            Association::Straight,
+            AlphaAssociation::Straight,
         );
         let whole = Tone::Srgb.display([0.5, 0.0, 2.0]);
         let mixed = [0, 1, 2].map(|k| 0.25 * whole[k] + 0.75 * color[k]);

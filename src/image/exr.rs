@@ -5,7 +5,7 @@
 //! until they have the required one. The Merkle tree is known last and is stored in reserved space
 //! of the header.
 
-use super::file::{BLOCK_ROWS, PictureHead, StripSource};
+use super::file::{BLOCK_ROWS, PictureHeader, StripSource};
 use super::range::{is_half, narrow};
 use super::{FileFormat, MerkleTree, Picture, PictureMetadata};
 use ::exr::block::UncompressedBlock;
@@ -46,7 +46,7 @@ enum ChannelSource {
 
 /// Writes a picture as EXR, block after block, as its strips come.
 pub(super) fn write(
-    head: &PictureHead,
+    head: &PictureHeader,
     mut out: impl Write + Seek,
     strips: &mut StripSource<'_>,
 ) -> io::Result<()> {
@@ -111,7 +111,7 @@ fn offset_of_tree(header: &Header) -> Option<u64> {
 }
 
 /// The provenance of the picture, and its channels in blocks of rows.
-fn header(head: &PictureHead, sources: &[(&str, ChannelSource)]) -> Header {
+fn header(head: &PictureHeader, sources: &[(&str, ChannelSource)]) -> Header {
     const COMPRESSION: Compression = Compression::ZIP16;
     const _: () = assert!(BLOCK_ROWS == 16, "as many rows as ZIP16 has in a block");
     let PictureMetadata {
@@ -184,7 +184,7 @@ fn ordered(
 }
 
 /// All channels, in the order of their names, as the format wants them.
-fn channels(head: &PictureHead) -> Vec<(&'static str, ChannelSource)> {
+fn channels(head: &PictureHeader) -> Vec<(&'static str, ChannelSource)> {
     let colors = ["R", "G", "B"].into_iter().enumerate();
     let colors = colors.map(|(k, name)| (name, ChannelSource::Color(k)));
     let alpha = head.has_alpha.then_some(("A", ChannelSource::Alpha));
@@ -230,7 +230,7 @@ fn value(strip: &Picture, pixel: usize, (source, is_half): (ChannelSource, bool)
 
 /// The samples of a picture, pixel after pixel, each in the order of its channels, little-endian.
 pub(super) fn samples(picture: &Picture, form: FileFormat) -> Vec<u8> {
-    let head = PictureHead::of(picture, form);
+    let head = PictureHeader::of(picture, form);
     let channels: Vec<_> = channels(&head)
         .into_iter()
         .map(|(name, source)| (source, is_half(form, name)))
@@ -260,11 +260,11 @@ fn text(words: &str) -> Text {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Image, Layers};
+    use super::super::{Image, PixelLayers};
     use super::*;
     use ::exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read};
 
-    fn bright() -> (Picture, PictureHead) {
+    fn bright() -> (Picture, PictureHeader) {
         let pixels = vec![
             [0.0, 0.5, 1.0],
             [2.5, -1.0, 1e30],
@@ -276,7 +276,7 @@ mod tests {
             height: 2,
             pixels,
         });
-        let mut head = PictureHead::of(&picture, FileFormat::Exr);
+        let mut head = PictureHeader::of(&picture, FileFormat::Exr);
         head.metadata = PictureMetadata {
             software: "rtc 1".into(),
             scene: "abc".into(),
@@ -336,7 +336,7 @@ mod tests {
         let (mut picture, _) = bright();
         picture.alpha = Some(vec![0.0, 0.25, 0.5, 1.0]);
         let values = (0..12_u8).map(f32::from).collect();
-        picture.layers = Layers {
+        picture.layers = PixelLayers {
             names: vec!["uv.U", "uv.V", "depth.Z"],
             values,
         };
@@ -370,7 +370,7 @@ mod tests {
     #[test]
     fn half_floats_are_the_nearest_and_distances_keep_32_bits() {
         let (mut picture, _) = bright();
-        picture.layers = Layers {
+        picture.layers = PixelLayers {
             names: vec!["depth.Z", "normal.X"],
             values: [70_001.0, 0.1].repeat(4),
         };

@@ -3,8 +3,8 @@
 
 use super::compressed::{self, CompressedForm};
 use super::{
-    EncodeError, FileFormat, Image, Layers, MerkleTree, Picture, PictureMetadata, TileHash, exr,
-    png, rgbe,
+    EncodeError, FileFormat, Image, MerkleTree, Picture, PictureMetadata, PixelLayers, TileHash,
+    exr, png, rgbe,
 };
 use ::png::BitDepth;
 use std::borrow::Cow;
@@ -15,7 +15,7 @@ pub const BLOCK_ROWS: u32 = 16;
 
 /// The properties of a picture before any pixel is rendered.
 #[derive(Clone, Debug)]
-pub struct PictureHead {
+pub struct PictureHeader {
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// Whether it has opacities.
@@ -63,21 +63,21 @@ impl<'s> StripSource<'s> {
 
 impl StripSource<'_> {
     /// The tree over the tiles of all strips, once there are no more; none if the file keeps none.
-    pub(super) fn tree(&mut self, head: &PictureHead) -> Option<MerkleTree> {
+    pub(super) fn tree(&mut self, head: &PictureHeader) -> Option<MerkleTree> {
         let tiles = std::mem::take(&mut self.tiles);
         head.has_tiles
             .then(|| MerkleTree::new(tiles, &head.metadata))
     }
 }
 
-impl PictureHead {
+impl PictureHeader {
     /// The header of a picture, in a format.
     #[must_use]
     pub fn of(picture: &Picture, form: FileFormat) -> Self {
         let Picture {
             image: Image { width, height, .. },
             alpha,
-            layers: Layers { names, .. },
+            layers: PixelLayers { names, .. },
             tiles,
         } = picture;
         Self {
@@ -141,7 +141,7 @@ mod tests {
                 pixels: (0..pixels).map(color).collect(),
             },
             alpha: Some((0..pixels).map(|at| f32::from(at % 11) / 10.0).collect()),
-            layers: Layers {
+            layers: PixelLayers {
                 names: vec!["uv.U", "depth.Z"],
                 values: (0..2 * pixels).map(f32::from).collect(),
             },
@@ -167,7 +167,7 @@ mod tests {
                 .alpha
                 .as_ref()
                 .map(|alpha| alpha[range.clone()].to_vec()),
-            layers: Layers {
+            layers: PixelLayers {
                 names: picture.layers.names.clone(),
                 values: picture.layers.values[2 * range.start..2 * range.end].to_vec(),
             },
@@ -189,7 +189,7 @@ mod tests {
         let sizes = [[31, 70], [1, 16], [90, 17], [33, 40]];
         for (size, form) in sizes.into_iter().zip(forms()) {
             let whole = picture(size);
-            let head = PictureHead::of(&whole, form);
+            let head = PictureHeader::of(&whole, form);
             for rows in [16, 32, 64, 80] {
                 let mut top = 0;
                 let mut next = || {
@@ -235,7 +235,7 @@ mod tests {
 
         let whole = picture([31, 70]);
         for form in forms() {
-            let head = PictureHead::of(&whole, form);
+            let head = PictureHeader::of(&whole, form);
             let length = head.encode(&whole).unwrap().len();
             for room in [0, 40, length / 2, length - 30, length - 13, length - 1] {
                 let mut one = || Ok(Cow::Borrowed(&whole));

@@ -1,7 +1,7 @@
 //! GIF: pictures one after another in one file, each of at most 256 colours of its own.
 
 use super::Picture;
-use super::file::PictureHead;
+use super::file::PictureHeader;
 use super::png::pack;
 use ::gif::{Encoder, EncodingError, Frame, Repeat};
 use ::png::BitDepth;
@@ -24,7 +24,7 @@ impl<W: Write> AnimatedGif<W> {
     ///
     /// # Errors
     /// If it can't be written, or has more pixels than a GIF on a side.
-    pub fn begin(head: &PictureHead, rate: u16, out: W) -> io::Result<Self> {
+    pub fn begin(head: &PictureHeader, rate: u16, out: W) -> io::Result<Self> {
         let too_large = || io::Error::other("a GIF has at most 65535 pixels on a side");
         let [width, height] = head.size.map(|side| u16::try_from(side).ok());
         let size = [width.ok_or_else(too_large)?, height.ok_or_else(too_large)?];

@@ -129,7 +129,7 @@ fn own_color(number: f64) -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Layers;
+    use super::super::PixelLayers;
     use super::*;
 
     fn with(names: &[&'static str], values: &[f32]) -> Picture {
@@ -141,7 +141,7 @@ mod tests {
                 pixels: vec![[0.0; 3]; width as usize],
             },
             alpha: None,
-            layers: Layers {
+            layers: PixelLayers {
                 names: names.to_vec(),
                 values: values.to_vec(),
             },

@@ -47,10 +47,10 @@ mod written;
 mod xmp;
 
 pub use animation::AnimatedPng;
-pub use decode::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, is_picture};
-pub use denoise::{GUIDES, Guide, NoisyHalf, around, denoise};
-pub use display::{Association, BackgroundFill, DisplayTransform, exposure};
-pub use file::{BLOCK_ROWS, PictureHead, StripSource};
+pub use decode::{DecodeCost, DecodeError, OpacityUse, PixelFile, Pixels, is_picture};
+pub use denoise::{DenoisingGuide, GUIDES, NoisyHalf, around, denoise};
+pub use display::{AlphaAssociation, BackgroundFill, DisplayTransform, exposure};
+pub use file::{BLOCK_ROWS, PictureHeader, StripSource};
 #[cfg(feature = "cli")]
 pub use gif::AnimatedGif;
 pub use layer::LayerPicture;
@@ -60,7 +60,7 @@ pub use radiance::{Radiance, RadianceFile, is_radiance};
 pub use range::RangeClipping;
 #[cfg(feature = "cli")]
 pub use sheet::{contact_sheet, for_sheet, shrunk};
-pub use shown::{ShownFile, ShownPicture};
+pub use shown::{DisplayedFile, DisplayedPicture};
 pub use texels::{Texel, Texels};
 pub use written::{WrittenFile, WrittenPicture, samples};
 
@@ -86,7 +86,7 @@ pub struct Picture {
     /// The opacity of each pixel in [0, 1], if not all are opaque.
     pub alpha: Option<Vec<f32>>,
     /// The additional channels of an EXR; other formats have none.
-    pub layers: Layers,
+    pub layers: PixelLayers,
     /// The hashes of the tiles of the film that it shows, which its file keeps; none, if the file
     /// is to keep none.
     pub tiles: Vec<TileHash>,
@@ -94,7 +94,7 @@ pub struct Picture {
 
 /// Further numbers of each pixel of a picture.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Layers {
+pub struct PixelLayers {
     /// The name of each channel, layer and channel separated by a dot, as `normal.X`; all are
     /// distinct.
     pub names: Vec<&'static str>,
@@ -278,7 +278,7 @@ impl Picture {
         Self {
             image,
             alpha: None,
-            layers: Layers::default(),
+            layers: PixelLayers::default(),
             tiles: Vec::new(),
         }
     }
@@ -288,7 +288,7 @@ impl Picture {
     /// # Errors
     /// If the picture is empty or larger than the format can hold.
     pub fn encode(&self, form: FileFormat) -> Result<Vec<u8>, EncodeError> {
-        PictureHead::of(self, form).encode(self)
+        PictureHeader::of(self, form).encode(self)
     }
 }
 

@@ -1,7 +1,7 @@
 //! PNG of 8 and 16 bits per channel: red, green, blue, and opacity where there is one. A picture
 //! says that its colours are those of sRGB, and where it came from; never when it was made.
 
-use super::file::{PictureHead, StripSource};
+use super::file::{PictureHeader, StripSource};
 use super::{MerkleTree, Picture};
 use ::png::chunk::ChunkType;
 use ::png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent};
@@ -17,7 +17,7 @@ pub(super) const TREE: ChunkType = ChunkType(*b"rtMT");
 
 /// Writes a picture with a number of bits per channel, row by row, as its strips arrive.
 pub(super) fn write(
-    head: &PictureHead,
+    head: &PictureHeader,
     depth: BitDepth,
     out: impl Write,
     strips: &mut StripSource<'_>,
@@ -72,7 +72,7 @@ pub fn png_bytes(size: [u32; 2], has_alpha: bool, pixels: &[u8]) -> Vec<u8> {
 fn png(
     size: [u32; 2],
     kind: (BitDepth, bool),
-    head: Option<&PictureHead>,
+    head: Option<&PictureHeader>,
     out: impl Write,
     write: impl FnOnce(&mut dyn Write) -> io::Result<Option<MerkleTree>>,
 ) -> io::Result<()> {
@@ -85,7 +85,7 @@ fn encode(
     out: impl Write,
     [width, height]: [u32; 2],
     (depth, has_alpha): (BitDepth, bool),
-    head: Option<&PictureHead>,
+    head: Option<&PictureHeader>,
     write: impl FnOnce(&mut dyn Write) -> io::Result<Option<MerkleTree>>,
 ) -> io::Result<()> {
     let mut encoder = Encoder::new(out, width, height);
@@ -173,9 +173,9 @@ mod tests {
             ..PictureMetadata::default()
         };
         let encode = |metadata: PictureMetadata| {
-            let head = PictureHead {
+            let head = PictureHeader {
                 metadata,
-                ..PictureHead::of(&ramp(), FileFormat::Png8)
+                ..PictureHeader::of(&ramp(), FileFormat::Png8)
             };
             head.encode(&ramp()).unwrap()
         };

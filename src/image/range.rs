@@ -1,6 +1,6 @@
 //! Values of a picture that a file can't represent: NaN, or beyond its floats.
 
-use super::{FileFormat, Image, Layers, Picture};
+use super::{FileFormat, Image, Picture, PixelLayers};
 
 /// The values of a picture that its files change.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -30,7 +30,7 @@ impl Picture {
         let Self {
             image: Image { pixels, .. },
             alpha: _,
-            layers: Layers { names, values },
+            layers: PixelLayers { names, values },
             tiles: _,
         } = self;
         let width = names.len();
@@ -122,7 +122,7 @@ mod tests {
             f32::MAX,
             3.0,
         ];
-        picture.layers = Layers {
+        picture.layers = PixelLayers {
             names: vec!["depth.Z", "uv.U"],
             values,
         };

@@ -2,7 +2,7 @@
 //! exponent, run-length encoded (Ward, "Real Pixels", Graphics Gems II, 1991). A value is wrong by
 //! at most 1/256 of the largest channel of its pixel; there is nothing below 0, and no opacity.
 
-use super::file::{PictureHead, StripSource};
+use super::file::{PictureHeader, StripSource};
 use super::hdr::Rgbe;
 use super::range::narrow;
 use std::io::{self, Write};
@@ -12,7 +12,7 @@ const RUN: usize = 4;
 
 /// Writes a picture, row after row, as its strips come.
 pub(super) fn write(
-    head: &PictureHead,
+    head: &PictureHeader,
     mut out: impl Write,
     strips: &mut StripSource<'_>,
 ) -> io::Result<()> {

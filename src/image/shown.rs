@@ -2,11 +2,11 @@
 //! pictures encoded as sRGB. Decoded pictures keep their compact type.
 
 use super::decode::{CodedPixels, DecodeCost, DecodeError, PixelFile};
-use super::{Image, Opacity, RadianceFile, is_radiance};
+use super::{Image, OpacityUse, RadianceFile, is_radiance};
 use rtc_color::Tone;
 
 /// A picture file whose header was read.
-pub struct ShownFile<'a>(DisplaySource<'a>);
+pub struct DisplayedFile<'a>(DisplaySource<'a>);
 
 enum DisplaySource<'a> {
     Pixels(PixelFile<'a>),
@@ -15,7 +15,7 @@ enum DisplaySource<'a> {
 
 /// A picture as it is shown on black.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ShownPicture {
+pub struct DisplayedPicture {
     size: [u32; 2],
     values: DisplayValues,
 }
@@ -31,7 +31,7 @@ enum DisplayValues {
     Light(Vec<u8>),
 }
 
-impl<'a> ShownFile<'a> {
+impl<'a> DisplayedFile<'a> {
     /// Reads the header of a PNG, JPEG, WebP, HDR or EXR of at most this many pixels.
     ///
     /// # Errors
@@ -40,7 +40,7 @@ impl<'a> ShownFile<'a> {
         Ok(Self(if is_radiance(bytes) {
             DisplaySource::Light(RadianceFile::open(bytes, most_pixels)?)
         } else {
-            DisplaySource::Pixels(PixelFile::open(bytes, Opacity::Kept, most_pixels)?)
+            DisplaySource::Pixels(PixelFile::open(bytes, OpacityUse::Kept, most_pixels)?)
         }))
     }
 
@@ -73,14 +73,14 @@ impl<'a> ShownFile<'a> {
     ///
     /// # Errors
     /// If the file is damaged, or there is no memory for it.
-    pub fn decode(self) -> Result<ShownPicture, DecodeError> {
+    pub fn decode(self) -> Result<DisplayedPicture, DecodeError> {
         let size = self.size();
         match self.0 {
-            DisplaySource::Pixels(file) => Ok(ShownPicture {
+            DisplaySource::Pixels(file) => Ok(DisplayedPicture {
                 size,
                 values: DisplayValues::Coded(file.decode_coded()?),
             }),
-            DisplaySource::Light(file) => file.decode().map(|light| ShownPicture {
+            DisplaySource::Light(file) => file.decode().map(|light| DisplayedPicture {
                 size: [light.width, light.height],
                 values: DisplayValues::Light(light.bytes),
             }),
@@ -88,7 +88,7 @@ impl<'a> ShownFile<'a> {
     }
 }
 
-impl ShownPicture {
+impl DisplayedPicture {
     /// An opaque picture of display values.
     #[must_use]
     pub fn of(display: Image) -> Self {
@@ -98,12 +98,12 @@ impl ShownPicture {
         }
     }
 
-    /// Reads a file of at most this many pixels, as [`ShownFile`] does.
+    /// Reads a file of at most this many pixels, as [`DisplayedFile`] does.
     ///
     /// # Errors
-    /// As of [`ShownFile::open`] and [`ShownFile::decode`].
+    /// As of [`DisplayedFile::open`] and [`DisplayedFile::decode`].
     pub fn read(bytes: &[u8], most_pixels: u64) -> Result<Self, DecodeError> {
-        ShownFile::open(bytes, most_pixels)?.decode()
+        DisplayedFile::open(bytes, most_pixels)?.decode()
     }
 
     /// Its width and height in pixels.

@@ -1,16 +1,16 @@
 //! Texels: the pixels of a picture that is looked up, as bytes that are shared with its scene.
 
-use rtc_math::{Shared, Vec3};
+use rtc_math::{SharedList, Vec3};
 
 /// Texels in rows from the top.
 #[derive(Clone, Debug)]
 pub enum Texels {
     /// Three bytes each: red, green, blue.
-    Rgb8(Shared<u8>),
+    Rgb8(SharedList<u8>),
     /// Four bytes each: red, green, blue, alpha.
-    Rgba8(Shared<u8>),
+    Rgba8(SharedList<u8>),
     /// Three little-endian 32-bit floats each: red, green, blue, linear.
-    Rgb32f(Shared<u8>),
+    Rgb32f(SharedList<u8>),
 }
 
 /// One of them.

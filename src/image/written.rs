@@ -4,7 +4,7 @@
 use super::decode::{DecodeCost, DecodeError, ImageSize};
 use super::png::{TREE as TREE_CHUNK, pack};
 use super::{
-    FileFormat, MerkleTree, Opacity, Picture, PictureMetadata, PixelFile, exr, is_radiance, xmp,
+    FileFormat, MerkleTree, OpacityUse, Picture, PictureMetadata, PixelFile, exr, is_radiance, xmp,
 };
 use ::exr::meta::MetaData;
 use ::exr::meta::attribute::{AttributeValue, SampleType, Text};
@@ -57,7 +57,7 @@ impl<'a> WrittenFile<'a> {
                 scratch: (header.max_block_byte_size() as u64).saturating_mul(3),
             }
         } else {
-            let cost = PixelFile::open(bytes, Opacity::Kept, most_pixels)?.cost();
+            let cost = PixelFile::open(bytes, OpacityUse::Kept, most_pixels)?.cost();
             DecodeCost {
                 memory: cost.memory.saturating_mul(2),
                 ..cost
@@ -286,7 +286,7 @@ fn read_exr(bytes: &[u8]) -> Result<WrittenPicture, DecodeError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Image, Layers, PictureHead, TileHash, tile_count};
+    use super::super::{Image, PictureHeader, PixelLayers, TileHash, tile_count};
     use super::*;
     use ::png::text_metadata::ITXtChunk;
 
@@ -305,11 +305,11 @@ mod tests {
         let pixels = 0..SIZE[0] * SIZE[1];
         let color = |at: u32| [0.001 * f64::from(at), 0.5, f64::from(at % 7) / 6.0];
         let layers = match form.is_linear() {
-            true => Layers {
+            true => PixelLayers {
                 names: vec!["normal.X", "depth.Z"],
                 values: pixels.clone().flat_map(|at| [0.5, at as f32]).collect(),
             },
-            false => Layers::default(),
+            false => PixelLayers::default(),
         };
         Picture {
             image: Image {
@@ -325,8 +325,8 @@ mod tests {
         }
     }
 
-    fn head(picture: &Picture, form: FileFormat) -> PictureHead {
-        PictureHead {
+    fn head(picture: &Picture, form: FileFormat) -> PictureHeader {
+        PictureHeader {
             metadata: PictureMetadata {
                 software: "rtc 1".into(),
                 scene: "abc".into(),
@@ -334,7 +334,7 @@ mod tests {
                 world_to_camera: form.is_linear().then_some([0.5; 16]),
                 layer: String::new(),
             },
-            ..PictureHead::of(picture, form)
+            ..PictureHeader::of(picture, form)
         }
     }
 

@@ -1,7 +1,7 @@
 //! Bounds of a scene: a sphere around every finite shape. Cameras without a target look at its
 //! centre.
 
-use super::{Column, Scene, Shape};
+use super::{Scene, Shape, VertexColumn};
 use rtc_math::Vec3;
 
 /// A bounding sphere.
@@ -58,7 +58,7 @@ impl Shape {
 }
 
 /// The bounding box of points; empty (minimum above maximum) if there are none.
-fn bounding_box(points: &Column<3>) -> [Vec3; 2] {
+fn bounding_box(points: &VertexColumn<3>) -> [Vec3; 2] {
     let points = || points.iter().map(Vec3::from_array);
     [
         points().fold(Vec3::INFINITY, Vec3::min),

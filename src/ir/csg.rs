@@ -1,7 +1,7 @@
 //! CSG solids.
 
 use super::shape::{
-    Bounded, Cone, Cylinder, Ellipsoid, InfiniteCylinder, Paraboloid, Plane, Shape, Sphere, Torus,
+    Cone, Cylinder, Ellipsoid, HasBounds, InfiniteCylinder, Paraboloid, Plane, Shape, Sphere, Torus,
 };
 use arbitrary::Arbitrary;
 use rtc_math::{SetStep, Vec3};
@@ -79,7 +79,7 @@ impl Csg {
     }
 }
 
-impl Bounded for Csg {
+impl HasBounds for Csg {
     /// The bounds of its operands; infinite ones are empty.
     fn visit_bounds(&self, meshes: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self {

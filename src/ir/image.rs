@@ -2,7 +2,7 @@
 
 use super::Scene;
 use arbitrary::Arbitrary;
-use rtc_math::{Shared, to_u32};
+use rtc_math::{SharedList, to_u32};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -30,7 +30,7 @@ pub struct Image {
     /// The pixels in rows from the top, as Base64 with padding (RFC 4648, §4).
     #[serde(with = "base64_text")]
     #[schemars(with = "String")]
-    pub pixels: Shared<u8>,
+    pub pixels: SharedList<u8>,
 }
 
 impl Scene {
@@ -78,7 +78,7 @@ impl Pixels {
 
 /// Bytes as a Base64 string with padding.
 mod base64_text {
-    use super::Shared;
+    use super::SharedList;
     use base64::Engine as _;
     use base64::display::Base64Display;
     use base64::engine::general_purpose::STANDARD;
@@ -92,23 +92,23 @@ mod base64_text {
 
     pub(super) fn deserialize<'de, D: Deserializer<'de>>(
         deserializer: D,
-    ) -> Result<Shared<u8>, D::Error> {
+    ) -> Result<SharedList<u8>, D::Error> {
         deserializer.deserialize_str(Base64Visitor)
     }
 
     struct Base64Visitor;
 
     impl Visitor<'_> for Base64Visitor {
-        type Value = Shared<u8>;
+        type Value = SharedList<u8>;
 
         fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
             f.write_str("Base64 with padding")
         }
 
-        fn visit_str<E: Error>(self, text: &str) -> Result<Shared<u8>, E> {
+        fn visit_str<E: Error>(self, text: &str) -> Result<SharedList<u8>, E> {
             let bytes = STANDARD.decode(text);
             bytes
-                .map(Shared::from)
+                .map(SharedList::from)
                 .map_err(|error| E::custom(format_args!("this is not Base64: {error}")))
         }
     }

@@ -10,10 +10,11 @@
 //! - A [`Surface`] is a [`Shape`] with a [`MaterialId`]. A [`Material`] refers to textures by
 //!   [`TextureId`], a [`Texture`] to its image by [`ImageId`], an [`Instance`] to its mesh by
 //!   [`MeshId`].
-//! - A [`ValuePath`] addresses one value of a scene: [`EntityKind`], index, [`Field`].
+//! - A [`ValuePath`] addresses one value of a scene: [`EntityKind`], index, [`EntityField`].
 //! - [`SourceSpans`] maps value paths to the source spans of the values. It is stored beside the
 //!   scene, is never serialised, and is empty for a scene that was not read from text.
-//! - [`Lowered`] is a scene together with its source spans: what front ends and decoders return.
+//! - [`LoweredScene`] is a scene together with its source spans: what front ends and decoders
+//!   return.
 //!
 //! # Guarantees
 //! A scene by itself guarantees nothing: an index may be out of range and a number may be infinite
@@ -51,11 +52,11 @@ pub use csg::{Csg, Solid};
 pub use display::Display;
 pub use environment::Environment;
 pub use image::{Image, ImageId, Pixels};
-pub use light::{Emitter, Light, Photometry, PointLight, Punctual, Spelling};
+pub use light::{EmitterSpelling, Light, Photometry, PointLight, Punctual, PunctualKind};
 pub use material::{Bump, Material, MaterialId, Phong};
 pub use mesh::{Mesh, MeshId};
-pub use origin::{EntityKind, Field, SourceSpans, ValuePath};
-pub use rtc_math::{Column, SetStep, Shared};
+pub use origin::{EntityField, EntityKind, SourceSpans, ValuePath};
+pub use rtc_math::{SetStep, SharedList, VertexColumn};
 pub use settings::{Ambient, Gooch, Mode, PathSettings, Pattern, Settings};
 pub use shape::*;
 pub use standard::{Alpha, Map, Standard};
@@ -137,7 +138,7 @@ impl Scene {
 
 /// A scene that a front end or a decoder produced: not yet validated, with its source spans.
 #[derive(Clone, Debug)]
-pub struct Lowered {
+pub struct LoweredScene {
     /// The scene. Entities that failed are left out, and the sink has an error for each.
     pub scene: Scene,
     /// The source spans of its values.

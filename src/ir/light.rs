@@ -2,7 +2,7 @@
 
 use arbitrary::Arbitrary;
 use rtc_math::{Vec3, unit};
-use rtc_profile::{IesAngles, Profile};
+use rtc_profile::{IesAngles, LightProfile};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -43,7 +43,7 @@ impl Light {
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Punctual {
     /// The emitter: its kind, position and direction.
-    pub emitter: Emitter,
+    pub emitter: PunctualKind,
     /// Linear Rec. 709, each channel at least 0: the irradiance on a surface that faces a sun, a
     /// factor of a lamp's measured intensity, or else the radiant intensity (power per steradian).
     #[schemars(inner(range(min = 0.0)))]
@@ -53,7 +53,7 @@ pub struct Punctual {
 /// The kind, position and direction of a light without extent.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
-pub enum Emitter {
+pub enum PunctualKind {
     /// A directional light, infinitely far away.
     Sun {
         /// The direction from the scene to the sun, of any length but 0.
@@ -143,7 +143,7 @@ impl Photometry {
 
 /// The spelling of an emitter in the scene format.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Spelling<'a> {
+pub struct EmitterSpelling<'a> {
     /// The value of its key `type`.
     pub kind: &'static str,
     /// The keys of its points and directions, with their values.
@@ -157,7 +157,7 @@ pub struct Spelling<'a> {
 }
 
 /// Properties of emitters, as all stages use them.
-impl Emitter {
+impl PunctualKind {
     /// The position; `None` for a sun.
     #[must_use]
     pub fn position(&self) -> Option<[f64; 3]> {
@@ -193,15 +193,15 @@ impl Emitter {
     ///
     /// # Errors
     /// A message, if an angle, direction or profile is invalid.
-    pub fn profile(&self) -> Result<Profile, String> {
+    pub fn profile(&self) -> Result<LightProfile, String> {
         match self {
-            Self::Sun { .. } | Self::Point { .. } => Ok(Profile::Uniform),
+            Self::Sun { .. } | Self::Point { .. } => Ok(LightProfile::Uniform),
             Self::Spot {
                 direction,
                 inner_angle,
                 outer_angle,
                 ..
-            } => Profile::cone(axis(*direction)?, *inner_angle, *outer_angle),
+            } => LightProfile::cone(axis(*direction)?, *inner_angle, *outer_angle),
             Self::Photometric {
                 position: _,
                 direction,
@@ -213,7 +213,7 @@ impl Emitter {
                     horizontal: photometry.horizontal.clone(),
                 };
                 let horizontal = Vec3::from_array(*horizontal);
-                Profile::measured(
+                LightProfile::measured(
                     axis(*direction)?,
                     horizontal,
                     angles,
@@ -264,18 +264,18 @@ impl Emitter {
 
     /// The spelling of this emitter in the scene format.
     #[must_use]
-    pub fn spelling(&self) -> Spelling<'_> {
+    pub fn spelling(&self) -> EmitterSpelling<'_> {
         // Each kind lists its vectors and numbers by their keys.
         let range = self.range().map(|range| ("range", range));
         match self {
-            Self::Sun { direction } => Spelling {
+            Self::Sun { direction } => EmitterSpelling {
                 kind: "sun",
                 triples: vec![("direction", *direction)],
                 numbers: Vec::new(),
                 file: None,
                 intensity: "irradiance",
             },
-            Self::Point { position, range: _ } => Spelling {
+            Self::Point { position, range: _ } => EmitterSpelling {
                 kind: "point",
                 triples: vec![("position", *position)],
                 numbers: range.into_iter().collect(),
@@ -290,7 +290,7 @@ impl Emitter {
                 range: _,
             } => {
                 let angles = [("innerAngle", *inner_angle), ("outerAngle", *outer_angle)];
-                Spelling {
+                EmitterSpelling {
                     kind: "spot",
                     triples: vec![("position", *position), ("direction", *direction)],
                     numbers: angles.into_iter().chain(range).collect(),
@@ -303,7 +303,7 @@ impl Emitter {
                 direction,
                 horizontal,
                 photometry,
-            } => Spelling {
+            } => EmitterSpelling {
                 kind: "ies",
                 triples: vec![
                     ("position", *position),

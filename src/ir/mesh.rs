@@ -1,7 +1,7 @@
 //! Triangle meshes with shared vertices.
 
 use arbitrary::Arbitrary;
-use rtc_math::{Column, Shared};
+use rtc_math::{SharedList, VertexColumn};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -22,33 +22,33 @@ pub struct Mesh {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<String>,
     /// The position of each vertex.
-    pub positions: Column<3>,
+    pub positions: VertexColumn<3>,
     /// The shading normal at each vertex, of any length; empty for flat shading.
-    #[serde(default, skip_serializing_if = "Column::is_empty")]
-    pub normals: Column<3>,
+    #[serde(default, skip_serializing_if = "VertexColumn::is_empty")]
+    pub normals: VertexColumn<3>,
     /// The texture coordinates at each vertex; empty if there are none.
-    #[serde(default, skip_serializing_if = "Column::is_empty")]
-    pub uvs: Column<2>,
+    #[serde(default, skip_serializing_if = "VertexColumn::is_empty")]
+    pub uvs: VertexColumn<2>,
     /// The second set of texture coordinates; empty if there is none.
-    #[serde(default, skip_serializing_if = "Column::is_empty")]
-    pub second_uvs: Column<2>,
+    #[serde(default, skip_serializing_if = "VertexColumn::is_empty")]
+    pub second_uvs: VertexColumn<2>,
     /// The tangent at each vertex (the direction of increasing u), and ±1 for the bitangent
     /// `w·(normal × tangent)`; empty if there are none.
-    #[serde(default, skip_serializing_if = "Column::is_empty")]
-    pub tangents: Column<4>,
+    #[serde(default, skip_serializing_if = "VertexColumn::is_empty")]
+    pub tangents: VertexColumn<4>,
     /// The linear RGBA colour at each vertex, which multiplies that of the material; empty if there
     /// are none.
-    #[serde(default, skip_serializing_if = "Column::is_empty")]
-    pub colors: Column<4>,
+    #[serde(default, skip_serializing_if = "VertexColumn::is_empty")]
+    pub colors: VertexColumn<4>,
     /// The vertex indices of each triangle; its normal is (v1 − v0) × (v2 − v0).
-    pub triangles: Shared<[u32; 3]>,
+    pub triangles: SharedList<[u32; 3]>,
 }
 
 impl Mesh {
     /// Whether all numbers of all vertices are finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        fn all<const N: usize>(column: &Column<N>) -> bool {
+        fn all<const N: usize>(column: &VertexColumn<N>) -> bool {
             column.iter().flatten().all(f64::is_finite)
         }
         let Self {

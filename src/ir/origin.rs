@@ -43,10 +43,10 @@ impl EntityKind {
     ];
 }
 
-/// A value of an entity, or the entity itself ([`Field::Whole`]).
+/// A value of an entity, or the entity itself ([`EntityField::Whole`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "each names the field of the IR it stands for")]
-pub enum Field {
+pub enum EntityField {
     Whole,
     Eye,
     Center,
@@ -100,10 +100,10 @@ pub struct ValuePath {
     /// Its index; 0 for the camera and the settings.
     pub index: u32,
     /// The value.
-    pub field: Field,
+    pub field: EntityField,
 }
 
-impl Field {
+impl EntityField {
     /// The value of a shape at this path in the IR, for example `radius` or `vertices/0`.
     ///
     /// # Panics
@@ -130,7 +130,7 @@ impl Field {
 impl ValuePath {
     /// The path to `field` of entity `index` of kind `entity`.
     #[must_use]
-    pub fn new(entity: EntityKind, index: usize, field: Field) -> Self {
+    pub fn new(entity: EntityKind, index: usize, field: EntityField) -> Self {
         Self {
             entity,
             index: to_u32(index),
@@ -153,58 +153,58 @@ impl fmt::Display for ValuePath {
             EntityKind::Surface => write!(f, "/surfaces/{index}"),
             EntityKind::Environment => f.write_str("/environment"),
         }?;
-        if let Field::Shape(kind, value) = self.field {
+        if let EntityField::Shape(kind, value) = self.field {
             let path = kind.values()[usize::from(value)];
             return write!(f, "/shape/{}/{path}", kind.name());
         }
-        if let Field::Parameter(row) = self.field {
+        if let EntityField::Parameter(row) = self.field {
             return write!(f, "/standard/{}", Standard::PARAMETERS[usize::from(row)]);
         }
         f.write_str(pointer_tail(self.entity, self.field))
     }
 }
 
-fn pointer_tail(entity: EntityKind, field: Field) -> &'static str {
+fn pointer_tail(entity: EntityKind, field: EntityField) -> &'static str {
     // Each field has the path of its JSON key.
     match field {
-        Field::Whole | Field::Shape(..) | Field::Parameter(_) => "",
-        Field::Eye => "/eye",
-        Field::Center => "/center",
-        Field::Right => "/right",
-        Field::Up => "/up",
-        Field::Size => "/size",
-        Field::LensRadius => "/lens/radius",
-        Field::LensSamples => "/lens/samples",
-        Field::Mode => "/mode",
-        Field::GoochB => "/mode/gooch/b",
-        Field::GoochY => "/mode/gooch/y",
-        Field::GoochAlpha => "/mode/gooch/alpha",
-        Field::GoochBeta => "/mode/gooch/beta",
-        Field::MaxDepth => "/maxDepth",
-        Field::Supersampling => "/supersampling",
-        Field::LightSamples => "/lightSamples",
-        Field::AmbientLight => "/ambientLight",
-        Field::Background => "/background",
-        Field::Stereo => "/stereo",
-        Field::Position => "/point/position",
-        Field::LightRadius => "/point/radius",
-        Field::Intensity => "/punctual/intensity",
-        Field::Color if entity == EntityKind::Light => "/point/color",
-        Field::Color if entity == EntityKind::Environment => "/radiance",
-        Field::Color => "/phong/color",
-        Field::Ka => "/phong/ka",
-        Field::Kd => "/phong/kd",
-        Field::Ks => "/phong/ks",
-        Field::Kr => "/phong/kr",
-        Field::N => "/phong/n",
-        Field::Kt => "/phong/kt",
-        Field::Ior => "/phong/eta",
-        Field::GlossySamples => "/phong/glossySamples",
-        Field::ColorMap => "/phong/colorMap",
-        Field::SpecularMap => "/phong/specularMap",
-        Field::NormalMap => "/phong/normalMap",
-        Field::Bump => "/phong/bump",
-        Field::Material => "/material",
+        EntityField::Whole | EntityField::Shape(..) | EntityField::Parameter(_) => "",
+        EntityField::Eye => "/eye",
+        EntityField::Center => "/center",
+        EntityField::Right => "/right",
+        EntityField::Up => "/up",
+        EntityField::Size => "/size",
+        EntityField::LensRadius => "/lens/radius",
+        EntityField::LensSamples => "/lens/samples",
+        EntityField::Mode => "/mode",
+        EntityField::GoochB => "/mode/gooch/b",
+        EntityField::GoochY => "/mode/gooch/y",
+        EntityField::GoochAlpha => "/mode/gooch/alpha",
+        EntityField::GoochBeta => "/mode/gooch/beta",
+        EntityField::MaxDepth => "/maxDepth",
+        EntityField::Supersampling => "/supersampling",
+        EntityField::LightSamples => "/lightSamples",
+        EntityField::AmbientLight => "/ambientLight",
+        EntityField::Background => "/background",
+        EntityField::Stereo => "/stereo",
+        EntityField::Position => "/point/position",
+        EntityField::LightRadius => "/point/radius",
+        EntityField::Intensity => "/punctual/intensity",
+        EntityField::Color if entity == EntityKind::Light => "/point/color",
+        EntityField::Color if entity == EntityKind::Environment => "/radiance",
+        EntityField::Color => "/phong/color",
+        EntityField::Ka => "/phong/ka",
+        EntityField::Kd => "/phong/kd",
+        EntityField::Ks => "/phong/ks",
+        EntityField::Kr => "/phong/kr",
+        EntityField::N => "/phong/n",
+        EntityField::Kt => "/phong/kt",
+        EntityField::Ior => "/phong/eta",
+        EntityField::GlossySamples => "/phong/glossySamples",
+        EntityField::ColorMap => "/phong/colorMap",
+        EntityField::SpecularMap => "/phong/specularMap",
+        EntityField::NormalMap => "/phong/normalMap",
+        EntityField::Bump => "/phong/bump",
+        EntityField::Material => "/material",
     }
 }
 
@@ -219,12 +219,12 @@ pub struct SourceSpans {
 
 #[derive(Clone, Debug, Default)]
 struct List {
-    spans: Vec<(u32, Field, Span)>,
+    spans: Vec<(u32, EntityField, Span)>,
     unsorted: bool,
 }
 
 impl List {
-    fn find(&self, index: u32, field: Field) -> Option<Span> {
+    fn find(&self, index: u32, field: EntityField) -> Option<Span> {
         let found = self
             .spans
             .binary_search_by_key(&(index, field), |(index, field, _)| (*index, *field));
@@ -305,7 +305,7 @@ impl SourceSpans {
         } = path;
         let list = &self.lists[entity as usize];
         list.find(index, field)
-            .or_else(|| list.find(index, Field::Whole))
+            .or_else(|| list.find(index, EntityField::Whole))
     }
 }
 
@@ -318,13 +318,13 @@ mod tests {
         let file = rtc_source::SourceMap::default().add("x", Vec::new());
         let mut source_spans = SourceSpans::default();
         let [center, radius] =
-            ["center", "radius"].map(|path| Field::of_shape(ShapeKind::Sphere, path));
+            ["center", "radius"].map(|path| EntityField::of_shape(ShapeKind::Sphere, path));
         source_spans.record(
             ValuePath::new(EntityKind::Surface, 3, radius),
             Span::new(file, 5, 6),
         );
         source_spans.record(
-            ValuePath::new(EntityKind::Surface, 3, Field::Whole),
+            ValuePath::new(EntityKind::Surface, 3, EntityField::Whole),
             Span::new(file, 1, 9),
         );
         source_spans.finish();

@@ -60,7 +60,7 @@ macro_rules! declare {
             }
 
             /// The shape as something with bounds.
-            pub(super) fn bounded(&self) -> &dyn Bounded {
+            pub(super) fn bounded(&self) -> &dyn HasBounds {
                 match self {
                     $(Self::$Name(shape) => shape,)*
                 }
@@ -72,7 +72,7 @@ macro_rules! declare {
 rtc_tables::shapes!(declare);
 
 /// A shape with bounds.
-pub(super) trait Bounded {
+pub(super) trait HasBounds {
     /// Visits cubes, each by centre and half side, whose convex hull contains the shape; visits
     /// none if the shape is infinite. `meshes` holds the bounding box of each mesh of the scene.
     fn visit_bounds(&self, meshes: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64));
@@ -108,7 +108,7 @@ pub struct Sphere {
     pub texture_from_world: Option<[[f64; 3]; 3]>,
 }
 
-impl Bounded for Sphere {
+impl HasBounds for Sphere {
     fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self {
             center,
@@ -129,7 +129,7 @@ pub struct Plane {
     pub normal: [f64; 3],
 }
 
-impl Bounded for Plane {
+impl HasBounds for Plane {
     fn visit_bounds(&self, _: &[[Vec3; 2]], _: &mut dyn FnMut(Vec3, f64)) {
         let Self {
             center: _,
@@ -149,7 +149,7 @@ pub struct Triangle {
     pub uvs: Option<[[f64; 2]; 3]>,
 }
 
-impl Bounded for Triangle {
+impl HasBounds for Triangle {
     fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self { vertices, uvs: _ } = self;
         vertices
@@ -187,7 +187,7 @@ impl Quad {
     }
 }
 
-impl Bounded for Quad {
+impl HasBounds for Quad {
     fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self { vertices } = self;
         vertices
@@ -209,7 +209,7 @@ pub struct Disc {
     pub radius: f64,
 }
 
-impl Bounded for Disc {
+impl HasBounds for Disc {
     fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self {
             center,
@@ -236,7 +236,7 @@ pub struct Cylinder {
     pub radius: f64,
 }
 
-impl Bounded for Cylinder {
+impl HasBounds for Cylinder {
     fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self {
             base,
@@ -264,7 +264,7 @@ pub struct Cone {
     pub radius: f64,
 }
 
-impl Bounded for Cone {
+impl HasBounds for Cone {
     fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self { base, up, radius } = self;
         let base = Vec3::from_array(*base);
@@ -286,7 +286,7 @@ pub struct Paraboloid {
     pub radius: f64,
 }
 
-impl Bounded for Paraboloid {
+impl HasBounds for Paraboloid {
     /// The profile lies in the convex hull of the base circle and a disc of half the radius at the
     /// vertex.
     fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
@@ -313,7 +313,7 @@ pub struct Torus {
     pub minor: f64,
 }
 
-impl Bounded for Torus {
+impl HasBounds for Torus {
     fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self {
             center,
@@ -336,7 +336,7 @@ pub struct Instance {
     pub world_from_object: [[f64; 3]; 4],
 }
 
-impl Bounded for Instance {
+impl HasBounds for Instance {
     fn visit_bounds(&self, meshes: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self {
             mesh,
@@ -362,7 +362,7 @@ pub struct Ellipsoid {
     pub axes: [[f64; 3]; 3],
 }
 
-impl Bounded for Ellipsoid {
+impl HasBounds for Ellipsoid {
     fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self { center, axes } = self;
         let axes = axes.map(Vec3::from_array);
@@ -386,7 +386,7 @@ pub struct InfiniteCylinder {
     pub radius: f64,
 }
 
-impl Bounded for InfiniteCylinder {
+impl HasBounds for InfiniteCylinder {
     fn visit_bounds(&self, _: &[[Vec3; 2]], _: &mut dyn FnMut(Vec3, f64)) {
         let Self {
             center: _,

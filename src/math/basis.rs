@@ -7,7 +7,7 @@ const MIN_ANGLE: f64 = 1e-9;
 
 /// Why three vectors give no camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BasisFault {
+pub enum CameraBasisError {
     /// Eye and centre are the same point.
     ZeroGaze,
     /// `up` is the zero vector.
@@ -20,14 +20,14 @@ pub enum BasisFault {
 /// `up' = ‖up‖·(right × g)/‖right × g‖` with g = center − eye.
 ///
 /// # Errors
-/// If the three give no camera; see [`BasisFault`].
-pub fn camera_basis(eye: Vec3, center: Vec3, up: Vec3) -> Result<(Vec3, Vec3), BasisFault> {
+/// If the three give no camera; see [`CameraBasisError`].
+pub fn camera_basis(eye: Vec3, center: Vec3, up: Vec3) -> Result<(Vec3, Vec3), CameraBasisError> {
     let view_dir = center - eye;
-    let (unit_gaze, _) = unit_scale(view_dir).ok_or(BasisFault::ZeroGaze)?;
-    let (unit_up, _) = unit_scale(up).ok_or(BasisFault::ZeroUp)?;
+    let (unit_gaze, _) = unit_scale(view_dir).ok_or(CameraBasisError::ZeroGaze)?;
+    let (unit_up, _) = unit_scale(up).ok_or(CameraBasisError::ZeroUp)?;
     let sine = cross(unit_gaze, unit_up).length() / (unit_gaze.length() * unit_up.length());
     if sine < MIN_ANGLE {
-        return Err(BasisFault::Parallel);
+        return Err(CameraBasisError::Parallel);
     }
     view_basis(view_dir, up)
 }
@@ -38,12 +38,12 @@ pub fn camera_basis(eye: Vec3, center: Vec3, up: Vec3) -> Result<(Vec3, Vec3), B
 /// included: the cross products are Kahan's, on vectors scaled by powers of two.
 ///
 /// # Errors
-/// If the two give no camera; see [`BasisFault`].
-pub fn view_basis(view_dir: Vec3, up: Vec3) -> Result<(Vec3, Vec3), BasisFault> {
-    let (view_dir, _) = unit_scale(view_dir).ok_or(BasisFault::ZeroGaze)?;
-    let (up, exponent) = unit_scale(up).ok_or(BasisFault::ZeroUp)?;
-    let right = direction(cross(view_dir, up)).ok_or(BasisFault::Parallel)?;
-    let above = direction(cross(right, view_dir)).ok_or(BasisFault::Parallel)?;
+/// If the two give no camera; see [`CameraBasisError`].
+pub fn view_basis(view_dir: Vec3, up: Vec3) -> Result<(Vec3, Vec3), CameraBasisError> {
+    let (view_dir, _) = unit_scale(view_dir).ok_or(CameraBasisError::ZeroGaze)?;
+    let (up, exponent) = unit_scale(up).ok_or(CameraBasisError::ZeroUp)?;
+    let right = direction(cross(view_dir, up)).ok_or(CameraBasisError::Parallel)?;
+    let above = direction(cross(right, view_dir)).ok_or(CameraBasisError::Parallel)?;
     let pixel = dot(up, up).sqrt();
     let step = |direction: Vec3| {
         let step = direction * pixel;
@@ -92,11 +92,11 @@ mod tests {
     #[test]
     fn what_gives_no_camera_is_named() {
         let at = |center, up| camera_basis(Vec3::ZERO, center, up).unwrap_err();
-        assert_eq!(at(Vec3::ZERO, Vec3::Y), BasisFault::ZeroGaze);
-        assert_eq!(at(Vec3::Z, Vec3::ZERO), BasisFault::ZeroUp);
+        assert_eq!(at(Vec3::ZERO, Vec3::Y), CameraBasisError::ZeroGaze);
+        assert_eq!(at(Vec3::Z, Vec3::ZERO), CameraBasisError::ZeroUp);
         assert_eq!(
             at(Vec3::Z, Vec3::new(5e-10, 0.0, 1.0)),
-            BasisFault::Parallel
+            CameraBasisError::Parallel
         );
         assert!(camera_basis(Vec3::ZERO, Vec3::Z, Vec3::new(2e-9, 0.0, 1.0)).is_ok());
     }

@@ -15,33 +15,33 @@ use std::sync::Arc;
 
 /// A list shared by its copies (copy on write).
 #[derive(Debug, PartialEq, Arbitrary)]
-pub struct Shared<T>(Arc<Vec<T>>);
+pub struct SharedList<T>(Arc<Vec<T>>);
 
-impl<T> Clone for Shared<T> {
+impl<T> Clone for SharedList<T> {
     fn clone(&self) -> Self {
         Self(Arc::clone(&self.0))
     }
 }
 
-impl<T> Default for Shared<T> {
+impl<T> Default for SharedList<T> {
     fn default() -> Self {
         Self(Arc::default())
     }
 }
 
-impl<T> From<Vec<T>> for Shared<T> {
+impl<T> From<Vec<T>> for SharedList<T> {
     fn from(list: Vec<T>) -> Self {
         Self(Arc::new(list))
     }
 }
 
-impl<T> FromIterator<T> for Shared<T> {
+impl<T> FromIterator<T> for SharedList<T> {
     fn from_iter<I: IntoIterator<Item = T>>(items: I) -> Self {
         Vec::from_iter(items).into()
     }
 }
 
-impl<T> Deref for Shared<T> {
+impl<T> Deref for SharedList<T> {
     type Target = Vec<T>;
 
     fn deref(&self) -> &Vec<T> {
@@ -49,25 +49,25 @@ impl<T> Deref for Shared<T> {
     }
 }
 
-impl<T: Clone> DerefMut for Shared<T> {
+impl<T: Clone> DerefMut for SharedList<T> {
     fn deref_mut(&mut self) -> &mut Vec<T> {
         Arc::make_mut(&mut self.0)
     }
 }
 
-impl<T: Serialize> Serialize for Shared<T> {
+impl<T: Serialize> Serialize for SharedList<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         self.0.serialize(serializer)
     }
 }
 
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Shared<T> {
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for SharedList<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         Vec::deserialize(deserializer).map(Self::from)
     }
 }
 
-impl<T: JsonSchema> JsonSchema for Shared<T> {
+impl<T: JsonSchema> JsonSchema for SharedList<T> {
     fn inline_schema() -> bool {
         true
     }
@@ -83,14 +83,14 @@ impl<T: JsonSchema> JsonSchema for Shared<T> {
 
 /// `N` numbers for each vertex.
 #[derive(Clone, Debug, Arbitrary)]
-pub enum Column<const N: usize> {
+pub enum VertexColumn<const N: usize> {
     /// As binary files have them.
-    Single(Shared<[f32; N]>),
+    Single(SharedList<[f32; N]>),
     /// As texts have them.
-    Double(Shared<[f64; N]>),
+    Double(SharedList<[f64; N]>),
 }
 
-impl<const N: usize> Column<N> {
+impl<const N: usize> VertexColumn<N> {
     /// The numbers rounded to 32 bits.
     pub fn rounded(vectors: impl IntoIterator<Item = [f64; N]>) -> Self {
         #[expect(
@@ -165,14 +165,14 @@ impl<const N: usize> Column<N> {
     }
 }
 
-impl<const N: usize> Default for Column<N> {
+impl<const N: usize> Default for VertexColumn<N> {
     fn default() -> Self {
-        Self::Double(Shared::default())
+        Self::Double(SharedList::default())
     }
 }
 
 /// Empty columns are equal regardless of precision: a file does not distinguish them.
-impl<const N: usize> PartialEq for Column<N> {
+impl<const N: usize> PartialEq for VertexColumn<N> {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Single(own), Self::Single(other)) => own == other,
@@ -184,7 +184,7 @@ impl<const N: usize> PartialEq for Column<N> {
     }
 }
 
-impl<const N: usize> From<Vec<[f32; N]>> for Column<N> {
+impl<const N: usize> From<Vec<[f32; N]>> for VertexColumn<N> {
     fn from(vectors: Vec<[f32; N]>) -> Self {
         if vectors.is_empty() {
             Self::default()
@@ -194,13 +194,13 @@ impl<const N: usize> From<Vec<[f32; N]>> for Column<N> {
     }
 }
 
-impl<const N: usize> From<Vec<[f64; N]>> for Column<N> {
+impl<const N: usize> From<Vec<[f64; N]>> for VertexColumn<N> {
     fn from(vectors: Vec<[f64; N]>) -> Self {
         Self::Double(vectors.into())
     }
 }
 
-impl<const N: usize> FromIterator<[f64; N]> for Column<N> {
+impl<const N: usize> FromIterator<[f64; N]> for VertexColumn<N> {
     fn from_iter<I: IntoIterator<Item = [f64; N]>>(vectors: I) -> Self {
         Vec::from_iter(vectors).into()
     }
@@ -209,7 +209,7 @@ impl<const N: usize> FromIterator<[f64; N]> for Column<N> {
 /// The key of a column of 32-bit floats.
 const SINGLE: &str = "f32";
 
-impl<const N: usize> Serialize for Column<N>
+impl<const N: usize> Serialize for VertexColumn<N>
 where
     [f32; N]: Serialize,
     [f64; N]: Serialize,
@@ -225,7 +225,7 @@ where
     }
 }
 
-impl<'de, const N: usize> Deserialize<'de> for Column<N>
+impl<'de, const N: usize> Deserialize<'de> for VertexColumn<N>
 where
     [f32; N]: Deserialize<'de>,
     [f64; N]: Deserialize<'de>,
@@ -243,7 +243,7 @@ where
     [f32; N]: Deserialize<'de>,
     [f64; N]: Deserialize<'de>,
 {
-    type Value = Column<N>;
+    type Value = VertexColumn<N>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
@@ -252,11 +252,11 @@ where
         )
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Column<N>, A::Error> {
-        Vec::<[f64; N]>::deserialize(SeqAccessDeserializer::new(list)).map(Column::from)
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<VertexColumn<N>, A::Error> {
+        Vec::<[f64; N]>::deserialize(SeqAccessDeserializer::new(list)).map(VertexColumn::from)
     }
 
-    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Column<N>, A::Error> {
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<VertexColumn<N>, A::Error> {
         let key = map
             .next_key::<Cow<'_, str>>()?
             .ok_or_else(|| Error::missing_field(SINGLE))?;
@@ -265,13 +265,13 @@ where
         }
         let vectors = map.next_value::<Vec<[f32; N]>>()?;
         match map.next_key::<Cow<'_, str>>()? {
-            None => Ok(Column::from(vectors)),
+            None => Ok(VertexColumn::from(vectors)),
             Some(key) => Err(Error::unknown_field(&key, &[])),
         }
     }
 }
 
-impl<const N: usize> JsonSchema for Column<N>
+impl<const N: usize> JsonSchema for VertexColumn<N>
 where
     [f64; N]: JsonSchema,
 {
@@ -301,19 +301,25 @@ mod tests {
 
     #[test]
     fn both_precisions_keep_every_bit_in_json() {
-        let single = Column::from(vec![[0.1_f32, -0.0], [f32::MAX, 1e-45]]);
-        let double = Column::from(vec![[0.1_f64, -0.0], [f64::MAX, 5e-324]]);
+        let single = VertexColumn::from(vec![[0.1_f32, -0.0], [f32::MAX, 1e-45]]);
+        let double = VertexColumn::from(vec![[0.1_f64, -0.0], [f64::MAX, 5e-324]]);
         let text = serde_json::to_string(&single).unwrap();
         assert_eq!(text, r#"{"f32":[[0.1,-0.0],[3.4028235e+38,1e-45]]}"#);
-        for column in [single, double, Column::default()] {
+        for column in [single, double, VertexColumn::default()] {
             let text = serde_json::to_string(&column).unwrap();
             assert_eq!(
-                format!("{:?}", serde_json::from_str::<Column<2>>(&text).unwrap()),
+                format!(
+                    "{:?}",
+                    serde_json::from_str::<VertexColumn<2>>(&text).unwrap()
+                ),
                 format!("{column:?}")
             );
             let tree = serde_json::to_value(&column).unwrap();
             assert_eq!(
-                format!("{:?}", serde_json::from_value::<Column<2>>(tree).unwrap()),
+                format!(
+                    "{:?}",
+                    serde_json::from_value::<VertexColumn<2>>(tree).unwrap()
+                ),
                 format!("{column:?}")
             );
         }
@@ -330,13 +336,16 @@ mod tests {
             "1",
             r#"{"f32":[[1e39,0]]}"#,
         ] {
-            assert!(serde_json::from_str::<Column<2>>(text).is_err(), "{text}");
+            assert!(
+                serde_json::from_str::<VertexColumn<2>>(text).is_err(),
+                "{text}"
+            );
         }
     }
 
     #[test]
     fn what_changes_is_no_longer_shared() {
-        let first = Shared::from(vec![1, 2]);
+        let first = SharedList::from(vec![1, 2]);
         let mut second = first.clone();
         assert!(std::ptr::eq(first.as_ptr(), second.as_ptr()));
         second.push(3);

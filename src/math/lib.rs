@@ -2,8 +2,8 @@
 //!
 //! # Overview
 //!
-//! - Vectors: [`Vec3`] (glam, f64), [`Bounds`], [`Basis`], [`unit()`] and [`length()`] for vectors
-//!   of any size, [`camera_basis`] and [`view_basis`], rotations ([`rotated_about`],
+//! - Vectors: [`Vec3`] (glam, f64), [`Bounds`], [`OrthonormalBasis`], [`unit()`] and [`length()`]
+//!   for vectors of any size, [`camera_basis`] and [`view_basis`], rotations ([`rotated_about`],
 //!   [`axis_and_angle`]).
 //! - Exact arithmetic: error-free transformations ([`two_sum`], [`two_product`]), compensated sums
 //!   ([`dot`], [`cross`], [`difference_of_products`]), and [`DoubleDouble`] with 106 bits.
@@ -12,7 +12,7 @@
 //! - Ranges as types: [`Positive`], [`NonNegative`], [`UnitInterval`], [`Weight`]. A value of such
 //!   a
 //!   type needs no further check.
-//! - Mesh data: [`Column`], a shared list of vectors in the precision of its source.
+//! - Mesh data: [`VertexColumn`], a shared list of vectors in the precision of its source.
 //! - Hashes and angles for sampling: [`mix`], [`cos_sin_revolutions`], [`golden_revolutions`].
 //! - Sets in postfix notation ([`SetStep`], [`evaluate_set`]), which CSG solids use; procedural
 //!   textures ([`SolidTexture`]).
@@ -49,9 +49,9 @@ mod solid_texture;
 mod turns;
 mod weight;
 
-pub use basis::{BasisFault, camera_basis, fallback_up, view_basis};
+pub use basis::{CameraBasisError, camera_basis, fallback_up, view_basis};
 pub use bounds::Bounds;
-pub use column::{Column, Shared};
+pub use column::{SharedList, VertexColumn};
 pub use count::to_u32;
 pub use direction::{length, unit, unit_scale};
 pub use double::DoubleDouble;
@@ -65,7 +65,7 @@ pub use glam::Vec4 as Lanes;
 pub use hash::{GAMMA, fraction, mix};
 pub use id::{Id, IdTable};
 pub use number::{NonNegative, Positive, UnitInterval, shortest};
-pub use onb::Basis;
+pub use onb::OrthonormalBasis;
 pub use rotation::{axis_and_angle, rotated_about, rotated_to_z};
 pub use set::{MAX_SET_OPERANDS, SetStep, evaluate_set, is_set_expression};
 pub use solid_texture::{GradientNoise, SolidTexture, TextureMapping, TexturePattern};

@@ -4,7 +4,7 @@ use super::Vec3;
 
 /// Three unit vectors at right angles, right-handed: `tangent × bitangent = normal`.
 #[derive(Clone, Copy, Debug)]
-pub struct Basis {
+pub struct OrthonormalBasis {
     /// The first.
     pub tangent: Vec3,
     /// The second.
@@ -13,7 +13,7 @@ pub struct Basis {
     pub normal: Vec3,
 }
 
-impl Basis {
+impl OrthonormalBasis {
     /// The basis around a unit vector (Duff et al., "Building an orthonormal basis, revisited",
     /// JCGT 6 (2017)).
     #[must_use]

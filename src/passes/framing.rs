@@ -19,7 +19,7 @@ const MAX_TRIANGLES: usize = 1 << 22;
 
 /// A viewing direction in spherical coordinates, in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Orbit {
+pub struct OrbitAngles {
     /// The angle about the upward axis: 0 is the front (+z), π/2 the right (+x).
     pub azimuth: f64,
     /// The angle above the horizon, −π/2 to π/2.
@@ -28,7 +28,7 @@ pub struct Orbit {
     pub roll: f64,
 }
 
-impl Default for Orbit {
+impl Default for OrbitAngles {
     /// A three-quarter view: 34° to the right of the front, 23° above.
     fn default() -> Self {
         let from = Vec3::new(2.0, 1.5, 3.0).normalize();
@@ -44,7 +44,7 @@ impl Default for Orbit {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Framing {
     /// The viewing direction.
-    pub orbit: Orbit,
+    pub orbit: OrbitAngles,
     /// The vertical field of view in radians, above 0 and below π; by default 35°.
     pub yfov: Option<f64>,
     /// Width and height of the picture in pixels; by default 512 × 512.
@@ -67,7 +67,7 @@ impl Framing {
         let tangent = sin(half) / cos(half);
         let aspect = f64::from(size[0]) / f64::from(size[1]);
         let tangents = [tangent * aspect, tangent];
-        let mut fit = Fit::new(axes, tangents.map(|tangent| tangent * SUBJECT_FRACTION));
+        let mut fit = CameraFit::new(axes, tangents.map(|tangent| tangent * SUBJECT_FRACTION));
         FramingSubject::of(scene, self.ground)
             .corners(&mut |corner| fit.add(corner - sphere.center));
         let Some((eye, depth)) = fit.eye() else {
@@ -99,7 +99,7 @@ pub(super) fn standing_bounds(scene: &Scene) -> Option<[Vec3; 2]> {
     (!subject.has_ground && bounds[0].x <= bounds[1].x).then_some(bounds)
 }
 
-impl Orbit {
+impl OrbitAngles {
     /// The camera axes: right, up, and from the scene to the eye.
     fn axes(&self) -> [Vec3; 3] {
         let Self {
@@ -122,7 +122,7 @@ impl Orbit {
 ///
 /// A point at (a, b, c) along the axes is within the tangent t of an eye at (e, f, g) if
 /// |a − e| ≤ t·(g − c): four half spaces, of which the outermost ones decide.
-struct Fit {
+struct CameraFit {
     axes: [Vec3; 3],
     tangents: [f64; 2],
     /// For both directions of x and y, the largest ±a + t·c.
@@ -131,7 +131,7 @@ struct Fit {
     depth: [f64; 2],
 }
 
-impl Fit {
+impl CameraFit {
     fn new(axes: [Vec3; 3], tangents: [f64; 2]) -> Self {
         Self {
             axes,
@@ -454,7 +454,7 @@ mod tests {
     #[test]
     fn an_orbit_goes_to_the_right_and_up_and_rolls_clockwise() {
         let at = |azimuth: f64, elevation: f64, roll: f64| {
-            let orbit = Orbit {
+            let orbit = OrbitAngles {
                 azimuth,
                 elevation,
                 roll,

@@ -6,7 +6,7 @@
 //! - [`ViewAndLight`]: camera, integrator, environment and lights of one run. It applies, in this
 //!   order: the view ([`Framing`] or an explicit camera), the lights, the environment, the
 //!   integrator, the studio, and the ground.
-//! - [`Framing`]: a camera that shows the whole scene from an [`Orbit`] direction.
+//! - [`Framing`]: a camera that shows the whole scene from an [`OrbitAngles`] direction.
 //! - [`studio`](fill): an environment map for scenes without light, and the ground under an asset.
 //! - [`emissive_surfaces`]: which surfaces emit light.
 //!
@@ -24,11 +24,11 @@ mod studio;
 mod view_and_light;
 
 pub use emission::emissive_surfaces;
-pub use framing::{Framing, Orbit};
+pub use framing::{Framing, OrbitAngles};
 pub use overrides::{CountSetting, Overrides};
 pub use settings::set;
 pub use studio::{StudioSet, fill};
 pub use view_and_light::{
     AppliedViewAndLight, EnvironmentOverride, FillLight, IntegratorChoice, SceneKind, StudioChoice,
-    Sun, View, ViewAndLight, add_light, remove_lights, use_path_integrator,
+    SunLight, View, ViewAndLight, add_light, remove_lights, use_path_integrator,
 };

@@ -29,7 +29,7 @@ pub enum StudioSet {
 
 /// A room: its radiance above and below, the elevation between them and the width of the
 /// transition, in degrees, and its softboxes.
-struct Room {
+struct StudioRoom {
     radiance: [f64; 2],
     transition: [f64; 2],
     boxes: [SoftBox; 3],
@@ -65,24 +65,24 @@ const fn boxes([key, fill, rim]: [f64; 3]) -> [SoftBox; 3] {
     ]
 }
 
-const LIGHT: Room = Room {
+const LIGHT: StudioRoom = StudioRoom {
     radiance: [0.06, 0.72],
     transition: [12.0, 30.0],
     boxes: boxes([4.5, 0.5, 3.5]),
 };
-const DARK: Room = Room {
+const DARK: StudioRoom = StudioRoom {
     radiance: [0.3, 0.14],
     transition: [20.0, 30.0],
     boxes: boxes([5.0, 1.5, 3.0]),
 };
-const SOFT: Room = Room {
+const SOFT: StudioRoom = StudioRoom {
     radiance: [0.6, 0.72],
     transition: [25.0, 40.0],
     boxes: boxes([1.6, 0.4, 0.4]),
 };
 
 impl StudioSet {
-    const fn room(self) -> &'static Room {
+    const fn room(self) -> &'static StudioRoom {
         match self {
             Self::Light => &LIGHT,
             Self::Dark => &DARK,
@@ -112,7 +112,7 @@ pub(super) fn smooth(x: f64) -> f64 {
     x * x * (3.0 - 2.0 * x)
 }
 
-impl Room {
+impl StudioRoom {
     /// The radiance from a direction (a unit vector).
     fn radiance(&self, direction: Vec3) -> f64 {
         let azimuth = atan2(direction.x, direction.z).to_degrees();
@@ -159,7 +159,7 @@ fn direction(x: u32, y: u32) -> Vec3 {
 }
 
 /// The environment map of a room.
-fn picture(room: &Room) -> Image {
+fn picture(room: &StudioRoom) -> Image {
     let pixels = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| direction(x, y)));
     #[expect(
         clippy::cast_possible_truncation,

@@ -1,14 +1,14 @@
 //! View and light of one run: they replace the camera, the lights and the environment of a scene
 //! before it is validated. Nothing else of the scene changes.
 
-use super::framing::{Framing, Orbit};
+use super::framing::{Framing, OrbitAngles};
 use super::studio::{self, StudioSet};
 use super::{emission, framing, ground};
 use rtc_ir::{
-    BoundingSphere, Camera, Emitter, EntityKind, Environment, Image, Light, Lowered, Mode,
-    PathSettings, PointLight, Projection, Punctual, Scene,
+    BoundingSphere, Camera, EntityKind, Environment, Image, Light, LoweredScene, Mode,
+    PathSettings, PointLight, Projection, Punctual, PunctualKind, Scene,
 };
-use rtc_math::{BasisFault, Vec3, camera_basis, fallback_up, length, unit};
+use rtc_math::{CameraBasisError, Vec3, camera_basis, fallback_up, length, unit};
 use std::f64::consts::PI;
 
 /// View and light; a value that is not given stays as in the scene.
@@ -21,7 +21,7 @@ pub struct ViewAndLight {
     /// What surrounds it.
     pub environment: Option<EnvironmentOverride>,
     /// Directional lights to add.
-    pub suns: Vec<Sun>,
+    pub suns: Vec<SunLight>,
     /// Whether the lights of the scene are removed.
     pub without_lights: bool,
     /// Whether the scene is rendered as a turntable, so its view is not framed.
@@ -82,7 +82,7 @@ pub struct View {
     /// The vertical field of view in radians, above 0 and below π.
     pub yfov: Option<f64>,
     /// The viewing direction from which the whole scene is framed.
-    pub orbit: Option<Orbit>,
+    pub orbit: Option<OrbitAngles>,
 }
 
 /// The integrator.
@@ -105,7 +105,7 @@ pub enum EnvironmentOverride {
 
 /// A directional light.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sun {
+pub struct SunLight {
     /// The direction from the scene to the light, not of length 0.
     pub direction: [f64; 3],
     /// The irradiance on a surface that faces the light.
@@ -133,10 +133,10 @@ impl ViewAndLight {
     /// If the view has no direction, or no upward direction.
     pub fn apply(
         &self,
-        lowered: &mut Lowered,
+        lowered: &mut LoweredScene,
         kind: SceneKind,
-    ) -> Result<AppliedViewAndLight, BasisFault> {
-        let Lowered {
+    ) -> Result<AppliedViewAndLight, CameraBasisError> {
+        let LoweredScene {
             scene,
             source_spans,
         } = lowered;
@@ -155,7 +155,7 @@ impl ViewAndLight {
             scene.lights.clear();
             source_spans.forget(EntityKind::Light);
         }
-        scene.lights.extend(self.suns.iter().map(Sun::light));
+        scene.lights.extend(self.suns.iter().map(SunLight::light));
         if let Some(environment) = &self.environment {
             scene.environment = Some(environment.environment(scene));
             source_spans.forget(EntityKind::Environment);
@@ -234,7 +234,7 @@ impl View {
         })
     }
 
-    fn apply(&self, scene: &mut Scene) -> Result<(), BasisFault> {
+    fn apply(&self, scene: &mut Scene) -> Result<(), CameraBasisError> {
         if self.eye.is_some() || self.center.is_some() || self.up.is_some() {
             self.look_at(scene)?;
         }
@@ -244,7 +244,7 @@ impl View {
         Ok(())
     }
 
-    fn look_at(&self, scene: &mut Scene) -> Result<(), BasisFault> {
+    fn look_at(&self, scene: &mut Scene) -> Result<(), CameraBasisError> {
         let middle = self
             .eye
             .and_then(|_| scene.bounding_sphere())
@@ -269,7 +269,7 @@ impl View {
             |up| unit(Vec3::from_array(up)).unwrap_or(Vec3::ZERO),
         );
         let basis = match (camera_basis(eye, center, up * pixel), self.up) {
-            (Err(BasisFault::Parallel), None) => {
+            (Err(CameraBasisError::Parallel), None) => {
                 camera_basis(eye, center, fallback_up(center - eye, up * pixel))
             }
             (basis, _) => basis,
@@ -281,14 +281,14 @@ impl View {
     }
 }
 
-impl Sun {
+impl SunLight {
     fn light(&self) -> Light {
         let Self {
             direction,
             irradiance,
         } = *self;
         Light::Punctual(Punctual {
-            emitter: Emitter::Sun { direction },
+            emitter: PunctualKind::Sun { direction },
             intensity: irradiance,
         })
     }
@@ -325,7 +325,7 @@ fn use_whitted_integrator(scene: &mut Scene) {
     }
     scene.settings.mode = Mode::Phong;
     if scene.lights.is_empty() {
-        let key_light_direction = Sun {
+        let key_light_direction = SunLight {
             direction: studio::key_light_direction().to_array(),
             irradiance: [PI; 3],
         };
@@ -342,7 +342,7 @@ pub fn add_light(scene: &mut Scene, light: Light) {
 }
 
 /// Removes the lights and their source spans.
-pub fn remove_lights(lowered: &mut Lowered) {
+pub fn remove_lights(lowered: &mut LoweredScene) {
     lowered.scene.lights.clear();
     lowered.source_spans.forget(EntityKind::Light);
 }

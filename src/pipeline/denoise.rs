@@ -1,7 +1,7 @@
 //! Denoised pictures and their errors; path tracing only, with at least two samples per pixel.
 
 use super::{PictureSetup, RayCounter, RenderError, RenderSubject, Renderer};
-use rtc_render::{Film, Job, PixelObserver};
+use rtc_render::{Film, PixelObserver, RenderSelection};
 use rtc_study::{ProbedError, RenderOrder, probe};
 use rtc_valid::{Mode, ValidScene};
 
@@ -25,7 +25,7 @@ impl PictureSetup {
     pub(super) fn denoised(
         &self,
         subject: &mut RenderSubject,
-        job: &Job,
+        job: &RenderSelection,
         (on_pixel, counter): (&PixelObserver<'_>, &RayCounter),
     ) -> Result<Option<Traced>, RenderError> {
         let samples = paths(&subject.validated.scene, "--denoise")?;
@@ -58,7 +58,7 @@ impl Renderer {
     fn denoised(
         &self,
         samples: u32,
-        (job, order): (&Job, &RenderOrder),
+        (job, order): (&RenderSelection, &RenderOrder),
         (on_pixel, counter): (&PixelObserver<'_>, &RayCounter),
     ) -> Option<Traced> {
         self.threads.install(|| {

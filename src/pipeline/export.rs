@@ -1,6 +1,6 @@
 //! Scenes as files in memory, for other programs.
 
-use super::{Input, Validated};
+use super::{Input, ValidatedScene};
 use rtc_codec::{self as codec, Encoding};
 use rtc_emit as emit;
 use std::collections::BTreeMap;
@@ -98,7 +98,7 @@ impl Input {
     /// Why a scene text or the IR can't express it.
     pub fn write_scene(
         &mut self,
-        validated: &Validated,
+        validated: &ValidatedScene,
         format: ExportFormat,
         folder: &str,
     ) -> Result<Option<ExportedFiles>, String> {
@@ -110,7 +110,7 @@ impl Input {
         };
         let encoded = |encoding| {
             let bytes = codec::encode(encoding, scene);
-            let bytes = bytes.map_err(|codec::NotFinite| "a number is not finite".to_owned());
+            let bytes = bytes.map_err(|codec::NonFiniteNumber| "a number is not finite".to_owned());
             bytes.map(|bytes| Some(alone(bytes)))
         };
         match format {
@@ -120,7 +120,7 @@ impl Input {
             ExportFormat::Text => {
                 let written = emit::course::emit_with_files(scene, Some(folder))?;
                 let file =
-                    |file: emit::course::Attachment<'_>| Ok((file.name.clone(), file.bytes()?));
+                    |file: emit::course::SidecarFile<'_>| Ok((file.name.clone(), file.bytes()?));
                 Ok(Some(ExportedFiles {
                     bytes: written.text.into_bytes(),
                     files: written

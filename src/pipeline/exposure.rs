@@ -8,7 +8,7 @@ use rtc_color::luminance;
 use rtc_ir::{Camera, Mode, Scene};
 use rtc_math::{exp, ln, pow};
 use rtc_passes::emissive_surfaces;
-use rtc_render::{Aov, Background, Film, Job, PixelObserver, Values};
+use rtc_render::{Aov, Background, Film, PixelObserver, RenderSelection, Values};
 use rtc_valid::{ValidScene, revalidate};
 
 /// The side of the small render in pixels, and its paths per pixel.
@@ -47,10 +47,10 @@ impl Renderer {
     ) -> Option<LightMeasurement> {
         let scene_before = self.world.scene().clone();
         self.change(small(scene, camera));
-        let job = Job {
+        let job = RenderSelection {
             values: Values::Linear,
             background: Background::Nothing,
-            ..Job::default()
+            ..RenderSelection::default()
         };
         let film = self.render(&job, on_pixel);
         let numbers = self.layers(&[Aov::Instance], &job, &|| true);
@@ -146,7 +146,7 @@ fn surfaces(film: &Film) -> impl Iterator<Item = (usize, [f64; 3])> {
 mod tests {
     use super::*;
     use rtc_image::Image;
-    use rtc_render::Counts;
+    use rtc_render::RayCounts;
 
     fn exposed(pixels: Vec<[f64; 3]>, coverage: Vec<f32>) -> f64 {
         let image = Image {
@@ -157,7 +157,7 @@ mod tests {
         stops(&Film {
             image,
             coverage,
-            counts: Counts::default(),
+            counts: RayCounts::default(),
         })
     }
 
@@ -199,7 +199,7 @@ mod tests {
             pixels,
         };
         let coverage = [vec![1.0; 40], vec![0.0; 60]].concat();
-        let counts = Counts::default();
+        let counts = RayCounts::default();
         let film = Film {
             image,
             coverage,

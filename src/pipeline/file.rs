@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use tempfile::{NamedTempFile, TempDir};
 
 /// A file to be written.
-pub struct NewFile {
+pub struct AtomicFile {
     /// The path, with a canonical folder.
     target: PathBuf,
     /// The permissions of the file that it replaces.
@@ -28,9 +28,9 @@ pub trait WriteObserver {
 }
 
 /// Does nothing.
-struct Unobserved;
+struct NoWriteObserver;
 
-impl WriteObserver for Unobserved {
+impl WriteObserver for NoWriteObserver {
     fn is_stopped(&self) -> bool {
         false
     }
@@ -38,7 +38,7 @@ impl WriteObserver for Unobserved {
     fn draft(&self, _: Option<&Path>) {}
 }
 
-impl NewFile {
+impl AtomicFile {
     /// Writes a file with these bytes at `path`, without an observer.
     ///
     /// # Errors
@@ -46,7 +46,7 @@ impl NewFile {
     pub fn save(path: &Path, bytes: &[u8]) -> io::Result<()> {
         let stream = || io::Error::other("it is no regular file");
         let file = Self::at(path)?.ok_or_else(stream)?;
-        file.write(&|out| out.write_all(bytes), &Unobserved)
+        file.write(&|out| out.write_all(bytes), &NoWriteObserver)
     }
 
     /// Replaces the content of the file at `path`, without an observer.
@@ -142,13 +142,13 @@ impl NewFile {
 }
 
 /// A folder that appears complete with all its files, or not at all.
-pub struct NewFolder {
+pub struct AtomicFolder {
     target: PathBuf,
     /// The temporary folder next to the target; deleted when dropped.
     draft: TempDir,
 }
 
-impl NewFolder {
+impl AtomicFolder {
     /// Checks that a folder can be created at `path`: nothing exists there, or an empty folder.
     ///
     /// # Errors
@@ -176,14 +176,14 @@ impl NewFolder {
     /// Writes one of its files, unless the observer stops it.
     ///
     /// # Errors
-    /// As [`NewFile::write`].
+    /// As [`AtomicFile::write`].
     pub fn put(
         &self,
         name: &str,
         write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
         observer: &dyn WriteObserver,
     ) -> io::Result<()> {
-        let file = NewFile::at(&self.draft.path().join(name))?;
+        let file = AtomicFile::at(&self.draft.path().join(name))?;
         file.ok_or(ErrorKind::AlreadyExists)?.write(write, observer)
     }
 

@@ -64,7 +64,7 @@ struct FixCandidate {
     /// Whether some diagnostics were dropped.
     is_flooded: bool,
     /// The fixes for it, sorted and without overlaps.
-    edits: Vec<Edit>,
+    edits: Vec<TextChange>,
     /// The number of guesses that were not requested.
     guesses: usize,
     /// The unknown keys: settings below them are lost.
@@ -82,7 +82,7 @@ struct EditedText {
 
 /// A change of a text.
 #[derive(Clone)]
-struct Edit {
+struct TextChange {
     start: usize,
     end: usize,
     text: String,
@@ -180,7 +180,7 @@ impl<'w> FixSession<'w> {
         let is_any = replacements.peek().is_some();
         let requested = replacements.find(|change| self.filter.guesses || !change.is_guess);
         candidate.guesses += usize::from(is_any && requested.is_none());
-        candidate.edits.extend(requested.map(|change| Edit {
+        candidate.edits.extend(requested.map(|change| TextChange {
             start: change.span.start as usize,
             end: change.span.end as usize,
             text: change.text.clone(),
@@ -211,7 +211,7 @@ impl<'w> FixSession<'w> {
     fn apply_and_follow(
         &mut self,
         candidate: &FixCandidate,
-        edits: &[Edit],
+        edits: &[TextChange],
     ) -> Option<FixCandidate> {
         let mut next = candidate.edited(edits);
         for _ in 0..MAX_ROUNDS {
@@ -235,7 +235,7 @@ impl<'w> FixSession<'w> {
 
 impl FixCandidate {
     /// The text with these changes; `None` if nothing changes.
-    fn edited(&self, edits: &[Edit]) -> Option<EditedText> {
+    fn edited(&self, edits: &[TextChange]) -> Option<EditedText> {
         let mut text = String::with_capacity(self.text.len());
         let mut added = Vec::with_capacity(edits.len());
         let mut from = 0;
@@ -261,7 +261,7 @@ impl FixCandidate {
         unknown_keys.any(|unknown_keys| added.iter().any(|added| overlap(unknown_keys, added)))
     }
 
-    fn is_better(&self, before: &Self, edits: &[Edit]) -> bool {
+    fn is_better(&self, before: &Self, edits: &[TextChange]) -> bool {
         let of = |candidate: &Self, diagnostic_ref: &DiagnosticRef| {
             candidate
                 .occurrences
@@ -269,7 +269,7 @@ impl FixCandidate {
                 .copied()
                 .unwrap_or(0)
         };
-        let is_gone = |edit: &Edit| {
+        let is_gone = |edit: &TextChange| {
             let fixed_by_edits = edits
                 .iter()
                 .filter(|other| other.diagnostic_ref == edit.diagnostic_ref);

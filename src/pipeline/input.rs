@@ -1,10 +1,10 @@
 //! A scene from its files to validation, with its diagnostics.
 
 use super::{ExportFormat, Options, SourceKind, load, stage, validate};
-use rtc_diag::{Diagnostic, Sink, codes};
+use rtc_diag::{Diagnostic, DiagnosticSink, codes};
 use rtc_emit::{self as emit, ExportedScene, gltf::GltfAsset};
 use rtc_front::{gltf, pixels};
-use rtc_ir::{EntityKind, Field, Light, Lowered, Scene, SourceSpans, ValuePath};
+use rtc_ir::{EntityField, EntityKind, Light, LoweredScene, Scene, SourceSpans, ValuePath};
 use rtc_passes::{EnvironmentOverride, FillLight, Framing, SceneKind, ViewAndLight};
 use rtc_source::{FileId, LoadError, Loader, MemoryFiles, Resource, SourceMap, Span};
 use rtc_valid::ValidScene;
@@ -26,7 +26,7 @@ pub struct Input {
     /// The name of the scene in messages.
     name: String,
     map: Arc<SourceMap>,
-    sink: Sink,
+    sink: DiagnosticSink,
     file: Option<FileId>,
     options: Options,
     /// The overrides of view and light; `None` for a scene that is not rendered.
@@ -35,21 +35,21 @@ pub struct Input {
 
 /// A lowered scene, before overrides of view and light.
 #[derive(Clone)]
-pub struct Loaded {
+pub struct LoadedScene {
     /// The scene with its source spans.
-    pub lowered: Lowered,
+    pub lowered: LoweredScene,
     /// Whether it is an asset: glTF, or a mesh.
     is_asset: bool,
     /// Whether it has a camera of its own, which an asset may lack.
     has_camera: bool,
 }
 
-impl Loaded {
+impl LoadedScene {
     /// A scene that was built in code.
     #[must_use]
     pub fn built(scene: Scene) -> Self {
         Self {
-            lowered: Lowered {
+            lowered: LoweredScene {
                 scene,
                 source_spans: SourceSpans::default(),
             },
@@ -59,16 +59,16 @@ impl Loaded {
     }
 
     /// Replaces the scene. From now on its camera is its own if `has_camera`.
-    pub fn replace(&mut self, lowered: Lowered, has_camera: bool) {
+    pub fn replace(&mut self, lowered: LoweredScene, has_camera: bool) {
         self.lowered = lowered;
         self.has_camera |= has_camera;
     }
 }
 
 /// A scene that was validated, with the IR that it was validated from.
-pub struct Validated {
+pub struct ValidatedScene {
     /// The IR with its source spans.
-    pub lowered: Lowered,
+    pub lowered: LoweredScene,
     /// The valid scene.
     pub scene: ValidScene,
 }
@@ -190,17 +190,17 @@ impl Input {
     }
 
     /// Lowers the scene. Call it once: loading may release the bytes of its files.
-    pub fn load(&mut self) -> Option<Loaded> {
+    pub fn load(&mut self) -> Option<LoadedScene> {
         // Detecting the format needs the whole file.
         let is_asset = self.is_asset();
         let map = Arc::get_mut(&mut self.map).expect(UNSHARED);
         let lowered = load(self.file?, map, &self.options, &mut self.sink)?;
         // An asset with its own settings is rendered like a scene text.
         let has_own = |entity| {
-            let whole = ValuePath::new(entity, 0, Field::Whole);
+            let whole = ValuePath::new(entity, 0, EntityField::Whole);
             lowered.source_spans.span(whole).is_some()
         };
-        Some(Loaded {
+        Some(LoadedScene {
             is_asset: is_asset && !has_own(EntityKind::Settings),
             has_camera: has_own(EntityKind::Camera),
             lowered,
@@ -221,10 +221,11 @@ impl Input {
     /// Whether it is a scene text whose images and meshes come from files that it refers to, not
     /// from an asset.
     #[must_use]
-    pub fn has_original_files(&self, lowered: &Lowered) -> bool {
+    pub fn has_original_files(&self, lowered: &LoweredScene) -> bool {
         let is_asset = |file| gltf::is_gltf(self.map.name(file), self.map.bytes(file));
         let of_asset = |entity, count| {
-            let paths = (0..count).map(move |index| ValuePath::new(entity, index, Field::Whole));
+            let paths =
+                (0..count).map(move |index| ValuePath::new(entity, index, EntityField::Whole));
             let mut spans = paths.filter_map(|path| lowered.source_spans.span(path));
             spans.any(|span| is_asset(span.file))
         };
@@ -243,10 +244,10 @@ impl Input {
     /// Applies the overrides to a loaded scene, lets `change` modify it, and validates it.
     pub fn validate(
         &mut self,
-        loaded: Loaded,
-        change: impl FnOnce(&mut Lowered, &Provenance),
-    ) -> Option<Validated> {
-        let Loaded {
+        loaded: LoadedScene,
+        change: impl FnOnce(&mut LoweredScene, &Provenance),
+    ) -> Option<ValidatedScene> {
+        let LoadedScene {
             mut lowered,
             is_asset,
             has_camera,
@@ -260,10 +261,10 @@ impl Input {
         let provenance = self.set_stage(&mut lowered, kind);
         change(&mut lowered, &provenance);
         let scene = validate(&lowered, &self.options, &mut self.sink)?;
-        Some(Validated { lowered, scene })
+        Some(ValidatedScene { lowered, scene })
     }
 
-    fn set_stage(&mut self, lowered: &mut Lowered, kind: SceneKind) -> Provenance {
+    fn set_stage(&mut self, lowered: &mut LoweredScene, kind: SceneKind) -> Provenance {
         let is_asset = kind != SceneKind::Text;
         let mut provenance = Provenance {
             is_asset,
@@ -293,12 +294,12 @@ impl Input {
     /// exported, with an error diagnostic.
     pub fn gltf(
         &mut self,
-        lowered: &Lowered,
+        lowered: &LoweredScene,
         tolerance: Option<f64>,
         folder: Option<&str>,
     ) -> Option<GltfAsset> {
         let (
-            Lowered {
+            LoweredScene {
                 scene,
                 source_spans,
             },
@@ -319,11 +320,11 @@ impl Input {
     /// error diagnostic.
     pub fn export(
         &mut self,
-        lowered: &Lowered,
+        lowered: &LoweredScene,
         format: ExportFormat,
         folder: Option<&str>,
     ) -> Option<ExportedScene> {
-        let Lowered {
+        let LoweredScene {
             scene,
             source_spans,
         } = lowered;
@@ -340,12 +341,12 @@ impl Input {
     }
 
     /// The diagnostics since the last call.
-    pub fn take_diagnostics(&mut self) -> Sink {
+    pub fn take_diagnostics(&mut self) -> DiagnosticSink {
         std::mem::replace(&mut self.sink, self.options.sink())
     }
 
     /// Replaces the diagnostics by earlier ones.
-    pub fn restore_diagnostics(&mut self, found: Sink) {
+    pub fn restore_diagnostics(&mut self, found: DiagnosticSink) {
         self.sink = found;
     }
 

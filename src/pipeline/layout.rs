@@ -94,7 +94,7 @@ impl Input {
         if !course::is_scene_text(bytes) {
             return Err(FormatTextError::NoScene);
         }
-        let mut sink = diag::Sink::default();
+        let mut sink = diag::DiagnosticSink::default();
         let formatted = course::format_text(file, self.map(), &mut sink);
         for diagnostic in sink.kept() {
             self.push(diagnostic.clone());

@@ -14,7 +14,7 @@
 //! - [`PictureAudit`] and [`RenderShard::audit`] render some tiles of a picture, or of a part of
 //!   one, again, and compare.
 //! - [`fix()`] applies suggested fixes; [`Input::format_text`] formats a text.
-//! - [`NewFile`] writes files atomically; no other code writes files.
+//! - [`AtomicFile`] writes files atomically; no other code writes files.
 //! - [`trial`] has the entry points of the fuzz targets.
 //!
 //! # Guarantees
@@ -43,40 +43,42 @@ mod strips;
 pub mod trial;
 
 pub use audit::{
-    AuditDraw, AuditFinding, AuditResult, AuditSubject, ODDS as AUDIT_ODDS, PictureAudit,
+    AuditFinding, AuditResult, AuditSubject, ODDS as AUDIT_ODDS, PictureAudit, TileDraw,
 };
 pub use denoise::Traced;
 pub use explanation::{explain_code, explanation};
 pub use export::{ExportFormat, ExportedFiles, sidecar_folder};
 pub use exposure::LightMeasurement;
 #[cfg(not(target_family = "wasm"))]
-pub use file::{NewFile, NewFolder, WriteObserver};
+pub use file::{AtomicFile, AtomicFolder, WriteObserver};
 pub use fix::{DiagnosticRef, FixFilter, FixedText, diagnostic_ref, fix};
-pub use input::{Input, Loaded, Provenance, Validated};
+pub use input::{Input, LoadedScene, Provenance, ValidatedScene};
 pub use layout::{FormatTextError, SourceKind, is_scene};
 pub use output_transform::{Exposure, OutputTransform, ResolvedOutputTransform};
 pub use ray_counter::RayCounter;
-pub use setup::{Observer, PictureSetup, RenderError, RenderSubject, Rounds};
+pub use setup::{PictureSetup, RenderError, RenderObserver, RenderSubject, Rounds};
 pub use shard::{MAX_SHARES as MAX_SHARDS, RenderShard, ShardError, hash_of_file};
-pub use shard_plan::{ShardBy, ShardPlan};
+pub use shard_plan::{ShardDivision, ShardPlan};
 
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use rtc_codec as codec;
-use rtc_diag::{Diagnostic, DiagnosticLevels, Sink, clip, codes};
+use rtc_diag::{Diagnostic, DiagnosticLevels, DiagnosticSink, clip, codes};
 use rtc_front as front;
 use rtc_front::course::assets::{self, AssetTarget};
 use rtc_front::{course, gltf, mitsuba, pbrt, usd};
-use rtc_image::Layers;
-use rtc_ir::{EntityKind, Field, Lowered, Scene, SourceSpans, ValuePath};
-use rtc_math::BasisFault;
+use rtc_image::PixelLayers;
+use rtc_ir::{EntityField, EntityKind, LoweredScene, Scene, SourceSpans, ValuePath};
+use rtc_math::CameraBasisError;
 use rtc_passes::{AppliedViewAndLight, SceneKind, ViewAndLight};
 use rtc_plan::{self as plan, Plan};
 use rtc_render::{
-    self as render, AnyWorld, Aov, Film, FilmError, Job, Mismatch, PartialFilm, PixelObserver,
-    SimdLevel,
+    self as render, AnyWorld, Aov, Film, FilmError, PartialFilm, PixelObserver, PlanMismatch,
+    RenderSelection, SimdLevel,
 };
 use rtc_source::{EditedFiles, FileId, SourceMap};
-use rtc_study::{self as study, CheckpointSink, RenderOrder, Stopped, TargetResult, Watch};
+use rtc_study::{
+    self as study, CheckpointSink, RenderCallbacks, RenderOrder, Stopped, TargetResult,
+};
 use rtc_valid::{self as valid, Surface, ValidScene};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -96,8 +98,8 @@ pub struct Options {
 
 impl Options {
     /// An empty sink.
-    fn sink(&self) -> Sink {
-        Sink::within(&self.valid.limits).with_levels(self.levels.clone())
+    fn sink(&self) -> DiagnosticSink {
+        DiagnosticSink::within(&self.valid.limits).with_levels(self.levels.clone())
     }
 }
 
@@ -107,8 +109,8 @@ pub fn load(
     file: FileId,
     map: &mut SourceMap,
     options: &Options,
-    sink: &mut Sink,
-) -> Option<Lowered> {
+    sink: &mut DiagnosticSink,
+) -> Option<LoweredScene> {
     // Reject formats that are recognised but not supported.
     if let Some(diagnostic) = front::foreign(map.name(file), map.bytes(file)) {
         sink.push(diagnostic);
@@ -128,7 +130,7 @@ pub fn load(
         SourceKind::Ir(encoding) => {
             let scene = codec::decode(encoding, file, map, sink)?;
             map.release(file, 0);
-            Some(Lowered {
+            Some(LoweredScene {
                 scene,
                 source_spans: SourceSpans::default(),
             })
@@ -160,7 +162,11 @@ pub fn load(
 
 /// Reports choices of animation, variant or camera that have no effect, because the scene has no
 /// glTF asset; a time without an asset gets a note.
-fn report_unused_choices(options: &front::FrontOptions, has_assets: bool, sink: &mut Sink) {
+fn report_unused_choices(
+    options: &front::FrontOptions,
+    has_assets: bool,
+    sink: &mut DiagnosticSink,
+) {
     let front::FrontOptions {
         camera,
         animation,
@@ -189,10 +195,10 @@ fn report_unused_choices(options: &front::FrontOptions, has_assets: bool, sink: 
 /// Applies overrides of view and light to a scene, and adds the studio to a scene without light.
 /// `None` if that is impossible; the sink has the error.
 pub fn stage(
-    lowered: &mut Lowered,
+    lowered: &mut LoweredScene,
     stage: &ViewAndLight,
     kind: SceneKind,
-    sink: &mut Sink,
+    sink: &mut DiagnosticSink,
 ) -> Option<AppliedViewAndLight> {
     let mismatch = match stage.apply(lowered, kind) {
         Ok(staged) => {
@@ -208,12 +214,14 @@ pub fn stage(
             }
             return Some(staged);
         }
-        Err(BasisFault::ZeroGaze) => (
+        Err(CameraBasisError::ZeroGaze) => (
             &codes::EYE_IS_CENTER,
             "the requested eye is at the requested centre",
         ),
-        Err(BasisFault::ZeroUp) => (&codes::ZERO_UP, "the requested upward direction is zero"),
-        Err(BasisFault::Parallel) => (
+        Err(CameraBasisError::ZeroUp) => {
+            (&codes::ZERO_UP, "the requested upward direction is zero")
+        }
+        Err(CameraBasisError::Parallel) => (
             &codes::UP_PARALLEL,
             "the requested upward direction is along the view",
         ),
@@ -224,7 +232,11 @@ pub fn stage(
 
 /// Validates a scene and warns about objects that no ray hits. `None` if it or an earlier stage has
 /// errors; the sink has them.
-pub fn validate(lowered: &Lowered, options: &Options, sink: &mut Sink) -> Option<ValidScene> {
+pub fn validate(
+    lowered: &LoweredScene,
+    options: &Options,
+    sink: &mut DiagnosticSink,
+) -> Option<ValidScene> {
     let valid_scene = valid::validate(&lowered.scene, &lowered.source_spans, &options.valid, sink);
     let valid_scene = valid_scene.filter(|_| !sink.has_errors())?;
     unseen(&valid_scene, lowered, sink);
@@ -233,12 +245,12 @@ pub fn validate(lowered: &Lowered, options: &Options, sink: &mut Sink) -> Option
 }
 
 /// Warns about objects that no ray hits. An object is all surfaces with one span.
-fn unseen(scene: &ValidScene, lowered: &Lowered, sink: &mut Sink) {
+fn unseen(scene: &ValidScene, lowered: &LoweredScene, sink: &mut DiagnosticSink) {
     let unseen = plan::invisible_surfaces(scene);
     if unseen.is_empty() {
         return;
     }
-    let path = |index: usize| ValuePath::new(EntityKind::Surface, index, Field::Whole);
+    let path = |index: usize| ValuePath::new(EntityKind::Surface, index, EntityField::Whole);
     let object = |index: usize| match lowered.source_spans.span(path(index)) {
         Some(span) => Ok(span),
         None => Err(index),
@@ -269,10 +281,10 @@ fn unseen(scene: &ValidScene, lowered: &Lowered, sink: &mut Sink) {
 }
 
 /// Warns about textures that a surface does not show, because it has no texture coordinates.
-fn untextured(scene: &ValidScene, lowered: &Lowered, sink: &mut Sink) {
+fn untextured(scene: &ValidScene, lowered: &LoweredScene, sink: &mut DiagnosticSink) {
     for map in plan::hidden_maps(scene) {
         let texture = ValuePath::new(EntityKind::Material, map.material.index(), map.field);
-        let surface = ValuePath::new(EntityKind::Surface, map.surface, Field::Whole);
+        let surface = ValuePath::new(EntityKind::Surface, map.surface, EntityField::Whole);
         let message = "a surface has no texture coordinates, and is shown without its texture";
         let diagnostic = Diagnostic::new(&codes::UNTEXTURED, message)
             .at(lowered.source_spans.span(texture), "the texture")
@@ -288,7 +300,7 @@ const MAX_UNSEEN: usize = 10;
 /// A prepared scene and the threads that render it.
 pub struct Renderer {
     world: AnyWorld,
-    threads: Threads,
+    threads: RenderThreads,
 }
 
 impl Renderer {
@@ -314,7 +326,7 @@ impl Renderer {
         threads: usize,
         simd: SimdLevel,
     ) -> Result<Self, ThreadPoolBuildError> {
-        let threads = Threads::new(threads)?;
+        let threads = RenderThreads::new(threads)?;
         let world = threads.install(|| AnyWorld::prepare_at(scene, plan, simd));
         Ok(Self { world, threads })
     }
@@ -338,7 +350,7 @@ impl Renderer {
     ///
     /// All threads call `on_pixel`, after each pixel and during long ones.
     #[must_use]
-    pub fn render(&self, job: &Job, on_pixel: &PixelObserver<'_>) -> Option<Film> {
+    pub fn render(&self, job: &RenderSelection, on_pixel: &PixelObserver<'_>) -> Option<Film> {
         self.threads.install(|| self.world.render(job, on_pixel))
     }
 
@@ -350,7 +362,7 @@ impl Renderer {
         &mut self,
         scene: &Scene,
         order: &RenderOrder,
-        watch: &Watch<'_>,
+        watch: &RenderCallbacks<'_>,
         keep: Option<CheckpointSink<'_>>,
     ) -> Result<TargetResult, Stopped> {
         let Self { world, threads } = self;
@@ -364,7 +376,7 @@ impl Renderer {
     /// If the samples are not whole blocks, or the scene is not path-traced.
     pub fn render_part(
         &self,
-        job: &Job,
+        job: &RenderSelection,
         samples: Option<Range<u32>>,
         on_pixel: &PixelObserver<'_>,
     ) -> Result<Option<PartialFilm>, FilmError> {
@@ -377,9 +389,9 @@ impl Renderer {
     pub fn layers(
         &self,
         aovs: &[Aov],
-        job: &Job,
+        job: &RenderSelection,
         on_pixel: &(dyn Fn() -> bool + Sync),
-    ) -> Option<Layers> {
+    ) -> Option<PixelLayers> {
         self.threads
             .install(|| self.world.layers(aovs, job, &|_| on_pixel()))
     }
@@ -392,7 +404,7 @@ impl Renderer {
 pub fn render(
     scene: &ValidScene,
     plan: &Plan,
-    job: &Job,
+    job: &RenderSelection,
     threads: usize,
     on_pixel: &PixelObserver<'_>,
 ) -> Result<Option<Film>, ThreadPoolBuildError> {
@@ -406,11 +418,11 @@ pub fn render(
 pub fn verify(
     scene: &ValidScene,
     plan: &Plan,
-    job: &Job,
+    job: &RenderSelection,
     threads: usize,
     on_pixel: &PixelObserver<'_>,
-) -> Result<Option<Result<Film, Mismatch>>, ThreadPoolBuildError> {
-    Ok(Threads::new(threads)?.install(|| render::verify(scene, plan, job, on_pixel)))
+) -> Result<Option<Result<Film, PlanMismatch>>, ThreadPoolBuildError> {
+    Ok(RenderThreads::new(threads)?.install(|| render::verify(scene, plan, job, on_pixel)))
 }
 
 /// The hash of the IR of a valid scene, which identifies it in pictures and reports: that of its
@@ -425,9 +437,9 @@ pub fn hash(scene: &Scene) -> String {
 }
 
 /// The threads that render; the calling thread where the system has none, as in a browser.
-struct Threads(Option<ThreadPool>);
+struct RenderThreads(Option<ThreadPool>);
 
-impl Threads {
+impl RenderThreads {
     /// Starts threads, 0 for one per core.
     fn new(threads: usize) -> Result<Self, ThreadPoolBuildError> {
         if cfg!(target_family = "wasm") {

@@ -1,6 +1,6 @@
 //! Finds the exposure of a picture, and decides whether the studio adds light to the scene.
 
-use super::setup::{Observer, PictureSetup, RenderError, RenderSubject};
+use super::setup::{PictureSetup, RenderError, RenderObserver, RenderSubject};
 use super::{Input, LightMeasurement, picture_diagnostics};
 use rtc_ir::Camera;
 use rtc_passes::{self as passes, FillLight};
@@ -29,7 +29,7 @@ impl PictureSetup {
         &mut self,
         subject: &mut RenderSubject,
         input: &mut Input,
-        observer: &Observer<'_>,
+        observer: &RenderObserver<'_>,
     ) -> Result<(), RenderError> {
         // Report the diagnostics of validation.
         let pending = subject.pending.drain(..);

@@ -4,8 +4,8 @@ use super::picture_diagnostics;
 use rtc_color::Tone;
 use rtc_diag::Diagnostic;
 use rtc_image::{
-    self as image, Association, BackgroundFill, EncodeError, FileFormat, FormatTraits, Image,
-    Layers, Picture, PictureHead, PictureMetadata, RangeClipping,
+    self as image, AlphaAssociation, BackgroundFill, EncodeError, FileFormat, FormatTraits, Image,
+    Picture, PictureHeader, PictureMetadata, PixelLayers, RangeClipping,
 };
 use rtc_ir::{Display, Scene};
 use rtc_plan::Arithmetic;
@@ -253,9 +253,9 @@ impl ResolvedOutputTransform {
     /// The picture of a film.
     fn develop(&self, film: Image, coverage: Vec<f32>) -> Picture {
         let association = if self.kind.is_linear() {
-            Association::Associated
+            AlphaAssociation::Associated
         } else {
-            Association::Straight
+            AlphaAssociation::Straight
         };
         image::DisplayTransform {
             stops: self.stops,
@@ -271,10 +271,10 @@ impl ResolvedOutputTransform {
     pub fn finish(
         &self,
         (image, coverage, unnumbered): (Image, Vec<f32>, u64),
-        layers: Layers,
+        layers: PixelLayers,
         arithmetic: Arithmetic,
     ) -> (Picture, Vec<Diagnostic>) {
-        let mut losses = Losses::default();
+        let mut losses = ClippedValues::default();
         let picture = self.show(image, coverage, layers, &mut losses);
         (
             picture,
@@ -287,8 +287,8 @@ impl ResolvedOutputTransform {
         &self,
         image: Image,
         coverage: Vec<f32>,
-        layers: Layers,
-        losses: &mut Losses,
+        layers: PixelLayers,
+        losses: &mut ClippedValues,
     ) -> Picture {
         losses.film += image.unnumbered();
         let tiles = match self.has_tiles() {
@@ -330,9 +330,9 @@ impl ResolvedOutputTransform {
         picture: &Picture,
         metadata: impl FnOnce() -> PictureMetadata,
     ) -> Result<Vec<u8>, EncodeError> {
-        let head = PictureHead {
+        let head = PictureHeader {
             metadata: self.metadata(metadata()),
-            ..PictureHead::of(picture, self.kind)
+            ..PictureHeader::of(picture, self.kind)
         };
         head.encode(picture)
     }
@@ -343,8 +343,8 @@ impl ResolvedOutputTransform {
         size: [u32; 2],
         aovs: &[Aov],
         metadata: impl FnOnce() -> PictureMetadata,
-    ) -> PictureHead {
-        PictureHead {
+    ) -> PictureHeader {
+        PictureHeader {
             size,
             has_alpha: self.background == BackgroundFill::Transparent,
             layers: aovs
@@ -381,14 +381,14 @@ impl ResolvedOutputTransform {
 
 /// Counts of values that the file can't hold, accumulated over strips.
 #[derive(Default)]
-pub(super) struct Losses {
+pub(super) struct ClippedValues {
     /// Pixels of the film that are NaN.
     film: u64,
     /// Losses of the picture.
     picture: RangeClipping,
 }
 
-impl Losses {
+impl ClippedValues {
     /// The diagnostics, given the number of NaN values of rays.
     pub(super) fn picture_diagnostics(
         self,

@@ -1,12 +1,12 @@
 //! Diagnostics about a rendered picture: an empty picture, imprecise arithmetic, values that the
 //! file can't hold, a failed verification.
 
-use super::Validated;
+use super::ValidatedScene;
 use rtc_diag::{Diagnostic, codes};
 use rtc_image::{FileFormat, RangeClipping};
-use rtc_ir::{EntityKind, Field, ValuePath};
+use rtc_ir::{EntityField, EntityKind, ValuePath};
 use rtc_plan::{self as plan, PrecisionArtifact, Rule};
-use rtc_render::Mismatch;
+use rtc_render::PlanMismatch;
 use rtc_source::Span;
 
 /// A note that the picture is empty.
@@ -62,7 +62,10 @@ pub(super) fn filled(seen: f64) -> Diagnostic {
 }
 
 /// A warning about the errors of the chosen arithmetic; `None` for the robust one.
-pub(super) fn imprecise(validated: &Validated, arithmetic: plan::Arithmetic) -> Option<Diagnostic> {
+pub(super) fn imprecise(
+    validated: &ValidatedScene,
+    arithmetic: plan::Arithmetic,
+) -> Option<Diagnostic> {
     // Estimate the loss and describe its symptom.
     let loss = plan::loss(&validated.scene, arithmetic)?;
     let option = arithmetic.name();
@@ -88,7 +91,7 @@ pub(super) fn imprecise(validated: &Validated, arithmetic: plan::Arithmetic) -> 
     let span = validated.lowered.source_spans.span(ValuePath::new(
         EntityKind::Surface,
         surface,
-        Field::Whole,
+        EntityField::Whole,
     ));
     let diagnostic = Diagnostic::new(
         &codes::IMPRECISE,
@@ -146,8 +149,8 @@ pub(super) fn out_of_range(
 }
 
 /// The message of a failed verification.
-pub(super) fn verification_failure(mismatch: &Mismatch) -> String {
-    let Mismatch {
+pub(super) fn verification_failure(mismatch: &PlanMismatch) -> String {
+    let PlanMismatch {
         pixel: [x, y],
         effect,
         rule,

@@ -5,9 +5,9 @@
 //! it are done, so the total is at most the limit per thread.
 
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{EntityKind, Field, Light, Lowered, Material, Mode, ValuePath};
+use rtc_ir::{EntityField, EntityKind, Light, LoweredScene, Material, Mode, ValuePath};
 use rtc_math::to_u32;
-use rtc_render::{Crop, Step};
+use rtc_render::{Crop, RenderStep};
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, AtomicUsize, Ordering};
 
 /// The maximum number of deferred branches of a path: more would never end within a limit, and each
@@ -107,9 +107,9 @@ impl RayCounter {
     }
 
     /// Counts a step; false if the limit is exceeded.
-    pub fn step(&self, step: Step) -> bool {
+    pub fn step(&self, step: RenderStep) -> bool {
         // Find the pixel; without a limit there are no rows.
-        let Step {
+        let RenderStep {
             rays,
             pixel,
             is_done,
@@ -200,13 +200,13 @@ impl RayCounter {
     /// The diagnostic for a scene that exceeded the limit at a pixel; it points to the key that
     /// multiplies the rays most.
     #[must_use]
-    pub fn diagnostic(&self, lowered: &Lowered, pixel: [u32; 2]) -> Diagnostic {
+    pub fn diagnostic(&self, lowered: &LoweredScene, pixel: [u32; 2]) -> Diagnostic {
         let ([x, y], RayKey { path, name, value }) = (pixel, key(lowered));
         let message = format!(
             "the picture takes more than {} rays: they run out at pixel {x}, {y}",
             self.limit
         );
-        let camera = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
+        let camera = ValuePath::new(EntityKind::Camera, 0, EntityField::Whole);
         let span = lowered
             .source_spans
             .span(path)
@@ -227,7 +227,7 @@ struct RayKey {
 }
 
 /// The key that multiplies rays most, preferably one that makes rays branch.
-fn key(lowered: &Lowered) -> RayKey {
+fn key(lowered: &LoweredScene) -> RayKey {
     let settings = &lowered.scene.settings;
     let setting = |field, name, value| RayKey {
         path: ValuePath::new(EntityKind::Settings, 0, field),
@@ -235,9 +235,13 @@ fn key(lowered: &Lowered) -> RayKey {
         value,
     };
     // Path tracing: samples or bounces.
-    let depth = setting(Field::MaxDepth, "MaxRecursionDepth", settings.max_depth);
+    let depth = setting(
+        EntityField::MaxDepth,
+        "MaxRecursionDepth",
+        settings.max_depth,
+    );
     if let Mode::Path(path) = &settings.mode {
-        let samples = setting(Field::Mode, "samples", path.samples);
+        let samples = setting(EntityField::Mode, "samples", path.samples);
         return if path.samples >= settings.max_depth {
             samples
         } else {
@@ -256,7 +260,7 @@ fn key(lowered: &Lowered) -> RayKey {
     let glossy = phongs().filter_map(|(index, phong)| {
         let phong =
             phong.filter(|phong| phong.most_mirror_weight() > 0.0 && phong.glossy_samples > 1)?;
-        let path = ValuePath::new(EntityKind::Material, index, Field::GlossySamples);
+        let path = ValuePath::new(EntityKind::Material, index, EntityField::GlossySamples);
         Some(RayKey {
             path,
             name: "glossySamples",
@@ -280,10 +284,14 @@ fn key(lowered: &Lowered) -> RayKey {
         .filter_map(Light::point)
         .any(|light| light.radius > 0.0);
     if is_soft && settings.light_samples >= settings.supersampling {
-        return setting(Field::LightSamples, "LightSamples", settings.light_samples);
+        return setting(
+            EntityField::LightSamples,
+            "LightSamples",
+            settings.light_samples,
+        );
     }
     setting(
-        Field::Supersampling,
+        EntityField::Supersampling,
         "SuperSampling",
         settings.supersampling,
     )
@@ -300,8 +308,8 @@ mod tests {
         height: 2,
     };
 
-    fn step(x: u32, y: u32, rays: u64) -> Step {
-        Step {
+    fn step(x: u32, y: u32, rays: u64) -> RenderStep {
+        RenderStep {
             rays,
             pixel: [x, y],
             is_done: true,
@@ -313,7 +321,7 @@ mod tests {
     fn the_pixel_named_hangs_on_no_order_of_rows() {
         let first = [step(5, 7, 2), step(6, 7, 2), step(7, 7, 2)];
         let second = [step(5, 8, 2), step(6, 8, 2), step(7, 8, 2)];
-        let run = |steps: &[Step]| {
+        let run = |steps: &[RenderStep]| {
             let counter = RayCounter::new(7, CROP);
             let stopped = steps.iter().position(|step| !counter.step(*step));
             (stopped, counter.ran_out())
@@ -380,7 +388,7 @@ mod tests {
     fn a_pixel_that_puts_off_too_much_has_no_end() {
         let counter = RayCounter::new(1 << 32, CROP);
         assert!(counter.step(step(5, 7, 1)));
-        assert!(!counter.step(Step {
+        assert!(!counter.step(RenderStep {
             open: MAX_DEFERRED + 1,
             is_done: false,
             ..step(6, 7, 1)

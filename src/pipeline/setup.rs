@@ -4,17 +4,19 @@
 use super::denoise::{Traced, require_paths};
 use super::light::FirstView;
 use super::{
-    Input, Loaded, OutputTransform, Provenance, RayCounter, Renderer, Validated, hash,
+    Input, LoadedScene, OutputTransform, Provenance, RayCounter, Renderer, ValidatedScene, hash,
     picture_diagnostics,
 };
 use rayon::ThreadPoolBuildError;
 use rtc_diag::Diagnostic;
-use rtc_image::{Image, Layers, Picture, PictureHead, PictureMetadata};
-use rtc_ir::{EntityKind, Field, Lens, Mode, Scene, Settings, ValuePath};
+use rtc_image::{Image, Picture, PictureHeader, PictureMetadata, PixelLayers};
+use rtc_ir::{EntityField, EntityKind, Lens, Mode, Scene, Settings, ValuePath};
 use rtc_passes::{self as passes, Framing, Overrides};
-use rtc_plan::{self as plan, Plan, Rule, Rules};
-use rtc_render::{Aov, Counts, Crop, Job, SimdLevel, Step};
-use rtc_study::{Goal, PixelQuality, Progress, RenderOrder, TargetResult, Watch, with_quality};
+use rtc_plan::{self as plan, Plan, Rule, RuleSet};
+use rtc_render::{Aov, Crop, RayCounts, RenderSelection, RenderStep, SimdLevel};
+use rtc_study::{
+    PixelQuality, Progress, RenderCallbacks, RenderGoal, RenderOrder, TargetResult, with_quality,
+};
 use rtc_valid::ValidScene;
 use serde_json::Value;
 use std::time::Duration;
@@ -36,13 +38,13 @@ pub struct PictureSetup {
     /// The crop window; `None` for the whole picture.
     pub crop: Option<Crop>,
     /// The target error and time; by default the samples of the scene.
-    pub goal: Goal,
+    pub goal: RenderGoal,
     /// The number of threads, 0 for one per core.
     pub threads: usize,
     /// The SIMD level.
     pub simd: SimdLevel,
     /// The optimization rules that may be applied.
-    pub rules: Rules,
+    pub rules: RuleSet,
     /// Whether to render without optimizations as well, and compare.
     pub verify: bool,
     /// Whether to denoise.
@@ -56,7 +58,7 @@ pub struct PictureSetup {
 /// A valid scene, with its renderer once it was made.
 pub struct RenderSubject {
     /// The scene.
-    pub validated: Validated,
+    pub validated: ValidatedScene,
     pub(super) renderer: Option<Renderer>,
     /// The view from which its light is measured.
     pub(super) first: FirstView,
@@ -70,9 +72,9 @@ pub struct RenderSubject {
 pub(super) const SOFTWARE: &str = concat!("rtc ", env!("CARGO_PKG_VERSION"));
 
 /// Observes a render; called from all threads.
-pub struct Observer<'a> {
+pub struct RenderObserver<'a> {
     /// Called after each pixel and during long ones.
-    pub on_step: &'a (dyn Fn(Step) + Sync),
+    pub on_step: &'a (dyn Fn(RenderStep) + Sync),
     /// Whether to stop.
     pub is_stopped: &'a (dyn Fn() -> bool + Sync),
 }
@@ -113,10 +115,10 @@ impl PictureSetup {
             settings: None,
             arithmetic: plan::Arithmetic::Robust,
             crop: None,
-            goal: Goal::default(),
+            goal: RenderGoal::default(),
             threads: 0,
             simd: SimdLevel::best(),
-            rules: Rules::ALL,
+            rules: RuleSet::ALL,
             verify: false,
             denoise: false,
             clamp: None,
@@ -131,7 +133,7 @@ impl PictureSetup {
     /// If a setting has an unknown name or an invalid value.
     pub fn validate(
         &mut self,
-        loaded: Loaded,
+        loaded: LoadedScene,
         input: &mut Input,
     ) -> Result<Option<RenderSubject>, RenderError> {
         // Apply display settings, size and overrides, then validate.
@@ -210,7 +212,7 @@ impl PictureSetup {
         /// Bytes per pixel of a film with its counts, and of a progressive one.
         const FILM: [usize; 2] = [40, 320];
         let Crop { width, height, .. } = window;
-        let pixel = FILM[usize::from(self.goal != Goal::default())]
+        let pixel = FILM[usize::from(self.goal != RenderGoal::default())]
             + self.look.memory()
             + self.denoiser_memory();
         let bytes = (width as usize)
@@ -234,15 +236,15 @@ impl PictureSetup {
         &self,
         subject: &mut RenderSubject,
         (window, rays): (Crop, u64),
-        observer: &Observer<'_>,
+        observer: &RenderObserver<'_>,
     ) -> Result<Traced, RenderError> {
         // The job.
-        let job = Job {
+        let job = RenderSelection {
             crop: Some(window),
             values: self.look.values(&subject.validated.scene.settings().mode),
             background: self.look.background(),
             clamp: self.clamp,
-            ..Job::default()
+            ..RenderSelection::default()
         };
         if self.clamp.is_some() {
             require_paths(&subject.validated.scene, "--clamp")?;
@@ -280,15 +282,15 @@ impl PictureSetup {
     pub fn develop(
         &self,
         subject: &mut RenderSubject,
-        (image, coverage, counts): (Image, Vec<f32>, &Counts),
+        (image, coverage, counts): (Image, Vec<f32>, &RayCounts),
         quality: &[PixelQuality],
         input: &mut Input,
         is_stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Picture, RenderError> {
         self.report_empty_picture(subject, counts, input);
-        let job = Job {
+        let job = RenderSelection {
             crop: Some(self.window(&subject.validated.lowered.scene)?),
-            ..Job::default()
+            ..RenderSelection::default()
         };
         let layers = self.layers(subject, &job, is_stopped)?;
         let layers = with_quality(layers, &self.look.aovs, quality);
@@ -305,11 +307,11 @@ impl PictureSetup {
     pub(super) fn report_empty_picture(
         &self,
         subject: &RenderSubject,
-        counts: &Counts,
+        counts: &RayCounts,
         input: &mut Input,
     ) {
         if self.crop.is_none() && counts.hits == 0 {
-            let camera = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
+            let camera = ValuePath::new(EntityKind::Camera, 0, EntityField::Whole);
             let camera = subject.validated.lowered.source_spans.span(camera);
             input.push(picture_diagnostics::nothing_in_view(camera));
         }
@@ -322,7 +324,7 @@ impl PictureSetup {
     pub fn check_layers(&self) -> Result<(), RenderError> {
         let mut of_samples = self.look.aovs.iter().filter(|aov| aov.is_of_samples());
         match of_samples.next() {
-            Some(aov) if self.goal == Goal::default() => Err(RenderError::Refused(format!(
+            Some(aov) if self.goal == RenderGoal::default() => Err(RenderError::Refused(format!(
                 "the layer `{}` is of pictures to a target error or within a time; give \
                  `--target-error LEVELS` or `--time-budget SECONDS`",
                 aov.name()
@@ -335,13 +337,13 @@ impl PictureSetup {
     pub(super) fn layers(
         &self,
         subject: &mut RenderSubject,
-        job: &Job,
+        job: &RenderSelection,
         is_stopped: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Layers, RenderError> {
+    ) -> Result<PixelLayers, RenderError> {
         let mut aovs = self.look.aovs.clone();
         aovs.retain(|aov| !aov.is_of_samples());
         if aovs.is_empty() {
-            return Ok(Layers::default());
+            return Ok(PixelLayers::default());
         }
         let (_, renderer) = self.renderer(subject)?;
         let layers = renderer.layers(&aovs, job, &|| !is_stopped());
@@ -375,7 +377,7 @@ impl PictureSetup {
     pub fn renderer<'s>(
         &self,
         subject: &'s mut RenderSubject,
-    ) -> Result<(&'s Validated, &'s mut Renderer), ThreadPoolBuildError> {
+    ) -> Result<(&'s ValidatedScene, &'s mut Renderer), ThreadPoolBuildError> {
         let RenderSubject {
             validated,
             renderer,
@@ -456,7 +458,7 @@ impl RenderSubject {
     pub fn ran_out(
         &self,
         counter: &RayCounter,
-        observer: &Observer<'_>,
+        observer: &RenderObserver<'_>,
     ) -> Option<Box<Diagnostic>> {
         let pixel = counter.ran_out().filter(|_| !(observer.is_stopped)())?;
         Some(Box::new(counter.diagnostic(&self.validated.lowered, pixel)))
@@ -509,7 +511,7 @@ impl PictureSetup {
     ) -> RenderOrder {
         let mode = &subject.validated.scene.settings().mode;
         RenderOrder {
-            goal: Goal { time, ..self.goal },
+            goal: RenderGoal { time, ..self.goal },
             crop,
             background: self.look.background(),
             values: self.look.values(mode),
@@ -528,12 +530,12 @@ impl PictureSetup {
         &self,
         subject: &mut RenderSubject,
         (window, rays): (Crop, u64),
-        observer: &Observer<'_>,
+        observer: &RenderObserver<'_>,
         rounds: &Rounds<'_>,
     ) -> Result<TargetResult, RenderError> {
         let order = self.order(subject, window, self.goal.time);
         let counter = RayCounter::new(rays, window);
-        let watch = Watch {
+        let watch = RenderCallbacks {
             on_pixel: &|step| {
                 (observer.on_step)(step);
                 !(observer.is_stopped)() && counter.step(step)
@@ -575,13 +577,13 @@ impl PictureSetup {
         }
         let look = self.look.resolve(&subject.validated.scene.settings().mode);
         let displayed = Picture::opaque(layer.image);
-        let head = PictureHead {
+        let head = PictureHeader {
             is_color: layer.is_color,
             metadata: look.metadata(PictureMetadata {
                 layer: metadata.to_string(),
                 ..self.metadata(&subject.validated.lowered.scene)
             }),
-            ..PictureHead::of(&displayed, self.look.kind)
+            ..PictureHeader::of(&displayed, self.look.kind)
         };
         let bytes = head.encode(&displayed);
         bytes.map_err(|error| rejected(error.to_string()))

@@ -8,11 +8,11 @@ mod render;
 pub(super) use file::with_valid_checksums;
 pub use file::{MAX_SHARES, hash_of_file};
 
-use super::{ResolvedOutputTransform, ShardBy, ShardPlan, picture_diagnostics};
+use super::{ResolvedOutputTransform, ShardDivision, ShardPlan, picture_diagnostics};
 use rtc_diag::Diagnostic;
-use rtc_image::{Layers, MerkleTree, Picture, PictureMetadata, TileHash, WorldToCamera};
+use rtc_image::{MerkleTree, Picture, PictureMetadata, PixelLayers, TileHash, WorldToCamera};
 use rtc_plan::Arithmetic;
-use rtc_render::{Aov, Counts, Crop, FilmError, PartialFilm, Tiles};
+use rtc_render::{Aov, Crop, FilmError, PartialFilm, RayCounts, Tiles};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -37,7 +37,7 @@ struct ShardHeader {
     /// The crop window: x, y, width, height.
     window: [u32; 4],
     layers: Vec<Aov>,
-    by: ShardBy,
+    by: ShardDivision,
     /// The number of shares of the picture.
     count: u32,
     /// The shares in this shard, ascending.
@@ -153,7 +153,7 @@ impl RenderShard {
         made: ShardSource<'_>,
         (shares, window): (ShardPlan, Crop),
         film: PartialFilm,
-        layers: &Layers,
+        layers: &PixelLayers,
     ) -> Self {
         // The description of the picture.
         let ShardSource {
@@ -225,7 +225,7 @@ impl RenderShard {
 
     /// The ray counts.
     #[must_use]
-    pub fn counts(&self) -> Counts {
+    pub fn counts(&self) -> RayCounts {
         self.film.counts()
     }
 
@@ -336,7 +336,7 @@ impl RenderShard {
     ///
     /// # Errors
     /// If shares are missing.
-    pub fn develop(&self) -> Result<(Picture, Counts, Vec<Diagnostic>), ShardError> {
+    pub fn develop(&self) -> Result<(Picture, RayCounts, Vec<Diagnostic>), ShardError> {
         let head = &self.head;
         let missing: Vec<u32> = self.missing().collect();
         if !missing.is_empty() {
@@ -355,7 +355,7 @@ impl RenderShard {
     }
 
     /// The layers of all pixels.
-    fn whole_layers(&self) -> Layers {
+    fn whole_layers(&self) -> PixelLayers {
         let head = &self.head;
         let mut values = vec![0.0; head.crop().pixels() * head.channels()];
         for ((_, area), layers) in head.tiles().zip(self.layers.values()) {
@@ -364,7 +364,7 @@ impl RenderShard {
                 values[row].copy_from_slice(piece);
             }
         }
-        Layers {
+        PixelLayers {
             names: head
                 .layers
                 .iter()
@@ -465,8 +465,8 @@ impl ShardHeader {
         }
         if (self.by, self.count) != (other.by, other.count) {
             let shares = |head: &Self| match head.by {
-                ShardBy::Tiles => format!("{} by tiles", head.count),
-                ShardBy::Samples => format!("{} by samples", head.count),
+                ShardDivision::Tiles => format!("{} by tiles", head.count),
+                ShardDivision::Samples => format!("{} by samples", head.count),
             };
             return of("shares", &shares(other), &shares(self));
         }

@@ -8,7 +8,7 @@ use std::ops::Range;
 /// The division of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub enum ShardBy {
+pub enum ShardDivision {
     /// Each share has some of the tiles, with all their samples.
     #[default]
     Tiles,
@@ -20,7 +20,7 @@ pub enum ShardBy {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ShardPlan {
     /// The division of the picture.
-    pub by: ShardBy,
+    pub by: ShardDivision,
     /// The first share, from 1.
     pub first: u32,
     /// The last share, at most `count`; less than the first if there are none.
@@ -64,7 +64,7 @@ impl ShardPlan {
 mod tests {
     use super::*;
 
-    fn one(by: ShardBy, index: u32, count: u32) -> ShardPlan {
+    fn one(by: ShardDivision, index: u32, count: u32) -> ShardPlan {
         ShardPlan {
             by,
             first: index,
@@ -73,18 +73,18 @@ mod tests {
         }
     }
 
-    fn shares(by: ShardBy, count: u32) -> impl Iterator<Item = ShardPlan> {
+    fn shares(by: ShardDivision, count: u32) -> impl Iterator<Item = ShardPlan> {
         (1..=count).map(move |index| one(by, index, count))
     }
 
     #[test]
     fn each_tile_is_in_one_share() {
         for count in [1, 2, 3, 7, 64, u32::MAX] {
-            let last = one(ShardBy::Tiles, count, count);
+            let last = one(ShardDivision::Tiles, count, count);
             assert_eq!(last.tiles().last, u64::MAX, "of {count}");
         }
         for count in [1, 2, 3, 7, 64] {
-            let tiles: Vec<Tiles> = shares(ShardBy::Tiles, count)
+            let tiles: Vec<Tiles> = shares(ShardDivision::Tiles, count)
                 .map(|share| share.tiles())
                 .collect();
             assert_eq!(tiles[0].first, 0);
@@ -99,7 +99,7 @@ mod tests {
         for count in [1, 2, 7, 64, 1000] {
             for tile in (0..20).flat_map(|x| (0..20).map(move |y| [16 * x, 16 * y])) {
                 let index = ShardPlan::of_tile(count, tile);
-                let share = one(ShardBy::Tiles, index, count);
+                let share = one(ShardDivision::Tiles, index, count);
                 assert!((1..=count).contains(&index) && share.tiles().contain(tile));
             }
         }
@@ -108,7 +108,7 @@ mod tests {
     #[test]
     fn each_block_of_samples_is_in_one_share() {
         for (all, count) in [(64, 1), (64, 4), (100, 7), (16, 64), (1, 2), (u32::MAX, 3)] {
-            let samples = shares(ShardBy::Samples, count).map(|share| share.samples(all));
+            let samples = shares(ShardDivision::Samples, count).map(|share| share.samples(all));
             let end = samples.fold(0, |end, samples| {
                 assert_eq!(samples.start, end, "of {count}");
                 assert!(samples.end == all || samples.end.is_multiple_of(16));

@@ -1,11 +1,11 @@
 //! Renders a picture strip by strip: each strip is written before the next is rendered. Only
 //! one strip is in memory at a time; the file is, byte for byte, that of a render in one piece.
 
-use super::output_transform::{Losses, ResolvedOutputTransform};
-use super::{Input, Observer, PictureSetup, RayCounter, RenderError, RenderSubject};
+use super::output_transform::{ClippedValues, ResolvedOutputTransform};
+use super::{Input, PictureSetup, RayCounter, RenderError, RenderObserver, RenderSubject};
 use rtc_image::{BLOCK_ROWS, Picture, StripSource};
-use rtc_render::{Counts, Crop, Film, Job};
-use rtc_study::Goal;
+use rtc_render::{Crop, Film, RayCounts, RenderSelection};
+use rtc_study::RenderGoal;
 use rtc_valid::Mode;
 use std::borrow::Cow;
 use std::io::{self, BufWriter, Seek, Write};
@@ -30,15 +30,15 @@ smaller picture, by `--size` or `--crop`";
 struct StripRender<'r> {
     setup: &'r PictureSetup,
     subject: &'r mut RenderSubject,
-    observer: &'r Observer<'r>,
+    observer: &'r RenderObserver<'r>,
     look: &'r ResolvedOutputTransform,
     counter: RayCounter,
     /// The next strip; its height is 0 after the last.
     next: Crop,
     /// The row after the last.
     end: u32,
-    counts: Counts,
-    losses: Losses,
+    counts: RayCounts,
+    losses: ClippedValues,
 }
 
 impl PictureSetup {
@@ -63,7 +63,7 @@ impl PictureSetup {
         let is_whole = self.look.kind.traits().is_whole;
         let reasons = [
             (is_whole, WHOLE),
-            (self.goal != Goal::default(), GOAL),
+            (self.goal != RenderGoal::default(), GOAL),
             (is_distances, DISTANCES),
             (self.verify, VERIFY),
         ];
@@ -83,9 +83,9 @@ impl PictureSetup {
         subject: &mut RenderSubject,
         (window, first, rays): (Crop, Crop, u64),
         input: &mut Input,
-        observer: &Observer<'_>,
+        observer: &RenderObserver<'_>,
         out: impl Write + Seek,
-    ) -> io::Result<Result<Counts, RenderError>> {
+    ) -> io::Result<Result<RayCounts, RenderError>> {
         // Prepare the header and the state.
         let look = self.look.resolve(&subject.validated.scene.settings().mode);
         let metadata = || self.metadata(&subject.validated.lowered.scene);
@@ -98,8 +98,8 @@ impl PictureSetup {
             counter: RayCounter::new(rays, first),
             next: first,
             end: window.y + window.height,
-            counts: Counts::default(),
-            losses: Losses::default(),
+            counts: RayCounts::default(),
+            losses: ClippedValues::default(),
         };
         // Write the file; it requests strip after strip.
         let mut render_error = None;
@@ -140,11 +140,11 @@ impl StripRender<'_> {
             ..
         } = self;
         // The job of the strip.
-        let job = Job {
+        let job = RenderSelection {
             crop: Some(self.next),
             values: setup.look.values(&subject.validated.scene.settings().mode),
             background: setup.look.background(),
-            ..Job::default()
+            ..RenderSelection::default()
         };
         // Render the film, and count its rays.
         counter.next_strip(self.next);

@@ -7,14 +7,14 @@ use super::{FixFilter, Input, Options, RenderShard, load, render, validate};
 use arbitrary::{Arbitrary, Unstructured};
 use rtc_codec::{self as codec, Encoding};
 use rtc_color::Tone;
-use rtc_diag::{self as diag, Format, Printer, Severity, Sink};
+use rtc_diag::{self as diag, DiagnosticPrinter, DiagnosticSink, Format, Severity};
 use rtc_emit as emit;
 use rtc_front::course;
-use rtc_ir::{Lowered, Material, Mode, Scene, SourceSpans};
-use rtc_plan::{Plan, Rules};
-use rtc_render::{Background, Job, Values};
+use rtc_ir::{LoweredScene, Material, Mode, Scene, SourceSpans};
+use rtc_plan::{Plan, RuleSet};
+use rtc_render::{Background, RenderSelection, Values};
 use rtc_source::{Budget, FileId, Loader, SourceMap};
-use rtc_study::{Goal, ProgressiveRender, RenderOrder};
+use rtc_study::{ProgressiveRender, RenderGoal, RenderOrder};
 use rtc_valid as valid;
 use std::path::Path;
 
@@ -27,12 +27,12 @@ const TINY: u32 = 4;
 /// If the text is rejected without an error, or formatting is not idempotent.
 pub fn lower(bytes: &[u8]) {
     let (map, file) = source(bytes);
-    if let Ok(text) = course::format_text(file, &map, &mut Sink::default()) {
+    if let Ok(text) = course::format_text(file, &map, &mut DiagnosticSink::default()) {
         let (map, file) = source(text.as_bytes());
-        let again = course::format_text(file, &map, &mut Sink::default());
+        let again = course::format_text(file, &map, &mut DiagnosticSink::default());
         assert_eq!(again, Ok(text), "a layout is laid out already");
     }
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     let lowered = course::lower(file, &map, &Options::default().front, &mut sink);
     assert!(
         lowered.is_some() || sink.has_errors(),
@@ -91,7 +91,7 @@ pub fn file(path: &Path) {
             least: Severity::Note,
             max: 100,
         };
-        let mut printer = Printer::new(format, options);
+        let mut printer = DiagnosticPrinter::new(format, options);
         let text = printer.file(&name, sink.clone(), &map) + &printer.finish();
         assert!(
             !text.contains(|c: char| c.is_control() && c != '\n'),
@@ -102,8 +102,8 @@ pub fn file(path: &Path) {
 }
 
 /// The diagnostics, and the scene if it is valid.
-fn is_valid_or_rejected(file: FileId, map: &mut SourceMap) -> (Sink, Option<Scene>) {
-    let (mut sink, options) = (Sink::default(), Options::default());
+fn is_valid_or_rejected(file: FileId, map: &mut SourceMap) -> (DiagnosticSink, Option<Scene>) {
+    let (mut sink, options) = (DiagnosticSink::default(), Options::default());
     let lowered = load(file, map, &options, &mut sink);
     let validated = lowered
         .as_ref()
@@ -143,7 +143,7 @@ pub fn part(bytes: &[u8]) {
 /// Checks that the progressive state survives reading and saving.
 fn has_grown(mut part: RenderShard) {
     let order = RenderOrder {
-        goal: Goal::default(),
+        goal: RenderGoal::default(),
         crop: part.window(),
         background: Background::default(),
         values: Values::default(),
@@ -164,7 +164,7 @@ fn has_grown(mut part: RenderShard) {
 pub fn decode(bytes: &[u8]) {
     let (map, file) = source(bytes);
     for encoding in [Encoding::Json, Encoding::Binary] {
-        let mut sink = Sink::default();
+        let mut sink = DiagnosticSink::default();
         let scene = codec::decode(encoding, file, &map, &mut sink);
         assert_eq!(
             scene.is_none(),
@@ -183,7 +183,7 @@ pub fn validate_any(bytes: &[u8]) {
     let Ok(scene) = Scene::arbitrary(&mut Unstructured::new(bytes)) else {
         return;
     };
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     let validated = valid::validate(
         &scene,
         &SourceSpans::default(),
@@ -204,7 +204,12 @@ pub fn validate_any(bytes: &[u8]) {
 /// As [`is_written`].
 pub fn written(bytes: &[u8]) {
     let (mut map, file) = source(bytes);
-    let lowered = load(file, &mut map, &Options::default(), &mut Sink::default());
+    let lowered = load(
+        file,
+        &mut map,
+        &Options::default(),
+        &mut DiagnosticSink::default(),
+    );
     let scene = Scene::arbitrary(&mut Unstructured::new(bytes)).ok();
     let scenes = lowered
         .map(|lowered| lowered.scene)
@@ -220,15 +225,15 @@ pub fn written(bytes: &[u8]) {
 /// text again changes it.
 pub fn is_written(scene: Scene) {
     let source_spans = SourceSpans::default();
-    let lowered = Lowered {
+    let lowered = LoweredScene {
         scene,
         source_spans,
     };
-    let (options, mut sink) = (Options::default(), Sink::default());
+    let (options, mut sink) = (Options::default(), DiagnosticSink::default());
     if validate(&lowered, &options, &mut sink).is_none() {
         return;
     }
-    let Lowered {
+    let LoweredScene {
         scene,
         source_spans,
     } = &lowered;
@@ -251,7 +256,11 @@ pub fn is_written(scene: Scene) {
 
 /// Reads an exported scene, which must be valid.
 fn is_accepted(name: &str, bytes: Vec<u8>) -> Scene {
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let (mut map, mut sink, options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     let file = map.add(name, bytes);
     let lowered = load(file, &mut map, &options, &mut sink);
     let validated = lowered.filter(|lowered| validate(lowered, &options, &mut sink).is_some());
@@ -298,7 +307,12 @@ pub fn fix(bytes: &[u8]) {
 /// If a pixel is not in [0, 1].
 pub fn picture(bytes: &[u8]) {
     let (mut map, file) = source(bytes);
-    let lowered = load(file, &mut map, &Options::default(), &mut Sink::default());
+    let lowered = load(
+        file,
+        &mut map,
+        &Options::default(),
+        &mut DiagnosticSink::default(),
+    );
     lowered
         .into_iter()
         .for_each(|lowered| is_picture(lowered.scene));
@@ -306,17 +320,21 @@ pub fn picture(bytes: &[u8]) {
 
 fn is_picture(mut scene: Scene) {
     make_tiny(&mut scene);
-    let lowered = Lowered {
+    let lowered = LoweredScene {
         scene,
         source_spans: SourceSpans::default(),
     };
-    let Some(validated) = validate(&lowered, &Options::default(), &mut Sink::default()) else {
+    let Some(validated) = validate(
+        &lowered,
+        &Options::default(),
+        &mut DiagnosticSink::default(),
+    ) else {
         return;
     };
     let film = render(
         &validated,
-        &Plan::new(&validated, Rules::ALL),
-        &Job::default(),
+        &Plan::new(&validated, RuleSet::ALL),
+        &RenderSelection::default(),
         1,
         &|_| true,
     )
@@ -346,7 +364,7 @@ fn round_trips(scene: &Scene) {
             "what was encoded is recognised"
         );
         let (map, file) = source(&bytes);
-        let mut sink = Sink::default();
+        let mut sink = DiagnosticSink::default();
         let back = codec::decode(encoding, file, &map, &mut sink);
         assert_eq!(back.as_ref(), Some(scene), "{encoding:?}: {sink:?}");
     }

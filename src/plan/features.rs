@@ -20,14 +20,14 @@ macro_rules! set {
     };
 }
 
-set!(Features);
+set!(WhittedFeatures);
 set!(PathFeatures);
 
 /// A set of features of the Whitted integrator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Features(pub u32);
+pub struct WhittedFeatures(pub u32);
 
-impl Features {
+impl WhittedFeatures {
     /// First hit only.
     pub const NONE: Self = Self(0);
     /// Several samples per pixel, or several points of the lens.
@@ -46,7 +46,7 @@ impl Features {
     pub const BOUNCE: Self = Self(1 << 6);
     /// Sampling of area lights and glossy lobes.
     pub const SAMPLED: Self = Self(1 << 7);
-    /// Work that the rules of [`Rules::AT_HITS`](super::Rules::AT_HITS) skip, for plans without
+    /// Work that the rules of [`RuleSet::AT_HITS`](super::Rules::AT_HITS) skip, for plans without
     /// these rules.
     pub const UNPRUNED: Self = Self(1 << 8);
     /// All of them.
@@ -84,7 +84,7 @@ impl PathFeatures {
 
 /// A set of shapes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shapes {
+pub enum ShapeSet {
     /// Spheres, planes and triangles.
     Basic,
     /// All shapes.
@@ -98,22 +98,24 @@ mod tests {
     #[test]
     fn each_feature_is_a_bit_of_its_own_and_everything_is_all_of_them() {
         let single = [
-            Features::CAMERA,
-            Features::MAPS,
-            Features::LIGHT,
-            Features::HIGHLIGHT,
-            Features::GOOCH,
-            Features::SHADOW,
-            Features::BOUNCE,
-            Features::SAMPLED,
-            Features::UNPRUNED,
+            WhittedFeatures::CAMERA,
+            WhittedFeatures::MAPS,
+            WhittedFeatures::LIGHT,
+            WhittedFeatures::HIGHLIGHT,
+            WhittedFeatures::GOOCH,
+            WhittedFeatures::SHADOW,
+            WhittedFeatures::BOUNCE,
+            WhittedFeatures::SAMPLED,
+            WhittedFeatures::UNPRUNED,
         ];
         assert!(single.iter().all(|feature| feature.count() == 1));
         assert_eq!(
-            single.into_iter().fold(Features::NONE, Features::with),
-            Features::EVERYTHING
+            single
+                .into_iter()
+                .fold(WhittedFeatures::NONE, WhittedFeatures::with),
+            WhittedFeatures::EVERYTHING
         );
-        assert_eq!(Features::EVERYTHING.count(), 9);
+        assert_eq!(WhittedFeatures::EVERYTHING.count(), 9);
         let of_paths = [
             PathFeatures::ALPHA,
             PathFeatures::NEE,
@@ -128,9 +130,16 @@ mod tests {
             .fold(PathFeatures::NONE, PathFeatures::with);
         assert_eq!(all_of_paths, PathFeatures::EVERYTHING);
         assert_eq!(PathFeatures::EVERYTHING.0.count_ones(), 6);
-        let two = Features::MAPS.with(Features::LIGHT);
-        assert_eq!(two.with(Features::LIGHT), two);
-        assert!(two.contains(Features::LIGHT) && two.contains(two) && two.contains(Features::NONE));
-        assert!(!two.contains(Features::SHADOW) && !two.contains(two.with(Features::SHADOW)));
+        let two = WhittedFeatures::MAPS.with(WhittedFeatures::LIGHT);
+        assert_eq!(two.with(WhittedFeatures::LIGHT), two);
+        assert!(
+            two.contains(WhittedFeatures::LIGHT)
+                && two.contains(two)
+                && two.contains(WhittedFeatures::NONE)
+        );
+        assert!(
+            !two.contains(WhittedFeatures::SHADOW)
+                && !two.contains(two.with(WhittedFeatures::SHADOW))
+        );
     }
 }

@@ -1,21 +1,21 @@
 //! Facts about a scene before any rule is applied, and the results of the rules, for the Whitted
 //! integrator.
 
-use super::light::LightFindings;
-use super::rules::{Rule, Rules};
+use super::light::LightRuleResults;
+use super::rules::{Rule, RuleSet};
 use super::summary::{MaterialSummary, constants};
 use super::surface_bounds::{SurfaceBounds, surface_bounds};
-use super::visibility::Visibility;
-use super::{Features, facts, summary};
+use super::visibility::VisibleSurfaces;
+use super::{WhittedFeatures, facts, summary};
 use rtc_math::{IdTable, Vec3};
 use rtc_valid::{
     CourseLight, Material, Mesh, Mode, Pattern, Phong, Shape, Surface, Texture, ValidScene,
 };
 
 /// Facts about a scene before any rule is applied.
-pub(super) struct Facts<'scene> {
+pub(super) struct SceneFacts<'scene> {
     pub(super) scene: &'scene ValidScene,
-    pub(super) rules: Rules,
+    pub(super) rules: RuleSet,
     /// The lights of the integrator.
     pub(super) sources: IdTable<CourseLight>,
     /// The materials of the integrator.
@@ -30,8 +30,8 @@ pub(super) struct Facts<'scene> {
     pub(super) has_flat_normals: IdTable<Mesh, bool>,
 }
 
-impl<'scene> Facts<'scene> {
-    pub(super) fn new(scene: &'scene ValidScene, rules: Rules) -> Self {
+impl<'scene> SceneFacts<'scene> {
+    pub(super) fn new(scene: &'scene ValidScene, rules: RuleSet) -> Self {
         let constants = if rules.contains(Rule::TextureConstant) {
             constants(scene)
         } else {
@@ -92,17 +92,17 @@ pub(super) fn is_pinhole(scene: &ValidScene) -> bool {
 }
 
 /// The results of the rules.
-pub(super) struct Findings<'scene> {
-    pub(super) facts: Facts<'scene>,
-    pub(super) visibility: Visibility,
-    pub(super) lights: LightFindings,
+pub(super) struct RuleResults<'scene> {
+    pub(super) facts: SceneFacts<'scene>,
+    pub(super) visibility: VisibleSurfaces,
+    pub(super) lights: LightRuleResults,
     /// The number of bounces in the plan.
     pub(super) max_depth: u32,
     /// The number of bounces that the scene requests.
     pub(super) requested: u32,
 }
 
-impl Findings<'_> {
+impl RuleResults<'_> {
     pub(super) fn mode(&self) -> &Mode {
         &self.facts.scene.settings().mode
     }
@@ -192,7 +192,7 @@ impl Findings<'_> {
     }
 
     /// The smallest feature set that renders the picture.
-    pub(super) fn features(&self) -> Features {
+    pub(super) fn features(&self) -> WhittedFeatures {
         let rules = self.facts.rules;
         // Define when a material needs each feature.
         let bends = |summary: &MaterialSummary| {
@@ -209,7 +209,7 @@ impl Findings<'_> {
         let illuminated = self.any(|summary| self.is_illuminated(summary))
             || !rules.contains(Rule::LightUnreached);
         // Collect the needed features.
-        let mut features = Features::NONE;
+        let mut features = WhittedFeatures::NONE;
         let mut add = |feature, condition: bool| {
             features = if condition {
                 features.with(feature)
@@ -218,24 +218,27 @@ impl Findings<'_> {
             }
         };
         add(
-            Features::CAMERA,
+            WhittedFeatures::CAMERA,
             self.is_sampled() || !self.facts.is_pinhole(),
         );
         add(
-            Features::MAPS,
+            WhittedFeatures::MAPS,
             self.any(|summary| bends(summary) || colors(summary)),
         );
-        add(Features::LIGHT, self.is_phong() && illuminated);
+        add(WhittedFeatures::LIGHT, self.is_phong() && illuminated);
         add(
-            Features::HIGHLIGHT,
+            WhittedFeatures::HIGHLIGHT,
             self.is_shaded() && self.any(is_specular),
         );
         let is_drawing = matches!(self.mode(), Mode::Gooch(_)) || self.facts.scene.settings().toon;
-        add(Features::GOOCH, is_drawing);
-        add(Features::SHADOW, self.casts_shadows());
-        add(Features::BOUNCE, self.max_depth > 0);
-        add(Features::SAMPLED, self.is_soft() || self.is_glossy());
-        add(Features::UNPRUNED, !rules.contains_all(Rules::AT_HITS));
+        add(WhittedFeatures::GOOCH, is_drawing);
+        add(WhittedFeatures::SHADOW, self.casts_shadows());
+        add(WhittedFeatures::BOUNCE, self.max_depth > 0);
+        add(WhittedFeatures::SAMPLED, self.is_soft() || self.is_glossy());
+        add(
+            WhittedFeatures::UNPRUNED,
+            !rules.contains_all(RuleSet::AT_HITS),
+        );
         features
     }
 }

@@ -1,7 +1,7 @@
 //! The texture maps that surfaces do not show, for want of texture coordinates.
 
 use crate::shape::shape_facts;
-use rtc_ir::Field;
+use rtc_ir::EntityField;
 use rtc_valid::{Maps, Material, MaterialId, Shape, Texture, TextureId, ValidScene};
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ pub struct HiddenMap {
     /// Its material.
     pub material: MaterialId,
     /// The map.
-    pub field: Field,
+    pub field: EntityField,
 }
 
 /// The maps that some surface does not show, one of each material. Maps of `standard` materials on
@@ -44,7 +44,7 @@ pub fn hidden_maps(scene: &ValidScene) -> Vec<HiddenMap> {
 }
 
 /// A map of a material that needs texture coordinates.
-fn map_of(material: &Material, is_mesh: bool, scene: &ValidScene) -> Option<Field> {
+fn map_of(material: &Material, is_mesh: bool, scene: &ValidScene) -> Option<EntityField> {
     // The texture of texture coordinates is no picture that could be missing.
     let needs_uv = |texture: TextureId| {
         let texture = &scene.textures()[texture];
@@ -59,10 +59,10 @@ fn map_of(material: &Material, is_mesh: bool, scene: &ValidScene) -> Option<Fiel
                 bump,
             } = **phong.maps.as_ref()?;
             let maps = [
-                (Field::ColorMap, color),
-                (Field::SpecularMap, specular),
-                (Field::NormalMap, normal),
-                (Field::Bump, bump.map(|bump| bump.texture)),
+                (EntityField::ColorMap, color),
+                (EntityField::SpecularMap, specular),
+                (EntityField::NormalMap, normal),
+                (EntityField::Bump, bump.map(|bump| bump.texture)),
             ];
             let mut maps = maps.into_iter();
             maps.find(|(_, map)| map.is_some_and(needs_uv))
@@ -71,7 +71,7 @@ fn map_of(material: &Material, is_mesh: bool, scene: &ValidScene) -> Option<Fiel
         Material::Standard(standard) => {
             let mut maps = standard.maps();
             let is_hidden = !is_mesh && maps.any(|map| needs_uv(map.texture));
-            is_hidden.then_some(Field::Whole)
+            is_hidden.then_some(EntityField::Whole)
         }
     }
 }

@@ -3,8 +3,8 @@
 
 use super::findings::is_pinhole;
 use super::projection::{ScreenProjection, ScreenRect};
-use super::surface_bounds::{Extent, SurfaceBounds, surface_bounds};
-use super::{Plan, Rules};
+use super::surface_bounds::{SurfaceBounds, SurfaceExtent, surface_bounds};
+use super::{Plan, RuleSet};
 use rtc_valid::{Material, Mode, Projection, ValidScene};
 
 /// The maximum number of pairs of a surface outside the picture and any other surface for which
@@ -22,8 +22,8 @@ pub fn invisible_surfaces(scene: &ValidScene) -> Vec<usize> {
     }
     let projection = ScreenProjection::new(scene.camera(), is_pinhole(scene));
     let is_outside = |bounds: &SurfaceBounds| match &bounds.extent {
-        Extent::Plane(plane) => projection.is_behind(plane),
-        Extent::Within(_) | Extent::Anywhere => {
+        SurfaceExtent::Plane(plane) => projection.is_behind(plane),
+        SurfaceExtent::Within(_) | SurfaceExtent::Anywhere => {
             projection.screen_rect(bounds) == ScreenRect::Outside
         }
     };
@@ -35,7 +35,7 @@ pub fn invisible_surfaces(scene: &ValidScene) -> Vec<usize> {
         if outside.len().saturating_mul(surface_bounds.len()) > MAX_PAIRS {
             return Vec::new();
         }
-        let plan = Plan::new(scene, Rules::ALL);
+        let plan = Plan::new(scene, RuleSet::ALL);
         outside.retain(|surface| !plan.surfaces[*surface]);
     }
     let index = |surface: usize| scene.surfaces()[surface].index;

@@ -6,13 +6,13 @@
 //! A [`ValidScene`] goes in, a [`Plan`] comes out; the renderer prepares its world from both.
 //!
 //! 1. Facts: the bounds of each surface ([`surface_bounds`]), its screen rectangle
-//!    ([`projection`]), summaries of its material, constant textures ([`findings::Facts`]).
+//!    ([`projection`]), summaries of its material, constant textures ([`findings::SceneFacts`]).
 //! 2. Rules ([`Rule`], `rtc explain E-SPEC` prints one): each proves that some work contributes
 //!    exactly zero. For the Whitted integrator they are spread over [`visibility`] (which surfaces
 //!    rays can hit), [`light`] (which lights and shadow rays contribute) and [`pixel_classes`]
 //!    (which pixels are empty or uniform). For path tracing they are the items of [`path::rules`],
 //!    applied to a builder until nothing changes.
-//! 3. Features ([`Features`], [`PathFeatures`]): the smallest set of compile-time features of the
+//! 3. Features ([`WhittedFeatures`], [`PathFeatures`]): the smallest set of compile-time features of the
 //!    integrator that the remaining work needs.
 //! 4. Status ([`EffectStatus`]): for each [`Effect`], whether it is needed, pruned or absent, the
 //!    reason, the rule, and the scene values that decide. `rtc compile --explain` prints them, and
@@ -30,7 +30,7 @@
 //!
 //! All geometric proofs are conservative: they hold with a margin far above the rounding error of
 //! rays ([`margin`]). They hold for the robust arithmetic and for perspective cameras; for others,
-//! only the rules of [`Rules::AT_HITS`] are used.
+//! only the rules of [`RuleSet::AT_HITS`] are used.
 //!
 //! # Other functions
 //!
@@ -59,17 +59,17 @@ mod surface_bounds;
 mod visibility;
 
 pub use effect::{Effect, EffectState, EffectStatus};
-pub use features::{Features, PathFeatures, Shapes};
+pub use features::{PathFeatures, ShapeSet, WhittedFeatures};
 pub use hidden_maps::{HiddenMap, hidden_maps};
 pub use invisible::invisible_surfaces;
 pub use layer::Layer;
-pub use path::{Caustics, EnvironmentUse, LightUse, PathPlan};
+pub use path::{Caustics, PathPlan, RemainingEnvironment, RemainingLight};
 pub use pixel_classes::{PixelClass, PixelClassGrid};
 pub use precision::{MIN_HIT_DISTANCE, PrecisionArtifact, PrecisionLoss, loss};
-pub use rules::{Rule, Rules};
+pub use rules::{Rule, RuleSet};
 
-use findings::{Facts, Findings};
-use light::LightFindings;
+use findings::{RuleResults, SceneFacts};
+use light::LightRuleResults;
 use path::PathPlanning;
 use projection::{ScreenProjection, ScreenRect};
 use rtc_math::{IdTable, Vec3};
@@ -77,7 +77,7 @@ use rtc_valid::{CourseLight, Mode, PathSettings, Projection, Shape, Texture, Val
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use summary::MaterialSummary;
-use visibility::Visibility;
+use visibility::VisibleSurfaces;
 
 /// The maximum number of surface–surface or surface–light pairs that a plan tests for visibility.
 const MAX_PAIRS: usize = 500_000;
@@ -139,11 +139,11 @@ pub struct Plan {
     /// The arithmetic of ray intersection.
     pub arithmetic: Arithmetic,
     /// The rules that may be applied.
-    pub rules: Rules,
+    pub rules: RuleSet,
     /// The features that the integrator needs.
-    pub features: Features,
+    pub features: WhittedFeatures,
     /// The shapes that rays may hit.
-    pub shapes: Shapes,
+    pub shapes: ShapeSet,
     /// The plan of each light of the scene.
     pub lights: IdTable<CourseLight, LightPlan>,
     /// For each surface of the scene, whether a ray may hit it.
@@ -163,14 +163,14 @@ pub struct Plan {
 impl Plan {
     /// Plans a picture with the given rules.
     #[must_use]
-    pub fn new(scene: &ValidScene, rules: Rules) -> Self {
+    pub fn new(scene: &ValidScene, rules: RuleSet) -> Self {
         let settings = scene.settings();
         if let Mode::Path(path) = settings.mode {
             return Self::of_paths(scene, path, rules);
         }
         // Gather the facts, and project the bounds of all surfaces.
         let rules = rules_for_camera(scene, rules);
-        let facts = Facts::new(scene, rules);
+        let facts = SceneFacts::new(scene, rules);
         let projection = ScreenProjection::new(scene.camera(), facts.is_pinhole());
         let screen_rects = facts
             .surface_bounds
@@ -189,8 +189,8 @@ impl Plan {
         } else {
             &anywhere
         };
-        let visibility = Visibility::new(&facts, &projection, seen, requested);
-        let lights = LightFindings::new(&facts, &visibility);
+        let visibility = VisibleSurfaces::new(&facts, &projection, seen, requested);
+        let lights = LightRuleResults::new(&facts, &visibility);
         // Bound the number of bounces.
         let needed = if rules.contains(Rule::MirrorKs) {
             visibility.depth
@@ -203,7 +203,7 @@ impl Plan {
             visibility.visible[surface] || lights.occludes[surface] || !rules.contains(Rule::Cull)
         };
         let surfaces = (0..screen_rects.len()).map(is_kept).collect::<Vec<_>>();
-        let findings = Findings {
+        let findings = RuleResults {
             facts,
             visibility,
             lights,
@@ -228,7 +228,7 @@ impl Plan {
     }
 
     /// Plans path tracing.
-    fn of_paths(scene: &ValidScene, path: PathSettings, rules: Rules) -> Self {
+    fn of_paths(scene: &ValidScene, path: PathSettings, rules: RuleSet) -> Self {
         let PathPlanning {
             plan,
             surfaces,
@@ -238,7 +238,7 @@ impl Plan {
         Self {
             arithmetic: Arithmetic::Robust,
             rules,
-            features: Features::EVERYTHING,
+            features: WhittedFeatures::EVERYTHING,
             shapes: shapes(scene, &surfaces),
             lights: IdTable::default(),
             surfaces,
@@ -253,10 +253,10 @@ impl Plan {
     /// Plans a picture for an arithmetic. Only the rules that hold for this arithmetic are used:
     /// proofs about shapes hold only for the robust one.
     #[must_use]
-    pub fn with_arithmetic(arithmetic: Arithmetic, scene: &ValidScene, rules: Rules) -> Self {
+    pub fn with_arithmetic(arithmetic: Arithmetic, scene: &ValidScene, rules: RuleSet) -> Self {
         let rules = match arithmetic {
             Arithmetic::Robust => rules,
-            Arithmetic::Plain | Arithmetic::F32 => rules.intersection(Rules::AT_HITS),
+            Arithmetic::Plain | Arithmetic::F32 => rules.intersection(RuleSet::AT_HITS),
         };
         Self {
             arithmetic,
@@ -284,14 +284,14 @@ impl Plan {
 }
 
 /// The rules that hold for a camera: most proofs assume that all camera rays start at the eye.
-fn rules_for_camera(scene: &ValidScene, rules: Rules) -> Rules {
+fn rules_for_camera(scene: &ValidScene, rules: RuleSet) -> RuleSet {
     match scene.camera().projection {
-        Projection::Orthographic | Projection::Stereo(_) => rules.intersection(Rules::AT_HITS),
+        Projection::Orthographic | Projection::Stereo(_) => rules.intersection(RuleSet::AT_HITS),
         Projection::Perspective => rules,
     }
 }
 
-fn shapes(scene: &ValidScene, is_used: &[bool]) -> Shapes {
+fn shapes(scene: &ValidScene, is_used: &[bool]) -> ShapeSet {
     let is_basic = |shape: &Shape| {
         matches!(
             shape,
@@ -304,8 +304,8 @@ fn shapes(scene: &ValidScene, is_used: &[bool]) -> Shapes {
         .zip(is_used)
         .filter(|(_, is_used)| **is_used);
     if planned.all(|(surface, _)| is_basic(&surface.shape)) {
-        Shapes::Basic
+        ShapeSet::Basic
     } else {
-        Shapes::All
+        ShapeSet::All
     }
 }

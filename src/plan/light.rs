@@ -1,15 +1,15 @@
 //! The remaining terms of each light, and the possible occluders between each light and surface.
 
-use super::margin::{MARGIN, Margins, OrientedPlane, Sides};
+use super::margin::{BoxMargins, MARGIN, OrientedPlane, VisibleSides};
 use super::rules::Rule;
-use super::surface_bounds::{Extent, ShapeClass, SurfaceBounds};
-use super::visibility::Visibility;
-use super::{Facts, LightPlan, MAX_PAIRS};
+use super::surface_bounds::{ShapeClass, SurfaceBounds, SurfaceExtent};
+use super::visibility::VisibleSurfaces;
+use super::{LightPlan, MAX_PAIRS, SceneFacts};
 use rtc_math::{Bounds, IdTable, Vec3};
 use rtc_valid::{Ambient, CourseLight, CourseLightId, Mode};
 
 /// The results of the rules about lights and shadows.
-pub(super) struct LightFindings {
+pub(super) struct LightRuleResults {
     /// Per light.
     pub(super) plans: IdTable<CourseLight, LightPlan>,
     /// For each light, the rule that removed its direct terms.
@@ -17,7 +17,7 @@ pub(super) struct LightFindings {
     /// For each surface, whether it may cast a shadow.
     pub(super) occludes: Vec<bool>,
     /// One possible shadow, as an example.
-    pub(super) shadow: Option<Shadow>,
+    pub(super) shadow: Option<PossibleShadow>,
     /// Whether the scene has one shadow caster, which is also the only receiver.
     pub(super) single_surface: bool,
     /// Whether there are too many lights and surfaces to test all pairs.
@@ -26,14 +26,14 @@ pub(super) struct LightFindings {
 
 /// A possible shadow.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shadow {
+pub(super) struct PossibleShadow {
     pub(super) light: CourseLightId,
     pub(super) occluder: usize,
     pub(super) receiver: usize,
 }
 
-impl LightFindings {
-    pub(super) fn new(facts: &Facts<'_>, visibility: &Visibility) -> Self {
+impl LightRuleResults {
+    pub(super) fn new(facts: &SceneFacts<'_>, visibility: &VisibleSurfaces) -> Self {
         let lights = &facts.sources;
         let (plans, rules): (Vec<_>, Vec<_>) = lights
             .iter()
@@ -55,7 +55,7 @@ impl LightFindings {
     }
 
     /// Finds the possible occluders for each light and each surface that it may illuminate.
-    fn find_shadows(&mut self, facts: &Facts<'_>, visibility: &Visibility) {
+    fn find_shadows(&mut self, facts: &SceneFacts<'_>, visibility: &VisibleSurfaces) {
         // List the receivers, the lights and the occluders.
         let count = facts.surface_bounds.len();
         let receives = |surface: &usize| {
@@ -79,7 +79,7 @@ impl LightFindings {
             occluders
                 .iter()
                 .for_each(|occluder| self.occludes[*occluder] = true);
-            self.shadow = Some(Shadow {
+            self.shadow = Some(PossibleShadow {
                 light: *light,
                 occluder: *occluder,
                 receiver: *receiver,
@@ -109,8 +109,8 @@ impl LightFindings {
     /// Whether anything may occlude a light from a surface. Records the occluders.
     fn find_occluders(
         &mut self,
-        facts: &Facts<'_>,
-        visibility: &Visibility,
+        facts: &SceneFacts<'_>,
+        visibility: &VisibleSurfaces,
         pair: &LightPair,
     ) -> bool {
         let LightPair {
@@ -132,7 +132,7 @@ impl LightFindings {
             if may_cast {
                 self.occludes[occluder] = true;
                 is_shadowed = true;
-                self.shadow.get_or_insert(Shadow {
+                self.shadow.get_or_insert(PossibleShadow {
                     light,
                     occluder,
                     receiver,
@@ -161,7 +161,7 @@ fn extent(light: &CourseLight) -> Bounds {
     Bounds::about(light.position, Vec3::splat(light.radius.get()))
 }
 
-impl Facts<'_> {
+impl SceneFacts<'_> {
     /// The surfaces that cast shadows.
     pub(super) fn occluders(&self) -> impl Iterator<Item = usize> {
         let surfaces = self.scene.surfaces();
@@ -169,7 +169,11 @@ impl Facts<'_> {
     }
 
     /// The remaining terms of a light, and the rule that removed its direct terms.
-    fn light(&self, light: &CourseLight, visibility: &Visibility) -> (LightPlan, Option<Rule>) {
+    fn light(
+        &self,
+        light: &CourseLight,
+        visibility: &VisibleSurfaces,
+    ) -> (LightPlan, Option<Rule>) {
         let surfaces =
             || (0..self.surface_bounds.len()).filter(|surface| visibility.visible[*surface]);
         let shadowed = vec![true; self.surface_bounds.len()];
@@ -221,14 +225,16 @@ impl Facts<'_> {
     pub(super) fn adds_no_direct(
         &self,
         surface: usize,
-        seen_from: Sides,
+        seen_from: VisibleSides,
         light: &CourseLight,
     ) -> bool {
         let (bounds, summary) = (&self.surface_bounds[surface], &self.summaries[surface]);
         let is_zero_behind = self.scene.settings().shadows || !summary.is_specular;
         let behind = || match bounds.class {
             ShapeClass::Planar(plane)
-                if is_zero_behind && !summary.has_shading_normals() && seen_from != Sides::BOTH =>
+                if is_zero_behind
+                    && !summary.has_shading_normals()
+                    && seen_from != VisibleSides::BOTH =>
             {
                 plane.sides(&extent(light)) == seen_from.opposite()
             }
@@ -241,12 +247,12 @@ impl Facts<'_> {
     }
 
     /// Whether a surface certainly does not shadow itself where N·L > 0.
-    fn cannot_self_shadow(&self, surface: usize, seen_from: Sides, light: &Bounds) -> bool {
+    fn cannot_self_shadow(&self, surface: usize, seen_from: VisibleSides, light: &Bounds) -> bool {
         let (bounds, summary) = (&self.surface_bounds[surface], &self.summaries[surface]);
         let is_convex_or_off_plane = match bounds.class {
-            ShapeClass::Planar(plane) => plane.sides(light) != Sides::BOTH,
+            ShapeClass::Planar(plane) => plane.sides(light) != VisibleSides::BOTH,
             ShapeClass::Sphere(..) | ShapeClass::Convex => {
-                seen_from == Sides::FRONT
+                seen_from == VisibleSides::FRONT
                     && !summary.has_shading_normals()
                     && bounds.is_disjoint_from(light)
             }
@@ -266,12 +272,12 @@ impl Facts<'_> {
             &self.surface_bounds[occluder],
         );
         match (&bounds.extent, &other.extent) {
-            (Extent::Plane(plane), Extent::Plane(_)) if occluder == receiver => {
+            (SurfaceExtent::Plane(plane), SurfaceExtent::Plane(_)) if occluder == receiver => {
                 self.rules.contains(Rule::ShadowConvex)
                     && are_axis_parallel(plane, plane)
-                    && plane.sides(light) != Sides::BOTH
+                    && plane.sides(light) != VisibleSides::BOTH
             }
-            (Extent::Plane(plane), Extent::Plane(other)) => {
+            (SurfaceExtent::Plane(plane), SurfaceExtent::Plane(other)) => {
                 self.rules.contains(Rule::ShadowPair)
                     && are_axis_parallel(plane, other)
                     && are_on_one_side(other, &Bounds::about(plane.point, Vec3::ZERO), light)
@@ -291,13 +297,13 @@ impl SurfaceBounds {
             return true;
         };
         match &occluder.extent {
-            Extent::Within(other) => {
+            SurfaceExtent::Within(other) => {
                 aabb.segment_may_hit(light, other)
                     && SphereBound::of(self)
                         .segment_may_hit(&SphereBound::around(light), &SphereBound::of(occluder))
             }
-            Extent::Plane(plane) => !are_on_one_side(plane, aabb, light),
-            Extent::Anywhere => true,
+            SurfaceExtent::Plane(plane) => !are_on_one_side(plane, aabb, light),
+            SurfaceExtent::Anywhere => true,
         }
     }
 }
@@ -355,7 +361,7 @@ fn are_axis_parallel(first: &OrientedPlane, second: &OrientedPlane) -> bool {
 /// Whether two boxes are on the same side of a plane.
 fn are_on_one_side(plane: &OrientedPlane, first: &Bounds, second: &Bounds) -> bool {
     let side = plane.sides(first);
-    side != Sides::BOTH && side == plane.sides(second)
+    side != VisibleSides::BOTH && side == plane.sides(second)
 }
 
 #[cfg(test)]

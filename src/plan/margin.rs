@@ -10,7 +10,7 @@ use rtc_math::{Bounds, Vec3};
 pub(crate) const MARGIN: f64 = 1.0 / 4_294_967_296.0;
 
 /// Tests on boxes with a margin.
-pub(crate) trait Margins {
+pub(crate) trait BoxMargins {
     /// Whether two boxes are certainly disjoint.
     fn is_disjoint_from(&self, other: &Self) -> bool;
 
@@ -22,7 +22,7 @@ pub(crate) trait Margins {
     fn segment_may_hit(&self, end: &Self, other: &Self) -> bool;
 }
 
-impl Margins for Bounds {
+impl BoxMargins for Bounds {
     fn is_disjoint_from(&self, other: &Self) -> bool {
         let margin = MARGIN * (self.reach() + other.reach());
         (self.min - other.max)
@@ -74,14 +74,14 @@ pub(crate) struct OrientedPlane {
 
 /// The visible sides of a surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Sides {
+pub(crate) struct VisibleSides {
     /// The side of the normal: the outside of a closed shape.
     pub(crate) front: bool,
     /// The other side.
     pub(crate) back: bool,
 }
 
-impl Sides {
+impl VisibleSides {
     pub(crate) const BOTH: Self = Self {
         front: true,
         back: true,
@@ -112,7 +112,7 @@ impl Sides {
 
 impl OrientedPlane {
     /// The side of the plane on which a box lies; both if that is uncertain.
-    pub(crate) fn sides(&self, aabb: &Bounds) -> Sides {
+    pub(crate) fn sides(&self, aabb: &Bounds) -> VisibleSides {
         let margin = 4.0 * MARGIN * (aabb.reach() + self.point.abs().max_element());
         let heights = aabb
             .corners()
@@ -120,11 +120,11 @@ impl OrientedPlane {
         let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
         let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         if low > margin {
-            Sides::FRONT
+            VisibleSides::FRONT
         } else if high < -margin {
-            Sides::BACK
+            VisibleSides::BACK
         } else {
-            Sides::BOTH
+            VisibleSides::BOTH
         }
     }
 }
@@ -200,9 +200,9 @@ pub(crate) mod tests {
             point: Vec3::ZERO,
             normal: Vec3::Y,
         };
-        assert_eq!(plane.sides(&unit(0.0, 3.0, 0.0)), Sides::FRONT);
-        assert_eq!(plane.sides(&unit(0.0, -3.0, 0.0)), Sides::BACK);
-        assert_eq!(plane.sides(&unit(0.0, 0.5, 0.0)), Sides::BOTH);
+        assert_eq!(plane.sides(&unit(0.0, 3.0, 0.0)), VisibleSides::FRONT);
+        assert_eq!(plane.sides(&unit(0.0, -3.0, 0.0)), VisibleSides::BACK);
+        assert_eq!(plane.sides(&unit(0.0, 0.5, 0.0)), VisibleSides::BOTH);
     }
 
     /// The boxes of a test with permuted and reflected axes.
@@ -295,12 +295,14 @@ pub(crate) mod tests {
         let above = |gap: f64| span([-2.0, -6.0, gap - 3.0], [2.0, 1.0, -1.0]);
         let below = |gap: f64| span([-2.0, -6.0, -5.0], [2.0, 1.0, -3.0 - gap]);
         has_margin(44.0 * MARGIN, |gap| {
-            plane.sides(&above(gap)) == Sides::FRONT
+            plane.sides(&above(gap)) == VisibleSides::FRONT
         });
-        has_margin(44.0 * MARGIN, |gap| plane.sides(&below(gap)) == Sides::BACK);
+        has_margin(44.0 * MARGIN, |gap| {
+            plane.sides(&below(gap)) == VisibleSides::BACK
+        });
         assert_eq!(
             [above(44.0 * MARGIN), below(44.0 * MARGIN)].map(|aabb| plane.sides(&aabb)),
-            [Sides::BOTH; 2],
+            [VisibleSides::BOTH; 2],
             "in doubt"
         );
     }

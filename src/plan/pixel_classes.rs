@@ -4,12 +4,12 @@
 //! cells that its screen rectangle overlaps (as differences at its corners; a 2-D prefix sum gives
 //! the counts). A cell with count 0 is empty.
 
-use super::margin::Sides;
+use super::margin::VisibleSides;
 use super::projection::{PixelRect, ScreenProjection, ScreenRect};
 use super::rules::Rule;
 use super::shape::shape_facts;
 use super::surface_bounds::ShapeClass;
-use super::{Facts, Findings};
+use super::{RuleResults, SceneFacts};
 use rtc_valid::{Mode, Shape};
 
 /// The maximum number of cells of a picture.
@@ -54,7 +54,7 @@ enum CellVisibility {
 
 impl PixelClassGrid {
     pub(super) fn new(
-        findings: &Findings<'_>,
+        findings: &RuleResults<'_>,
         projection: &ScreenProjection,
         screen_rects: &[ScreenRect],
     ) -> Self {
@@ -135,7 +135,7 @@ impl PixelClassGrid {
     }
 }
 
-impl Findings<'_> {
+impl RuleResults<'_> {
     /// Whether uniform pixels take fewer rays than others.
     fn has_flat_pixels(&self) -> bool {
         self.facts.rules.contains(Rule::PixelFlat) && self.is_sampled() && self.facts.is_pinhole()
@@ -154,7 +154,7 @@ impl Findings<'_> {
             Mode::Normal => {
                 !summary.has_shading_normals()
                     && !matches!(shape, Shape::Quad(_))
-                    && self.visibility.sides[surface] != Sides::BOTH
+                    && self.visibility.sides[surface] != VisibleSides::BOTH
             }
             // Cartoon outlines are drawn within a surface.
             Mode::Phong if self.facts.scene.settings().toon => false,
@@ -236,8 +236,8 @@ struct CellGrid {
 }
 
 impl CellGrid {
-    fn new(findings: &Findings<'_>) -> Self {
-        let Facts { scene, .. } = &findings.facts;
+    fn new(findings: &RuleResults<'_>) -> Self {
+        let SceneFacts { scene, .. } = &findings.facts;
         let (width, height) = (scene.camera().width.get(), scene.camera().height.get());
         let count = |side: u32, shift: u32| u64::from((side - 1) >> shift) + 1;
         let is_cheap = |shift: &u32| count(width, *shift) * count(height, *shift) <= MAX_CELLS;

@@ -7,7 +7,7 @@
 //! box reaches the plane of the lens, the result is [`ScreenRect::Unknown`].
 
 use crate::margin::{MARGIN, OrientedPlane};
-use crate::surface_bounds::{Extent, SurfaceBounds};
+use crate::surface_bounds::{SurfaceBounds, SurfaceExtent};
 use rtc_math::{Bounds, U, Vec3, cross, dot};
 use rtc_valid::Camera;
 
@@ -107,8 +107,10 @@ impl ScreenProjection {
     /// The screen-space bounds of a surface.
     pub(crate) fn screen_rect(&self, bounds: &SurfaceBounds) -> ScreenRect {
         match &bounds.extent {
-            Extent::Within(aabb) if !self.is_ill_conditioned => self.project(aabb),
-            Extent::Within(_) | Extent::Plane(_) | Extent::Anywhere => ScreenRect::Unknown,
+            SurfaceExtent::Within(aabb) if !self.is_ill_conditioned => self.project(aabb),
+            SurfaceExtent::Within(_) | SurfaceExtent::Plane(_) | SurfaceExtent::Anywhere => {
+                ScreenRect::Unknown
+            }
         }
     }
 
@@ -271,7 +273,7 @@ mod tests {
     fn screen_rect(projection: &ScreenProjection, center: Vec3, reach: f64) -> ScreenRect {
         let aabb = Bounds::about(center, Vec3::splat(reach));
         projection.screen_rect(&SurfaceBounds {
-            extent: Extent::Within(aabb),
+            extent: SurfaceExtent::Within(aabb),
             class: ShapeClass::Other,
         })
     }
@@ -408,7 +410,7 @@ mod tests {
         has_margin(16.0 * 64.0 * 200.0 * U, |z| point(z).is_some());
         assert!(point(16.0 * 64.0 * 200.0 * U).is_none(), "in doubt");
         let screen_rect = |low: f64, high: f64| {
-            let extent = Extent::Within(span([100.0, 0.0, low], [100.0, 0.0, high]));
+            let extent = SurfaceExtent::Within(span([100.0, 0.0, low], [100.0, 0.0, high]));
             beside(1e6).screen_rect(&SurfaceBounds {
                 extent,
                 class: ShapeClass::Other,

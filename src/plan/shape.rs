@@ -5,9 +5,9 @@ use super::margin::OrientedPlane;
 use super::path::UvRect;
 use super::precision::EquationKind;
 use super::surface_bounds::{
-    Extent, ShapeClass, SurfaceBounds, circle_bounds, instance_bounds, triangle_plane,
+    ShapeClass, SurfaceBounds, SurfaceExtent, circle_bounds, instance_bounds, triangle_plane,
 };
-use rtc_math::{Basis, Bounds, IdTable, Vec3, cos_sin_revolutions, unit};
+use rtc_math::{Bounds, IdTable, OrthonormalBasis, Vec3, cos_sin_revolutions, unit};
 use rtc_valid::{
     Cone, Csg, Cylinder, Disc, Ellipsoid, InfiniteCylinder, Instance, Mesh, Paraboloid, Plane,
     Quad, Shape, Sphere, Torus, Triangle, ValidScene,
@@ -87,7 +87,7 @@ impl ShapeFacts for Plane {
             normal,
         });
         SurfaceBounds {
-            extent: plane.map_or(Extent::Anywhere, Extent::Plane),
+            extent: plane.map_or(SurfaceExtent::Anywhere, SurfaceExtent::Plane),
             class: ShapeClass::Other,
         }
     }
@@ -136,7 +136,7 @@ impl ShapeFacts for Quad {
         let [a, b, c, d] = self.vertices;
         if !self.is_flat() {
             return SurfaceBounds {
-                extent: Extent::Anywhere,
+                extent: SurfaceExtent::Anywhere,
                 class: ShapeClass::Other,
             };
         }
@@ -186,7 +186,7 @@ impl ShapeFacts for Disc {
     fn polygon(&self, normal: Vec3) -> Option<Vec<Vec3>> {
         /// The vertices of the inscribed polygon: it covers 97 % of the disc.
         const COUNT: u64 = 16;
-        let basis = Basis::around(normal);
+        let basis = OrthonormalBasis::around(normal);
         let corner = |k: u64| {
             let (x, y) = cos_sin_revolutions(k << 60);
             self.center + basis.to_world(Vec3::new(x, y, 0.0)) * self.radius.get()
@@ -290,7 +290,7 @@ impl ShapeFacts for Ellipsoid {
 impl ShapeFacts for InfiniteCylinder {
     fn bounds(&self, _: &IdTable<Mesh, Bounds>) -> SurfaceBounds {
         SurfaceBounds {
-            extent: Extent::Anywhere,
+            extent: SurfaceExtent::Anywhere,
             class: ShapeClass::Other,
         }
     }
@@ -318,7 +318,7 @@ impl ShapeFacts for Csg {
         });
         let whole = Bounds::of_set(&self.steps, operands);
         SurfaceBounds {
-            extent: whole.map_or(Extent::Anywhere, Extent::Within),
+            extent: whole.map_or(SurfaceExtent::Anywhere, SurfaceExtent::Within),
             class: ShapeClass::Other,
         }
     }

@@ -1,7 +1,7 @@
 //! Conservative bounds of surfaces: a bounding box or plane, and the shape class (planar, sphere,
 //! convex) that rules use.
 
-use super::margin::{MARGIN, Margins, OrientedPlane, Sides};
+use super::margin::{BoxMargins, MARGIN, OrientedPlane, VisibleSides};
 use super::shape::shape_facts;
 use rtc_math::{Bounds, IdTable, Vec3, cross, unit};
 use rtc_valid::{Instance, Mesh, ValidScene};
@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 /// The region that contains a surface.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Extent {
+pub(crate) enum SurfaceExtent {
     /// An axis-aligned box.
     Within(Bounds),
     /// An unbounded plane.
@@ -21,7 +21,7 @@ pub(crate) enum Extent {
 /// The extent of a surface and the shape class that rules use.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfaceBounds {
-    pub(crate) extent: Extent,
+    pub(crate) extent: SurfaceExtent,
     pub(crate) class: ShapeClass,
 }
 
@@ -41,7 +41,7 @@ pub(crate) enum ShapeClass {
 impl SurfaceBounds {
     pub(crate) fn within(aabb: Bounds, class: ShapeClass) -> Self {
         Self {
-            extent: Extent::Within(aabb),
+            extent: SurfaceExtent::Within(aabb),
             class,
         }
     }
@@ -50,7 +50,7 @@ impl SurfaceBounds {
     /// thickness, the shape class is no longer valid.
     fn grow(&mut self, error_bound: f64, thickness: f64) {
         const MAX_RELATIVE_ERROR: f64 = 1.0 / 1024.0;
-        if let Extent::Within(aabb) = &mut self.extent {
+        if let SurfaceExtent::Within(aabb) = &mut self.extent {
             *aabb = aabb.widened(error_bound);
         }
         if error_bound > MAX_RELATIVE_ERROR * thickness {
@@ -61,20 +61,22 @@ impl SurfaceBounds {
     /// The bounding box, if the surface is bounded.
     pub(crate) fn aabb(&self) -> Option<&Bounds> {
         match &self.extent {
-            Extent::Within(aabb) => Some(aabb),
-            Extent::Plane(_) | Extent::Anywhere => None,
+            SurfaceExtent::Within(aabb) => Some(aabb),
+            SurfaceExtent::Plane(_) | SurfaceExtent::Anywhere => None,
         }
     }
 
     /// The sides that are visible from a box; from anywhere without one.
-    pub(crate) fn visible_sides(&self, from: Option<&Bounds>) -> Sides {
-        let Some(from) = from else { return Sides::BOTH };
+    pub(crate) fn visible_sides(&self, from: Option<&Bounds>) -> VisibleSides {
+        let Some(from) = from else {
+            return VisibleSides::BOTH;
+        };
         match self.class {
             ShapeClass::Planar(plane) => plane.sides(from),
             ShapeClass::Sphere(..) | ShapeClass::Convex if self.is_disjoint_from(from) => {
-                Sides::FRONT
+                VisibleSides::FRONT
             }
-            ShapeClass::Sphere(..) | ShapeClass::Convex | ShapeClass::Other => Sides::BOTH,
+            ShapeClass::Sphere(..) | ShapeClass::Convex | ShapeClass::Other => VisibleSides::BOTH,
         }
     }
 

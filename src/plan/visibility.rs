@@ -1,29 +1,29 @@
 //! Visibility: the surfaces that camera rays and reflected rays may hit, and the longest chain of
 //! reflections.
 
-use super::margin::Sides;
+use super::margin::VisibleSides;
 use super::projection::{ScreenProjection, ScreenRect};
-use super::rules::{Rule, Rules};
+use super::rules::{Rule, RuleSet};
 use super::surface_bounds::{ShapeClass, SurfaceBounds};
-use super::{Facts, MAX_PAIRS};
+use super::{MAX_PAIRS, SceneFacts};
 use rtc_valid::Ambient;
 
 /// The surfaces that rays may hit.
-pub(super) struct Visibility {
+pub(super) struct VisibleSurfaces {
     /// For each surface, whether a camera ray, a reflected or a refracted ray may hit it.
     pub(super) visible: Vec<bool>,
     /// For each surface, the visible sides.
-    pub(super) sides: Vec<Sides>,
+    pub(super) sides: Vec<VisibleSides>,
     /// The number of bounces after the first hit that may contribute.
     pub(super) depth: u32,
     /// Whether there are too many reflective surfaces to test all pairs.
     pub(super) capped: bool,
 }
 
-impl Visibility {
+impl VisibleSurfaces {
     /// The visibility of all surfaces, given their screen rectangles, with at most `depth` bounces.
     pub(super) fn new(
-        facts: &Facts<'_>,
+        facts: &SceneFacts<'_>,
         projection: &ScreenProjection,
         screen_rects: &[ScreenRect],
         depth: u32,
@@ -38,7 +38,7 @@ impl Visibility {
             if *visible {
                 bounds.visible_sides(Some(&lens))
             } else {
-                Sides::default()
+                VisibleSides::default()
             }
         };
         let sides = facts
@@ -65,7 +65,7 @@ impl Visibility {
     ///
     /// Computes a least fixed point: a ray after k bounces can only hit surfaces that are visible
     /// from a surface hit after k − 1 bounces. By induction, no ray hits a surface outside the set.
-    fn bounce(mut self, facts: &Facts<'_>, depth: u32) -> Self {
+    fn bounce(mut self, facts: &SceneFacts<'_>, depth: u32) -> Self {
         // Start with the visible reflective surfaces.
         let count = facts.surface_bounds.len();
         let has_bounce = facts
@@ -84,7 +84,7 @@ impl Visibility {
         if has_bounce.saturating_mul(count) > MAX_PAIRS {
             return Self {
                 visible: vec![true; count],
-                sides: vec![Sides::BOTH; count],
+                sides: vec![VisibleSides::BOTH; count],
                 depth,
                 capped: true,
             };
@@ -111,9 +111,9 @@ impl Visibility {
     }
 }
 
-impl Facts<'_> {
+impl SceneFacts<'_> {
     /// The surfaces that rays from a reflective surface may hit, if its `sides` are visible.
-    fn shown_by(&self, mirror: usize, sides: Sides) -> Vec<usize> {
+    fn shown_by(&self, mirror: usize, sides: VisibleSides) -> Vec<usize> {
         // A smooth mirror reflects along one direction.
         let (bounds, summary) = (&self.surface_bounds[mirror], &self.summaries[mirror]);
         let scatters = summary.refracts || (summary.glossy && summary.has_shading_normals());
@@ -123,7 +123,7 @@ impl Facts<'_> {
                 .filter(|surface| may_show(&self.surface_bounds[*surface]))
                 .collect()
         };
-        let one_side = if sides == Sides::BOTH {
+        let one_side = if sides == VisibleSides::BOTH {
             None
         } else {
             Some(sides)
@@ -139,7 +139,7 @@ impl Facts<'_> {
                         .is_none_or(|aabb| plane.sides(aabb) != side.opposite())
                 })
             }
-            (ShapeClass::Sphere(..) | ShapeClass::Convex, Some(Sides::FRONT))
+            (ShapeClass::Sphere(..) | ShapeClass::Convex, Some(VisibleSides::FRONT))
                 if !scatters && self.rules.contains(Rule::MirrorConvex) =>
             {
                 others(&|_| true)
@@ -187,7 +187,7 @@ fn longest_chain(targets: &[Vec<usize>]) -> Option<u32> {
 ///
 /// After D bounces a path contributes at most `Σ_{i > D} kⁱ·L`, where k is the largest sum of the
 /// weights of the rays from a point, and L the largest direct term of a point.
-pub(super) fn truncated_depth(facts: &Facts<'_>, depth: u32, rules: Rules) -> u32 {
+pub(super) fn truncated_depth(facts: &SceneFacts<'_>, depth: u32, rules: RuleSet) -> u32 {
     if !rules.contains(Rule::Cut) {
         return depth;
     }

@@ -2,27 +2,28 @@
 //!
 //! # Overview
 //!
-//! A [`Profile`] is a factor of the intensity by direction:
+//! A [`LightProfile`] is a factor of the intensity by direction:
 //!
-//! - [`Profile::Uniform`]: the same in all directions;
-//! - [`Profile::Cone`]: a cone with a smooth edge, as the spot light of glTF
+//! - [`LightProfile::Uniform`]: the same in all directions;
+//! - [`LightProfile::Cone`]: a cone with a smooth edge, as the spot light of glTF
 //!   (`KHR_lights_punctual`);
-//! - [`Profile::Measured`]: a measured distribution ([`IesProfile`]), a table over vertical and
-//!   horizontal angles ([`IesAngles`]), as in IES files, with bilinear interpolation.
+//! - [`LightProfile::Measured`]: a measured distribution ([`IesProfile`]), a table over vertical
+//!   and horizontal angles ([`IesAngles`]), as in IES files, with bilinear interpolation.
 //!
 //! # Data flow
 //!
-//! Front ends read the angles; `valid` checks them and builds the profile ([`Profile::cone`],
-//! [`Profile::measured`]). `plan` uses [`Profile::is_dark`] and [`Profile::bounding_cone`] to
-//! remove lights that illuminate nothing. `render` evaluates [`Profile::factor`] per shadow ray,
-//! and weights a light by [`Profile::solid_angle`], the integral of its factor.
+//! Front ends read the angles; `valid` checks them and builds the profile ([`LightProfile::cone`],
+//! [`LightProfile::measured`]). `plan` uses [`LightProfile::is_dark`] and
+//! [`LightProfile::bounding_cone`] to remove lights that illuminate nothing. `render` evaluates
+//! [`LightProfile::factor`] per shadow ray, and weights a light by [`LightProfile::solid_angle`],
+//! the integral of its factor.
 //!
 //! A new kind of distribution is added here only: no other room matches on the variants.
 //!
 //! # Guarantees
 //!
 //! - Factors are finite and at least 0.
-//! - [`Profile::bounding_cone`] contains every direction with a factor above 0.
+//! - [`LightProfile::bounding_cone`] contains every direction with a factor above 0.
 
 use rtc_math::{Vec3, acos, atan2, cos, unit};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -30,7 +31,7 @@ use std::sync::Arc;
 
 /// The distribution of intensity over directions, as factors of the light's own intensity.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Profile {
+pub enum LightProfile {
     /// The same in all directions.
     Uniform,
     /// All of it inside a cone, none outside of a wider one.
@@ -70,7 +71,7 @@ pub struct IesAngles {
     pub horizontal: Vec<f64>,
 }
 
-impl Profile {
+impl LightProfile {
     /// The profile of a spot light: a unit axis, and the angles from it in radians.
     ///
     /// # Errors
@@ -308,7 +309,11 @@ mod tests {
     use super::*;
     use rtc_math::sin;
 
-    fn measured(vertical: &[f64], horizontal: &[f64], value: impl Fn(f64, f64) -> f64) -> Profile {
+    fn measured(
+        vertical: &[f64],
+        horizontal: &[f64],
+        value: impl Fn(f64, f64) -> f64,
+    ) -> LightProfile {
         let angles = IesAngles {
             vertical: vertical.to_vec(),
             horizontal: horizontal.to_vec(),
@@ -320,7 +325,8 @@ mod tests {
                 .collect::<Vec<_>>()
         };
         let values = horizontal.iter().flat_map(row).collect();
-        Profile::measured(-Vec3::Z, Vec3::X + Vec3::Z, angles, values).expect("a sound profile")
+        LightProfile::measured(-Vec3::Z, Vec3::X + Vec3::Z, angles, values)
+            .expect("a sound profile")
     }
 
     /// Away from a lamp that hangs at the top of +z: at an angle from straight down, and around.
@@ -365,7 +371,7 @@ mod tests {
         let flux = lambert.solid_angle();
         assert!((flux - TAU / 2.0).abs() < 1e-3, "{flux}");
         let uniform = measured(&degrees, &[0.0, 100.0, 360.0], |_, _| 1.0);
-        assert!((uniform.solid_angle() - Profile::Uniform.solid_angle()).abs() < 1e-9);
+        assert!((uniform.solid_angle() - LightProfile::Uniform.solid_angle()).abs() < 1e-9);
     }
 
     #[test]
@@ -392,7 +398,7 @@ mod tests {
                 vertical: vertical.to_vec(),
                 horizontal: horizontal.to_vec(),
             };
-            Profile::measured(-Vec3::Z, zero, angles, values.to_vec()).unwrap_err()
+            LightProfile::measured(-Vec3::Z, zero, angles, values.to_vec()).unwrap_err()
         };
         let (two, around) = ([0.0, 90.0], [0.0, 360.0]);
         for vertical in [

@@ -1,18 +1,18 @@
 //! The compiled integrators, and the choice of the smallest one with all features of a plan.
 
 use crate::film::heartbeat::PixelObserver;
-use crate::film::{Film, Job};
-use crate::frame::picture::Sums;
-use crate::integrator::path::Strategy;
+use crate::film::{Film, RenderSelection};
+use crate::frame::picture::PictureSums;
+use crate::integrator::path::SamplingStrategy;
 use crate::shape::geometry::Intersect;
 use crate::world::World;
 use crate::world::settings::Mode;
-use rtc_plan::{Features, PathFeatures};
+use rtc_plan::{PathFeatures, WhittedFeatures};
 use std::ops::Range;
 
 /// An integrator compiled for a set of features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Kernel<F = Features> {
+pub struct Kernel<F = WhittedFeatures> {
     /// Its name.
     pub name: &'static str,
     /// Its features.
@@ -36,11 +36,11 @@ pub(crate) trait KernelTask: Sized {
 macro_rules! kernels {
     (
         $(#[$doc:meta])*
-        $table:ident: $Features:ident, $run:ident;
+        $table:ident: $WhittedFeatures:ident, $run:ident;
         $($name:literal: $features:expr,)*
     ) => {
         $(#[$doc])*
-        pub const $table: &[Kernel<$Features>] = &[
+        pub const $table: &[Kernel<$WhittedFeatures>] = &[
             $(Kernel { name: $name, features: $features },)*
         ];
 
@@ -52,35 +52,35 @@ macro_rules! kernels {
                     return task.run::<{ $features.0 }>();
                 })*
             }
-            task.run::<{ $Features::EVERYTHING.0 }>()
+            task.run::<{ $WhittedFeatures::EVERYTHING.0 }>()
         }
 
-        const _: () = assert!($table[$table.len() - 1].features.contains($Features::EVERYTHING));
+        const _: () = assert!($table[$table.len() - 1].features.contains($WhittedFeatures::EVERYTHING));
     };
 }
 
-const PHONG: Features = Features::LIGHT.with(Features::HIGHLIGHT);
-const WHITTED: Features = PHONG
-    .with(Features::SHADOW)
-    .with(Features::BOUNCE)
-    .with(Features::CAMERA);
+const PHONG: WhittedFeatures = WhittedFeatures::LIGHT.with(WhittedFeatures::HIGHLIGHT);
+const WHITTED: WhittedFeatures = PHONG
+    .with(WhittedFeatures::SHADOW)
+    .with(WhittedFeatures::BOUNCE)
+    .with(WhittedFeatures::CAMERA);
 
 kernels! {
     /// The compiled integrators: `benches/kernels.md` has the measurements behind the selection.
-    KERNELS: Features, run;
+    KERNELS: WhittedFeatures, run;
     "phong": PHONG,
-    "phong, camera": PHONG.with(Features::CAMERA),
-    "phong, shadows": PHONG.with(Features::SHADOW),
-    "diffuse, maps, camera": Features::LIGHT.with(Features::MAPS).with(Features::CAMERA),
+    "phong, camera": PHONG.with(WhittedFeatures::CAMERA),
+    "phong, shadows": PHONG.with(WhittedFeatures::SHADOW),
+    "diffuse, maps, camera": WhittedFeatures::LIGHT.with(WhittedFeatures::MAPS).with(WhittedFeatures::CAMERA),
     "whitted, camera": WHITTED,
-    "whitted, maps, camera": WHITTED.with(Features::MAPS),
-    "everything": Features::EVERYTHING,
+    "whitted, maps, camera": WHITTED.with(WhittedFeatures::MAPS),
+    "everything": WhittedFeatures::EVERYTHING,
 }
 
 /// The index of the integrator with the fewest features among those that have all of `needed`; the
 /// first of equals.
 #[must_use]
-pub fn choose(needed: Features) -> usize {
+pub fn choose(needed: WhittedFeatures) -> usize {
     let able = (0..KERNELS.len()).filter(|index| KERNELS[*index].features.contains(needed));
     able.min_by_key(|index| KERNELS[*index].features.count())
         .unwrap_or(KERNELS.len() - 1)
@@ -111,7 +111,7 @@ pub fn choose_for_paths(needed: PathFeatures) -> usize {
 impl<S: Intersect> World<S> {
     /// Renders on the threads of the current pool; see [`super::AnyWorld::render`].
     #[must_use]
-    pub fn render(&self, job: &Job, on_pixel: &PixelObserver<'_>) -> Option<Film> {
+    pub fn render(&self, job: &RenderSelection, on_pixel: &PixelObserver<'_>) -> Option<Film> {
         self.whole(job, |samples, job| self.sum(samples, job, on_pixel))
     }
 
@@ -119,8 +119,8 @@ impl<S: Intersect> World<S> {
     #[must_use]
     pub fn render_paths(
         &self,
-        strategy: Strategy,
-        job: &Job,
+        strategy: SamplingStrategy,
+        job: &RenderSelection,
         on_pixel: &PixelObserver<'_>,
     ) -> Option<Film> {
         self.whole(job, |samples, job| {
@@ -133,11 +133,11 @@ impl<S: Intersect> World<S> {
     pub(crate) fn sum(
         &self,
         samples: &Range<u32>,
-        job: &Job,
+        job: &RenderSelection,
         on_pixel: &PixelObserver<'_>,
-    ) -> Option<Sums> {
+    ) -> Option<PictureSums> {
         if let Mode::Path(_) = self.settings.mode {
-            return self.sum_paths(Strategy::Mis, samples, job, on_pixel);
+            return self.sum_paths(SamplingStrategy::Mis, samples, job, on_pixel);
         }
         self.run(Sum(self, job, on_pixel))
     }
@@ -156,23 +156,27 @@ impl<S: Intersect> World<S> {
 
     fn sum_paths(
         &self,
-        strategy: Strategy,
+        strategy: SamplingStrategy,
         samples: &Range<u32>,
-        job: &Job,
+        job: &RenderSelection,
         on_pixel: &PixelObserver<'_>,
-    ) -> Option<Sums> {
+    ) -> Option<PictureSums> {
         self.run_paths(SumPaths(self, strategy, samples, job, on_pixel))
     }
 }
 
 /// Sums the samples of the pixels.
-struct Sum<'run, S>(&'run World<S>, &'run Job, &'run PixelObserver<'run>);
+struct Sum<'run, S>(
+    &'run World<S>,
+    &'run RenderSelection,
+    &'run PixelObserver<'run>,
+);
 
 impl<S: Intersect> KernelTask for Sum<'_, S> {
     const HAS_KERNELS: bool = S::HAS_KERNELS;
-    type Output = Option<Sums>;
+    type Output = Option<PictureSums>;
 
-    fn run<const F: u32>(self) -> Option<Sums> {
+    fn run<const F: u32>(self) -> Option<PictureSums> {
         let Self(world, job, on_pixel) = self;
         world.sum_with::<F>(job, on_pixel)
     }
@@ -181,17 +185,17 @@ impl<S: Intersect> KernelTask for Sum<'_, S> {
 /// Sums samples of the pixels by paths.
 struct SumPaths<'run, S>(
     &'run World<S>,
-    Strategy,
+    SamplingStrategy,
     &'run Range<u32>,
-    &'run Job,
+    &'run RenderSelection,
     &'run PixelObserver<'run>,
 );
 
 impl<S: Intersect> KernelTask for SumPaths<'_, S> {
     const HAS_KERNELS: bool = S::HAS_KERNELS;
-    type Output = Option<Sums>;
+    type Output = Option<PictureSums>;
 
-    fn run<const F: u32>(self) -> Option<Sums> {
+    fn run<const F: u32>(self) -> Option<PictureSums> {
         let Self(world, strategy, samples, job, on_pixel) = self;
         world.sum_paths_with::<F>(strategy, samples, job, on_pixel)
     }
@@ -215,7 +219,7 @@ mod tests {
     #[test]
     fn the_kernel_chosen_can_do_all_that_is_needed_and_no_smaller_one_can() {
         for needed in 0..1 << 9 {
-            let needed = Features(needed);
+            let needed = WhittedFeatures(needed);
             let chosen = KERNELS[choose(needed)].features;
             assert!(chosen.contains(needed), "{needed:?}: {chosen:?}");
             let smaller = KERNELS

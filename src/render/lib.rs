@@ -20,7 +20,8 @@
 //! - `material`, `texture`, `bsdf`: material parameters at a hit, and the BSDF of the glTF
 //!   material.
 //! - `light`, `sampler`, `camera`: light sampling, sample sequences, camera rays.
-//! - `integrator`: Whitted ray tracing, path tracing ([`Strategy`]), depth buffers and [`Aov`]s.
+//! - `integrator`: Whitted ray tracing, path tracing ([`SamplingStrategy`]), depth buffers and
+//!   [`Aov`]s.
 //!
 //! # Guarantees
 //!
@@ -53,24 +54,27 @@ mod world;
 pub use accel::simd::SimdLevel;
 pub use bsdf::optics::{highlight, reflect, refract};
 pub use bsdf::standard::*;
-pub use bsdf::{Bsdf, BsdfSample, Evaluation, Lobes, dispersed};
+pub use bsdf::{Bsdf, BsdfEvaluation, BsdfLobes, BsdfSample, dispersed};
 pub use camera::{Camera, Projection, camera_ray, image_point, vogel};
-pub use film::heartbeat::{PixelObserver, Step};
+pub use film::heartbeat::{PixelObserver, RenderStep};
 pub use film::partial::{FilmError, PartialFilm};
 pub use film::pixel::BLOCK as SAMPLES_OF_BLOCK;
 pub use film::progressive::{ProgressiveFilm, Replicates};
-pub use film::{Background, ClampedLight, Counts, Crop, Film, Job, Seeds, Stride, Tiles, Values};
+pub use film::{
+    Background, ClampedLight, Crop, Film, PixelStride, RayCounts, RenderSelection, SamplingSeeds,
+    Tiles, Values,
+};
 pub use frame::halves::DenoisedFilm;
-pub use frame::verify::Mismatch;
+pub use frame::verify::PlanMismatch;
 pub use integrator::aov::Aov;
-pub use integrator::path::Strategy;
+pub use integrator::path::SamplingStrategy;
 pub use kernel::{KERNELS, Kernel, PATH_KERNELS, choose, choose_for_paths};
 pub use ray::{Interaction, Ray};
 pub use rtc_math::Bounds;
 pub use shape::Shape;
 pub use shape::baseline::BaselineShape;
 pub use shape::baseline::real::Real;
-pub use shape::basic::Basic;
+pub use shape::basic::BasicShape;
 pub use shape::cone::Cone;
 pub use shape::csg::Csg;
 pub use shape::cylinder::{Cylinder, InfiniteCylinder};
@@ -81,7 +85,7 @@ pub use shape::instance::Instance;
 pub use shape::mesh::{Attributes, PreparedMesh};
 pub use shape::paraboloid::Paraboloid;
 pub use shape::plane::Plane;
-pub use shape::quad::{Patch, Quad};
+pub use shape::quad::{BilinearPatch, Quad};
 pub use shape::sphere::{Sphere, TexturedSphere};
 pub use shape::torus::Torus;
 pub use shape::triangle::{TexturedTriangle, Triangle, WatertightRay};

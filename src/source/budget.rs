@@ -183,7 +183,7 @@ impl Limits {
 
 /// A limit that would be exceeded; displays as a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Exceeded {
+pub struct LimitExceeded {
     /// The resource.
     pub resource: Resource,
     /// The total amount that would be needed.
@@ -192,7 +192,7 @@ pub struct Exceeded {
     pub limit: u64,
 }
 
-impl fmt::Display for Exceeded {
+impl fmt::Display for LimitExceeded {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
             resource,
@@ -223,7 +223,7 @@ impl fmt::Display for Exceeded {
     }
 }
 
-impl Exceeded {
+impl LimitExceeded {
     /// A hint on how to raise the limit.
     #[must_use]
     pub fn hint(&self) -> String {
@@ -273,11 +273,11 @@ impl Budget {
     ///
     /// # Errors
     /// If that would exceed the limit; nothing is charged in this case.
-    pub fn charge(&self, resource: Resource, amount: u64) -> Result<(), Exceeded> {
+    pub fn charge(&self, resource: Resource, amount: u64) -> Result<(), LimitExceeded> {
         let limit = self.limit(resource);
         let spend = |spent: u64| spent.checked_add(amount).filter(|total| *total <= limit);
         let spent = self.spent[resource as usize].fetch_update(Relaxed, Relaxed, spend);
-        spent.map(|_| ()).map_err(|spent| Exceeded {
+        spent.map(|_| ()).map_err(|spent| LimitExceeded {
             resource,
             total: spent.saturating_add(amount),
             limit,
@@ -288,7 +288,7 @@ impl Budget {
     ///
     /// # Errors
     /// If less remains.
-    pub fn has(&self, resource: Resource, amount: u64) -> Result<(), Exceeded> {
+    pub fn has(&self, resource: Resource, amount: u64) -> Result<(), LimitExceeded> {
         let limit = self.limit(resource);
         let total = self.spent[resource as usize]
             .load(Relaxed)
@@ -296,7 +296,7 @@ impl Budget {
         if total <= limit {
             Ok(())
         } else {
-            Err(Exceeded {
+            Err(LimitExceeded {
                 resource,
                 total,
                 limit,

@@ -5,8 +5,8 @@
 //!   files.
 //! - [`SourceMap`] owns the bytes of all files of a run. A [`FileId`] names one; a [`Span`] is a
 //!   byte range in it. The map converts offsets to [`LineColumn`]s.
-//! - [`Search`] finds the files to which a scene refers: below its folder, its parent folder, or a
-//!   folder that the user allows.
+//! - [`FileSearch`] finds the files to which a scene refers: below its folder, its parent folder,
+//!   or a folder that the user allows.
 //! - [`Budget`] and [`Limits`] bound the memory and work of a run, per [`Resource`].
 //! - [`tree`] parses YAML and JSON to a [`tree::SyntaxTree`] of nodes with spans, and formats YAML.
 //! - [`EditedFiles`] are texts that an editor has open; they replace files on disk.
@@ -27,10 +27,10 @@ mod memory;
 mod search;
 pub mod tree;
 
-pub use budget::{Budget, Exceeded, Limits, Resource};
+pub use budget::{Budget, LimitExceeded, Limits, Resource};
 pub use edited::EditedFiles;
 pub use escape::uri_path;
-pub use loader::{Identity, LoadError, Loader, OwnedFile};
+pub use loader::{FileIdentity, LoadError, Loader, OwnedFile};
 pub use map::{FileId, LineColumn, SourceMap, Span};
 pub use memory::MemoryFiles;
-pub use search::{FileKind, Folder, Found, Missing, Search};
+pub use search::{FileKind, FileSearch, Folder, FoundFile, MissingFile};

@@ -3,7 +3,7 @@
 //! A path that the user gives is opened as it is. A path from a scene is opened first and then
 //! checked through the open file, because the path could point elsewhere when it is followed again.
 
-use super::{FileId, Found, MemoryFiles, SourceMap};
+use super::{FileId, FoundFile, MemoryFiles, SourceMap};
 use std::fmt;
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Read, Seek};
@@ -83,7 +83,12 @@ impl Loader {
     ///
     /// # Errors
     /// If it can't be read or is too large.
-    pub fn found(&self, found: &Found, limit: u64, map: &SourceMap) -> Result<Vec<u8>, LoadError> {
+    pub fn found(
+        &self,
+        found: &FoundFile,
+        limit: u64,
+        map: &SourceMap,
+    ) -> Result<Vec<u8>, LoadError> {
         let opened = found.opened();
         if opened.memory().is_some() {
             return opened.bytes(limit);
@@ -116,7 +121,7 @@ impl Loader {
     /// # Errors
     /// If there is no such regular file, or it is too large.
     pub fn owned(&self, path: &Path, limit: u64) -> Result<OwnedFile, LoadError> {
-        let opened = Opened::at(path).ok_or(LoadError::NotRegular)?;
+        let opened = OpenedFile::at(path).ok_or(LoadError::NotRegular)?;
         let bytes = opened.bytes(limit)?;
         let metadata = match &opened.content {
             OpenedContent::System(Ok(file)) => file.metadata().map_err(LoadError::Io)?,
@@ -160,7 +165,7 @@ fn is_trusted(_: &Metadata) -> bool {
 
 /// The identity of a file, independent of its names and links.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Identity(IdentityKind);
+pub struct FileIdentity(IdentityKind);
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum IdentityKind {
@@ -178,7 +183,7 @@ type FileKey = PathBuf;
 
 /// An open regular file with its canonical path.
 #[derive(Debug)]
-pub(super) struct Opened {
+pub(super) struct OpenedFile {
     path: PathBuf,
     content: OpenedContent,
 }
@@ -190,7 +195,7 @@ enum OpenedContent {
     Memory(Arc<MemoryFiles>),
 }
 
-impl Opened {
+impl OpenedFile {
     /// Opens the file at `path`; `None` if it is not a regular file.
     pub(super) fn at(path: &Path) -> Option<Self> {
         // Opening a device can have side effects, so it is not tried.
@@ -234,16 +239,16 @@ impl Opened {
     }
 
     /// The identity; `None` if it can't be read.
-    pub(super) fn identity(&self) -> Option<Identity> {
+    pub(super) fn identity(&self) -> Option<FileIdentity> {
         let OpenedContent::System(file) = &self.content else {
-            return Some(Identity(IdentityKind::InMemory(self.path.clone())));
+            return Some(FileIdentity(IdentityKind::InMemory(self.path.clone())));
         };
         let file = file.as_ref().ok()?;
         #[cfg(unix)]
         let key = key(&file.metadata().ok()?);
         #[cfg(not(unix))]
         let key = file.metadata().ok().map(|_| self.path.clone())?;
-        Some(Identity(IdentityKind::OnDisk(key)))
+        Some(FileIdentity(IdentityKind::OnDisk(key)))
     }
 
     /// The first bytes, at most 64 KiB; empty if it can't be read.

@@ -1,7 +1,7 @@
 //! The source map: owns the bytes of every file and converts offsets to lines and columns.
 
 use super::memory::resolved;
-use super::{Budget, EditedFiles, Folder, Found, Limits, MemoryFiles};
+use super::{Budget, EditedFiles, Folder, FoundFile, Limits, MemoryFiles};
 use rtc_math::to_u32;
 use std::collections::BTreeSet;
 use std::fs;
@@ -172,7 +172,7 @@ impl SourceMap {
     ///
     /// # Panics
     /// As [`Self::add`].
-    pub fn add_found(&mut self, found: &Found, bytes: Vec<u8>) -> FileId {
+    pub fn add_found(&mut self, found: &FoundFile, bytes: Vec<u8>) -> FileId {
         self.push(found.shown.display().to_string(), found.folder(), bytes)
     }
 

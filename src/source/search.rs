@@ -12,7 +12,7 @@ mod listing;
 
 pub use folder::Folder;
 
-use super::loader::{Identity, Opened};
+use super::loader::{FileIdentity, OpenedFile};
 use listing::Listings;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
@@ -22,7 +22,7 @@ const MAX_COMPONENTS: usize = 16;
 
 /// The folders that are searched, in this order.
 #[derive(Clone, Debug, Default)]
-pub struct Search {
+pub struct FileSearch {
     folders: Vec<Folder>,
     /// Whether the last folder is the parent of the scene's folder.
     has_parent: bool,
@@ -42,19 +42,19 @@ pub struct FileKind {
 
 /// A file that was found, and is open.
 #[derive(Debug)]
-pub struct Found {
+pub struct FoundFile {
     /// Its canonical path.
     pub path: PathBuf,
     /// Its path as the user would write it.
     pub shown: PathBuf,
     /// Whether its name or folder differs from the requested path.
     pub elsewhere: bool,
-    opened: Opened,
+    opened: OpenedFile,
 }
 
 /// Why a file was not found.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Missing {
+pub enum MissingFile {
     /// There is no folder to search.
     NoFolder,
     /// The file is at none of these paths.
@@ -63,8 +63,8 @@ pub enum Missing {
     Outside(Vec<PathBuf>),
 }
 
-impl Found {
-    fn new(opened: Opened, shown: PathBuf, elsewhere: bool) -> Self {
+impl FoundFile {
+    fn new(opened: OpenedFile, shown: PathBuf, elsewhere: bool) -> Self {
         Self {
             path: opened.path().to_owned(),
             shown,
@@ -86,17 +86,17 @@ impl Found {
 
     /// The identity of the file; `None` if it can't be read.
     #[must_use]
-    pub fn identity(&self) -> Option<Identity> {
+    pub fn identity(&self) -> Option<FileIdentity> {
         self.opened.identity()
     }
 
-    pub(super) fn opened(&self) -> &Opened {
+    pub(super) fn opened(&self) -> &OpenedFile {
         &self.opened
     }
 }
 
 /// A path in a scene, with the separators of any system.
-struct Name<'a> {
+struct ScenePath<'a> {
     components: Vec<&'a str>,
     /// The number of leading `..`.
     parents: usize,
@@ -106,7 +106,7 @@ struct Name<'a> {
     trimmed: bool,
 }
 
-impl<'a> Name<'a> {
+impl<'a> ScenePath<'a> {
     fn new(written: &'a str) -> Self {
         let text = written.trim();
         let mut name = Self {
@@ -146,13 +146,13 @@ impl<'a> Name<'a> {
 
 /// The result of looking up a path in a folder.
 enum PathLookup {
-    File(Opened),
+    File(OpenedFile),
     /// A link leads outside the folder, whether its target exists or not.
     Outside,
     Nothing,
 }
 
-impl Search {
+impl FileSearch {
     /// Searches `folder`, that of the scene, and then `allowed`; for files in memory, all folders.
     #[must_use]
     pub fn new(folder: Option<&Folder>, allowed: Option<&Path>) -> Self {
@@ -187,16 +187,16 @@ impl Search {
     ///
     /// # Errors
     /// If there is none: the reason, with the paths that were searched.
-    pub fn find(&self, written: &str, kind: &FileKind) -> Result<Found, Missing> {
+    pub fn find(&self, written: &str, kind: &FileKind) -> Result<FoundFile, MissingFile> {
         let Some(scene) = self.folders.first() else {
-            return Err(Missing::NoFolder);
+            return Err(MissingFile::NoFolder);
         };
-        let name = Name::new(written);
+        let name = ScenePath::new(written);
         let mut outside = name.leads_above(self.has_parent);
         // A path with `..` into the allowed folder.
         if let Some(opened) = self.open_above(scene, &name) {
             let shown = scene.shown.join(written.trim().replace('\\', "/"));
-            return Ok(Found::new(opened, shown, name.trimmed));
+            return Ok(FoundFile::new(opened, shown, name.trimmed));
         }
         // Each suffix of the path, from the longest, in each folder.
         let mut searched: Vec<PathBuf> = Vec::new();
@@ -205,7 +205,9 @@ impl Search {
             for (place, folder) in self.folders.iter().enumerate() {
                 let shown = folder.shown.join(&tail);
                 match self.at(place, &tail, kind) {
-                    PathLookup::File(opened) => return Ok(Found::new(opened, shown, elsewhere)),
+                    PathLookup::File(opened) => {
+                        return Ok(FoundFile::new(opened, shown, elsewhere));
+                    }
                     PathLookup::Outside => outside = true,
                     PathLookup::Nothing => {}
                 }
@@ -220,9 +222,9 @@ impl Search {
                 .find_map(|at| self.other_case(at, &tail, kind))
         });
         other_case.ok_or(if outside {
-            Missing::Outside(searched)
+            MissingFile::Outside(searched)
         } else {
-            Missing::Absent(searched)
+            MissingFile::Absent(searched)
         })
     }
 
@@ -231,14 +233,14 @@ impl Search {
     ///
     /// # Errors
     /// If there is none: the reason, with the paths that were searched.
-    pub fn below(&self, written: &str) -> Result<Found, Missing> {
+    pub fn below(&self, written: &str) -> Result<FoundFile, MissingFile> {
         let own = self.folders.len() - usize::from(self.has_parent);
         if own == 0 {
-            return Err(Missing::NoFolder);
+            return Err(MissingFile::NoFolder);
         }
-        let name = Name::new(written);
+        let name = ScenePath::new(written);
         if name.escapes() || written.contains('\\') {
-            return Err(Missing::Outside(Vec::new()));
+            return Err(MissingFile::Outside(Vec::new()));
         }
         let (mut searched, mut outside) = (Vec::new(), false);
         for (folder, shown) in self.folders[..own]
@@ -246,16 +248,16 @@ impl Search {
             .map(|folder| (folder, folder.shown.join(written)))
         {
             match self.within(folder, Path::new(written)) {
-                PathLookup::File(opened) => return Ok(Found::new(opened, shown, false)),
+                PathLookup::File(opened) => return Ok(FoundFile::new(opened, shown, false)),
                 PathLookup::Outside => outside = true,
                 PathLookup::Nothing => {}
             }
             searched.push(shown);
         }
         Err(if outside {
-            Missing::Outside(searched)
+            MissingFile::Outside(searched)
         } else {
-            Missing::Absent(searched)
+            MissingFile::Absent(searched)
         })
     }
 
@@ -263,13 +265,13 @@ impl Search {
     /// `..`, a file of a kind in the parent folder.
     ///
     /// # Errors
-    /// As [`Search::below`].
-    pub fn above(&self, written: &str, kind: Option<&FileKind>) -> Result<Found, Missing> {
+    /// As [`FileSearch::below`].
+    pub fn above(&self, written: &str, kind: Option<&FileKind>) -> Result<FoundFile, MissingFile> {
         let Some(scene) = self.folders.first() else {
-            return Err(Missing::NoFolder);
+            return Err(MissingFile::NoFolder);
         };
-        let name = Name::new(written);
-        let outside = Err(Missing::Outside(Vec::new()));
+        let name = ScenePath::new(written);
+        let outside = Err(MissingFile::Outside(Vec::new()));
         if name.is_absolute || written.contains('\\') {
             return outside;
         }
@@ -279,16 +281,16 @@ impl Search {
         }
         let shown = scene.shown.join(written);
         if let Some(opened) = self.open_above(scene, &name) {
-            return Ok(Found::new(opened, shown, false));
+            return Ok(FoundFile::new(opened, shown, false));
         }
         let parent = self.folders.len() - 1;
         let Some(kind) = kind.filter(|_| self.has_parent && name.parents == 1) else {
             return outside;
         };
         match self.at(parent, &path, kind) {
-            PathLookup::File(opened) => Ok(Found::new(opened, shown, false)),
+            PathLookup::File(opened) => Ok(FoundFile::new(opened, shown, false)),
             PathLookup::Outside => outside,
-            PathLookup::Nothing => Err(Missing::Absent(vec![shown])),
+            PathLookup::Nothing => Err(MissingFile::Absent(vec![shown])),
         }
     }
 
@@ -299,7 +301,7 @@ impl Search {
     }
 
     /// The file at a path with leading `..`, which must be below the folder that the user allows.
-    fn open_above(&self, scene: &Folder, name: &Name) -> Option<Opened> {
+    fn open_above(&self, scene: &Folder, name: &ScenePath) -> Option<OpenedFile> {
         self.allowed
             .as_ref()
             .filter(|_| name.parents > 0 && !name.is_absolute)?;
@@ -312,7 +314,7 @@ impl Search {
     fn at(&self, place: usize, tail: &Path, kind: &FileKind) -> PathLookup {
         let folder = &self.folders[place];
         let is_parent = self.has_parent && place + 1 == self.folders.len();
-        let matches = |opened: &Opened| {
+        let matches = |opened: &OpenedFile| {
             self.is_allowed(opened.path()) || kind.matches(opened, &folder.resolved)
         };
         match self.within(folder, tail) {
@@ -323,7 +325,7 @@ impl Search {
     }
 
     fn within(&self, folder: &Folder, tail: &Path) -> PathLookup {
-        let is_inside = |opened: &Opened| {
+        let is_inside = |opened: &OpenedFile| {
             opened.path().starts_with(&folder.resolved) || self.is_allowed(opened.path())
         };
         let opened = folder.open(&folder.resolved.join(tail));
@@ -336,7 +338,7 @@ impl Search {
 
     /// The file whose last component differs from that of `tail` only in case; the first by name if
     /// there are several.
-    fn other_case(&self, place: usize, tail: &Path, kind: &FileKind) -> Option<Found> {
+    fn other_case(&self, place: usize, tail: &Path, kind: &FileKind) -> Option<FoundFile> {
         let folder = &self.folders[place];
         let expected = tail.file_name()?.to_str()?;
         let listing = self
@@ -346,7 +348,7 @@ impl Search {
             let tail = tail.with_file_name(name);
             match self.at(place, &tail, kind) {
                 PathLookup::File(opened) => {
-                    Some(Found::new(opened, folder.shown.join(&tail), true))
+                    Some(FoundFile::new(opened, folder.shown.join(&tail), true))
                 }
                 PathLookup::Outside | PathLookup::Nothing => None,
             }
@@ -356,7 +358,7 @@ impl Search {
 
 impl FileKind {
     /// Whether a file below a folder is of this kind, by extension and first bytes, and not hidden.
-    fn matches(&self, opened: &Opened, folder: &Path) -> bool {
+    fn matches(&self, opened: &OpenedFile, folder: &Path) -> bool {
         let extension = opened
             .path()
             .extension()
@@ -375,7 +377,7 @@ impl FileKind {
 /// The maximum number of files that are compared.
 const MAX_NEIGHBOURS: usize = 4096;
 
-impl Search {
+impl FileSearch {
     /// The names of the visible files of a kind in the folder, below the scene's folder, to which a
     /// path leads; sorted.
     #[must_use]
@@ -405,7 +407,7 @@ impl Search {
     /// The path of a found file relative to the first searched folder that contains it, with `/`
     /// between components.
     #[must_use]
-    pub fn path_to(&self, found: &Found) -> Option<String> {
+    pub fn path_to(&self, found: &FoundFile) -> Option<String> {
         let below = |folder: &Folder| found.path.strip_prefix(&folder.resolved).ok();
         let path = self.folders.iter().find_map(below)?;
         let parts = path

@@ -1,6 +1,6 @@
 //! The advice that follows from a study, as sentences.
 
-use super::metrics::Errors;
+use super::metrics::PictureErrors;
 use super::outcome::{MoreBounces, Study, StudyRow};
 use super::parameter::Parameter;
 use super::setting::Setting;
@@ -216,7 +216,7 @@ fn error(row: &StudyRow) -> String {
 
 /// The confidence interval of an error for the whole picture, if only tiles were rendered: " (0.3 …
 /// 0.6)".
-pub(super) fn interval(errors: &Errors) -> String {
+pub(super) fn interval(errors: &PictureErrors) -> String {
     if errors.rmse_low == errors.rmse_high {
         return String::new();
     }

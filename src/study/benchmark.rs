@@ -4,15 +4,15 @@
 
 use super::runtime::Time;
 use super::setting::Setting;
-use super::spread::Reseeded;
-use super::statistics::{Estimate, Rng, median};
-use super::subject::{RenderedTiles, Stopped, Subject};
+use super::spread::ReseededRenders;
+use super::statistics::{Estimate, SplitMix64, median};
+use super::subject::{RenderedTiles, Stopped, StudySubject};
 use rtc_image::Image;
 use rtc_ir as ir;
 
 /// A case of a benchmark.
 pub(super) struct BenchmarkCase<'a> {
-    pub(super) subject: Subject<'a>,
+    pub(super) subject: StudySubject<'a>,
     pub(super) setting: Setting,
 }
 
@@ -50,7 +50,7 @@ pub(super) fn benchmark(
     cases: &[BenchmarkCase<'_>],
     budget: u64,
     reference: Option<&[Image]>,
-    rng: &mut Rng,
+    rng: &mut SplitMix64,
 ) -> Result<Benchmark, Stopped> {
     // Run the cases in rounds, each in a new random order.
     let mut timings: Vec<_> = cases.iter().map(|_| Timings::default()).collect();
@@ -104,7 +104,7 @@ pub(super) fn benchmark(
     })
 }
 
-impl Subject<'_> {
+impl StudySubject<'_> {
     /// The approximate cost of preparing a render, in rays: a triangle costs as much as a ray, and
     /// so do 512 texels of images or, if only tiles are rendered, 8 pixels of the picture.
     fn preparation_rays(&self) -> u64 {
@@ -167,7 +167,7 @@ impl Timings {
         let timed = subject.time(
             *setting,
             is_first,
-            Reseeded { reference, before },
+            ReseededRenders { reference, before },
             |rendered| {
                 if is_first {
                     let work = subject.preparation_rays() + rendered.counts.rays();
@@ -196,7 +196,7 @@ struct Overheads<'a> {
 }
 
 impl<'a> Overheads<'a> {
-    fn of(&mut self, case: &BenchmarkCase<'a>, rng: &mut Rng) -> [f64; 2] {
+    fn of(&mut self, case: &BenchmarkCase<'a>, rng: &mut SplitMix64) -> [f64; 2] {
         const ROUNDS: usize = 5;
         let BenchmarkCase { subject, setting } = case;
         let is_alike = |(other, _): &&(BenchmarkCase<'a>, [f64; 2])| {
@@ -224,7 +224,7 @@ impl<'a> Overheads<'a> {
         &mut self,
         case: &BenchmarkCase<'a>,
         times: &[Option<Time>],
-        rng: &mut Rng,
+        rng: &mut SplitMix64,
     ) -> Vec<Option<f64>> {
         if case.subject.is_whole() {
             let cpu = |time: &Option<Time>| time.as_ref().map(|time| time.cpu);

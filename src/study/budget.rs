@@ -1,16 +1,17 @@
 //! Rendering within a time budget: first a coarse picture, then a complete one, then samples where
 //! they reduce the error most. A pass that the time interrupts leaves complete tiles.
 
-use super::noise::{ErrorBound, Noise};
+use super::noise::{ErrorBound, FilmNoise};
 use super::progressive::ProgressiveRender;
 use super::rounds::next_round;
 use super::subject::Stopped;
 use super::target::{
-    Progress, RenderOrder, TAIL, TargetResult, Watch, first_round, light_samples, new_render,
+    Progress, RenderCallbacks, RenderOrder, TAIL, TargetResult, first_round, light_samples,
+    new_render,
 };
 use super::target::{set_sampling, tail_of};
 use rtc_ir::Scene;
-use rtc_render::{AnyWorld, Step};
+use rtc_render::{AnyWorld, RenderStep};
 use std::time::Duration;
 
 /// The block sizes of the coarse passes: one pixel of each block is sampled. A size of 1 is the
@@ -29,7 +30,7 @@ pub struct CoarsePicture {
 
 /// The end of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Pass {
+enum PassEnd {
     Done,
     /// The time or the ray budget is used up.
     Interrupted,
@@ -38,7 +39,7 @@ enum Pass {
 /// A render with a time budget.
 struct TimedRender<'run, 'watch> {
     world: &'run mut AnyWorld,
-    watch: &'run Watch<'watch>,
+    watch: &'run RenderCallbacks<'watch>,
     progressive: ProgressiveRender,
     time: Duration,
 }
@@ -49,7 +50,7 @@ pub(super) fn render_within(
     world: &mut AnyWorld,
     scene: &Scene,
     order: &RenderOrder,
-    watch: &Watch<'_>,
+    watch: &RenderCallbacks<'_>,
     time: Duration,
 ) -> Result<TargetResult, Stopped> {
     let progressive = new_render(scene.settings.light_samples, order);
@@ -75,14 +76,14 @@ impl TimedRender<'_, '_> {
 
     /// Takes the requested samples of all pixels; if the pass is timed and the time ends, of
     /// complete tiles only.
-    fn pass(&mut self, is_timed: bool) -> Result<Pass, Stopped> {
+    fn pass(&mut self, is_timed: bool) -> Result<PassEnd, Stopped> {
         let (watch, time) = (self.watch, self.time);
         let is_late = || is_timed && (watch.elapsed)() > time;
-        let on_pixel = |step: Step| (watch.on_pixel)(step) && !is_late();
+        let on_pixel = |step: RenderStep| (watch.on_pixel)(step) && !is_late();
         match self.progressive.refine(self.world, &on_pixel, None) {
-            true => Ok(Pass::Done),
+            true => Ok(PassEnd::Done),
             false if (watch.is_stopped)() => Err(Stopped),
-            false => Ok(Pass::Interrupted),
+            false => Ok(PassEnd::Interrupted),
         }
     }
 
@@ -98,12 +99,12 @@ impl TimedRender<'_, '_> {
             self.progressive.requested = all.map(|index| [u32::from(is_one(index)), 0]).collect();
             let is_coarsest = block == BLOCKS[0];
             let end = self.pass(!is_coarsest)?;
-            if is_coarsest && end == Pass::Interrupted {
+            if is_coarsest && end == PassEnd::Interrupted {
                 // The ray budget is used up.
                 return Err(Stopped);
             }
             let is_late = block > 1 && self.elapsed() > self.time;
-            if end == Pass::Interrupted || is_late {
+            if end == PassEnd::Interrupted || is_late {
                 let took = self.elapsed().saturating_sub(start).as_secs_f64();
                 let pixels = self
                     .progressive
@@ -138,7 +139,7 @@ impl TimedRender<'_, '_> {
     fn reserve_output_time(&mut self, order: &RenderOrder) {
         let start = self.elapsed();
         let undersampled = order.undersampled(self.world);
-        let noise = Noise::of(&self.progressive.film, &undersampled);
+        let noise = FilmNoise::of(&self.progressive.film, &undersampled);
         let bound = noise.bound(TAIL, order.goal.error);
         drop(self.progressive.result(bound, &undersampled, order.values));
         let took = self.elapsed().saturating_sub(start);
@@ -161,7 +162,7 @@ impl TimedRender<'_, '_> {
                 replicate = first.min(2 * replicate);
                 vec![[replicate, pilot.min(replicate.max(2))]; self.progressive.film.len()]
             } else {
-                let noise = Noise::of(&self.progressive.film, &undersampled);
+                let noise = FilmNoise::of(&self.progressive.film, &undersampled);
                 let tail = tail(self.progressive.rounds);
                 error = Some(noise.bound(tail, order.goal.error).error);
                 let took = self.elapsed().saturating_sub(start).as_secs_f64();
@@ -177,11 +178,11 @@ impl TimedRender<'_, '_> {
             self.progressive.rounds += 1;
             let pixels = self.progressive.film.len() as u64;
             (self.watch.round)(Progress { pixels, error });
-            if self.pass(true)? == Pass::Interrupted {
+            if self.pass(true)? == PassEnd::Interrupted {
                 break;
             }
         }
-        let noise = Noise::of(&self.progressive.film, &undersampled);
+        let noise = FilmNoise::of(&self.progressive.film, &undersampled);
         let bound = noise.bound(tail(self.progressive.rounds), order.goal.error);
         Ok(self.progressive.result(bound, &undersampled, order.values))
     }

@@ -2,9 +2,9 @@
 //! error estimate.
 
 use super::probe::probe;
-use super::target::{Goal, RenderOrder};
+use super::target::{RenderGoal, RenderOrder};
 use rtc_color::Tone;
-use rtc_render::{AnyWorld, Crop, Film, Job, PixelObserver, Values};
+use rtc_render::{AnyWorld, Crop, Film, PixelObserver, RenderSelection, Values};
 use rtc_valid::Mode;
 
 /// The tone curve and exposure of [`Values::Display`] for path tracing.
@@ -15,7 +15,7 @@ const DISPLAY: (Tone, f64) = (Tone::Srgb, 1.0);
 /// requests.
 pub(super) fn film(
     world: &AnyWorld,
-    job: &Job,
+    job: &RenderSelection,
     denoise: bool,
     on_pixel: &PixelObserver<'_>,
 ) -> Option<Film> {
@@ -29,7 +29,7 @@ pub(super) fn film(
     // Render the whole picture in linear values, and denoise it.
     let camera = world.scene().camera();
     let order = RenderOrder {
-        goal: Goal::default(),
+        goal: RenderGoal::default(),
         crop: Crop {
             x: 0,
             y: 0,
@@ -42,7 +42,7 @@ pub(super) fn film(
         keep_lights: false,
         seed: 0,
     };
-    let whole = Job {
+    let whole = RenderSelection {
         tiles: None,
         values: Values::Linear,
         ..*job

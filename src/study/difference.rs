@@ -2,7 +2,7 @@
 
 use super::flip::{PIXELS_PER_DEGREE, REACH, flip};
 use super::metrics::{LEVELS, relative};
-use rtc_image::{Image, ShownPicture};
+use rtc_image::{DisplayedPicture, Image};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -34,13 +34,17 @@ pub struct Difference {
 impl Difference {
     /// The difference of two pictures of the same size.
     #[must_use]
-    pub fn of(test: &ShownPicture, reference: &ShownPicture, levels: f64) -> Self {
+    pub fn of(test: &DisplayedPicture, reference: &DisplayedPicture, levels: f64) -> Self {
         Self::compute(test, reference, levels, &mut |_, _| ())
     }
 
     /// The difference, and FLIP of each pixel, row by row.
     #[must_use]
-    pub fn mapped(test: &ShownPicture, reference: &ShownPicture, levels: f64) -> (Self, Vec<f64>) {
+    pub fn mapped(
+        test: &DisplayedPicture,
+        reference: &DisplayedPicture,
+        levels: f64,
+    ) -> (Self, Vec<f64>) {
         let mut flips = vec![0.0; test.pixels()];
         let found = Self::compute(test, reference, levels, &mut |index, flip| {
             flips[index] = flip;
@@ -64,8 +68,8 @@ impl Difference {
 
     /// Computes the difference; `on_flip` is called for each pixel of a tile that differs.
     fn compute(
-        test: &ShownPicture,
-        reference: &ShownPicture,
+        test: &DisplayedPicture,
+        reference: &DisplayedPicture,
         levels: f64,
         on_flip: &mut dyn FnMut(usize, f64),
     ) -> Self {
@@ -118,7 +122,11 @@ fn channel_pairs(test: [f64; 3], reference: [f64; 3]) -> impl Iterator<Item = (f
 
 /// FLIP of each pixel in the tiles that differ. Each tile is filtered with a border of the filter
 /// radius, so that the result equals that of the whole picture.
-fn by_tiles(test: &ShownPicture, reference: &ShownPicture, on_flip: &mut dyn FnMut(usize, f64)) {
+fn by_tiles(
+    test: &DisplayedPicture,
+    reference: &DisplayedPicture,
+    on_flip: &mut dyn FnMut(usize, f64),
+) {
     /// Pixels along each side.
     const TILE: u32 = 256;
     let [width, height] = test.size();
@@ -181,8 +189,8 @@ mod tests {
     use super::*;
     use rtc_image::{FileFormat, Picture};
 
-    fn displayed(values: &[f64]) -> ShownPicture {
-        ShownPicture::of(Image {
+    fn displayed(values: &[f64]) -> DisplayedPicture {
+        DisplayedPicture::of(Image {
             width: 2,
             height: u32::try_from(values.len() / 2).unwrap(),
             pixels: values.iter().map(|value| [0.5, *value, 0.5]).collect(),
@@ -219,7 +227,7 @@ mod tests {
                 ..Picture::default()
             };
             let bytes = picture.encode(FileFormat::Png8).unwrap();
-            ShownPicture::read(&bytes, 4).unwrap()
+            DisplayedPicture::read(&bytes, 4).unwrap()
         };
         let found = Difference::of(&file(0.8), &file(1.0), 1.0);
         assert_eq!(
@@ -247,7 +255,8 @@ mod tests {
         b.pixels[100 * 300 + 255] = [1.0, 0.0, 0.5];
         b.pixels[255 * 300 + 7] = [0.0, 1.0, 0.5];
         let whole = flip(&b, &a, PIXELS_PER_DEGREE);
-        let (_, by_tiles) = Difference::mapped(&ShownPicture::of(a), &ShownPicture::of(b), 1.0);
+        let (_, by_tiles) =
+            Difference::mapped(&DisplayedPicture::of(a), &DisplayedPicture::of(b), 1.0);
         assert!(whole == by_tiles, "to the last bit");
     }
 }

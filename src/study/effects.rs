@@ -4,12 +4,12 @@
 use super::ablation::{self, Ablation};
 use super::benchmark::{BenchmarkCase, benchmark};
 use super::metrics::{LEVELS, mean_product, rmse};
-use super::outcome::Rays;
+use super::outcome::RayTotals;
 use super::parameter::Parameter;
 use super::reference::independent;
 use super::setting::Setting;
-use super::statistics::{Estimate, Rng};
-use super::subject::{Stopped, Subject};
+use super::statistics::{Estimate, SplitMix64};
+use super::subject::{Stopped, StudySubject};
 use rtc_image::Image;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -23,7 +23,7 @@ pub struct EffectCost {
     /// The name of the removed feature.
     pub effect: String,
     /// The rays of the rendered part without it.
-    pub rays: Rays,
+    pub rays: RayTotals,
     /// The ratio of rays: without it over with it.
     pub ray_ratio: f64,
     /// The ratio of processor times: without it over with it.
@@ -42,10 +42,10 @@ const MIN_TILES: usize = 8;
 
 /// The cost of each ablation of a scene, near a setting, as far as the ray budget allows.
 pub(super) fn costs(
-    subject: &Subject<'_>,
+    subject: &StudySubject<'_>,
     setting: Setting,
     budget: u64,
-    rng: &mut Rng,
+    rng: &mut SplitMix64,
 ) -> Result<Vec<EffectCost>, Stopped> {
     /// More paths do not change the ratios.
     const PATHS: u32 = 4;
@@ -69,7 +69,7 @@ pub(super) fn costs(
     let pairs = pairs.collect::<Result<Vec<_>, _>>()?;
     let (with, all) = (
         &pairs[0],
-        Rays::from(benchmark.runs[0].rendered.counts).all(),
+        RayTotals::from(benchmark.runs[0].rendered.counts).all(),
     );
     let costs = names.into_iter().zip(&pairs[1..]).zip(&benchmark.runs[1..]);
     let cost = |(((kind, effect), pair), run): ((_, &SampledPair), &super::benchmark::TimedRun)| {
@@ -77,7 +77,7 @@ pub(super) fn costs(
             kind,
             effect,
             rays: run.rendered.counts.into(),
-            ray_ratio: Rays::from(run.rendered.counts).all() as f64 / all.max(1) as f64,
+            ray_ratio: RayTotals::from(run.rendered.counts).all() as f64 / all.max(1) as f64,
             ratio: run.ratio,
             noise_ratio: pair.noise_over(with),
             difference: pair.difference(with),
@@ -90,7 +90,7 @@ pub(super) fn costs(
         .collect())
 }
 
-fn case(subject: Subject<'_>, setting: Setting) -> BenchmarkCase<'_> {
+fn case(subject: StudySubject<'_>, setting: Setting) -> BenchmarkCase<'_> {
     let depth = subject.scene.settings.max_depth.min(setting.depth);
     BenchmarkCase {
         subject,
@@ -100,10 +100,10 @@ fn case(subject: Subject<'_>, setting: Setting) -> BenchmarkCase<'_> {
 
 /// The tiles and the number of ablations that a ray budget allows; `None` if it does not allow one.
 fn affordable<'a>(
-    subject: &Subject<'a>,
+    subject: &StudySubject<'a>,
     setting: Setting,
     (budget, requested): (u64, usize),
-) -> Result<Option<(Subject<'a>, usize)>, Stopped> {
+) -> Result<Option<(StudySubject<'a>, usize)>, Stopped> {
     let pilot = subject.keep(MIN_TILES);
     let rays = pilot.render(setting, independent(1))?.counts.rays();
     let of_tile = RENDERS as f64 * rays as f64 / pilot.count() as f64;

@@ -10,7 +10,7 @@ use super::Effort;
 use super::outcome::StudyProvenance;
 use super::subject::RenderedTiles;
 use rtc_image::Image;
-use rtc_render::Counts;
+use rtc_render::RayCounts;
 use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 use xxhash_rust::xxh3::xxh3_64;
@@ -32,7 +32,7 @@ struct JournalHead {
 /// One render: its tiles, if they are still needed; its seconds followed by the errors of its
 /// repeats, or for a ray map, the rays of each pixel.
 #[derive(Clone)]
-pub(super) struct Entry {
+pub(super) struct JournalEntry {
     pub(super) key: u64,
     pub(super) rendered: RenderedTiles,
     pub(super) seconds: Vec<f64>,
@@ -41,7 +41,7 @@ pub(super) struct Entry {
 /// The renders of a study, in order.
 pub struct Journal {
     head: JournalHead,
-    entries: Vec<Entry>,
+    entries: Vec<JournalEntry>,
     /// The number of entries that this run has replayed.
     next: usize,
 }
@@ -70,7 +70,7 @@ impl Journal {
     }
 
     /// The next render, if it is in the journal.
-    pub(super) fn replay(&mut self, key: u64) -> Option<Entry> {
+    pub(super) fn replay(&mut self, key: u64) -> Option<JournalEntry> {
         let entry = self.entries.get(self.next);
         let Some(entry) = entry.filter(|entry| entry.key == key).cloned() else {
             // The following entries belong to another run: drop them.
@@ -82,7 +82,7 @@ impl Journal {
     }
 
     /// Records a render.
-    pub(super) fn record(&mut self, entry: Entry) {
+    pub(super) fn record(&mut self, entry: JournalEntry) {
         self.entries.push(entry);
         self.next = self.entries.len();
     }
@@ -150,9 +150,9 @@ impl JournalHead {
     }
 }
 
-impl Entry {
+impl JournalEntry {
     fn save(&self, bytes: &mut Vec<u8>) {
-        let Counts {
+        let RayCounts {
             camera,
             shadow,
             mirror,
@@ -222,9 +222,9 @@ impl<'a> ByteReader<'a> {
         })
     }
 
-    fn entry(&mut self) -> Option<Entry> {
+    fn entry(&mut self) -> Option<JournalEntry> {
         let key = self.long()?;
-        let mut counts = Counts::default();
+        let mut counts = RayCounts::default();
         for count in [
             &mut counts.camera,
             &mut counts.shadow,
@@ -242,7 +242,7 @@ impl<'a> ByteReader<'a> {
         }
         let seconds = self.floats(seconds as usize)?;
         let rendered = RenderedTiles { tiles, counts };
-        Some(Entry {
+        Some(JournalEntry {
             key,
             rendered,
             seconds,

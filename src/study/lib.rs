@@ -9,11 +9,11 @@
 //!
 //! 1. [`subject`]: choose random tiles of the picture, as many as the budget allows.
 //! 2. [`mod@reference`]: compare path depths; render a reference twice, which gives its own error.
-//! 3. [`mod@sweep`]: vary each [`Parameter`] alone and fit a power law to its error; the [`Model`]
+//! 3. [`mod@sweep`]: vary each [`Parameter`] alone and fit a power law to its error; the [`CostModel`]
 //!    predicts the error and the rays of any [`Setting`].
 //! 4. [`precision`]: measure the error and time of each arithmetic.
 //! 5. [`pareto`], [`rows`]: choose candidates with the model, render and time them
-//!    ([`benchmark`]), measure their [`Errors`], and find the Pareto front.
+//!    ([`benchmark`]), measure their [`PictureErrors`], and find the Pareto front.
 //! 6. [`effects`], [`ablation`]: remove effects, lights, objects and materials one at a time.
 //! 7. [`mod@advice`], [`mod@maps`], [`report`]: derive advice and maps, and write reports.
 //!
@@ -36,8 +36,8 @@
 //! # Guarantees
 //!
 //! Nothing here prints or reads files: clocks, thread pools and the functions that save come in
-//! with the [`StudyRuntime`] or the [`Watch`]. A picture with only a target error is the same for
-//! any number of threads, and for a resumed render.
+//! with the [`StudyRuntime`] or the [`RenderCallbacks`]. A picture with only a target error is the
+//! same for any number of threads, and for a resumed render.
 
 mod ablation;
 mod advice;
@@ -86,9 +86,9 @@ pub use flip::{PIXELS_PER_DEGREE, flip};
 pub use hypergeometric::least_faults;
 pub use journal::Journal;
 pub use maps::{StudyMap, maps};
-pub use metrics::{Errors, LEVELS, rmse};
+pub use metrics::{LEVELS, PictureErrors, rmse};
 pub use outcome::{
-    BounceCost, MoreBounces, ParameterReport, Rays, ReferenceReport, Study, StudyArea,
+    BounceCost, MoreBounces, ParameterReport, RayTotals, ReferenceReport, Study, StudyArea,
     StudyProvenance, StudyRow,
 };
 pub use parameter::{Parameter, arithmetic, not_applicable};
@@ -99,24 +99,25 @@ pub use quality::{PixelQuality, with_quality};
 pub use reference::{DepthEnd, ParameterLevel};
 #[cfg(feature = "cli")]
 pub use report::{SliderPage, csv, html, maps_page, slider_page, table, value_text, versus_table};
-pub use runtime::{Clock, StudyRuntime};
+pub use runtime::{StudyRuntime, WorkClock};
 pub use setting::Setting;
 pub use spread::ErrorSpread;
-pub use statistics::{Estimate, PowerLaw, Rng, median};
+pub use statistics::{Estimate, PowerLaw, SplitMix64, median};
 pub use subject::Stopped;
 pub use target::{
-    Goal, Progress, RenderOrder, Samples, TargetResult, Watch, approach, approach_keeping,
+    Progress, RenderCallbacks, RenderGoal, RenderOrder, SampleStatistics, TargetResult, approach,
+    approach_keeping,
 };
-pub use versus::{DifferentTile, Versus, versus};
+pub use versus::{DifferentTile, SceneComparison, versus};
 
 use parameter::not_applicable_in;
-use reference::{Depths, Reference};
+use reference::{ComparedDepths, Reference};
 use rtc_ir::{Mode, Scene, Shape, Surface};
-use rtc_render::Seeds;
+use rtc_render::SamplingSeeds;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use subject::Subject;
-use sweep::{Model, sweep};
+use subject::StudySubject;
+use sweep::{CostModel, sweep};
 
 /// The ray budget of a study, in rays of a simple scene of a few spheres. Other scenes are weighted
 /// by [`ray_cost`].
@@ -175,10 +176,10 @@ pub fn study(
     runtime: &StudyRuntime<'_>,
 ) -> Result<Study, Stopped> {
     // Choose the tiles; render the reference and fit the model.
-    let scope = Scope::new(scene, effort);
-    let subject = scope.subject_within_budget(&Subject::new(scene, seed, runtime))?;
+    let scope = StudyScope::new(scene, effort);
+    let subject = scope.subject_within_budget(&StudySubject::new(scene, seed, runtime))?;
     let mut context = scope.context(&subject)?;
-    let mut rng = Rng::new(seed);
+    let mut rng = SplitMix64::new(seed);
     // Measure the cost of each arithmetic.
     let precision = precision::costs(
         &subject,
@@ -228,7 +229,7 @@ pub fn study(
 }
 
 /// The parameters of a scene, and the ray budget of the study.
-struct Scope {
+struct StudyScope {
     scene_setting: Setting,
     used: Vec<Parameter>,
     /// The parameters that are sample counts.
@@ -240,11 +241,11 @@ struct Scope {
 /// The reference, against which rows are measured, and the model, by which rows are chosen.
 struct StudyContext {
     reference: Reference,
-    depths: Option<Depths>,
-    model: Model,
+    depths: Option<ComparedDepths>,
+    model: CostModel,
 }
 
-impl Scope {
+impl StudyScope {
     fn new(scene: &Scene, effort: Effort) -> Self {
         let used: Vec<_> = Parameter::ALL
             .into_iter()
@@ -277,7 +278,10 @@ impl Scope {
     }
 
     /// Selects the tiles that the budget allows, with a good reference and in the scene's setting.
-    fn subject_within_budget<'a>(&self, subject: &Subject<'a>) -> Result<Subject<'a>, Stopped> {
+    fn subject_within_budget<'a>(
+        &self,
+        subject: &StudySubject<'a>,
+    ) -> Result<StudySubject<'a>, Stopped> {
         /// The samples per pixel of a good reference, for a budget in rays.
         const GOOD_REFERENCE: [f64; 2] = [1024.0, 4e8];
         /// Fewer tiles do not represent a picture: this many are used, if the scene's setting can
@@ -311,7 +315,7 @@ impl Scope {
     }
 
     /// The seeds for comparing depths: two if bounces are sampled at random.
-    fn seeds_of_depths(&self) -> Vec<Seeds> {
+    fn seeds_of_depths(&self) -> Vec<SamplingSeeds> {
         let count = if self.used.contains(&Parameter::Paths) {
             2
         } else {
@@ -320,7 +324,7 @@ impl Scope {
         (1..=count).map(reference::independent).collect()
     }
 
-    fn context(&self, subject: &Subject<'_>) -> Result<StudyContext, Stopped> {
+    fn context(&self, subject: &StudySubject<'_>) -> Result<StudyContext, Stopped> {
         // Compare the path depths.
         let depths = match self.used.contains(&Parameter::Depth) {
             true => Some(reference::depths(
@@ -353,12 +357,12 @@ impl Scope {
             .render(base, reference::independent(5))?
             .counts
             .rays();
-        let mut model = Model::new(parameters, depths.as_ref(), base, base_rays);
+        let mut model = CostModel::new(parameters, depths.as_ref(), base, base_rays);
         if self.used.contains(&Parameter::Aperture) {
             let coarse = base
                 .with(Parameter::Supersampling, 1)
                 .with(Parameter::Aperture, 1);
-            let rendered = subject.render(coarse, Seeds::NONE)?;
+            let rendered = subject.render(coarse, SamplingSeeds::NONE)?;
             model.learn_interaction(coarse, rmse(&rendered.tiles, &reference.tiles));
         }
         Ok(StudyContext {

@@ -6,7 +6,7 @@ use super::difference::heat_map;
 use super::metrics::LEVELS;
 use super::outcome::{Study, StudyRow};
 use super::setting::Setting;
-use super::subject::{Stopped, Subject};
+use super::subject::{Stopped, StudySubject};
 use rtc_image::Image;
 
 /// The rays of each pixel of the whole picture in a setting, row by row; 0 outside the rendered
@@ -33,7 +33,7 @@ pub struct StudyMap {
 }
 
 /// Counts the rays of each pixel in the mapped settings.
-pub(super) fn count(study: &Study, subject: &Subject<'_>) -> Result<Vec<PixelRays>, Stopped> {
+pub(super) fn count(study: &Study, subject: &StudySubject<'_>) -> Result<Vec<PixelRays>, Stopped> {
     let count = |(_, row): (_, &StudyRow)| {
         let setting = row.setting;
         let rays = subject.rays_of_pixels(setting)?;

@@ -13,7 +13,7 @@ pub const LEVELS: f64 = 255.0;
 /// The errors of pictures against a reference.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-pub struct Errors {
+pub struct PictureErrors {
     /// The root of the mean square of all channels of all pixels, in grey levels.
     pub rmse: f64,
     /// The lower end of the interval for the `rmse` of the whole picture, of which tiles were
@@ -34,7 +34,7 @@ pub struct Errors {
     pub delta_e: f64,
 }
 
-impl Errors {
+impl PictureErrors {
     /// The errors of tiles that are a `fraction` of a picture. FLIP is computed for each tile
     /// separately.
     #[must_use]
@@ -148,7 +148,7 @@ mod tests {
     fn errors_by_hand() {
         let reference = [row(&[0.0, 0.3, 0.5, 1.0])];
         let test = [row(&[0.0, 0.3, 0.5 + 3.0 / 255.0, 1.0 - 0.9 / 255.0])];
-        let errors = Errors::of(&test, &reference, 1.0);
+        let errors = PictureErrors::of(&test, &reference, 1.0);
         assert!(
             (errors.rmse - ((9.0 + 0.81_f64) / 4.0).sqrt()).abs() < 1e-12,
             "{errors:?}"

@@ -3,12 +3,12 @@
 
 use super::metrics::LEVELS;
 use super::statistics::fisher_quantile;
-use super::undersampled::{Undersampled, UndersampledError};
+use super::undersampled::{UndersampledBound, UndersampledError};
 use rtc_render::{ProgressiveFilm, Replicates};
 
 /// The noise of a whole film.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Noise {
+pub(super) struct FilmNoise {
     /// The expected mean square error of a channel, for a white of 1.
     pub(super) square: f64,
     /// The degrees of freedom of the error, and of the estimate `square`.
@@ -17,9 +17,9 @@ pub(super) struct Noise {
     pub(super) undersampled: UndersampledError,
 }
 
-impl Noise {
+impl FilmNoise {
     /// The noise of a film with samples in all pixels.
-    pub(super) fn of(film: &ProgressiveFilm, undersampled: &Undersampled) -> Self {
+    pub(super) fn of(film: &ProgressiveFilm, undersampled: &UndersampledBound) -> Self {
         let (mut sum, mut squares) = (0.0, 0.0);
         for variance in film.pixels().map(Replicates::variance) {
             sum += variance;
@@ -120,7 +120,7 @@ pub(super) struct SampleAllocation {
 
 impl SampleAllocation {
     /// The allocation for a film with samples in all pixels.
-    pub(super) fn of(film: &ProgressiveFilm, noise: &Noise) -> Self {
+    pub(super) fn of(film: &ProgressiveFilm, noise: &FilmNoise) -> Self {
         let variances = smoothed(film);
         let pixels = variances.len().max(1) as f64;
         let independent = |(pixel, variance): (&Replicates, &f64)| {

@@ -1,7 +1,7 @@
 //! The result of a study, which can be printed, saved as JSON and read again.
 
 use super::maps::PixelRays;
-use super::metrics::Errors;
+use super::metrics::PictureErrors;
 use super::parameter::Parameter;
 use super::reference::{DepthEnd, ParameterLevel};
 use super::setting::Setting;
@@ -9,7 +9,7 @@ use super::spread::ErrorSpread;
 use super::statistics::{Estimate, PowerLaw};
 use super::{EffectCost, Effort, PrecisionCost};
 use rtc_image::Image;
-use rtc_render::{Counts, Crop};
+use rtc_render::{Crop, RayCounts};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -99,7 +99,7 @@ pub struct ParameterReport {
 
 /// Rays by kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct Rays {
+pub struct RayTotals {
     /// Camera rays.
     pub camera: u64,
     /// Shadow rays.
@@ -110,7 +110,7 @@ pub struct Rays {
     pub refracted: u64,
 }
 
-impl Rays {
+impl RayTotals {
     /// All variants.
     #[must_use]
     pub fn all(&self) -> u64 {
@@ -118,9 +118,9 @@ impl Rays {
     }
 }
 
-impl From<Counts> for Rays {
-    fn from(counts: Counts) -> Self {
-        let Counts {
+impl From<RayCounts> for RayTotals {
+    fn from(counts: RayCounts) -> Self {
+        let RayCounts {
             camera,
             shadow,
             mirror,
@@ -151,13 +151,13 @@ pub struct StudyRow {
     /// the front.
     pub front: bool,
     /// The rays of the rendered part.
-    pub rays: Rays,
+    pub rays: RayTotals,
     /// Processor seconds for the whole picture.
     pub seconds: Estimate,
     /// The ratio of its time to that of the scene's setting.
     pub ratio: Estimate,
     /// Its errors.
-    pub errors: Errors,
+    pub errors: PictureErrors,
     /// The error over renders with other seeds.
     pub spread: ErrorSpread,
     /// Whether the reference resolves the error; if not, the errors are upper bounds.

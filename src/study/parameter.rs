@@ -3,7 +3,7 @@
 use super::setting::Setting;
 use rtc_ir::{Light, Material, Mode, Phong, Scene};
 use rtc_passes::CountSetting;
-use rtc_plan::{Arithmetic, Effect, EffectState, EffectStatus, Plan, Rules, loss};
+use rtc_plan::{Arithmetic, Effect, EffectState, EffectStatus, Plan, RuleSet, loss};
 use rtc_valid::revalidate;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -254,7 +254,7 @@ fn pruned_reason(parameter: Parameter, scene: &Scene) -> Option<String> {
             all.with(parameter, own.get(parameter).max(2))
         })
         .apply(&mut varied);
-    let plan = Plan::new(&revalidate(&varied), Rules::ALL);
+    let plan = Plan::new(&revalidate(&varied), RuleSet::ALL);
     let status = plan
         .statuses
         .iter()

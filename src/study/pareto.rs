@@ -3,7 +3,7 @@
 
 use super::parameter::Parameter;
 use super::setting::Setting;
-use super::sweep::Model;
+use super::sweep::CostModel;
 use rtc_math::ln;
 
 /// A new row must reduce the error to this fraction or less.
@@ -19,7 +19,7 @@ const EQUAL_COST: f64 = 1.02;
 /// error per work in the model, until the rays exceed `most_rays` or the error falls below
 /// `least_error`.
 pub(super) fn candidates(
-    model: &Model,
+    model: &CostModel,
     min: Setting,
     parameters: &[Parameter],
     most_rays: f64,
@@ -52,7 +52,7 @@ pub(super) fn candidates(
 
 /// The setting with the cheapest arithmetic that adds no error in the model; `None` if it has that
 /// arithmetic already.
-pub(super) fn cheaper(model: &Model, setting: Setting) -> Option<Setting> {
+pub(super) fn cheaper(model: &CostModel, setting: Setting) -> Option<Setting> {
     let mut others = model
         .measured_values(Parameter::Precision)
         .map(|value| setting.with(Parameter::Precision, value));
@@ -62,14 +62,14 @@ pub(super) fn cheaper(model: &Model, setting: Setting) -> Option<Setting> {
 
 /// The cost of a row.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Point {
+pub(super) struct CostPoint {
     /// The time in seconds, as an interval.
     pub(super) seconds: [f64; 2],
     /// The rays, which decide where times do not differ clearly.
     pub(super) rays: u64,
 }
 
-impl Point {
+impl CostPoint {
     fn is_clearly_cheaper(&self, other: &Self) -> bool {
         self.seconds[1] < other.seconds[0]
     }
@@ -83,7 +83,7 @@ impl Point {
 /// The points in ascending order of cost, each with whether it is on the front: on the front, error
 /// decreases with cost. `is_better(a, b)` says whether the error of `a` is certainly lower.
 pub(super) fn ranking(
-    points: &[Point],
+    points: &[CostPoint],
     is_better: impl Fn(usize, usize) -> bool,
 ) -> Vec<(usize, bool)> {
     let (mut order, mut front) = (Vec::new(), Vec::<usize>::new());
@@ -103,7 +103,7 @@ pub(super) fn ranking(
 
 /// The indices of the points in ascending order of cost: no point comes before one that is clearly
 /// cheaper; ties are ordered by rays.
-fn by_cost(points: &[Point]) -> impl Iterator<Item = usize> {
+fn by_cost(points: &[CostPoint]) -> impl Iterator<Item = usize> {
     let mut remaining: Vec<_> = (0..points.len()).collect();
     std::iter::from_fn(move || {
         let is_next = |index: usize| {
@@ -123,13 +123,13 @@ mod tests {
     use super::*;
 
     /// A point with its error.
-    fn point(seconds: f64, rays: u64, error: f64) -> (Point, f64) {
+    fn point(seconds: f64, rays: u64, error: f64) -> (CostPoint, f64) {
         let seconds = [0.99 * seconds, 1.01 * seconds];
-        (Point { seconds, rays }, error)
+        (CostPoint { seconds, rays }, error)
     }
 
     /// The indices of the points in ascending order of cost, those off the front as −1 − index.
-    fn ranked(rows: &[(Point, f64)]) -> Vec<isize> {
+    fn ranked(rows: &[(CostPoint, f64)]) -> Vec<isize> {
         let points: Vec<_> = rows.iter().map(|row| row.0).collect();
         ranking(&points, |a, b| EQUAL_ERROR * rows[a].1 < rows[b].1)
             .into_iter()

@@ -1,14 +1,14 @@
 //! The cost of each arithmetic: the same samples of the same scene with all three.
 
 use super::benchmark::{BenchmarkCase, TimedRun, benchmark};
-use super::metrics::Errors;
-use super::outcome::Rays;
+use super::metrics::PictureErrors;
+use super::outcome::RayTotals;
 use super::parameter::{Parameter, precision_value, tolerates};
 use super::reference::ParameterLevel;
 use super::setting::Setting;
-use super::statistics::{Estimate, Rng};
-use super::subject::{Stopped, Subject};
-use super::sweep::Levels;
+use super::statistics::{Estimate, SplitMix64};
+use super::subject::{Stopped, StudySubject};
+use super::sweep::ParameterSweep;
 use rtc_plan::Arithmetic;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -24,11 +24,11 @@ pub struct PrecisionCost {
     pub is_tolerated: bool,
     /// The rays of the rendered part: rules that are proven only for the robust arithmetic do not
     /// apply to the others.
-    pub rays: Rays,
+    pub rays: RayTotals,
     /// Processor seconds over those of the robust one.
     pub ratio: Estimate,
     /// The difference from the picture of the robust one.
-    pub difference: Errors,
+    pub difference: PictureErrors,
 }
 
 #[cfg(feature = "cli")]
@@ -52,10 +52,10 @@ const PATHS: u32 = 16;
 
 /// The arithmetics, the robust one first, with the cost of each in a setting.
 pub(super) fn costs(
-    subject: &Subject<'_>,
+    subject: &StudySubject<'_>,
     setting: Setting,
     budget: u64,
-    rng: &mut Rng,
+    rng: &mut SplitMix64,
 ) -> Result<Vec<PrecisionCost>, Stopped> {
     let case = |precision| BenchmarkCase {
         subject: subject.clone(),
@@ -72,7 +72,7 @@ pub(super) fn costs(
         is_tolerated: tolerates(&subject.scene, arithmetic),
         rays: run.rendered.counts.into(),
         ratio: run.ratio,
-        difference: Errors::of(&run.rendered.tiles, robust, subject.fraction()),
+        difference: PictureErrors::of(&run.rendered.tiles, robust, subject.fraction()),
     };
     Ok(Arithmetic::ALL
         .into_iter()
@@ -83,7 +83,7 @@ pub(super) fn costs(
 
 /// The precision as a parameter alone, over the arithmetics allowed in rows. Its error has no
 /// sampling noise.
-pub(super) fn levels(costs: &[PrecisionCost]) -> Levels {
+pub(super) fn levels(costs: &[PrecisionCost]) -> ParameterSweep {
     let level = |cost: &PrecisionCost| ParameterLevel {
         value: precision_value(cost.arithmetic),
         error: cost.difference.rmse,
@@ -96,7 +96,7 @@ pub(super) fn levels(costs: &[PrecisionCost]) -> Levels {
         .filter(|cost| cost.is_tolerated)
         .map(level)
         .collect();
-    Levels {
+    ParameterSweep {
         parameter: Parameter::Precision,
         levels,
         law: None,

@@ -68,7 +68,7 @@ pub fn probe(
     on_pixel: &PixelObserver<'_>,
 ) -> Option<(Film, ProbedError)> {
     let probabilities = probabilities(&picture, order);
-    let probes = Probes::spread(&probabilities, order.seed);
+    let probes = ProbedPixels::spread(&probabilities, order.seed);
     // Replicates of a power of two are stratified.
     let length = samples.min(MAX_LENGTH).next_power_of_two();
     let mut film = ProgressiveFilm::new(order.crop, order.seed);
@@ -166,13 +166,13 @@ fn probabilities(picture: &DenoisedFilm, order: &RenderOrder) -> Vec<f64> {
 }
 
 /// The probed pixels.
-struct Probes {
+struct ProbedPixels {
     /// The number of probes of each pixel.
     hits: Vec<u32>,
     count: usize,
 }
 
-impl Probes {
+impl ProbedPixels {
     /// Chooses pixels in proportion to their probabilities, by stratified sampling of the
     /// cumulative distribution over the pixels in row order.
     fn spread(probabilities: &[f64], seed: u64) -> Self {
@@ -255,14 +255,14 @@ fn mean_and_bound(found: &[ProbeResult]) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Rng;
+    use crate::SplitMix64;
 
-    fn uniform(rng: &mut Rng) -> f64 {
+    fn uniform(rng: &mut SplitMix64) -> f64 {
         (rng.below(1 << 30) as f64 + 0.5) / f64::from(1 << 30)
     }
 
     /// A typical squared error: most are small, some are a hundred times as large.
-    fn square(rng: &mut Rng) -> f64 {
+    fn square(rng: &mut SplitMix64) -> f64 {
         let size = if rng.below(20) == 0 { 100.0 } else { 1.0 };
         -size * rtc_math::ln(uniform(rng))
     }
@@ -283,7 +283,7 @@ mod tests {
     fn the_bound_holds_as_often_as_it_says_where_few_pixels_have_most_of_the_error() {
         let reference = 0.95 + 0.05 * 100.0;
         for count in [MIN_PROBES_SMALL, MIN_PROBES] {
-            let mut rng = Rng::new(count as u64);
+            let mut rng = SplitMix64::new(count as u64);
             let held = (0..400).filter(|_| {
                 let found: Vec<_> = (0..count).map(|_| once(square(&mut rng))).collect();
                 mean_and_bound(&found)[1] >= reference
@@ -306,7 +306,7 @@ mod tests {
 
     #[test]
     fn the_step_of_least_error_is_taken_and_the_last_if_in_doubt() {
-        let mut rng = Rng::new(1);
+        let mut rng = SplitMix64::new(1);
         let noise: Vec<_> = (0..256).map(|_| uniform(&mut rng) - 0.5).collect();
         let of = |errors: [f64; 3]| {
             let found = |step: u32| {
@@ -332,7 +332,7 @@ mod tests {
             .collect();
         let mut hits = vec![0_u32; 4096];
         for seed in 0..200 {
-            let probes = Probes::spread(&probabilities, seed);
+            let probes = ProbedPixels::spread(&probabilities, seed);
             assert_eq!(probes.hits.iter().sum::<u32>() as usize, probes.count);
             hits.iter_mut()
                 .zip(probes.hits)

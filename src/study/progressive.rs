@@ -3,8 +3,8 @@
 
 use super::batch::WorkBatch;
 use super::noise::ErrorBound;
-use super::target::{RenderOrder, Samples, TargetResult};
-use super::undersampled::Undersampled;
+use super::target::{RenderOrder, SampleStatistics, TargetResult};
+use super::undersampled::UndersampledBound;
 use rtc_render::{AnyWorld, FilmError, PixelObserver, ProgressiveFilm, Replicates, Tiles, Values};
 use std::time::Duration;
 
@@ -119,7 +119,7 @@ impl ProgressiveRender {
     pub(super) fn result(
         &self,
         bound: ErrorBound,
-        undersampled: &Undersampled,
+        undersampled: &UndersampledBound,
         values: Values,
     ) -> TargetResult {
         let quality = |pixel| undersampled.quality(pixel);
@@ -199,9 +199,9 @@ impl ProgressiveRender {
     }
 }
 
-fn samples_of(film: &ProgressiveFilm) -> Samples {
+fn samples_of(film: &ProgressiveFilm) -> SampleStatistics {
     let counts = || film.pixels().map(Replicates::samples);
-    Samples {
+    SampleStatistics {
         min: counts().min().unwrap_or(0),
         mean: film.samples() as f64 / film.len().max(1) as f64,
         most: counts().max().unwrap_or(0),

@@ -1,6 +1,6 @@
 //! The quality of each pixel of a picture that grew towards a goal, and its layers.
 
-use rtc_image::Layers;
+use rtc_image::PixelLayers;
 use rtc_render::Aov;
 
 /// The statistics of a pixel.
@@ -32,11 +32,11 @@ impl PixelQuality {
 
 /// Adds the requested layers of statistics to other layers of the same pixels.
 #[must_use]
-pub fn with_quality(layers: Layers, wanted: &[Aov], quality: &[PixelQuality]) -> Layers {
+pub fn with_quality(layers: PixelLayers, wanted: &[Aov], quality: &[PixelQuality]) -> PixelLayers {
     let wanted = || wanted.iter().filter(|aov| aov.is_of_samples());
-    let Layers { mut names, values } = layers;
+    let PixelLayers { mut names, values } = layers;
     if wanted().next().is_none() {
-        return Layers { names, values };
+        return PixelLayers { names, values };
     }
     let width = names.len();
     names.extend(wanted().flat_map(|aov| aov.channels()));
@@ -45,7 +45,7 @@ pub fn with_quality(layers: Layers, wanted: &[Aov], quality: &[PixelQuality]) ->
         joined.extend_from_slice(&values[index * width..][..width]);
         joined.extend(wanted().flat_map(|aov| pixel.values(*aov)));
     }
-    Layers {
+    PixelLayers {
         names,
         values: joined,
     }

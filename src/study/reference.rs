@@ -6,9 +6,9 @@ use super::metrics::{LEVELS, mean, mean_product, rmse};
 use super::outcome::{BounceCost, MoreBounces};
 use super::parameter::{MAX_DEPTH, Parameter};
 use super::setting::Setting;
-use super::subject::{RenderedTiles, Stopped, Subject};
+use super::subject::{RenderedTiles, Stopped, StudySubject};
 use rtc_image::Image;
-use rtc_render::Seeds;
+use rtc_render::SamplingSeeds;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -41,7 +41,7 @@ pub(super) struct Reference {
 }
 
 /// The path depths compared with that of the scene.
-pub(super) struct Depths {
+pub(super) struct ComparedDepths {
     /// The error of each depth up to that of the scene, or to the depth where the picture no longer
     /// changes.
     pub(super) levels: Vec<ParameterLevel>,
@@ -62,8 +62,8 @@ pub enum DepthEnd {
 }
 
 /// Seeds that are independent of normal renders and of other numbers.
-pub(super) fn independent(number: u64) -> Seeds {
-    Seeds {
+pub(super) fn independent(number: u64) -> SamplingSeeds {
+    SamplingSeeds {
         pixel: number,
         lens: number,
         path: number,
@@ -96,11 +96,11 @@ impl DepthProbe {
 /// Compares path depths with that of `start`, up to the depth where the picture no longer changes.
 /// All depths use the same seeds, so that only the depth differs.
 pub(super) fn depths(
-    subject: &Subject<'_>,
+    subject: &StudySubject<'_>,
     start: Setting,
-    seeds: &[Seeds],
+    seeds: &[SamplingSeeds],
     budget: u64,
-) -> Result<Depths, Stopped> {
+) -> Result<ComparedDepths, Stopped> {
     // Render the depths from 0 up.
     let render = |depth| {
         let renders = seeds
@@ -143,7 +143,7 @@ pub(super) fn depths(
         end,
         deeper: deeper.map(cost).collect(),
     };
-    Ok(Depths { levels, more })
+    Ok(ComparedDepths { levels, more })
 }
 
 /// Renders the depths from 0 up, until the picture no longer changes or the budget ends.
@@ -179,7 +179,7 @@ fn search_depths(
 /// Renders the reference with about `budget` rays: raises the sampling parameters in turn, from
 /// `start`, until the picture no longer changes or the budget ends.
 pub(super) fn reference(
-    subject: &Subject<'_>,
+    subject: &StudySubject<'_>,
     start: Setting,
     parameters: &[Parameter],
     budget: u64,
@@ -187,7 +187,7 @@ pub(super) fn reference(
     // Without sampling, one render is exact.
     let mut setting = start;
     if parameters.is_empty() {
-        let rendered = subject.render(setting, Seeds::NONE)?;
+        let rendered = subject.render(setting, SamplingSeeds::NONE)?;
         return Ok(Reference {
             tiles: rendered.tiles,
             setting,

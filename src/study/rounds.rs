@@ -1,7 +1,7 @@
 //! The stopping criterion of a progressive render, and the samples of its next round.
 
 use super::metrics::LEVELS;
-use super::noise::{Noise, SampleAllocation, doubled_if};
+use super::noise::{FilmNoise, SampleAllocation, doubled_if};
 use rtc_render::{ProgressiveFilm, Replicates};
 
 /// The largest multiple of the samples that its noise needs that a render takes for a valid bound.
@@ -34,7 +34,7 @@ enum MissingSamples {
 impl MissingSamples {
     /// Where bright light may be undersampled, all pixels come first: pilots that have not hit it
     /// would skip some of them.
-    fn of(film: &ProgressiveFilm, noise: &Noise, tail: f64, error: f64) -> Self {
+    fn of(film: &ProgressiveFilm, noise: &FilmNoise, tail: f64, error: f64) -> Self {
         let bound = noise.bound(tail, Some(error));
         let is_open = bound.undersampled.is_some_and(|white| white > 1.0);
         let source = noise.undersampled.source;
@@ -61,7 +61,7 @@ impl MissingSamples {
 /// `None` if the goal, in grey levels, is reached or nothing fits.
 pub(super) fn next_round(
     film: &ProgressiveFilm,
-    noise: &Noise,
+    noise: &FilmNoise,
     tail: f64,
     goal: Option<f64>,
     max_samples: f64,

@@ -2,24 +2,24 @@
 //! reference, and the Pareto front.
 
 use super::benchmark::{BenchmarkCase, TimedRun, benchmark};
-use super::metrics::Errors;
+use super::metrics::PictureErrors;
 use super::outcome::StudyRow;
 use super::parameter::Parameter;
 use super::pareto;
 use super::reference::{self, Reference};
 use super::spread::ErrorSpread;
-use super::statistics::Rng;
-use super::subject::{Stopped, Subject};
+use super::statistics::SplitMix64;
+use super::subject::{Stopped, StudySubject};
 use super::tile_errors::TileErrors;
-use super::{FOR_ROWS, MAX_REFERENCE_ERROR, Scope, StudyContext};
+use super::{FOR_ROWS, MAX_REFERENCE_ERROR, StudyContext, StudyScope};
 
-impl Scope {
+impl StudyScope {
     /// Renders, times and measures the scene's setting and the best ones of the model.
     pub(super) fn rows(
         &self,
-        subject: &Subject<'_>,
+        subject: &StudySubject<'_>,
         context: &StudyContext,
-        rng: &mut Rng,
+        rng: &mut SplitMix64,
     ) -> Result<(Vec<StudyRow>, f64), Stopped> {
         let StudyContext {
             reference,
@@ -61,7 +61,8 @@ impl Scope {
         let benchmark = benchmark(&cases, budget, Some(&reference.tiles), rng)?;
         // Measure their errors.
         let row = |(case, run): (&BenchmarkCase<'_>, TimedRun)| {
-            let errors = Errors::of(&run.rendered.tiles, &reference.tiles, subject.fraction());
+            let errors =
+                PictureErrors::of(&run.rendered.tiles, &reference.tiles, subject.fraction());
             StudyRow {
                 setting: case.setting,
                 is_scene_setting: case.setting == self.scene_setting,
@@ -106,8 +107,8 @@ fn ranked(rows: Vec<StudyRow>, reference: &Reference, fraction: f64) -> Vec<Stud
 }
 
 impl StudyRow {
-    fn point(&self) -> pareto::Point {
-        pareto::Point {
+    fn point(&self) -> pareto::CostPoint {
+        pareto::CostPoint {
             seconds: [self.seconds.low, self.seconds.high],
             rays: self.rays.all(),
         }

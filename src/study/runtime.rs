@@ -1,10 +1,10 @@
 //! The runtime of a study: thread pools, clocks, a stop callback, and the journal.
 
 use super::denoised::film;
-use super::journal::{Entry, Journal};
+use super::journal::{Journal, JournalEntry};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use rtc_plan::Plan;
-use rtc_render::{AnyWorld, Film, Job, PixelObserver, SimdLevel, Step};
+use rtc_render::{AnyWorld, Film, PixelObserver, RenderSelection, RenderStep, SimdLevel};
 use rtc_valid::ValidScene;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -12,7 +12,7 @@ use std::time::Duration;
 
 /// The clocks, read before and after a piece of work. Their origin does not matter.
 #[derive(Clone, Copy)]
-pub struct Clock<'a> {
+pub struct WorkClock<'a> {
     /// The processor time that the calling thread has used.
     pub cpu: &'a (dyn Fn() -> Duration + Sync),
     /// The wall-clock time.
@@ -42,7 +42,7 @@ impl Time {
     }
 }
 
-impl Clock<'_> {
+impl WorkClock<'_> {
     /// Runs work on the calling thread; also returns its duration in seconds.
     fn measure<T>(&self, work: impl FnOnce() -> T) -> (T, Time) {
         let (cpu, wall) = ((self.cpu)(), (self.wall)());
@@ -61,7 +61,7 @@ impl Clock<'_> {
 
 /// Thread pools, clocks, a stop callback, and the journal.
 pub struct StudyRuntime<'a> {
-    clock: Clock<'a>,
+    clock: WorkClock<'a>,
     on_pixel: &'a PixelObserver<'a>,
     /// The pool for work that is not timed.
     all_threads: ThreadPool,
@@ -93,7 +93,7 @@ impl<'a> StudyRuntime<'a> {
     /// If the system cannot create threads.
     pub fn new(
         threads: usize,
-        clock: Clock<'a>,
+        clock: WorkClock<'a>,
         on_pixel: &'a PixelObserver<'a>,
     ) -> Result<Self, ThreadPoolBuildError> {
         let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build();
@@ -157,12 +157,12 @@ impl<'a> StudyRuntime<'a> {
     }
 
     /// The next render, if it is in the journal.
-    pub(super) fn replay(&self, key: u64) -> Option<Entry> {
+    pub(super) fn replay(&self, key: u64) -> Option<JournalEntry> {
         self.journal_state()?.journal.replay(key)
     }
 
     /// Records a render, if there is a journal.
-    pub(super) fn record(&self, entry: impl FnOnce() -> Entry) {
+    pub(super) fn record(&self, entry: impl FnOnce() -> JournalEntry) {
         let Some(mut journal_state) = self.journal_state() else {
             return;
         };
@@ -178,7 +178,7 @@ impl<'a> StudyRuntime<'a> {
     pub(super) fn render(
         &self,
         (scene, plan): (&ValidScene, &Plan),
-        job: &Job,
+        job: &RenderSelection,
         denoise: bool,
     ) -> Option<Film> {
         let world = AnyWorld::prepare_at(scene, plan, self.simd);
@@ -189,13 +189,13 @@ impl<'a> StudyRuntime<'a> {
     pub(super) fn rays_of_pixels(
         &self,
         (scene, plan): (&ValidScene, &Plan),
-        job: &Job,
+        job: &RenderSelection,
         denoise: bool,
     ) -> Option<Vec<u64>> {
         let [width, height] =
             [scene.camera().width, scene.camera().height].map(|side| side.get() as usize);
         let rays: Vec<_> = (0..width * height).map(|_| AtomicU64::new(0)).collect();
-        let on_pixel = |step: Step| {
+        let on_pixel = |step: RenderStep| {
             let [x, y] = step.pixel.map(|at| at as usize);
             rays[y * width + x].fetch_add(step.rays, Relaxed);
             (self.on_pixel)(step)

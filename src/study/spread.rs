@@ -5,7 +5,7 @@ use super::metrics::{LEVELS, mean_product};
 use super::subject::RenderedTiles;
 use rtc_image::Image;
 use rtc_ir::{Mode, Pattern, Settings};
-use rtc_render::Seeds;
+use rtc_render::SamplingSeeds;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -57,35 +57,35 @@ impl ErrorSpread {
 
 /// The seeds of the renders of a row, and the reference.
 #[derive(Clone, Copy)]
-pub(super) struct Reseeded<'t> {
+pub(super) struct ReseededRenders<'t> {
     /// The reference; without one all renders have the same seeds.
     pub(super) reference: Option<&'t [Image]>,
     /// The number of earlier renders of the row.
     pub(super) before: u64,
 }
 
-impl Reseeded<'_> {
+impl ReseededRenders<'_> {
     /// The seeds of a render; the first has those of `rtc render`.
-    pub(super) fn seeds(&self, number: u64, settings: &Settings) -> Seeds {
+    pub(super) fn seeds(&self, number: u64, settings: &Settings) -> SamplingSeeds {
         /// Different from the seeds of references and sweeps.
         const FIRST: u64 = 0xAF7E;
         let number = self.before + number;
         if self.reference.is_none() || number == 0 {
-            return Seeds::NONE;
+            return SamplingSeeds::NONE;
         }
         let seed = FIRST + number;
-        let path = Seeds {
+        let path = SamplingSeeds {
             path: seed,
-            ..Seeds::NONE
+            ..SamplingSeeds::NONE
         };
         match (&settings.mode, settings.pattern) {
-            (Mode::Path(_), _) => Seeds {
+            (Mode::Path(_), _) => SamplingSeeds {
                 pixel: seed,
                 lens: seed,
                 ..path
             },
             (_, Pattern::Grid) => path,
-            (_, Pattern::Jitter | Pattern::Random) => Seeds {
+            (_, Pattern::Jitter | Pattern::Random) => SamplingSeeds {
                 pixel: seed,
                 ..path
             },

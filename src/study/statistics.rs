@@ -51,9 +51,9 @@ impl Estimate {
 /// A seeded random number generator: SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom
 /// number generators", OOPSLA 2014).
 #[derive(Clone, Debug)]
-pub struct Rng(u64);
+pub struct SplitMix64(u64);
 
-impl Rng {
+impl SplitMix64 {
     /// The generator of a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
@@ -84,7 +84,7 @@ const DRAWS: usize = 999;
 ///
 /// NaN without values. Fewer than 5 values have their range as interval.
 #[must_use]
-pub fn median(values: &[f64], rng: &mut Rng) -> Estimate {
+pub fn median(values: &[f64], rng: &mut SplitMix64) -> Estimate {
     let mut sorted = values.to_vec();
     let value = middle(&mut sorted);
     let (Some(first), Some(last)) = (sorted.first(), sorted.last()) else {
@@ -108,7 +108,7 @@ pub fn median(values: &[f64], rng: &mut Rng) -> Estimate {
     }
 }
 
-fn resample(values: &[f64], rng: &mut Rng) -> Vec<f64> {
+fn resample(values: &[f64], rng: &mut SplitMix64) -> Vec<f64> {
     values
         .iter()
         .map(|_| values[rng.below(values.len())])
@@ -278,7 +278,7 @@ mod tests {
 
     #[test]
     fn the_interval_of_the_median_holds_it_as_often_as_it_says() {
-        let mut rng = Rng::new(7);
+        let mut rng = SplitMix64::new(7);
         let mut held = 0;
         for _ in 0..200 {
             // Uniform in [0, 1): the median is 1/2.
@@ -326,7 +326,7 @@ mod tests {
 
     #[test]
     fn medians_of_few_values() {
-        let mut rng = Rng::new(1);
+        let mut rng = SplitMix64::new(1);
         assert!(median(&[], &mut rng).value.is_nan());
         assert_eq!(median(&[3.0], &mut rng), Estimate::exact(3.0));
         assert_eq!(
@@ -343,7 +343,7 @@ mod tests {
     fn a_shuffle_keeps_all_and_is_repeatable() {
         let shuffled = |seed| {
             let mut items: Vec<_> = (0..20).collect();
-            Rng::new(seed).shuffle(&mut items);
+            SplitMix64::new(seed).shuffle(&mut items);
             items
         };
         assert!(shuffled(1) == shuffled(1) && shuffled(1) != shuffled(2));

@@ -1,21 +1,21 @@
 //! The subject of a study: a scene, and some tiles of its picture, which it renders in any setting.
 
-use super::journal::Entry;
+use super::journal::JournalEntry;
 use super::outcome::StudyArea;
 use super::runtime::{StudyRuntime, Time};
 use super::setting::Setting;
-use super::spread::Reseeded;
+use super::spread::ReseededRenders;
 use rtc_image::Image;
 use rtc_ir::{Pattern, Scene};
-use rtc_plan::{Plan, Rules};
-use rtc_render::{Counts, Crop, Job, Seeds, Tiles};
+use rtc_plan::{Plan, RuleSet};
+use rtc_render::{Crop, RayCounts, RenderSelection, SamplingSeeds, Tiles};
 use rtc_valid::{ValidScene, revalidate};
 use std::sync::Arc;
 use xxhash_rust::xxh3::xxh3_64;
 
 /// A scene, and the part of its picture that is rendered.
 #[derive(Clone)]
-pub(super) struct Subject<'runtime> {
+pub(super) struct StudySubject<'runtime> {
     pub(super) scene: Arc<Scene>,
     seed: u64,
     /// The tiles in order of rank, as column and row.
@@ -27,11 +27,11 @@ pub(super) struct Subject<'runtime> {
 #[derive(Clone)]
 pub(super) struct RenderedTiles {
     pub(super) tiles: Vec<Image>,
-    pub(super) counts: Counts,
+    pub(super) counts: RayCounts,
 }
 
 /// A timed render of some tiles.
-pub(super) struct Timed {
+pub(super) struct TimedTiles {
     pub(super) rendered: RenderedTiles,
     pub(super) time: Time,
     /// The mean square error of each render, if there is a reference.
@@ -44,7 +44,7 @@ pub(super) struct Timed {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stopped;
 
-impl<'runtime> Subject<'runtime> {
+impl<'runtime> StudySubject<'runtime> {
     /// The whole picture of a validated scene; `seed` gives the order of tiles for smaller parts.
     pub(super) fn new(scene: &Scene, seed: u64, runtime: &'runtime StudyRuntime<'runtime>) -> Self {
         let [columns, rows] = scene.camera.size.map(|pixels| pixels.div_ceil(Tiles::SIDE));
@@ -119,22 +119,25 @@ impl<'runtime> Subject<'runtime> {
 
     /// The rays of each pixel of the whole picture in a setting, row by row.
     pub(super) fn rays_of_pixels(&self, setting: Setting) -> Result<Vec<u64>, Stopped> {
-        let key = self.key("rays", setting, Seeds::NONE);
+        let key = self.key("rays", setting, SamplingSeeds::NONE);
         if let Some(entry) = self.runtime.replay(key) {
             return Ok(entry.seconds.iter().map(|rays| *rays as u64).collect());
         }
-        let (scene, job) = (self.validate(setting, Seeds::NONE), self.job(Seeds::NONE));
-        let plan = Plan::with_arithmetic(setting.precision, &scene, Rules::ALL);
+        let (scene, job) = (
+            self.validate(setting, SamplingSeeds::NONE),
+            self.job(SamplingSeeds::NONE),
+        );
+        let plan = Plan::with_arithmetic(setting.precision, &scene, RuleSet::ALL);
         let count = || {
             self.runtime
                 .rays_of_pixels((&scene, &plan), &job, setting.denoise)
         };
         let rays = self.runtime.in_parallel(count).ok_or(Stopped)?;
-        self.runtime.record(|| Entry {
+        self.runtime.record(|| JournalEntry {
             key,
             rendered: RenderedTiles {
                 tiles: Vec::new(),
-                counts: Counts::default(),
+                counts: RayCounts::default(),
             },
             // Whole numbers below 2⁵³, so none is rounded.
             seconds: rays.iter().map(|rays| *rays as f64).collect(),
@@ -177,7 +180,11 @@ impl<'runtime> Subject<'runtime> {
 
     /// Renders in a setting on all threads. A seed other than 0 gives samples independent of all
     /// other seeds.
-    pub(super) fn render(&self, setting: Setting, seeds: Seeds) -> Result<RenderedTiles, Stopped> {
+    pub(super) fn render(
+        &self,
+        setting: Setting,
+        seeds: SamplingSeeds,
+    ) -> Result<RenderedTiles, Stopped> {
         let key = self.key("picture", setting, seeds);
         if let Some(entry) = self.runtime.replay(key) {
             return Ok(entry.rendered);
@@ -186,7 +193,7 @@ impl<'runtime> Subject<'runtime> {
         let rendered = self
             .runtime
             .in_parallel(|| self.render_scene(&scene, setting, seeds))?;
-        self.runtime.record(|| Entry {
+        self.runtime.record(|| JournalEntry {
             key,
             rendered: rendered.clone(),
             seconds: Vec::new(),
@@ -195,7 +202,7 @@ impl<'runtime> Subject<'runtime> {
     }
 
     /// A key that identifies a render of the study.
-    fn key(&self, kind: &str, setting: Setting, seeds: Seeds) -> u64 {
+    fn key(&self, kind: &str, setting: Setting, seeds: SamplingSeeds) -> u64 {
         let tiles = self.tiles.len();
         xxh3_64(format!("{kind} {setting:?} {seeds:?} {tiles}").as_bytes())
     }
@@ -206,19 +213,19 @@ impl<'runtime> Subject<'runtime> {
         &self,
         setting: Setting,
         is_wanted: bool,
-        reseeded: Reseeded<'_>,
+        reseeded: ReseededRenders<'_>,
         repeats: impl FnOnce(&RenderedTiles) -> u64,
-    ) -> Result<Timed, Stopped> {
+    ) -> Result<TimedTiles, Stopped> {
         // Replay the render from the journal, if it is there.
         let key = self.key("time", setting, reseeded.seeds(0, &self.scene.settings));
-        if let Some(Entry {
+        if let Some(JournalEntry {
             rendered, seconds, ..
         }) = self.runtime.replay(key)
             && let [cpu, wall, squares @ ..] = &seconds[..]
         {
             repeats(&rendered);
             let (cpu, wall) = (*cpu, *wall);
-            return Ok(Timed {
+            return Ok(TimedTiles {
                 rendered,
                 time: Time { cpu, wall },
                 squares: squares.to_vec(),
@@ -243,7 +250,7 @@ impl<'runtime> Subject<'runtime> {
         }
         let time = time.over(count as f64);
         // Record it.
-        self.runtime.record(|| Entry {
+        self.runtime.record(|| JournalEntry {
             key,
             rendered: RenderedTiles {
                 tiles: match is_wanted {
@@ -254,7 +261,7 @@ impl<'runtime> Subject<'runtime> {
             },
             seconds: [&[time.cpu, time.wall], &squares[..]].concat(),
         });
-        Ok(Timed {
+        Ok(TimedTiles {
             rendered,
             time,
             squares,
@@ -265,34 +272,34 @@ impl<'runtime> Subject<'runtime> {
     /// The seconds for preparing the scene and for skipping all pixels, in each of `rounds`.
     pub(super) fn time_overhead(&self, setting: Setting, rounds: usize) -> Vec<[f64; 2]> {
         // Replay from the journal, if it is there.
-        let key = self.key("overhead", setting, Seeds::NONE);
+        let key = self.key("overhead", setting, SamplingSeeds::NONE);
         if let Some(entry) = self.runtime.replay(key) {
             let (pairs, _) = entry.seconds.as_chunks();
             return pairs.to_vec();
         }
         // Define a render without pixels, and one that skips all pixels.
-        let scene = self.validate(setting, Seeds::NONE);
+        let scene = self.validate(setting, SamplingSeeds::NONE);
         let nowhere = Crop {
             x: 0,
             y: 0,
             width: 0,
             height: 0,
         };
-        let without_pixels = Job {
+        let without_pixels = RenderSelection {
             crop: Some(nowhere),
-            ..Job::default()
+            ..RenderSelection::default()
         };
-        let without_tiles = Job {
+        let without_tiles = RenderSelection {
             tiles: Some(Tiles {
                 seed: self.seed,
                 first: 0,
                 last: 0,
             }),
-            ..Job::default()
+            ..RenderSelection::default()
         };
         // Time both in rounds.
         let seconds = |job| {
-            let plan = || Plan::with_arithmetic(setting.precision, &scene, Rules::ALL);
+            let plan = || Plan::with_arithmetic(setting.precision, &scene, RuleSet::ALL);
             let work = || self.runtime.render((&scene, &plan()), job, false);
             self.runtime.measure(work).1.cpu
         };
@@ -302,11 +309,11 @@ impl<'runtime> Subject<'runtime> {
         };
         let seconds: Vec<[f64; 2]> = (0..rounds).map(round).collect();
         // Record the times.
-        self.runtime.record(|| Entry {
+        self.runtime.record(|| JournalEntry {
             key,
             rendered: RenderedTiles {
                 tiles: Vec::new(),
-                counts: Counts::default(),
+                counts: RayCounts::default(),
             },
             seconds: seconds.iter().flatten().copied().collect(),
         });
@@ -314,7 +321,7 @@ impl<'runtime> Subject<'runtime> {
     }
 
     /// The validated scene in a setting, with jittered sub-samples if the seeds change them.
-    fn validate(&self, setting: Setting, seeds: Seeds) -> ValidScene {
+    fn validate(&self, setting: Setting, seeds: SamplingSeeds) -> ValidScene {
         self.validate_with(setting, (seeds.pixel != 0).then_some(Pattern::Jitter))
     }
 
@@ -332,10 +339,10 @@ impl<'runtime> Subject<'runtime> {
         &self,
         scene: &ValidScene,
         setting: Setting,
-        seeds: Seeds,
+        seeds: SamplingSeeds,
     ) -> Result<RenderedTiles, Stopped> {
         let job = self.job(seeds);
-        let plan = Plan::with_arithmetic(setting.precision, scene, Rules::ALL);
+        let plan = Plan::with_arithmetic(setting.precision, scene, RuleSet::ALL);
         let film = self.runtime.render((scene, &plan), &job, setting.denoise);
         let film = film.ok_or(Stopped)?;
         let counts = film.counts;
@@ -351,7 +358,7 @@ impl<'runtime> Subject<'runtime> {
     }
 
     /// The render job: the tiles, with seeds.
-    fn job(&self, seeds: Seeds) -> Job {
+    fn job(&self, seeds: SamplingSeeds) -> RenderSelection {
         let last = self
             .tiles
             .last()
@@ -361,10 +368,10 @@ impl<'runtime> Subject<'runtime> {
             first: 0,
             last,
         });
-        Job {
+        RenderSelection {
             tiles,
             seeds,
-            ..Job::default()
+            ..RenderSelection::default()
         }
     }
 

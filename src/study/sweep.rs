@@ -4,16 +4,16 @@
 use super::metrics::{LEVELS, products};
 use super::outcome::ParameterReport;
 use super::parameter::Parameter;
-use super::reference::{Depths, ParameterLevel, Reference, independent};
+use super::reference::{ComparedDepths, ParameterLevel, Reference, independent};
 use super::setting::Setting;
 use super::statistics::PowerLaw;
-use super::subject::{Stopped, Subject};
+use super::subject::{Stopped, StudySubject};
 use rtc_image::Image;
 use rtc_math::{exp, ln};
-use rtc_render::Seeds;
+use rtc_render::SamplingSeeds;
 
 /// A parameter at each of its values, with all others as in the reference.
-pub(super) struct Levels {
+pub(super) struct ParameterSweep {
     pub(super) parameter: Parameter,
     pub(super) levels: Vec<ParameterLevel>,
     pub(super) law: Option<PowerLaw>,
@@ -24,11 +24,11 @@ pub(super) struct Levels {
 /// The others stay at `base` with independent samples in two renders: their common error is that of
 /// the parameter alone.
 pub(super) fn sweep(
-    subject: &Subject<'_>,
+    subject: &StudySubject<'_>,
     reference: &Reference,
     (parameter, base): (Parameter, Setting),
     budget: u64,
-) -> Result<Levels, Stopped> {
+) -> Result<ParameterSweep, Stopped> {
     let mut levels: Vec<ParameterLevel> = Vec::new();
     let mut spent = 0;
     for value in parameter.levels() {
@@ -51,7 +51,7 @@ pub(super) fn sweep(
             break;
         }
     }
-    Ok(Levels {
+    Ok(ParameterSweep {
         parameter,
         law: law(parameter, &levels),
         levels,
@@ -59,13 +59,13 @@ pub(super) fn sweep(
 }
 
 /// Independent seeds, except for the parameter itself.
-fn others(parameter: Parameter, number: u64) -> Seeds {
+fn others(parameter: Parameter, number: u64) -> SamplingSeeds {
     let seeds = independent(number);
     match parameter {
-        Parameter::Supersampling => Seeds { pixel: 0, ..seeds },
-        Parameter::Aperture => Seeds { lens: 0, ..seeds },
-        Parameter::Lights | Parameter::Glossy => Seeds { path: 0, ..seeds },
-        Parameter::Paths => Seeds::NONE,
+        Parameter::Supersampling => SamplingSeeds { pixel: 0, ..seeds },
+        Parameter::Aperture => SamplingSeeds { lens: 0, ..seeds },
+        Parameter::Lights | Parameter::Glossy => SamplingSeeds { path: 0, ..seeds },
+        Parameter::Paths => SamplingSeeds::NONE,
         Parameter::Denoise | Parameter::Depth | Parameter::Precision => seeds,
     }
 }
@@ -112,8 +112,8 @@ fn law(parameter: Parameter, levels: &[ParameterLevel]) -> Option<PowerLaw> {
 }
 
 /// A model of the error and the rays of any setting.
-pub(super) struct Model {
-    parameters: Vec<Levels>,
+pub(super) struct CostModel {
+    parameters: Vec<ParameterSweep>,
     base: Setting,
     base_rays: f64,
     /// The interaction of supersampling and lens samples: the squared error of one of each, beyond
@@ -121,15 +121,15 @@ pub(super) struct Model {
     interaction: f64,
 }
 
-impl Model {
+impl CostModel {
     /// The model of levels that were measured around `base`, which takes `base_rays`.
     pub(super) fn new(
-        mut parameters: Vec<Levels>,
-        depths: Option<&Depths>,
+        mut parameters: Vec<ParameterSweep>,
+        depths: Option<&ComparedDepths>,
         base: Setting,
         base_rays: u64,
     ) -> Self {
-        parameters.extend(depths.map(|depths| Levels {
+        parameters.extend(depths.map(|depths| ParameterSweep {
             parameter: Parameter::Depth,
             levels: depths.levels.clone(),
             law: None,
@@ -149,11 +149,11 @@ impl Model {
     }
 
     /// Adds the errors of the arithmetics.
-    pub(super) fn learn_precision(&mut self, levels: Levels) {
+    pub(super) fn learn_precision(&mut self, levels: ParameterSweep) {
         self.parameters.push(levels);
     }
 
-    fn levels(&self, parameter: Parameter) -> Option<&Levels> {
+    fn levels(&self, parameter: Parameter) -> Option<&ParameterSweep> {
         self.parameters
             .iter()
             .find(|levels| levels.parameter == parameter)
@@ -215,7 +215,7 @@ impl Model {
     }
 }
 
-impl Levels {
+impl ParameterSweep {
     fn error(&self, value: u32) -> f64 {
         // The first level has the largest error; it counts even if it is not resolved.
         let counts = |(index, level): &(usize, &ParameterLevel)| {

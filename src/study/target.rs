@@ -6,29 +6,30 @@
 //! any number of threads.
 
 use super::budget::{self, CoarsePicture};
-use super::noise::Noise;
+use super::noise::FilmNoise;
 use super::parameter::{Parameter, not_applicable};
 use super::progressive::{CheckpointSink, Checkpointer, ProgressiveRender};
 use super::quality::PixelQuality;
 use super::rounds::next_round;
 use super::subject::Stopped;
-use super::undersampled::Undersampled;
+use super::undersampled::UndersampledBound;
 use rtc_color::Tone;
 use rtc_image::Image;
 use rtc_ir::{Pattern, Scene};
 use rtc_render::{
-    AnyWorld, Background, Counts, Crop, Film, Job, PixelObserver, ProgressiveFilm, Tiles, Values,
+    AnyWorld, Background, Crop, Film, PixelObserver, ProgressiveFilm, RayCounts, RenderSelection,
+    Tiles, Values,
 };
 use rtc_valid::revalidate;
 use std::time::Duration;
 
 /// The stopping criterion; with both, whichever comes first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Goal {
+pub struct RenderGoal {
     /// The root mean square error in grey levels of 8 bits, of display values.
     pub error: Option<f64>,
-    /// The time budget, by the clock of [`Watch::elapsed`]. One pixel of each 8 × 8 block always
-    /// gets a sample of each replicate.
+    /// The time budget, by the clock of [`RenderCallbacks::elapsed`]. One pixel of each 8 × 8 block
+    /// always gets a sample of each replicate.
     pub time: Option<Duration>,
 }
 
@@ -36,7 +37,7 @@ pub struct Goal {
 #[derive(Clone, Copy, Debug)]
 pub struct RenderOrder {
     /// When to stop.
-    pub goal: Goal,
+    pub goal: RenderGoal,
     /// The rendered part of the picture.
     pub crop: Crop,
     /// The background, for path tracing.
@@ -52,7 +53,7 @@ pub struct RenderOrder {
 }
 
 /// The callbacks of a render.
-pub struct Watch<'a> {
+pub struct RenderCallbacks<'a> {
     /// Called from all threads after each pixel with its rays; false stops the render.
     pub on_pixel: &'a PixelObserver<'a>,
     /// Whether the user stopped the render, rather than the time budget.
@@ -74,7 +75,7 @@ pub struct Progress {
 
 /// Statistics of the samples per pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Samples {
+pub struct SampleStatistics {
     /// The minimum.
     pub min: u64,
     /// The mean.
@@ -93,7 +94,7 @@ pub struct TargetResult {
     /// The quality of each pixel.
     pub quality: Vec<PixelQuality>,
     /// Its rays, including those for choosing light samples, without those of an unfinished round.
-    pub counts: Counts,
+    pub counts: RayCounts,
     /// The bound on the root mean square error in grey levels, which holds in 90 % of all renders,
     /// as `benches/honest.sh` counts; if there is no bound, that of the sampled part.
     pub error: f64,
@@ -103,7 +104,7 @@ pub struct TargetResult {
     /// Set if the time ended before each pixel had a sample; then there is no error bound.
     pub coarse: Option<CoarsePicture>,
     /// The samples per pixel.
-    pub samples: Samples,
+    pub samples: SampleStatistics,
     /// Samples of each area light at a hit.
     pub light_samples: u32,
 }
@@ -130,7 +131,7 @@ pub fn approach(
     world: &mut AnyWorld,
     scene: &Scene,
     order: &RenderOrder,
-    watch: &Watch<'_>,
+    watch: &RenderCallbacks<'_>,
 ) -> Result<TargetResult, Stopped> {
     approach_keeping(world, scene, order, watch, None)
 }
@@ -143,7 +144,7 @@ pub fn approach_keeping(
     world: &mut AnyWorld,
     scene: &Scene,
     order: &RenderOrder,
-    watch: &Watch<'_>,
+    watch: &RenderCallbacks<'_>,
     sink: Option<CheckpointSink<'_>>,
 ) -> Result<TargetResult, Stopped> {
     let mut samples = Parameter::ALL
@@ -166,7 +167,7 @@ fn in_rounds(
     world: &mut AnyWorld,
     scene: &Scene,
     order: &RenderOrder,
-    watch: &Watch<'_>,
+    watch: &RenderCallbacks<'_>,
     mut checkpointer: Option<Checkpointer<'_>>,
 ) -> Result<TargetResult, Stopped> {
     // Resume from a checkpoint, or choose light samples and begin.
@@ -190,7 +191,7 @@ fn in_rounds(
         if !progressive.refine(world, watch.on_pixel, checkpointer.as_mut()) {
             return Err(Stopped);
         }
-        let noise = Noise::of(&progressive.film, &undersampled);
+        let noise = FilmNoise::of(&progressive.film, &undersampled);
         let tail = tail_of(progressive.rounds + 1);
         let bound = noise.bound(tail, order.goal.error);
         let goal = order.goal.error;
@@ -248,9 +249,9 @@ impl RenderOrder {
     }
 
     /// The bound on undersampled features in a world.
-    pub(super) fn undersampled(&self, world: &AnyWorld) -> Undersampled {
+    pub(super) fn undersampled(&self, world: &AnyWorld) -> UndersampledBound {
         let (_, exposure) = self.display;
-        Undersampled {
+        UndersampledBound {
             brightest: (world.brightest() * exposure).max(1.0),
             pixels: self.crop.pixels(),
         }
@@ -261,17 +262,17 @@ impl RenderOrder {
 fn render_unsampled(
     world: &AnyWorld,
     order: &RenderOrder,
-    watch: &Watch<'_>,
+    watch: &RenderCallbacks<'_>,
 ) -> Result<TargetResult, Stopped> {
     // Render the picture once.
-    let job = Job {
+    let job = RenderSelection {
         crop: Some(order.crop),
         values: order.values,
         background: order.background,
-        ..Job::default()
+        ..RenderSelection::default()
     };
     let film = world.render(&job, watch.on_pixel).ok_or(Stopped)?;
-    let samples = Samples {
+    let samples = SampleStatistics {
         min: 1,
         mean: 1.0,
         most: 1,
@@ -315,14 +316,14 @@ pub(super) fn light_samples(
     world: &mut AnyWorld,
     scene: &Scene,
     order: &RenderOrder,
-    watch: &Watch<'_>,
-) -> Result<(u32, Counts), Stopped> {
+    watch: &RenderCallbacks<'_>,
+) -> Result<(u32, RayCounts), Stopped> {
     /// The number of tiles, and the samples per replicate in them.
     const TILES: usize = 4;
     const LENGTH: u32 = 4;
     // Keep the number if it is fixed or cannot matter.
     let scene_samples = scene.settings.light_samples;
-    let (mut best, mut tried) = ((scene_samples, f64::INFINITY), Counts::default());
+    let (mut best, mut tried) = ((scene_samples, f64::INFINITY), RayCounts::default());
     if order.keep_lights || scene_samples == 1 || not_applicable(Parameter::Lights, scene).is_some()
     {
         return Ok((scene_samples, tried));
@@ -365,7 +366,8 @@ pub(super) fn light_samples(
             return Err(Stopped);
         }
         tried = tried.plus(film.counts);
-        let cost = Noise::of(&film, &order.undersampled(world)).square * film.counts.rays() as f64;
+        let cost =
+            FilmNoise::of(&film, &order.undersampled(world)).square * film.counts.rays() as f64;
         if cost >= best.1 {
             break;
         }

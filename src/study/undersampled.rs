@@ -21,7 +21,7 @@ pub(super) struct UndersampledError {
     /// Its mean square, for a white of 1.
     pub(super) square: f64,
     /// The subject of the error.
-    pub(super) source: Undersampled,
+    pub(super) source: UndersampledBound,
 }
 
 impl UndersampledError {
@@ -52,14 +52,14 @@ fn allowance(target: f64) -> f64 {
 /// possible change by 1, each with p = 1/L: these are k = 3L/n pixels. If k < 1, one pixel changes
 /// by k.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Undersampled {
+pub(super) struct UndersampledBound {
     /// The largest value of a sample, in multiples of display white: at least 1.
     pub(super) brightest: f64,
     /// The number of pixels.
     pub(super) pixels: usize,
 }
 
-impl Undersampled {
+impl UndersampledBound {
     /// The mean square error of undersampled features, for a white of 1, if the replicates of each
     /// pixel have at least `count` samples.
     fn square(&self, count: u32) -> f64 {
@@ -127,7 +127,7 @@ mod tests {
 
     #[test]
     fn the_bound_by_hand() {
-        let undersampled = |brightest| Undersampled {
+        let undersampled = |brightest| UndersampledBound {
             brightest,
             pixels: 100,
         };
@@ -139,7 +139,7 @@ mod tests {
 
     #[test]
     fn the_minimum_leaves_half_of_the_squared_target() {
-        let undersampled = Undersampled {
+        let undersampled = UndersampledBound {
             brightest: 1.0,
             pixels: 1600,
         };
@@ -153,7 +153,7 @@ mod tests {
     #[test]
     fn no_undersampled_feature_exceeds_the_bound() {
         for (brightest, count) in [(1.0, 1), (1.0, 4), (8.0, 4), (3.0, 16)] {
-            let undersampled = Undersampled {
+            let undersampled = UndersampledBound {
                 brightest,
                 pixels: 64,
             };

@@ -8,11 +8,11 @@
 
 use super::benchmark::{BenchmarkCase, benchmark};
 use super::metrics::{LEVELS, mean_product, products, rmse};
-use super::outcome::{Rays, StudyArea, StudyProvenance};
+use super::outcome::{RayTotals, StudyArea, StudyProvenance};
 use super::reference::independent;
 use super::setting::Setting;
-use super::statistics::{Estimate, Rng, normal_quantile, paired};
-use super::subject::{Stopped, Subject};
+use super::statistics::{Estimate, SplitMix64, normal_quantile, paired};
+use super::subject::{Stopped, StudySubject};
 use super::{Effort, StudyRuntime};
 use rtc_image::Image;
 use rtc_ir::Scene;
@@ -41,7 +41,7 @@ const FALSE_ALARM: f64 = 0.05;
 /// The comparison of a scene with its reference; ratios are scene over reference.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-pub struct Versus {
+pub struct SceneComparison {
     /// The schema of this report: `rtc-versus/1`.
     #[schemars(extend("const" = "rtc-versus/1"))]
     pub schema: String,
@@ -54,7 +54,7 @@ pub struct Versus {
     /// The ratio of the seconds.
     pub time: Estimate,
     /// The rays of the rendered part.
-    pub rays: [Rays; 2],
+    pub rays: [RayTotals; 2],
     /// The sampling noise of one render of each, in grey levels.
     pub noise: [f64; 2],
     /// The difference of the pictures that `rtc render` makes, in grey levels.
@@ -83,7 +83,7 @@ pub struct DifferentTile {
     pub deviations: f64,
 }
 
-impl Versus {
+impl SceneComparison {
     /// The ratio of rays.
     #[must_use]
     pub fn ratio_of_rays(&self) -> f64 {
@@ -114,7 +114,7 @@ pub fn versus(
     effort: Effort,
     seed: u64,
     runtime: &StudyRuntime<'_>,
-) -> Result<Versus, Stopped> {
+) -> Result<SceneComparison, Stopped> {
     assert_eq!(scenes[0].camera.size, scenes[1].camera.size);
     // Choose as many tiles as the budget allows.
     let budget = scenes
@@ -123,7 +123,7 @@ pub fn versus(
         .fold(u64::MAX, u64::min);
     runtime.report_budget(budget);
     let budget = budget as f64;
-    let [first, second] = scenes.map(|scene| Subject::new(scene, seed, runtime));
+    let [first, second] = scenes.map(|scene| StudySubject::new(scene, seed, runtime));
     let count = affordable([&first, &second], budget)?;
     let subjects = [first.keep(count), second.keep(count)];
     // A benchmark reports ratios to the first case.
@@ -132,7 +132,7 @@ pub fn versus(
         setting: Setting::of(&subject.scene),
     });
     let rounds = (budget * ROUNDS / RENDERS) as u64;
-    let benchmark = benchmark(&cases, rounds, None, &mut Rng::new(seed))?;
+    let benchmark = benchmark(&cases, rounds, None, &mut SplitMix64::new(seed))?;
     let [first, second] = [1, 0].map(|which| &benchmark.runs[which]);
     // Render the replicates of both.
     let cells = subjects[0].cells();
@@ -140,7 +140,7 @@ pub fn versus(
         .each_ref()
         .map(|subject| SampledScene::of(subject, seed));
     let sampled = [scene?, reference?];
-    Ok(Versus {
+    Ok(SceneComparison {
         schema: "rtc-versus/1".to_owned(),
         scenes: about,
         part: subjects[0].area(),
@@ -157,7 +157,7 @@ pub fn versus(
 }
 
 /// The number of tiles of both that a ray budget allows.
-fn affordable(subjects: [&Subject<'_>; 2], budget: f64) -> Result<usize, Stopped> {
+fn affordable(subjects: [&StudySubject<'_>; 2], budget: f64) -> Result<usize, Stopped> {
     let mut rays = 0.0;
     for subject in subjects {
         let pilot = subject.keep(MIN_TILES);
@@ -178,7 +178,7 @@ struct SampledScene {
 
 impl SampledScene {
     /// Renders the replicates of a seed, which are independent of those of other seeds.
-    fn of(subject: &Subject<'_>, seed: u64) -> Result<Self, Stopped> {
+    fn of(subject: &StudySubject<'_>, seed: u64) -> Result<Self, Stopped> {
         let first = seed.wrapping_mul(u64::from(REPLICATES)).wrapping_add(1);
         let mut halves = [Vec::new(), Vec::new()];
         let mut means = Vec::new();

@@ -4,7 +4,7 @@
 use super::check::{Checker, SMALLEST};
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
-use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
+use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
 use rtc_math::{NonNegative, Vec3};
 use std::num::NonZeroU32;
 
@@ -66,13 +66,13 @@ pub(super) fn camera(camera: &ir::Camera, stereo: f64, check: &mut Checker<'_>) 
     } = camera;
     let ir::Lens { radius, samples } = lens;
     // Check each value; all errors are reported.
-    let eye = check.vector(*eye, at(Field::Eye));
-    let center = check.vector(*center, at(Field::Center));
-    let right = step(*right, Field::Right, check);
-    let up = step(*up, Field::Up, check);
+    let eye = check.vector(*eye, at(EntityField::Eye));
+    let center = check.vector(*center, at(EntityField::Center));
+    let right = step(*right, EntityField::Right, check);
+    let up = step(*up, EntityField::Up, check);
     let size = image_size(*size, check);
-    let radius = check.non_negative(*radius, "apertureRadius", at(Field::LensRadius));
-    let samples = check.count(*samples, "apertureSamples", at(Field::LensSamples));
+    let radius = check.non_negative(*radius, "apertureRadius", at(EntityField::LensRadius));
+    let samples = check.count(*samples, "apertureSamples", at(EntityField::LensSamples));
     let projection = valid_projection(*projection, stereo, check);
     // Check the frustum.
     let (eye, center, right, up) = (eye?, center?, right?, up?);
@@ -99,7 +99,7 @@ fn valid_projection(
     stereo: f64,
     check: &mut Checker<'_>,
 ) -> Option<Projection> {
-    let path = ValuePath::new(EntityKind::Settings, 0, Field::Stereo);
+    let path = ValuePath::new(EntityKind::Settings, 0, EntityField::Stereo);
     let distance = check.non_negative(stereo, "stereo", path)?.get();
     match projection {
         ir::Projection::Perspective if distance == 0.0 => Some(Projection::Perspective),
@@ -108,12 +108,12 @@ fn valid_projection(
     }
 }
 
-fn at(field: Field) -> ValuePath {
+fn at(field: EntityField) -> ValuePath {
     ValuePath::new(EntityKind::Camera, 0, field)
 }
 
 /// A step between pixels: a vector of nonzero length.
-fn step(value: [f64; 3], field: Field, check: &mut Checker<'_>) -> Option<Vec3> {
+fn step(value: [f64; 3], field: EntityField, check: &mut Checker<'_>) -> Option<Vec3> {
     let vector = check.vector(value, at(field))?;
     if vector.abs().max_element() < SMALLEST {
         let what = if vector == Vec3::ZERO {
@@ -140,7 +140,7 @@ fn frustum(eye: Vec3, center: Vec3, right: Vec3, up: Vec3, check: &mut Checker<'
             "the camera's `right` and `up` are not at a right angle: their cosine is {cosine:.3e}"
         );
         check.report(
-            at(Field::Up),
+            at(EntityField::Up),
             "",
             Diagnostic::new(&codes::CAMERA_BASIS, message),
         );
@@ -153,11 +153,11 @@ fn frustum(eye: Vec3, center: Vec3, right: Vec3, up: Vec3, check: &mut Checker<'
             "the eye lies in the image plane",
         );
         let diagnostic = diagnostic.also(
-            check.span(at(Field::Center)),
+            check.span(at(EntityField::Center)),
             "the plane goes through this point",
         );
         check.report(
-            at(Field::Eye),
+            at(EntityField::Eye),
             "every ray would run inside the image",
             diagnostic.hint("move the eye off the plane"),
         );
@@ -172,7 +172,7 @@ fn image_size(size: [u32; 2], check: &mut Checker<'_>) -> Option<(NonZeroU32, No
         _ => {
             let message = format!("the image has no pixels: {} × {}", size[0], size[1]);
             let diagnostic = Diagnostic::new(&codes::EMPTY_IMAGE, message);
-            check.report(at(Field::Size), "both must be at least 1", diagnostic);
+            check.report(at(EntityField::Size), "both must be at least 1", diagnostic);
             None
         }
     }

@@ -2,8 +2,8 @@
 //! a diagnostic at its position.
 
 use rtc_diag::codes::{self, Code};
-use rtc_diag::{Diagnostic, Severity, Sink};
-use rtc_ir::{EntityKind, Field, SourceSpans, ValuePath};
+use rtc_diag::{Diagnostic, DiagnosticSink, Severity};
+use rtc_ir::{EntityField, EntityKind, SourceSpans, ValuePath};
 use rtc_math::{Id, NonNegative, Positive, Vec3, shortest, unit_scale};
 use std::num::NonZeroU32;
 
@@ -24,12 +24,12 @@ pub(super) struct EntityCounts {
 /// The state of one validation.
 pub(super) struct Checker<'run> {
     source_spans: &'run SourceSpans,
-    sink: &'run mut Sink,
+    sink: &'run mut DiagnosticSink,
     errors: bool,
 }
 
 impl<'run> Checker<'run> {
-    pub(super) fn new(source_spans: &'run SourceSpans, sink: &'run mut Sink) -> Self {
+    pub(super) fn new(source_spans: &'run SourceSpans, sink: &'run mut DiagnosticSink) -> Self {
         Self {
             source_spans,
             sink,
@@ -72,7 +72,7 @@ impl<'run> Checker<'run> {
     ) {
         let span = self
             .source_spans
-            .span(ValuePath::new(entity, 0, Field::Whole));
+            .span(ValuePath::new(entity, 0, EntityField::Whole));
         self.sink.push(diagnostic.at(span, label).pointer(pointer));
     }
 

@@ -3,7 +3,7 @@
 use super::ImageId;
 use super::check::Checker;
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
+use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
 use rtc_math::Vec3;
 
 /// The radiance along rays that hit no surface.
@@ -42,9 +42,9 @@ pub(super) fn environment(
     else {
         return Some(Environment::DARK);
     };
-    let at = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
+    let at = ValuePath::new(EntityKind::Environment, 0, EntityField::Whole);
     // Radiance and image.
-    let of_radiance = ValuePath::new(EntityKind::Environment, 0, Field::Color);
+    let of_radiance = ValuePath::new(EntityKind::Environment, 0, EntityField::Color);
     let radiance = check.color(*radiance, of_radiance);
     let image = check.optional(image.as_ref(), |check, image| {
         check.handle(image.0, images, "image", at)

@@ -4,7 +4,7 @@ use super::check::Checker;
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
 use rtc_image::Texels;
-use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
+use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
 use std::num::NonZeroU32;
 
 /// An image of at least one pixel.
@@ -28,7 +28,7 @@ pub(super) fn image(image: &ir::Image, index: usize, check: &mut Checker<'_>) ->
     } = image;
     let mut reject = |message: String| {
         check.report(
-            ValuePath::new(EntityKind::Image, index, Field::Whole),
+            ValuePath::new(EntityKind::Image, index, EntityField::Whole),
             "",
             Diagnostic::new(&codes::BAD_IMAGE, message),
         );

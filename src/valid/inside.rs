@@ -13,7 +13,7 @@
 
 use super::check::Checker;
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{self as ir, EntityKind, Field, Shape, ValuePath};
+use rtc_ir::{self as ir, EntityField, EntityKind, Shape, ValuePath};
 use rtc_math::{Vec3, atan2};
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -39,7 +39,13 @@ struct Solids<'s> {
 impl<'s> Solids<'s> {
     /// Groups the surfaces. Surfaces that one object of the text was lowered to have one span.
     fn new(scene: &'s ir::Scene, check: &Checker<'_>) -> Self {
-        let span = |index| check.span(ValuePath::new(EntityKind::Surface, index, Field::Whole));
+        let span = |index| {
+            check.span(ValuePath::new(
+                EntityKind::Surface,
+                index,
+                EntityField::Whole,
+            ))
+        };
         let is_flat = |index: usize| is_flat(&scene.surfaces[index].shape);
         let mut solids = Vec::new();
         let mut start = 0;
@@ -192,10 +198,10 @@ pub(super) fn lights(scene: &ir::Scene, check: &mut Checker<'_>) {
         let span = check.span(ValuePath::new(
             EntityKind::Surface,
             solid.surfaces.start,
-            Field::Whole,
+            EntityField::Whole,
         ));
         check.report(
-            ValuePath::new(EntityKind::Light, index, Field::Position),
+            ValuePath::new(EntityKind::Light, index, EntityField::Position),
             &format!("with shadows, nothing outside the {name} receives this light"),
             diagnostic.also(span, format!("the {name}")),
         );
@@ -248,11 +254,11 @@ pub(super) fn eye(scene: &ir::Scene, check: &mut Checker<'_>) {
     let span = check.span(ValuePath::new(
         EntityKind::Surface,
         solid.surfaces.start,
-        Field::Whole,
+        EntityField::Whole,
     ));
     let diagnostic = Diagnostic::new(&codes::EYE_INSIDE, message).also(span, format!("the {name}"));
     check.report(
-        ValuePath::new(EntityKind::Camera, 0, Field::Eye),
+        ValuePath::new(EntityKind::Camera, 0, EntityField::Eye),
         "every ray starts in there",
         diagnostic,
     );

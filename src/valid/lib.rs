@@ -49,7 +49,7 @@ pub use standard::{Alpha, Standard};
 pub use texture::{Filter, Map, Sampled, Texture, UvSet, Wrap};
 
 use check::{Checker, EntityCounts};
-use rtc_diag::Sink;
+use rtc_diag::DiagnosticSink;
 use rtc_ir::{self as ir, SourceSpans};
 use rtc_math::{Id, IdTable};
 use rtc_source::Limits;
@@ -150,7 +150,7 @@ impl ValidScene {
     /// The same scene with another camera of the same image size; `None` if that camera is invalid.
     #[must_use]
     pub fn seen_by(&self, camera: &ir::Camera) -> Option<Self> {
-        let (source_spans, mut sink) = (SourceSpans::default(), Sink::default());
+        let (source_spans, mut sink) = (SourceSpans::default(), DiagnosticSink::default());
         let mut check = Checker::new(&source_spans, &mut sink);
         let stereo = match self.camera.projection {
             Projection::Stereo(distance) => distance,
@@ -179,7 +179,7 @@ pub fn revalidate(scene: &ir::Scene) -> ValidScene {
         scene,
         &SourceSpans::default(),
         &options,
-        &mut Sink::default(),
+        &mut DiagnosticSink::default(),
     );
     valid_scene.expect("the scene was valid before, and the changes are valid")
 }
@@ -191,7 +191,7 @@ pub fn validate(
     scene: &ir::Scene,
     source_spans: &SourceSpans,
     options: &ValidationOptions,
-    sink: &mut Sink,
+    sink: &mut DiagnosticSink,
 ) -> Option<ValidScene> {
     let ir::Scene {
         camera,

@@ -3,9 +3,9 @@
 use super::check::Checker;
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
-use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
+use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
 use rtc_math::{NonNegative, Positive, Vec3, unit};
-use rtc_profile::Profile;
+use rtc_profile::LightProfile;
 
 /// A light of any kind.
 #[derive(Clone, Debug)]
@@ -53,7 +53,7 @@ pub struct PointLight {
     /// The radiant intensity, each channel at least 0; the profile multiplies it.
     pub intensity: Vec3,
     /// The angular distribution of the intensity.
-    pub profile: Profile,
+    pub profile: LightProfile,
     /// The falloff.
     pub falloff: Falloff,
 }
@@ -83,9 +83,9 @@ fn course(light: &ir::PointLight, index: usize, check: &mut Checker<'_>) -> Opti
         radius,
     } = light;
     let at = |field| ValuePath::new(EntityKind::Light, index, field);
-    let position = check.vector(*position, at(Field::Position));
-    let color = check.color(*color, at(Field::Color));
-    let radius = check.non_negative(*radius, "radius", at(Field::LightRadius));
+    let position = check.vector(*position, at(EntityField::Position));
+    let color = check.color(*color, at(EntityField::Color));
+    let radius = check.non_negative(*radius, "radius", at(EntityField::LightRadius));
     Some(CourseLight {
         position: position?,
         color: color?,
@@ -94,9 +94,9 @@ fn course(light: &ir::PointLight, index: usize, check: &mut Checker<'_>) -> Opti
 }
 
 fn punctual(light: &ir::Punctual, index: usize, check: &mut Checker<'_>) -> Option<Punctual> {
-    let at = ValuePath::new(EntityKind::Light, index, Field::Whole);
+    let at = ValuePath::new(EntityKind::Light, index, EntityField::Whole);
     let ir::Punctual { emitter, intensity } = light;
-    let of_intensity = ValuePath::new(EntityKind::Light, index, Field::Intensity);
+    let of_intensity = ValuePath::new(EntityKind::Light, index, EntityField::Intensity);
     let intensity = check.color(*intensity, of_intensity);
     let located = emitter.position().map(|position| {
         (

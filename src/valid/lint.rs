@@ -5,7 +5,7 @@
 use super::check::Checker;
 use super::inside;
 use rtc_diag::{Diagnostic, Severity, codes};
-use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
+use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
 use rtc_math::{Vec3, shortest};
 
 /// Runs the lints on a scene without errors. With errors, parts of the scene may be missing.
@@ -53,7 +53,7 @@ fn bytes(color: [f64; 3], entity: EntityKind, index: usize, check: &mut Checker<
     );
     let diagnostic = diagnostic.hint(format!("1 is full strength: `[{r}, {g}, {b}]`"));
     check.report(
-        ValuePath::new(entity, index, Field::Color),
+        ValuePath::new(entity, index, EntityField::Color),
         "far brighter than white",
         diagnostic,
     );
@@ -65,11 +65,11 @@ const PERCENT: f64 = 10.0;
 /// Warns of weights that look like percentages.
 fn weights(phong: &ir::Phong, index: usize, check: &mut Checker<'_>) {
     for (key, weight, field) in [
-        ("ka", phong.ka, Field::Ka),
-        ("kd", phong.kd, Field::Kd),
-        ("ks", phong.ks, Field::Ks),
-        ("kr", phong.kr.unwrap_or(0.0), Field::Kr),
-        ("kt", phong.kt, Field::Kt),
+        ("ka", phong.ka, EntityField::Ka),
+        ("kd", phong.kd, EntityField::Kd),
+        ("ks", phong.ks, EntityField::Ks),
+        ("kr", phong.kr.unwrap_or(0.0), EntityField::Kr),
+        ("kt", phong.kt, EntityField::Kt),
     ] {
         if weight < PERCENT {
             continue;
@@ -98,9 +98,9 @@ const FILLED: f64 = 0.75;
 /// Warns if the length of `up` makes pixels larger than the objects.
 fn tiny_picture(scene: &ir::Scene, check: &mut Checker<'_>) {
     // Only a camera with `up` in the text can be too far away by mistake.
-    let up = ValuePath::new(EntityKind::Camera, 0, Field::Up);
+    let up = ValuePath::new(EntityKind::Camera, 0, EntityField::Up);
     // A camera without `up` has the span of its entity.
-    let whole = check.span(ValuePath::new(EntityKind::Camera, 0, Field::Whole));
+    let whole = check.span(ValuePath::new(EntityKind::Camera, 0, EntityField::Whole));
     let span = check.span(up).filter(|span| Some(*span) != whole);
     let (Some(span), Some(sphere)) = (span, scene.bounding_sphere()) else {
         return;
@@ -176,7 +176,7 @@ fn shadows_of_paths(scene: &ir::Scene, check: &mut Checker<'_>) {
         )
         .hint("`RenderMode: phong` honours `shadow: false`");
         check.report(
-            ValuePath::new(EntityKind::Surface, index, Field::Whole),
+            ValuePath::new(EntityKind::Surface, index, EntityField::Whole),
             "casts a shadow",
             diagnostic,
         );
@@ -189,7 +189,7 @@ fn one_eye(scene: &ir::Scene, check: &mut Checker<'_>) {
     if is_parallel && scene.settings.stereo > 0.0 {
         let message = "`stereo` has no effect: the rays of an orthographic camera are parallel";
         let diagnostic = Diagnostic::new(&codes::NO_EFFECT, message).severity(Severity::Warning);
-        let path = ValuePath::new(EntityKind::Settings, 0, Field::Stereo);
+        let path = ValuePath::new(EntityKind::Settings, 0, EntityField::Stereo);
         let hint = "only a `perspective` camera has two eyes";
         check.report(
             path,
@@ -228,7 +228,7 @@ fn unsupported_features(scene: &ir::Scene, check: &mut Checker<'_>) {
         let diagnostic = Diagnostic::new(&codes::LOST_PARTS, message).hint(hint);
         let label = "its other properties are ignored";
         check.report(
-            ValuePath::new(EntityKind::Material, index, Field::Whole),
+            ValuePath::new(EntityKind::Material, index, EntityField::Whole),
             label,
             diagnostic,
         );

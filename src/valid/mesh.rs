@@ -5,8 +5,8 @@ use super::check::{Checker, LARGEST};
 use super::shape::has_area;
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
-use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
-use rtc_math::{Column, Shared, Vec3, unit};
+use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
+use rtc_math::{SharedList, Vec3, VertexColumn, unit};
 
 /// The maximum number of triangles of a mesh: its BVH takes 21 GB.
 pub const MAX_MESH_TRIANGLES: usize = 1 << 29;
@@ -15,20 +15,20 @@ pub const MAX_MESH_TRIANGLES: usize = 1 << 29;
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
     /// The position of each vertex.
-    pub positions: Column<3>,
+    pub positions: VertexColumn<3>,
     /// The shading normal at each vertex, finite and of any length, or zero where there is none;
     /// empty for flat shading.
-    pub normals: Column<3>,
+    pub normals: VertexColumn<3>,
     /// The texture coordinates at each vertex; empty if there are none.
-    pub uvs: Column<2>,
+    pub uvs: VertexColumn<2>,
     /// The second set of texture coordinates; empty if there is none.
-    pub second_uvs: Column<2>,
+    pub second_uvs: VertexColumn<2>,
     /// The tangent at each vertex, and ±1 for the side of the bitangent; empty if there are none.
-    pub tangents: Column<4>,
+    pub tangents: VertexColumn<4>,
     /// The colour at each vertex, with alpha, each at least 0; empty if there are none.
-    pub colors: Column<4>,
+    pub colors: VertexColumn<4>,
     /// The vertex indices of each triangle, in range; every triangle has an area.
-    pub triangles: Shared<[u32; 3]>,
+    pub triangles: SharedList<[u32; 3]>,
 }
 
 impl Mesh {
@@ -49,7 +49,7 @@ impl Mesh {
 }
 
 pub(super) fn mesh(mesh: &ir::Mesh, index: usize, check: &mut Checker<'_>) -> Option<Mesh> {
-    let whole = ValuePath::new(EntityKind::Mesh, index, Field::Whole);
+    let whole = ValuePath::new(EntityKind::Mesh, index, EntityField::Whole);
     // Reject an invalid mesh.
     if let Some(message) = find_error(mesh) {
         check.report(whole, "", Diagnostic::new(&codes::BAD_MESH, message));
@@ -98,7 +98,7 @@ pub(super) fn mesh(mesh: &ir::Mesh, index: usize, check: &mut Checker<'_>) -> Op
     Some(valid)
 }
 
-fn corners(positions: &Column<3>, [a, b, c]: [u32; 3]) -> [Vec3; 3] {
+fn corners(positions: &VertexColumn<3>, [a, b, c]: [u32; 3]) -> [Vec3; 3] {
     let position = |corner: u32| Vec3::from_array(positions.at(corner as usize));
     // Written out: `map` of an array is not inlined here and doubles the time for a large mesh.
     [position(a), position(b), position(c)]
@@ -128,7 +128,7 @@ fn is_valid(value: &f64) -> bool {
     value.abs() <= LARGEST
 }
 
-fn error_in_numbers(positions: &Column<3>, normals: &Column<3>) -> Option<String> {
+fn error_in_numbers(positions: &VertexColumn<3>, normals: &VertexColumn<3>) -> Option<String> {
     if let Some(vertex) = positions.iter().position(|p| !p.iter().all(is_valid)) {
         return Some(format!(
             "vertex {vertex} of a mesh is not finite: {:?}",
@@ -144,9 +144,9 @@ fn error_in_numbers(positions: &Column<3>, normals: &Column<3>) -> Option<String
 }
 
 fn error_in_columns(
-    uvs: [&Column<2>; 2],
-    tangents: &Column<4>,
-    colors: &Column<4>,
+    uvs: [&VertexColumn<2>; 2],
+    tangents: &VertexColumn<4>,
+    colors: &VertexColumn<4>,
 ) -> Option<String> {
     let mut all_uvs = uvs[0].iter().chain(uvs[1].iter());
     if let Some(vertex) = all_uvs.position(|uv| !uv.iter().all(is_valid)) {

@@ -3,7 +3,7 @@
 use super::TextureId;
 use super::check::{Checker, EntityCounts};
 use rtc_diag::codes;
-use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
+use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
 use rtc_math::{NonNegative, Positive, Vec3};
 use std::num::NonZeroU32;
 
@@ -80,28 +80,37 @@ pub(super) fn phong(
     } = phong;
     let at = |field| ValuePath::new(EntityKind::Material, index, field);
     // Coefficients.
-    let color = check.color(*color, at(Field::Color));
-    let ka = check.non_negative(*ka, "ka", at(Field::Ka));
-    let kd = check.non_negative(*kd, "kd", at(Field::Kd));
-    let ks = check.non_negative(*ks, "ks", at(Field::Ks));
+    let color = check.color(*color, at(EntityField::Color));
+    let ka = check.non_negative(*ka, "ka", at(EntityField::Ka));
+    let kd = check.non_negative(*kd, "kd", at(EntityField::Kd));
+    let ks = check.non_negative(*ks, "ks", at(EntityField::Ks));
     let kr = check.optional(kr.as_ref(), |check, kr| {
-        check.non_negative(*kr, "kr", at(Field::Kr))
+        check.non_negative(*kr, "kr", at(EntityField::Kr))
     });
-    let n = check.exponent(*n, at(Field::N));
-    let kt = check.non_negative(*kt, "refract", at(Field::Kt));
-    let ior = check.length(*ior, at(Field::Ior), &codes::ETA, "index of refraction");
-    let glossy_samples = check.count(*glossy_samples, "glossySamples", at(Field::GlossySamples));
+    let n = check.exponent(*n, at(EntityField::N));
+    let kt = check.non_negative(*kt, "refract", at(EntityField::Kt));
+    let ior = check.length(
+        *ior,
+        at(EntityField::Ior),
+        &codes::ETA,
+        "index of refraction",
+    );
+    let glossy_samples = check.count(
+        *glossy_samples,
+        "glossySamples",
+        at(EntityField::GlossySamples),
+    );
     // Texture maps.
     let mut texture = |id: &Option<ir::TextureId>, field| {
         check.optional(id.as_ref(), |check, id| {
             check.handle(id.0, counts.textures, "texture", at(field))
         })
     };
-    let color_map = texture(color_map, Field::ColorMap);
-    let specular_map = texture(specular_map, Field::SpecularMap);
-    let normal_map = texture(normal_map, Field::NormalMap);
+    let color_map = texture(color_map, EntityField::ColorMap);
+    let specular_map = texture(specular_map, EntityField::SpecularMap);
+    let normal_map = texture(normal_map, EntityField::NormalMap);
     let bump = check.optional(bump.as_ref(), |check, bump| {
-        height_field(bump, counts, at(Field::Bump), check)
+        height_field(bump, counts, at(EntityField::Bump), check)
     });
     let maps = Maps {
         color: color_map?,

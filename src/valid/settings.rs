@@ -4,7 +4,7 @@ use super::check::Checker;
 use rtc_color::Tone;
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
-use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
+use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
 use rtc_math::Vec3;
 use rtc_source::Resource;
 use std::num::NonZeroU32;
@@ -120,19 +120,23 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Checker<'_>) -> Opti
     let supersampling = check.count(
         *supersampling,
         "supersampling factor",
-        at(Field::Supersampling),
+        at(EntityField::Supersampling),
     );
-    let light_samples = check.count(*light_samples, "light samples", at(Field::LightSamples));
-    let ambient_light = check.color(*ambient_light, at(Field::AmbientLight));
+    let light_samples = check.count(
+        *light_samples,
+        "light samples",
+        at(EntityField::LightSamples),
+    );
+    let ambient_light = check.color(*ambient_light, at(EntityField::AmbientLight));
     let background = background.unwrap_or_default();
-    let background = check.color(background, at(Field::Background));
+    let background = check.color(background, at(EntityField::Background));
     if *max_depth > MAX_DEPTH {
         let diagnostic = Diagnostic::new(
             &codes::TOO_DEEP,
             format!("{max_depth} bounces are too many"),
         );
         check.report(
-            at(Field::MaxDepth),
+            at(EntityField::MaxDepth),
             "",
             diagnostic.hint(format!("at most {MAX_DEPTH}; 5 is enough for most scenes")),
         );
@@ -170,7 +174,7 @@ fn valid_mode(mode: &ir::Mode, check: &mut Checker<'_>) -> Option<Mode> {
             samples,
             multiple_scattering,
         }) => {
-            let samples = check.count(*samples, "samples", at(Field::Mode))?;
+            let samples = check.count(*samples, "samples", at(EntityField::Mode))?;
             Some(Mode::Path(PathSettings {
                 samples,
                 multiple_scattering: *multiple_scattering,
@@ -181,10 +185,10 @@ fn valid_mode(mode: &ir::Mode, check: &mut Checker<'_>) -> Option<Mode> {
 
 fn gooch(gooch: &ir::Gooch, check: &mut Checker<'_>) -> Option<Mode> {
     let ir::Gooch { b, y, alpha, beta } = gooch;
-    let b = check.number(*b, at(Field::GoochB));
-    let y = check.number(*y, at(Field::GoochY));
-    let alpha = check.number(*alpha, at(Field::GoochAlpha));
-    let beta = check.number(*beta, at(Field::GoochBeta));
+    let b = check.number(*b, at(EntityField::GoochB));
+    let y = check.number(*y, at(EntityField::GoochY));
+    let alpha = check.number(*alpha, at(EntityField::GoochAlpha));
+    let beta = check.number(*beta, at(EntityField::GoochBeta));
     Some(Mode::Gooch(Gooch {
         b: b?,
         y: y?,
@@ -193,7 +197,7 @@ fn gooch(gooch: &ir::Gooch, check: &mut Checker<'_>) -> Option<Mode> {
     }))
 }
 
-fn at(field: Field) -> ValuePath {
+fn at(field: EntityField) -> ValuePath {
     ValuePath::new(EntityKind::Settings, 0, field)
 }
 
@@ -213,7 +217,7 @@ pub(super) fn budget(
             "at most {limit} pixels; `--limit pixels=…` changes the limit"
         ));
         check.report(
-            ValuePath::new(EntityKind::Camera, 0, Field::Size),
+            ValuePath::new(EntityKind::Camera, 0, EntityField::Size),
             "",
             diagnostic,
         );
@@ -258,9 +262,9 @@ fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Checke
         "at most {limit} rays; `--limit rays=…` changes the limit"
     ));
     let field = if u128::from(samples.light) > cells {
-        Field::LightSamples
+        EntityField::LightSamples
     } else {
-        Field::Supersampling
+        EntityField::Supersampling
     };
     check.report(at(field), "", diagnostic);
 }
@@ -273,7 +277,7 @@ pub(super) fn display(display: &ir::Display, check: &mut Checker<'_>) {
         let message =
             format!("the exposure is `{exposure}` stops, but must be from -{MOST} to {MOST}");
         let diagnostic = Diagnostic::new(&codes::OUT_OF_RANGE, message);
-        check.report(at(Field::Whole), "", diagnostic);
+        check.report(at(EntityField::Whole), "", diagnostic);
     }
 }
 

@@ -3,7 +3,7 @@
 use super::check::{Checker, EntityCounts, LARGEST};
 use super::texture::{self, Map};
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
+use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
 use rtc_math::{NonNegative, Positive, UnitInterval, Vec3, shortest};
 use rtc_tables::{camel_case, parameters};
 use std::any::Any;
@@ -172,7 +172,11 @@ impl ParameterCheck<'_, '_> {
 
     /// The path of a parameter.
     fn at(&self, name: &str) -> ValuePath {
-        ValuePath::new(EntityKind::Material, self.index, Field::of_parameter(name))
+        ValuePath::new(
+            EntityKind::Material,
+            self.index,
+            EntityField::of_parameter(name),
+        )
     }
 
     /// Several numbers in a range; all errors are reported.

@@ -3,7 +3,7 @@
 use super::check::{Checker, EntityCounts};
 use super::{ImageId, TextureId};
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
+use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
 use rtc_math::{GradientNoise, SolidTexture, TextureMapping, TexturePattern};
 
 /// A texture of any kind.
@@ -90,7 +90,7 @@ pub(super) fn texture(
     images: usize,
     check: &mut Checker<'_>,
 ) -> Option<Texture> {
-    let at = ValuePath::new(EntityKind::Texture, index, Field::Whole);
+    let at = ValuePath::new(EntityKind::Texture, index, EntityField::Whole);
     let mut exists = |image: ir::ImageId| check.handle(image.0, images, "image", at);
     match texture {
         ir::Texture::Uv => Some(Texture::Uv),

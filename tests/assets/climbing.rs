@@ -2,7 +2,7 @@
 //! that the user allows lends all.
 
 use super::{folder, png, write};
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::front::{FrontOptions, gltf};
 use rtc::internals::source::{Loader, SourceMap};
 
@@ -16,7 +16,7 @@ fn errors(image: &str, buffer: &str, root: Option<&str>) -> Vec<&'static str> {
         r#"{{"asset": {{"version": "2.0"}}, "images": [{{"uri": "{image}"}}], "buffers": [{{"byteLength": 4, "uri": "{buffer}"}}]}}"#
     );
     write(&folder, "inner/asset.gltf", asset);
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let path = folder.path().join("inner/asset.gltf");
     let file = Loader.file(&path, &mut map).unwrap();
     let options = FrontOptions {

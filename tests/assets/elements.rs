@@ -1,16 +1,16 @@
 //! What mesh files hold beside plain faces: notches, strips, points, lines, colours, smoothing
 //! groups, and what is left of a file with a fault.
 
-use rtc::internals::front::mesh::{Parsed, parse};
-use rtc::internals::ir::{Column, Mesh};
+use rtc::internals::front::mesh::{ParsedMesh, parse};
+use rtc::internals::ir::{Mesh, VertexColumn};
 use rtc::internals::source::Budget;
 
-fn read(bytes: impl AsRef<[u8]>) -> Parsed {
+fn read(bytes: impl AsRef<[u8]>) -> ParsedMesh {
     parse(bytes.as_ref(), &Budget::default()).unwrap()
 }
 
 /// What is told of elements that don't show: how many, and why the first does not.
-fn told(parsed: &Parsed) -> Option<(usize, &str)> {
+fn told(parsed: &ParsedMesh) -> Option<(usize, &str)> {
     let told = parsed.not_drawn.as_ref();
     told.map(|(fault, count)| (*count, fault.message.as_str()))
 }
@@ -41,7 +41,7 @@ fn volume(mesh: &Mesh) -> f64 {
     corners(mesh).map(determinant).sum::<f64>() / 6.0
 }
 
-fn list<const N: usize>(column: &Column<N>) -> Vec<[f64; N]> {
+fn list<const N: usize>(column: &VertexColumn<N>) -> Vec<[f64; N]> {
     column.iter().collect()
 }
 

@@ -2,9 +2,9 @@
 
 use super::{folder, write};
 use proptest::prelude::*;
-use rtc::internals::diag::Sink;
-use rtc::internals::front::mesh::{ParseFault, Parsed, is_mesh, parse};
-use rtc::internals::ir::{Column, Lowered, Material, Mode};
+use rtc::internals::diag::DiagnosticSink;
+use rtc::internals::front::mesh::{ParsedMesh, TextParseError, is_mesh, parse};
+use rtc::internals::ir::{LoweredScene, Material, Mode, VertexColumn};
 use rtc::internals::pipeline::{Options, load, validate};
 use rtc::internals::source::{Budget, Limits, Loader, Resource, SourceMap};
 
@@ -85,14 +85,14 @@ fn ply((form, float, index): Form) -> Vec<u8> {
     bytes
 }
 
-fn read(bytes: &[u8]) -> Parsed {
+fn read(bytes: &[u8]) -> ParsedMesh {
     assert!(is_mesh(bytes));
     parse(bytes, &Budget::default()).unwrap()
 }
 
 /// The first fault: its message, and the bytes at its place.
 fn fault(bytes: &[u8]) -> (String, String) {
-    let Err(ParseFault::Faults(faults)) = parse(bytes, &Budget::default()) else {
+    let Err(TextParseError::Faults(faults)) = parse(bytes, &Budget::default()) else {
         panic!("no fault in {}", String::from_utf8_lossy(bytes));
     };
     let mut map = SourceMap::default();
@@ -155,7 +155,7 @@ fn a_ply_keeps_the_precision_of_its_numbers() {
     for (kind, is_single) in [("float", true), ("double", false), ("int", false)] {
         let mesh = read(format!("{}{body}", head(kind)).as_bytes()).mesh;
         assert_eq!(
-            matches!(mesh.positions, Column::Single(_)),
+            matches!(mesh.positions, VertexColumn::Single(_)),
             is_single,
             "{kind}"
         );
@@ -258,20 +258,23 @@ fn a_mesh_is_charged_before_it_is_made() {
             let mut limits = Limits::default();
             limits.set(resource, 3);
             let outcome = parse(&bytes, &Budget::new(limits));
-            assert!(matches!(outcome, Err(ParseFault::Limit(_))), "{resource:?}");
+            assert!(
+                matches!(outcome, Err(TextParseError::Limit(_))),
+                "{resource:?}"
+            );
         }
     }
 }
 
 /// A mesh file loaded as the scene, and what is found, `CODE message` a line.
-fn alone(name: &str, bytes: &[u8], beside: &[(&str, &str)]) -> (Option<Lowered>, String) {
+fn alone(name: &str, bytes: &[u8], beside: &[(&str, &str)]) -> (Option<LoweredScene>, String) {
     let folder = folder();
     let path = folder.path().join(name);
     write(&folder, name, bytes);
     beside
         .iter()
         .for_each(|(name, text)| write(&folder, name, text));
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = Loader.file(&path, &mut map).unwrap();
     let options = Options::default();
     let lowered = load(file, &mut map, &options, &mut sink);
@@ -371,7 +374,7 @@ proptest! {
         if cuts {
             bytes.truncate(end.index(bytes.len()));
         }
-        if let Ok(Parsed { mesh, .. }) = parse(&bytes, &Budget::default()) {
+        if let Ok(ParsedMesh { mesh, .. }) = parse(&bytes, &Budget::default()) {
             let count = mesh.positions.len();
             prop_assert!(mesh.triangles.iter().flatten().all(|corner| (*corner as usize) < count));
             let lengths = [mesh.normals.len(), mesh.uvs.len(), mesh.colors.len()];

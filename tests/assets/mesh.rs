@@ -3,7 +3,7 @@
 use super::{MESH, Outcome, bring, folder, write};
 use proptest::prelude::*;
 use rtc::internals::front::FrontOptions;
-use rtc::internals::ir::{Column, Mesh};
+use rtc::internals::ir::{Mesh, VertexColumn};
 
 /// Brings a mesh file of this text.
 fn mesh(text: impl AsRef<[u8]>) -> Outcome {
@@ -17,7 +17,7 @@ fn mesh(text: impl AsRef<[u8]>) -> Outcome {
     )
 }
 
-fn list<const N: usize>(column: &Column<N>) -> Vec<[f64; N]> {
+fn list<const N: usize>(column: &VertexColumn<N>) -> Vec<[f64; N]> {
     column.iter().collect()
 }
 

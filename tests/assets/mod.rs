@@ -19,11 +19,13 @@ mod search;
 mod written;
 
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
-use rtc::internals::diag::{Severity, Sink};
+use rtc::internals::diag::{DiagnosticSink, Severity};
 use rtc::internals::front::FrontOptions;
 use rtc::internals::front::course::UnfinishedScene;
 use rtc::internals::front::course::assets::{self, AssetTarget, PendingAsset};
-use rtc::internals::ir::{Bump, Image, ImageId, Lowered, Mesh, MeshId, Pixels, Texture, TextureId};
+use rtc::internals::ir::{
+    Bump, Image, ImageId, LoweredScene, Mesh, MeshId, Pixels, Texture, TextureId,
+};
 use rtc::internals::source::{Loader, SourceMap, Span};
 use std::fs;
 use std::io::Cursor;
@@ -32,11 +34,11 @@ use tempfile::TempDir;
 
 /// A scene with one image, one material that looks at it in every way, and one mesh; the text is
 /// where it is named.
-fn lowered(map: &mut SourceMap) -> Lowered {
+fn lowered(map: &mut SourceMap) -> LoweredScene {
     let text = "Camera: {eye: [0, 0, 9], center: [0, 0, 0], up: [0, 1, 0], viewSize: [4, 4]}\nObjects:\n- {type: sphere, \
                 position: [0, 0, 0], radius: 1, material: {color: [1, 0, 0], ka: 1, kd: 1, ks: 0, n: 1}}\n";
     let file = map.add("course", text.as_bytes().to_vec());
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     let mut lowered = rtc::internals::pipeline::load(
         file,
         map,
@@ -69,7 +71,7 @@ fn lowered(map: &mut SourceMap) -> Lowered {
 
 /// What became of a wish.
 struct Outcome {
-    lowered: Lowered,
+    lowered: LoweredScene,
     /// `CODE severity place message`, each finding followed by its hints.
     findings: String,
     errors: bool,
@@ -79,7 +81,7 @@ fn bring(scene: &Path, asset: AssetTarget, path: &str, options: &FrontOptions) -
     let mut map = SourceMap::default();
     let lowered = lowered(&mut map);
     let file = Loader.file(scene, &mut map).unwrap();
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     let pending = vec![PendingAsset {
         target: asset,
         path: path.to_owned(),

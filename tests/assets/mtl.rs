@@ -3,11 +3,11 @@
 
 use super::{folder, write};
 use proptest::prelude::*;
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::emit::course::emit;
 use rtc::internals::front::mesh::mtl::{self, MtlMap};
 use rtc::internals::ir::{
-    Alpha, Instance, Lowered, Map, Material, Phong, Scene, Shape, Standard, Texture,
+    Alpha, Instance, LoweredScene, Map, Material, Phong, Scene, Shape, Standard, Texture,
 };
 use rtc::internals::pipeline::{Options, load};
 use rtc::internals::source::{Budget, Loader, SourceMap};
@@ -19,13 +19,13 @@ const MTL: &str = "newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 0 1\nmap_Kd -s 1 1 1 the m
 const OWN: &str = "{color: [0.5, 0.5, 0.5], ka: 0, kd: 1, ks: 0, n: 1}";
 
 /// The scene that holds these objects in a folder, and what is found, `CODE message` a line.
-fn read(folder: &Path, objects: &str) -> (Lowered, String) {
+fn read(folder: &Path, objects: &str) -> (LoweredScene, String) {
     let text = format!(
         "Camera: {{eye: [0, 0, 9], center: [0, 0, 0], up: [0, 1, 0], viewSize: [4, 4]}}\nLights:\n- {{position: [0, 0, 9], \
          color: [1, 1, 1]}}\nObjects:\n{objects}"
     );
     std::fs::write(folder.join("scene.yaml"), text).unwrap();
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = Loader.file(&folder.join("scene.yaml"), &mut map).unwrap();
     let lowered = load(file, &mut map, &Options::default(), &mut sink).unwrap();
     let lines = sink
@@ -201,7 +201,7 @@ fn in_both(statements: &str) -> [(Material, String); 2] {
     write(&folder, "inner/m.mtl", format!("newmtl a\n{statements}\n"));
     write(&folder, "inner/map.png", super::png([200, 100, 50]));
     let inner = folder.path().join("inner");
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = Loader.file(&inner.join("m.obj"), &mut map).unwrap();
     let alone = load(file, &mut map, &Options::default(), &mut sink).unwrap();
     let told = sink
@@ -338,7 +338,7 @@ fn maps_of_several_pictures_are_baked() {
         ] {
             write(&folder, &format!("inner/{name}"), super::png(color));
         }
-        let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+        let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
         let file = Loader.file(&inner.join("m.obj"), &mut map).unwrap();
         load(file, &mut map, &Options::default(), &mut sink)
             .unwrap()

@@ -1,7 +1,7 @@
 //! Files of many names.
 
 use super::{folder, png, write};
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::{ImageId, MeshId, Scene, Shape, Texture};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::source::{Loader, SourceMap};
@@ -39,7 +39,7 @@ fn text() -> String {
 }
 
 fn read(folder: &TempDir) -> Scene {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let path = folder.path().join("inner/scene.yaml");
     let file = Loader.file(&path, &mut map).unwrap();
     let lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink);

@@ -1,7 +1,7 @@
 //! Where the files a scene names are looked for.
 
 use super::{IMAGE, MESH, bring, folder, lowered, pixels, png, write};
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::front::FrontOptions;
 use rtc::internals::front::course::UnfinishedScene;
 use rtc::internals::front::course::assets::{self, PendingAsset};
@@ -131,7 +131,7 @@ fn a_scene_from_a_stream_has_only_the_folder_that_is_allowed() {
     let folder = folder();
     write(&folder, "a.png", png([5; 3]));
     for (root, expected) in [(None, None), (Some(folder.path().to_owned()), Some(5))] {
-        let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+        let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
         let lowered = lowered(&mut map);
         let file = map.add("<stdin>", b"x".to_vec());
         let pending = vec![PendingAsset {

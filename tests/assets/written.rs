@@ -5,16 +5,16 @@ use rtc::internals::color::Tone;
 use rtc::internals::emit::course::emit_with_files;
 use rtc::internals::front::course;
 use rtc::internals::ir::{
-    Alpha, Column, Display, Emitter, Environment, Filter, Image, ImageId, Instance, Light, Map,
-    Material, MaterialId, Mesh, MeshId, Mode, PathSettings, Pixels, Projection, Punctual, Sampled,
-    Scene, Settings, Shape, Standard, Surface, Texture, TextureId, Wrap,
+    Alpha, Display, Environment, Filter, Image, ImageId, Instance, Light, Map, Material,
+    MaterialId, Mesh, MeshId, Mode, PathSettings, Pixels, Projection, Punctual, PunctualKind,
+    Sampled, Scene, Settings, Shape, Standard, Surface, Texture, TextureId, VertexColumn, Wrap,
 };
 use rtc::internals::ir::{Camera, Lens, Pattern};
 use serde_json::{Value, json};
 
 /// Three vertices with all that a vertex may have, no number of which is short.
 fn mesh(name: &str) -> Mesh {
-    fn column<const N: usize>(from: f32) -> Column<N> {
+    fn column<const N: usize>(from: f32) -> VertexColumn<N> {
         let number = |at: usize| (from + at as f32 * 0.37) / 3.0;
         let vertex = |at: usize| std::array::from_fn(|part| number(at * at + 2 * part));
         (0..3).map(vertex).collect::<Vec<[f32; N]>>().into()
@@ -47,8 +47,8 @@ fn image(name: &str, kind: Pixels) -> Image {
     }
 }
 
-/// A material all of whose parameters are other than by default: what is a number becomes 0.7, what is
-/// a map looks at a texture.
+/// A material all of whose parameters are other than by default: what is a number becomes 0.7, what
+/// is a map looks at a texture.
 fn full() -> Standard {
     let map = Map {
         texture: TextureId(0),
@@ -83,13 +83,13 @@ fn lights() -> Vec<Light> {
     let (position, direction) = ([1.0, 2.0, 1.0 / 3.0], [0.3, -0.4, -0.0]);
     let range = Some(7.7);
     let emitters = [
-        Emitter::Sun { direction },
-        Emitter::Point {
+        PunctualKind::Sun { direction },
+        PunctualKind::Point {
             position,
             range: None,
         },
-        Emitter::Point { position, range },
-        Emitter::Spot {
+        PunctualKind::Point { position, range },
+        PunctualKind::Spot {
             position,
             direction,
             inner_angle: 0.1,
@@ -191,7 +191,7 @@ fn textures() -> Vec<Texture> {
 /// A scene that has all there is.
 fn everything() -> Scene {
     let flat = Mesh {
-        normals: Column::default(),
+        normals: VertexColumn::default(),
         ..mesh("")
     };
     Scene {
@@ -246,14 +246,14 @@ fn all_that_a_scene_may_hold_comes_back() {
 #[test]
 fn columns_of_either_precision_come_back() {
     let mut scene = everything();
-    let wide = |own: &Column<3>| {
+    let wide = |own: &VertexColumn<3>| {
         own.iter()
             .map(|[x, y, z]| [x / 3.0, y, z])
             .collect::<Vec<_>>()
     };
     scene.meshes[0].positions = wide(&scene.meshes[0].positions).into();
     scene.meshes[1].colors = scene.meshes[1].colors.iter().collect();
-    assert!(matches!(scene.meshes[0].positions, Column::Double(_)));
+    assert!(matches!(scene.meshes[0].positions, VertexColumn::Double(_)));
     assert_comes_back(&scene);
 }
 

@@ -7,7 +7,7 @@
 
 use crate::suite::{files, name, root, trial, updates};
 use libtest_mimic::{Failed, Trial};
-use rtc::internals::diag::{Diagnostic, Severity, Sink, codes};
+use rtc::internals::diag::{Diagnostic, DiagnosticSink, Severity, codes};
 use rtc::internals::source::{FileId, Loader, SourceMap};
 use rtc::internals::{front, pipeline};
 use std::collections::BTreeSet;
@@ -76,7 +76,7 @@ fn base_name(path: &str) -> &str {
 fn findings(case: &Path) -> String {
     let mut map = SourceMap::default();
     let file = Loader.file(case, &mut map).unwrap();
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     let options = options(&String::from_utf8_lossy(
         &fs::read(expectations(case)).unwrap(),
     ));
@@ -126,8 +126,8 @@ fn findings(case: &Path) -> String {
 }
 
 /// What is found in a text that stands in the place of a case.
-fn found_in(case: &Path, text: &[u8]) -> (SourceMap, FileId, Sink) {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+fn found_in(case: &Path, text: &[u8]) -> (SourceMap, FileId, DiagnosticSink) {
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = map.add_from(case, text.to_vec());
     let options = options(&String::from_utf8_lossy(text));
     if let Some(lowered) = pipeline::load(file, &mut map, &options, &mut sink) {
@@ -136,12 +136,12 @@ fn found_in(case: &Path, text: &[u8]) -> (SourceMap, FileId, Sink) {
     (map, file, sink)
 }
 
-/// Proposals of a case that, obeyed, leave the finding there, or bring more errors. What comes after
-/// a mistake in the syntax is seen only when it is gone.
+/// Proposals of a case that, obeyed, leave the finding there, or bring more errors. What comes
+/// after a mistake in the syntax is seen only when it is gone.
 fn unhelpful(case: &Path) -> Vec<String> {
     let text = fs::read(case).unwrap();
     let (_, file, before) = found_in(case, &text);
-    let errors = |sink: &Sink| {
+    let errors = |sink: &DiagnosticSink| {
         let errors = sink.kept().iter();
         errors
             .filter(|finding| finding.severity == Severity::Error)
@@ -160,7 +160,7 @@ fn unhelpful(case: &Path) -> Vec<String> {
             let [start, end] = [replacement.span.start, replacement.span.end].map(|at| at as usize);
             let obeyed = [&text[..start], replacement.text.as_bytes(), &text[end..]].concat();
             let (_, _, after) = found_in(case, &obeyed);
-            let same = |sink: &Sink| {
+            let same = |sink: &DiagnosticSink| {
                 let is_same = |other: &&Diagnostic| {
                     (other.code.id, &other.message) == (finding.code.id, &finding.message)
                 };
@@ -175,8 +175,8 @@ fn unhelpful(case: &Path) -> Vec<String> {
     faults
 }
 
-/// How many texts are made of a case by what is proposed for it, with guesses and without: each with
-/// fewer findings than before, no more errors, and nothing left to do.
+/// How many texts are made of a case by what is proposed for it, with guesses and without: each
+/// with fewer findings than before, no more errors, and nothing left to do.
 fn fixed(case: &Path) -> usize {
     let bytes = fs::read(case).unwrap();
     let Ok(text) = std::str::from_utf8(&bytes) else {

@@ -3,7 +3,7 @@
 
 use crate::suite::{files, name, root, trial};
 use libtest_mimic::Trial;
-use rtc::internals::diag::{Severity, Sink};
+use rtc::internals::diag::{DiagnosticSink, Severity};
 use rtc::internals::ir::{Mesh, Scene};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::source::{Loader, SourceMap};
@@ -74,8 +74,12 @@ pub(crate) fn trials() -> Vec<Trial> {
     trials
 }
 
-fn lower(path: &Path) -> (Option<Scene>, Sink) {
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+fn lower(path: &Path) -> (Option<Scene>, DiagnosticSink) {
+    let (mut map, mut sink, options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     let file = Loader.file(path, &mut map).unwrap();
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
     if let Some(lowered) = &lowered {

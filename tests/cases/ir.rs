@@ -3,7 +3,7 @@
 use crate::suite::{files, name, root, trial};
 use libtest_mimic::Trial;
 use rtc::internals::codec::{self, Encoding};
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::Scene;
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::source::{FileId, Loader, SourceMap};
@@ -53,7 +53,7 @@ fn scene(name: &str, text: Vec<u8>) -> Scene {
 
 /// The proven scene of a file. A scene of ours has no finding at all.
 fn scene_in(file: FileId, mut map: SourceMap) -> Scene {
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     let name = map.name(file).to_owned();
     let lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink);
     let validated = lowered

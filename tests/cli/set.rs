@@ -3,7 +3,7 @@
 use super::{SCENE, code, command, stderr};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use rtc::internals::image::{DecodeError, Opacity, PixelFile, Pixels};
+use rtc::internals::image::{DecodeError, OpacityUse, PixelFile, Pixels};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
@@ -104,7 +104,7 @@ pub(super) fn picture(folder: &Path, words: &str) -> Vec<u8> {
 }
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Pixels, DecodeError> {
-    PixelFile::open(bytes, Opacity::Dropped, u64::MAX)?.decode()
+    PixelFile::open(bytes, OpacityUse::Dropped, u64::MAX)?.decode()
 }
 
 /// The values of all channels of a picture.

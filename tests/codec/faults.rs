@@ -2,12 +2,12 @@
 
 use super::small;
 use rtc::internals::codec::{self, Encoding};
-use rtc::internals::diag::{Diagnostic, Sink};
+use rtc::internals::diag::{Diagnostic, DiagnosticSink};
 use rtc::internals::source::SourceMap;
 
 /// The code, the pointer and the words of every finding about a text.
 fn all_faults(text: &str) -> Vec<(&'static str, String, String)> {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = map.add("faults.json", text.as_bytes().to_vec());
     assert!(codec::decode(Encoding::Json, file, &map, &mut sink).is_none());
     let words = |finding: &Diagnostic| {

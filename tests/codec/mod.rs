@@ -14,8 +14,8 @@ mod versions;
 
 use proptest::prelude::*;
 use rtc::internals::codec::{self, Encoding};
-use rtc::internals::diag::{Diagnostic, Sink};
-use rtc::internals::ir::{Column, Display, ImageId, Pixels, Scene, Shape, Texture};
+use rtc::internals::diag::{Diagnostic, DiagnosticSink};
+use rtc::internals::ir::{Display, ImageId, Pixels, Scene, Shape, Texture, VertexColumn};
 use rtc::internals::source::SourceMap;
 use scenes::scene;
 use std::path::{Path, PathBuf};
@@ -29,7 +29,7 @@ fn frozen(name: &str) -> PathBuf {
 
 /// The scene or the first finding, and the text the finding points at.
 fn decode(encoding: Encoding, bytes: &[u8]) -> Result<Scene, Box<(Diagnostic, String)>> {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = map.add("test", bytes.to_vec());
     let scene = codec::decode(encoding, file, &map, &mut sink);
     assert_eq!(

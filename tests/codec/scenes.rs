@@ -3,10 +3,11 @@
 use proptest::prelude::*;
 use rtc::internals::color::Tone;
 use rtc::internals::ir::{
-    Alpha, Ambient, Bump, Camera, Column, Display, Emitter, Environment, Filter, Gooch, Image,
-    ImageId, Instance, Lens, Light, Map, Material, MaterialId, Mesh, MeshId, Mode, PathSettings,
-    Pattern, Phong, Photometry, Pixels, Plane, PointLight, Procedural, Projection, Punctual,
-    Sampled, Scene, Settings, Shape, Sphere, Standard, Surface, Texture, TextureId, Triangle, Wrap,
+    Alpha, Ambient, Bump, Camera, Display, Environment, Filter, Gooch, Image, ImageId, Instance,
+    Lens, Light, Map, Material, MaterialId, Mesh, MeshId, Mode, PathSettings, Pattern, Phong,
+    Photometry, Pixels, Plane, PointLight, Procedural, Projection, Punctual, PunctualKind, Sampled,
+    Scene, Settings, Shape, Sphere, Standard, Surface, Texture, TextureId, Triangle, VertexColumn,
+    Wrap,
 };
 
 use rtc::internals::math::{GradientNoise, TextureMapping, TexturePattern};
@@ -83,12 +84,14 @@ fn mesh() -> impl Strategy<Value = Mesh> {
     (text(), list(), list(), uvs, wide, triangles).prop_map(
         |(name, positions, normals, uvs, tangents, triangles)| {
             let (second_uvs, colors) = (
-                Column::rounded(uvs.iter().map(small)),
-                Column::rounded(tangents.iter().map(small)),
+                VertexColumn::rounded(uvs.iter().map(small)),
+                VertexColumn::rounded(tangents.iter().map(small)),
             );
             let has_part = positions.len() > 30;
-            let (positions, normals) =
-                (positions.into(), Column::rounded(normals.iter().map(small)));
+            let (positions, normals) = (
+                positions.into(),
+                VertexColumn::rounded(normals.iter().map(small)),
+            );
             let (uvs, tangents, triangles) = (uvs.into(), tangents.into(), triangles.into());
             Mesh {
                 part: has_part.then(|| name.clone()),
@@ -223,11 +226,11 @@ fn light() -> impl Strategy<Value = Light> {
     });
     let range = || prop::option::of(number());
     let emitter = prop_oneof![
-        triple().prop_map(|direction| Emitter::Sun { direction }),
-        (triple(), range()).prop_map(|(position, range)| Emitter::Point { position, range }),
+        triple().prop_map(|direction| PunctualKind::Sun { direction }),
+        (triple(), range()).prop_map(|(position, range)| PunctualKind::Point { position, range }),
         (triple(), triple(), pair(), range()).prop_map(
             |(position, direction, [inner_angle, outer_angle], range)| {
-                Emitter::Spot {
+                PunctualKind::Spot {
                     position,
                     direction,
                     inner_angle,
@@ -247,7 +250,7 @@ fn light() -> impl Strategy<Value = Light> {
         })
     });
     let lamp = (triple(), triple(), triple(), photometry).prop_map(
-        |(position, direction, horizontal, photometry)| Emitter::Photometric {
+        |(position, direction, horizontal, photometry)| PunctualKind::Photometric {
             position,
             direction,
             horizontal,

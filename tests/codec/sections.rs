@@ -2,7 +2,7 @@
 
 use super::{decode, fault, frozen, large, with_header};
 use rtc::internals::codec::{self, Encoding};
-use rtc::internals::ir::{Column, Scene};
+use rtc::internals::ir::{Scene, VertexColumn};
 
 /// In files of version 2 every long list and text is a section, whatever it belongs to.
 #[test]
@@ -55,8 +55,8 @@ fn number_after(file: &[u8], words: &str) -> usize {
 fn meshed() -> Scene {
     let mut scene = large();
     let mesh = &mut scene.meshes[0];
-    mesh.normals = Column::rounded(mesh.positions.iter());
-    mesh.colors = Column::rounded(mesh.positions.iter().map(|[x, y, z]| [x, y, z, 0.1]));
+    mesh.normals = VertexColumn::rounded(mesh.positions.iter());
+    mesh.colors = VertexColumn::rounded(mesh.positions.iter().map(|[x, y, z]| [x, y, z, 0.1]));
     scene
 }
 
@@ -83,8 +83,8 @@ fn columns_of_meshes_are_sections_in_the_precision_of_the_scene() {
     let back = decode(Encoding::Binary, &file).unwrap();
     assert_eq!(format!("{back:?}"), format!("{scene:?}"));
     assert!(
-        matches!(&back.meshes[0].normals, Column::Single(_))
-            && matches!(&back.meshes[0].positions, Column::Double(_))
+        matches!(&back.meshes[0].normals, VertexColumn::Single(_))
+            && matches!(&back.meshes[0].positions, VertexColumn::Double(_))
     );
     let section = |key: &str| number_after(&file, &format!("\"{key}\":"));
     let [positions, normals, colors, triangles] =

@@ -2,7 +2,7 @@
 
 use super::*;
 use rtc::internals::color::Tone;
-use rtc::internals::ir::{Ambient, Emitter, Light, Material, Punctual};
+use rtc::internals::ir::{Ambient, Light, Material, Punctual, PunctualKind};
 
 /// The files of each version as they were written when it was new. They are never rewritten.
 #[test]
@@ -90,8 +90,11 @@ fn frozen_files_of_version_3_decode() {
         ),
         ([1.0, 1.0, 0.225], 40)
     );
-    assert!(matches!(course.meshes[0].positions, Column::Double(_)));
-    let Column::Single(positions) = &path.meshes[0].positions else {
+    assert!(matches!(
+        course.meshes[0].positions,
+        VertexColumn::Double(_)
+    ));
+    let VertexColumn::Single(positions) = &path.meshes[0].positions else {
         panic!("glTF has 32-bit floats")
     };
     assert_eq!(
@@ -114,8 +117,8 @@ fn frozen_files_of_version_3_decode() {
     );
 }
 
-/// The scenes of version 4: a cartoon of a paraboloid without a shadow and of the parts of an OBJ; and
-/// paths from a measured lamp through glass that disperses, shown by another tone map.
+/// The scenes of version 4: a cartoon of a paraboloid without a shadow and of the parts of an OBJ;
+/// and paths from a measured lamp through glass that disperses, shown by another tone map.
 #[test]
 fn frozen_files_of_version_4_decode() {
     let [course, path] = ["course", "path"].map(|name| {
@@ -137,7 +140,7 @@ fn frozen_files_of_version_4_decode() {
         .collect();
     assert_eq!(parts, [Some("red"), Some("blue")]);
     let Light::Punctual(Punctual {
-        emitter: Emitter::Photometric { photometry, .. },
+        emitter: PunctualKind::Photometric { photometry, .. },
         ..
     }) = &path.lights[0]
     else {

@@ -87,17 +87,17 @@ pub(super) fn picture(scene: &Scene, setting: Setting) -> Image {
 }
 
 pub(super) fn film(scene: &Scene) -> Image {
-    let lowered = rtc::internals::ir::Lowered {
+    let lowered = rtc::internals::ir::LoweredScene {
         scene: scene.clone(),
         source_spans: rtc::internals::ir::SourceSpans::default(),
     };
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     let valid = pipeline::validate(&lowered, &Options::default(), &mut sink)
         .unwrap_or_else(|| panic!("{:?}", sink.kept()));
     render(
         &valid,
-        &Plan::new(&valid, Rules::ALL),
-        &Job::default(),
+        &Plan::new(&valid, RuleSet::ALL),
+        &RenderSelection::default(),
         &|_| true,
     )
     .unwrap()
@@ -211,7 +211,7 @@ fn the_interval_of_a_part_holds_the_error_of_the_whole() {
     let errors = |places: &[[u32; 2]]| {
         let of = |image: &Image| places.iter().map(|place| tile(image, *place)).collect();
         let [test, reference]: [Vec<Image>; 2] = pictures.each_ref().map(of);
-        Errors::of(
+        PictureErrors::of(
             &test,
             &reference,
             places.len() as f64 / f64::from(columns * rows),

@@ -10,17 +10,17 @@ mod resume;
 mod versus;
 
 use rtc::internals::codec;
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::image::Image;
 use rtc::internals::ir::Scene;
 use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Arithmetic, Plan, Rules};
-use rtc::internals::render::{Job, Step, Tiles, render};
+use rtc::internals::plan::{Arithmetic, Plan, RuleSet};
+use rtc::internals::render::{RenderSelection, RenderStep, Tiles, render};
 use rtc::internals::source::SourceMap;
 use rtc::internals::study::{
-    self, Ablation, Clock, DepthEnd, EffectCost, Effort, ErrorSpread, Errors, Parameter, PowerLaw,
-    Setting, Stopped, Study, StudyProvenance, StudyRow, StudyRuntime,
+    self, Ablation, DepthEnd, EffectCost, Effort, ErrorSpread, Parameter, PictureErrors, PowerLaw,
+    Setting, Stopped, Study, StudyProvenance, StudyRow, StudyRuntime, WorkClock,
 };
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{LazyLock, Mutex};
@@ -53,7 +53,7 @@ fn scene(changes: &[(&str, &str)]) -> Scene {
 
 /// A scene from the text form of its IR.
 fn decoded(text: String) -> Scene {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = map.add("scene", text.into_bytes());
     codec::decode(codec::Encoding::Json, file, &map, &mut sink)
         .unwrap_or_else(|| panic!("{:?}", sink.kept()))
@@ -89,11 +89,11 @@ fn on_bench<T>(
         Duration::from_secs_f64(read.1 * 1e-6)
     });
     let clock = || tick.lock().unwrap()(traced.load(Ordering::Relaxed));
-    let on_pixel = |step: Step| {
+    let on_pixel = |step: RenderStep| {
         traced.fetch_add(step.rays, Ordering::Relaxed);
         true
     };
-    let clock = Clock {
+    let clock = WorkClock {
         cpu: &clock,
         wall: &clock,
     };
@@ -181,7 +181,7 @@ fn a_study_can_be_stopped() {
     let clock = || Duration::ZERO;
     let runtime = StudyRuntime::new(
         1,
-        Clock {
+        WorkClock {
             cpu: &clock,
             wall: &clock,
         },
@@ -205,11 +205,11 @@ fn a_study_can_be_stopped() {
 fn a_study_expects_about_the_rays_that_it_takes() {
     let (rays, expected) = (AtomicU64::new(0), AtomicU64::new(0));
     let clock = || Duration::from_micros(rays.load(Ordering::Relaxed));
-    let clock = Clock {
+    let clock = WorkClock {
         cpu: &clock,
         wall: &clock,
     };
-    let on_pixel = |step: Step| {
+    let on_pixel = |step: RenderStep| {
         rays.fetch_add(step.rays, Ordering::Relaxed);
         true
     };

@@ -9,8 +9,9 @@ const RAYS: u64 = 300_000;
 fn go_on(scene: &Scene, kept: &[u8], most: u64) -> (Result<Study, Stopped>, Vec<u8>) {
     let traced = AtomicU64::new(0);
     let clock = || Duration::from_micros(traced.load(Ordering::Relaxed));
-    let on_pixel = |step: Step| traced.fetch_add(step.rays, Ordering::Relaxed) + step.rays < most;
-    let clock = Clock {
+    let on_pixel =
+        |step: RenderStep| traced.fetch_add(step.rays, Ordering::Relaxed) + step.rays < most;
+    let clock = WorkClock {
         cpu: &clock,
         wall: &clock,
     };

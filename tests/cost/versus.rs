@@ -2,7 +2,7 @@
 
 use super::error::picture;
 use super::*;
-use rtc::internals::study::Versus;
+use rtc::internals::study::SceneComparison;
 
 /// The spheres in a picture of 96 × 64 pixels, the right one with the second material, in a colour.
 fn balls(supersampling: u32, color: [f64; 3]) -> Scene {
@@ -17,7 +17,7 @@ fn balls(supersampling: u32, color: [f64; 3]) -> Scene {
 
 const BLUE: [f64; 3] = [0.5, 0.6, 0.7];
 
-fn against(scene: &Scene, reference: &Scene, seed: u64) -> Versus {
+fn against(scene: &Scene, reference: &Scene, seed: u64) -> SceneComparison {
     let about = || StudyProvenance {
         scene: "balls".to_owned(),
         ..StudyProvenance::default()
@@ -93,7 +93,8 @@ fn a_change_is_seen_where_it_is() {
     let all: Vec<_> = (1..=10)
         .map(|seed| against(&after, &before, seed))
         .collect();
-    let holds = |found: &&Versus| found.error.low <= reference && reference <= found.error.high;
+    let holds =
+        |found: &&SceneComparison| found.error.low <= reference && reference <= found.error.high;
     let held = all.iter().filter(holds).count();
     let errors: Vec<_> = all.iter().map(|found| found.error).collect();
     assert!(held >= 8, "{reference}: {errors:?}");

@@ -13,7 +13,7 @@ mod years;
 
 use crate::repo::{files, root};
 use proptest::prelude::*;
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::emit;
 use rtc::internals::front::course::assets::AssetTarget;
 use rtc::internals::front::{FrontOptions, course};
@@ -27,7 +27,7 @@ use std::path::PathBuf;
 fn scene(text: &str) -> Option<Scene> {
     let mut map = SourceMap::default();
     let file = map.add("text", text.as_bytes().to_vec());
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     let lowered = course::lower(file, &map, &FrontOptions::default(), &mut sink);
     lowered
         .filter(|_| !sink.has_errors())
@@ -251,7 +251,7 @@ fn files_are_wanted_once_and_their_places_wait() {
         - {type: mesh, file: a.png}\n- {type: mesh, file: a.png, scale: 2}\n";
     let mut map = SourceMap::default();
     let file = map.add("text", text.as_bytes().to_vec());
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     let draft = course::lower(file, &map, &FrontOptions::default(), &mut sink).unwrap();
     let pending: Vec<_> = draft
         .pending_assets
@@ -367,7 +367,7 @@ fn words_proposed_in_json_keep_their_quotes() {
         "Objects": [{"type": "spere"}, {"type": "sphere", "postion": [0, 0, 0], "radius": 1}]}"#;
     let mut map = SourceMap::default();
     let file = map.add("scene.json", text.as_bytes().to_vec());
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     let _ = course::lower(file, &map, &FrontOptions::default(), &mut sink);
     let hints = sink.kept().iter().flat_map(|finding| &finding.hints);
     let proposed: Vec<_> = hints

@@ -85,7 +85,7 @@ fn lowered(object: &Value) -> Option<(Scene, Vec<(AssetTarget, String)>)> {
     let text = json!({ "Eye": [200, 200, 1000], "Objects": [object] }).to_string();
     let mut map = SourceMap::default();
     let file = map.add("scene.json", text.into_bytes());
-    let (mut sink, options) = (Sink::default(), FrontOptions::default());
+    let (mut sink, options) = (DiagnosticSink::default(), FrontOptions::default());
     let draft = course::lower(file, &map, &options, &mut sink)?;
     let is_read = sink.kept().iter().all(|found| found.code.id == "SC010");
     let pending = draft.pending_assets.into_iter();

@@ -1,8 +1,8 @@
-//! What files of different years of the course mean: ambient light in JSON and YAML, glass, and keys
-//! that need another one.
+//! What files of different years of the course mean: ambient light in JSON and YAML, glass, and
+//! keys that need another one.
 
 use crate::small::{WHOLE, film};
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::{Ambient, Scene};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::source::SourceMap;
@@ -11,7 +11,7 @@ use rtc::internals::source::SourceMap;
 fn loaded(text: &str) -> (Scene, Vec<&'static str>) {
     let mut map = SourceMap::default();
     let file = map.add("scene", text.as_bytes().to_vec());
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     let lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink);
     let codes = sink.kept().iter().map(|finding| finding.code.id).collect();
     (lowered.unwrap().scene, codes)

@@ -1,12 +1,12 @@
 //! Hostile assets too large to keep: each ends in the finding it must, or passes if it is legal.
 
 use super::errors;
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::source::SourceMap;
 
-fn check(text: String) -> Sink {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+fn check(text: String) -> DiagnosticSink {
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = map.add("hostile.gltf", text.into_bytes());
     pipeline::load(file, &mut map, &Options::default(), &mut sink);
     sink

@@ -1,15 +1,15 @@
-//! Images decoded side by side: what comes of them, what is said of them and what is charged does not
-//! depend on the number of threads.
+//! Images decoded side by side: what comes of them, what is said of them and what is charged does
+//! not depend on the number of threads.
 
 use super::make;
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::front::FrontOptions;
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::source::{Limits, Resource, SourceMap};
 
 /// The pixels of the images, and the findings in their order, of so many threads.
 fn loaded(asset: &[u8], limits: Limits, threads: usize) -> (Vec<Vec<u8>>, Vec<String>) {
-    let (mut map, mut sink) = (SourceMap::with_limits(limits), Sink::default());
+    let (mut map, mut sink) = (SourceMap::with_limits(limits), DiagnosticSink::default());
     let file = map.add("made.gltf", asset.to_vec());
     let front = FrontOptions {
         threads,

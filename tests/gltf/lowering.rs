@@ -3,21 +3,21 @@
 
 use super::make;
 use rtc::internals::codec::{self, Encoding};
-use rtc::internals::diag::{Diagnostic, Severity, Sink};
+use rtc::internals::diag::{Diagnostic, DiagnosticSink, Severity};
 use rtc::internals::front;
 use rtc::internals::ir::{
-    Emitter, Environment, Light, Lowered, Material, Scene, Shape, SourceSpans,
+    Environment, Light, LoweredScene, Material, PunctualKind, Scene, Shape, SourceSpans,
 };
 use rtc::internals::math::Vec3;
 use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::Job;
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::RenderSelection;
 use rtc::internals::source::{Loader, SourceMap};
 
 /// The scene that an asset shows; every asset here is sound, and some have lines or no tangents.
 fn lower(bytes: Vec<u8>, front: front::FrontOptions) -> Scene {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = map.add("made.gltf", bytes);
     let options = Options {
         front,
@@ -97,7 +97,7 @@ fn what_is_asked_for_and_not_there_is_an_error_with_its_code() {
         },
     ];
     for front in asked {
-        let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+        let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
         let file = map.add("made.gltf", make::stage());
         let options = Options {
             front,
@@ -135,7 +135,7 @@ fn mended_assets_show_the_triangle_that_was_meant() {
     ];
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/diagnostics");
     for case in cases {
-        let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+        let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
         let file = Loader.file(&folder.join(case), &mut map).unwrap();
         let front = front::FrontOptions {
             lenient: true,
@@ -215,7 +215,7 @@ fn pointers_move_materials_lights_cameras_and_nodes() {
         let Light::Punctual(light) = &scene.lights[0] else {
             panic!("a spot");
         };
-        let Emitter::Spot { outer_angle, .. } = light.emitter else {
+        let PunctualKind::Spot { outer_angle, .. } = light.emitter else {
             panic!("a spot");
         };
         let own = [instance.world_from_object[3][0], material.clearcoat];
@@ -283,14 +283,14 @@ fn picture(mut scene: Scene) -> Vec<[u64; 3]> {
         ..Overrides::default()
     }
     .apply(&mut scene);
-    let lowered = Lowered {
+    let lowered = LoweredScene {
         scene,
         source_spans: SourceSpans::default(),
     };
-    let (options, mut sink) = (Options::default(), Sink::default());
+    let (options, mut sink) = (Options::default(), DiagnosticSink::default());
     let validated = pipeline::validate(&lowered, &options, &mut sink).unwrap();
-    let plan = Plan::new(&validated, Rules::ALL);
-    let film = pipeline::render(&validated, &plan, &Job::default(), 1, &|_| true)
+    let plan = Plan::new(&validated, RuleSet::ALL);
+    let film = pipeline::render(&validated, &plan, &RenderSelection::default(), 1, &|_| true)
         .unwrap()
         .unwrap();
     film.image

@@ -6,7 +6,7 @@
     clippy::disallowed_methods,
     reason = "a test stops at the first surprise and reads what it checks"
 )]
-use rtc::internals::diag::{Severity, Sink};
+use rtc::internals::diag::{DiagnosticSink, Severity};
 use std::collections::BTreeSet;
 
 mod hostile;
@@ -16,7 +16,7 @@ mod lowering;
 mod make;
 
 /// The names of the errors among the findings, ours where Khronos has none.
-fn errors(sink: &Sink) -> BTreeSet<String> {
+fn errors(sink: &DiagnosticSink) -> BTreeSet<String> {
     let errors = sink
         .kept()
         .iter()

@@ -1,7 +1,7 @@
 //! Camera bases, orthonormal bases, and points of the lens.
 
 use super::truth::{Report, cases, error, id, number, vector, vector_error};
-use rtc::internals::math::{Basis, U, Vec3, view_basis};
+use rtc::internals::math::{OrthonormalBasis, U, Vec3, view_basis};
 use rtc::internals::render::vogel;
 
 #[test]
@@ -29,11 +29,11 @@ fn orthonormal_bases() {
     for case in cases("onb") {
         let tolerance = number(&case["tol"]["orthonormality_u"]) * U;
         for (k, v) in case["input"]["v"].as_array().unwrap().iter().enumerate() {
-            let Basis {
+            let OrthonormalBasis {
                 tangent,
                 bitangent,
                 normal,
-            } = Basis::around(vector(v).normalize());
+            } = OrthonormalBasis::around(vector(v).normalize());
             let lengths = [tangent, bitangent].map(|v| (v.length() - 1.0).abs());
             let angles = [
                 tangent.dot(bitangent),

@@ -5,17 +5,17 @@ use super::scenes::{check, plane, scene, sphere, triangle, validated, white, wor
 use super::truth::{Report, all, id};
 use rtc::internals::diag::codes;
 use rtc::internals::ir::{self, Light, Material, MaterialId, Phong, PointLight};
-use rtc::internals::math::{BasisFault, Vec3, camera_basis, fallback_up};
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Film, Job, Ray, Values, render};
+use rtc::internals::math::{CameraBasisError, Vec3, camera_basis, fallback_up};
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::{Film, Ray, RenderSelection, Values, render};
 
 fn film(scene: &ir::Scene) -> Film {
-    let job = Job {
+    let job = RenderSelection {
         values: Values::Linear,
-        ..Job::default()
+        ..RenderSelection::default()
     };
     let scene = validated(scene);
-    render(&scene, &Plan::new(&scene, Rules::ALL), &job, &|_| true).unwrap()
+    render(&scene, &Plan::new(&scene, RuleSet::ALL), &job, &|_| true).unwrap()
 }
 
 fn light(position: [f64; 3], color: [f64; 3]) -> Light {
@@ -57,11 +57,14 @@ fn every_case_is_of_a_known_kind() {
 fn vectors_that_give_no_camera_are_told_apart() {
     let basis = |eye, center, up| camera_basis(eye, center, up).unwrap_err();
     let point = Vec3::new(1.0, 2.0, 3.0);
-    assert_eq!(basis(point, point, Vec3::Y), BasisFault::ZeroGaze);
-    assert_eq!(basis(Vec3::Z, Vec3::ZERO, Vec3::ZERO), BasisFault::ZeroUp);
+    assert_eq!(basis(point, point, Vec3::Y), CameraBasisError::ZeroGaze);
+    assert_eq!(
+        basis(Vec3::Z, Vec3::ZERO, Vec3::ZERO),
+        CameraBasisError::ZeroUp
+    );
     assert_eq!(
         basis(Vec3::Z * 10.0, Vec3::ZERO, Vec3::Z),
-        BasisFault::Parallel
+        CameraBasisError::Parallel
     );
     let up = fallback_up(Vec3::Z * -10.0, Vec3::Z);
     assert_eq!(

@@ -1,9 +1,9 @@
 //! Worlds out of shapes, by the same way every scene takes: IR, proof, world.
 
 use super::truth::{number, vector};
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir;
-use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::plan::{Plan, RuleSet};
 use rtc::internals::render::World;
 use rtc::internals::valid::{self, ValidScene};
 use serde_json::Value;
@@ -58,7 +58,7 @@ pub(crate) fn validated(scene: &ir::Scene) -> ValidScene {
 
 /// The proof, or the codes of the errors.
 pub(crate) fn check(scene: &ir::Scene) -> Result<ValidScene, Vec<&'static str>> {
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     let proof = valid::validate(
         scene,
         &ir::SourceSpans::default(),
@@ -74,7 +74,7 @@ pub(crate) fn world(shapes: impl IntoIterator<Item = ir::Shape>) -> World {
 
 pub(crate) fn prepare(scene: &ir::Scene) -> World {
     let scene = validated(scene);
-    World::prepare(&scene, &Plan::new(&scene, Rules::NONE))
+    World::prepare(&scene, &Plan::new(&scene, RuleSet::NONE))
 }
 
 pub(crate) fn sphere(center: [f64; 3], radius: f64) -> ir::Shape {

@@ -4,14 +4,14 @@ use super::patterns::grid;
 use super::scenes::{error, order, references, scene, world};
 use super::{SIZE, on};
 use rtc::internals::ir::Scene;
-use rtc::internals::study::{Goal, TargetResult, Watch, approach};
+use rtc::internals::study::{RenderCallbacks, RenderGoal, TargetResult, approach};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::time::Duration;
 
 /// With a clock that a ray advances by a microsecond, and that starts at `start` microseconds.
-fn with_clock(scene: &Scene, goal: Goal, start: u64) -> TargetResult {
+fn with_clock(scene: &Scene, goal: RenderGoal, start: u64) -> TargetResult {
     let rays = AtomicU64::new(start);
-    let watch = Watch {
+    let watch = RenderCallbacks {
         on_pixel: &|step| {
             rays.fetch_add(step.rays, Relaxed);
             true
@@ -26,7 +26,7 @@ fn with_clock(scene: &Scene, goal: Goal, start: u64) -> TargetResult {
 }
 
 fn within(scene: &Scene, millis: u64) -> TargetResult {
-    let goal = Goal {
+    let goal = RenderGoal {
         error: None,
         time: Some(Duration::from_millis(millis)),
     };
@@ -66,7 +66,7 @@ fn the_error_said_is_kept_wherever_the_time_ends() {
 
 #[test]
 fn an_error_reached_before_the_time_ends_the_render() {
-    let goal = Goal {
+    let goal = RenderGoal {
         error: Some(5.0),
         time: Some(Duration::from_secs(1000)),
     };
@@ -81,7 +81,7 @@ fn an_error_reached_before_the_time_ends_the_render() {
 #[test]
 fn a_crude_picture_is_better_than_none() {
     let pattern = grid(32, 0.5, 0.25);
-    let goal = Goal {
+    let goal = RenderGoal {
         error: None,
         time: Some(Duration::from_millis(1)),
     };

@@ -5,7 +5,7 @@ use super::scenes::{distance, lowered, references, render};
 use crate::small::{WHOLE, film};
 use rtc::internals::image::Image;
 use rtc::internals::ir::{Mode, PathSettings, Scene};
-use rtc::internals::render::{Job, Seeds, Values};
+use rtc::internals::render::{RenderSelection, SamplingSeeds, Values};
 
 /// Tiny emitters far out of focus, in a dim environment.
 fn lamps(size: [u32; 2]) -> Scene {
@@ -54,9 +54,9 @@ fn needed(scene: &Scene, target: f64, references: &[Image; 2]) -> f64 {
     };
     scene.settings.mode = Mode::Path(path);
     let square = |seed: u64| {
-        let job = Job {
+        let job = RenderSelection {
             values: Values::Display,
-            seeds: Seeds {
+            seeds: SamplingSeeds {
                 pixel: seed,
                 lens: seed,
                 path: seed,

@@ -5,20 +5,20 @@ use super::paths::balls;
 use super::scenes::{order, references, world};
 use rtc::internals::color::Tone;
 use rtc::internals::image::Image;
-use rtc::internals::render::{AnyWorld, Job, Seeds};
-use rtc::internals::study::{Goal, LEVELS, ProbedError, RenderOrder, probe};
+use rtc::internals::render::{AnyWorld, RenderSelection, SamplingSeeds};
+use rtc::internals::study::{LEVELS, ProbedError, RenderGoal, RenderOrder, probe};
 
 const SAMPLES: u32 = 16;
 
 /// A denoised picture of a seed in linear values, and its estimated error.
 fn denoised(world: &AnyWorld, order: &RenderOrder, seed: u64) -> (Image, ProbedError) {
-    let job = Job {
-        seeds: Seeds {
+    let job = RenderSelection {
+        seeds: SamplingSeeds {
             pixel: seed,
             lens: seed,
             path: seed,
         },
-        ..Job::default()
+        ..RenderSelection::default()
     };
     let picture = world.denoised(SAMPLES, &job, &|_| true, &|| ()).unwrap();
     // Probes with other seeds than the picture.
@@ -44,7 +44,7 @@ fn square(image: &Image, [a, b]: &[Image; 2]) -> f64 {
 #[test]
 fn the_error_told_is_the_true_one_and_the_bound_is_kept() {
     let scene = balls();
-    let (world, order) = (world(&scene), order(&scene, Goal::default(), 0));
+    let (world, order) = (world(&scene), order(&scene, RenderGoal::default(), 0));
     let references = references(&scene, 2.0);
     let (mut kept, mut sums, mut said) = (0, [0.0; 3], Vec::new());
     for seed in 1..=20 {
@@ -76,7 +76,7 @@ fn the_error_told_is_the_true_one_and_the_bound_is_kept() {
 #[test]
 fn threads_change_no_bit_of_what_is_told() {
     let scene = balls();
-    let (world, order) = (world(&scene), order(&scene, Goal::default(), 0));
+    let (world, order) = (world(&scene), order(&scene, RenderGoal::default(), 0));
     let [one, three] = [1, 3].map(|threads| on(threads, || denoised(&world, &order, 3)));
     assert_eq!(one, three);
 }

@@ -15,7 +15,7 @@ mod scenes;
 use patterns::grains;
 use rtc::internals::ir::Scene;
 use rtc::internals::render::{Crop, Values};
-use rtc::internals::study::{Goal, RenderOrder, Stopped, Watch, approach};
+use rtc::internals::study::{RenderCallbacks, RenderGoal, RenderOrder, Stopped, approach};
 use scenes::{error, order, references, render, scene, world};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::time::Duration;
@@ -87,7 +87,7 @@ fn a_picture_without_noise_ends_at_once() {
 #[test]
 fn a_crop_of_a_first_round_is_a_part_of_the_whole() {
     let scene = scene(0, [64, 48]);
-    let goal = Goal {
+    let goal = RenderGoal {
         error: Some(255.0),
         time: None,
     };
@@ -98,7 +98,7 @@ fn a_crop_of_a_first_round_is_a_part_of_the_whole() {
             keep_lights: true,
             ..order(&scene, goal, 0)
         };
-        let watch = Watch {
+        let watch = RenderCallbacks {
             on_pixel: &|_| true,
             is_stopped: &|| false,
             elapsed: &|| Duration::ZERO,
@@ -130,13 +130,13 @@ fn a_crop_of_a_first_round_is_a_part_of_the_whole() {
 #[test]
 fn stop_means_stop() {
     let (scene, rays) = (scene(3, SIZE), AtomicU64::new(0));
-    let watch = Watch {
+    let watch = RenderCallbacks {
         on_pixel: &|step| rays.fetch_add(step.rays, Relaxed) < 50_000,
         is_stopped: &|| true,
         elapsed: &|| Duration::ZERO,
         round: &|_| {},
     };
-    let goal = Goal {
+    let goal = RenderGoal {
         error: Some(0.01),
         time: None,
     };

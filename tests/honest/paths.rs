@@ -3,13 +3,13 @@
 use super::on;
 use super::scenes::{error, references, render};
 use rtc::internals::codec::{self, Encoding};
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::Scene;
 use rtc::internals::source::SourceMap;
 
 /// Two spheres on a floor, under an emissive disc and an environment.
 pub(super) fn balls() -> Scene {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = map.add("paths.json", include_bytes!("paths.json").to_vec());
     codec::decode(Encoding::Json, file, &map, &mut sink)
         .unwrap_or_else(|| panic!("{:?}", sink.kept()))

@@ -4,7 +4,7 @@
 use super::scenes::lowered;
 use rtc::internals::image::Image;
 use rtc::internals::ir::Scene;
-use rtc::internals::study::{LEVELS, Rng, TargetResult};
+use rtc::internals::study::{LEVELS, SplitMix64, TargetResult};
 use std::fmt::Write as _;
 
 /// A scene, and its picture without noise.
@@ -65,7 +65,7 @@ pub(crate) fn grid(side: u32, width: f64, offset: f64) -> Pattern {
 
 /// White discs of a radius, each somewhere within a pixel, in a fraction of the pixels.
 pub(crate) fn grains(side: u32, radius: f64, share: f64) -> Pattern {
-    let mut rng = Rng::new(7);
+    let mut rng = SplitMix64::new(7);
     let mut uniform = || rng.below(1 << 20) as f64 / f64::from(1 << 20);
     let (mut text, half) = (String::new(), f64::from(side) / 2.0);
     let mut has = Vec::new();

@@ -1,14 +1,16 @@
 //! Generated scenes with all sources of noise, and the true error of a render to a target.
 
 use rtc::internals::color::Tone;
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::image::Image;
-use rtc::internals::ir::{Lowered, Scene, SourceSpans};
+use rtc::internals::ir::{LoweredScene, Scene, SourceSpans};
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::plan::{Plan, RuleSet};
 use rtc::internals::render::{AnyWorld, Background, Crop, Values};
 use rtc::internals::source::SourceMap;
-use rtc::internals::study::{Goal, LEVELS, RenderOrder, Rng, TargetResult, Watch, approach};
+use rtc::internals::study::{
+    LEVELS, RenderCallbacks, RenderGoal, RenderOrder, SplitMix64, TargetResult, approach,
+};
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Duration;
@@ -21,7 +23,7 @@ pub(crate) fn scene(number: u64, size: [u32; 2]) -> Scene {
 
 /// The scene of a valid text.
 pub(crate) fn lowered(name: &str, text: String) -> Scene {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     // Textures are those of the scenes of the repo.
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("scenes")
@@ -40,7 +42,7 @@ fn has(number: u64, bit: u64) -> bool {
 }
 
 fn text(number: u64, [width, height]: [u32; 2]) -> String {
-    let mut rng = Rng::new(number);
+    let mut rng = SplitMix64::new(number);
     let mut within =
         |from: f64, to: f64| from + (to - from) * rng.below(1 << 20) as f64 / f64::from(1 << 20);
     let mut text = format!(
@@ -115,11 +117,11 @@ fn ball(number: u64, index: u64, within: &mut impl FnMut(f64, f64) -> f64) -> St
 
 /// Renders to an error with a seed, without a clock.
 pub(crate) fn render(scene: &Scene, error: f64, seed: u64) -> TargetResult {
-    let goal = Goal {
+    let goal = RenderGoal {
         error: Some(error),
         time: None,
     };
-    let watch = Watch {
+    let watch = RenderCallbacks {
         on_pixel: &|_| true,
         is_stopped: &|| false,
         elapsed: &|| Duration::ZERO,
@@ -130,17 +132,21 @@ pub(crate) fn render(scene: &Scene, error: f64, seed: u64) -> TargetResult {
 
 /// The world of a valid scene.
 pub(crate) fn world(scene: &Scene) -> AnyWorld {
-    let lowered = Lowered {
+    let lowered = LoweredScene {
         scene: scene.clone(),
         source_spans: SourceSpans::default(),
     };
-    let validated = pipeline::validate(&lowered, &Options::default(), &mut Sink::default())
-        .expect("the scene is sound");
-    AnyWorld::prepare(&validated, &Plan::new(&validated, Rules::ALL))
+    let validated = pipeline::validate(
+        &lowered,
+        &Options::default(),
+        &mut DiagnosticSink::default(),
+    )
+    .expect("the scene is sound");
+    AnyWorld::prepare(&validated, &Plan::new(&validated, RuleSet::ALL))
 }
 
 /// All of the picture.
-pub(crate) fn order(scene: &Scene, goal: Goal, seed: u64) -> RenderOrder {
+pub(crate) fn order(scene: &Scene, goal: RenderGoal, seed: u64) -> RenderOrder {
     let [width, height] = scene.camera.size;
     let crop = Crop {
         x: 0,

@@ -1,7 +1,7 @@
 //! Parts of pictures with damage behind checksums that fit: read or refused, at once.
 
 use rtc::internals::pipeline::trial;
-use rtc::internals::study::Rng;
+use rtc::internals::study::SplitMix64;
 use std::fs;
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use std::path::Path;
 const NUMBERS: [u32; 7] = [0, 1, 2, 0xFF, 0xFFFF, 0x7FFF_FFFF, u32::MAX];
 
 /// Damages bytes in one of several ways.
-fn damage(bytes: &mut Vec<u8>, rng: &mut Rng) {
+fn damage(bytes: &mut Vec<u8>, rng: &mut SplitMix64) {
     let mut below = |most: usize| rng.below(most.max(1));
     let (at, kind) = (below(bytes.len()), below(5));
     match kind {
@@ -41,7 +41,7 @@ fn a_damaged_part_is_read_or_refused() {
         .collect();
     files.sort();
     assert!(files.len() > 3, "the corpus is gone");
-    let mut rng = Rng::new(1);
+    let mut rng = SplitMix64::new(1);
     for file in files {
         let whole = fs::read(&file).unwrap();
         for _ in 0..500 {

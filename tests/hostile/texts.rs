@@ -6,7 +6,7 @@
 
 #![expect(unsafe_code, reason = "an allocator is unsafe code")]
 
-use rtc::internals::diag::{Severity, Sink};
+use rtc::internals::diag::{DiagnosticSink, Severity};
 use rtc::internals::pipeline;
 use rtc::internals::source::SourceMap;
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -55,7 +55,7 @@ fn check(text: impl FnOnce() -> Vec<u8>) -> (Vec<&'static str>, usize) {
     PEAK.store(LIVE.load(Relaxed), Relaxed);
     let mut map = SourceMap::default();
     let file = map.add("hostile", bytes);
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     let options = pipeline::Options::default();
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
     let proof = lowered.and_then(|lowered| pipeline::validate(&lowered, &options, &mut sink));

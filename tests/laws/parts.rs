@@ -3,8 +3,10 @@
 use crate::small::{bits, paths, small, validated};
 use rtc::internals::ir::{Mode, PathSettings, Scene};
 use rtc::internals::passes::Overrides;
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{AnyWorld, Crop, Film, FilmError, Job, PartialFilm, Tiles, Values};
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::{
+    AnyWorld, Crop, Film, FilmError, PartialFilm, RenderSelection, Tiles, Values,
+};
 use std::num::NonZeroU32;
 use std::ops::Range;
 
@@ -15,7 +17,7 @@ const MAX_PIXELS: u64 = 1 << 12;
 
 fn world(scene: &Scene) -> AnyWorld {
     let proof = validated(scene);
-    AnyWorld::prepare(&proof, &Plan::new(&proof, Rules::ALL))
+    AnyWorld::prepare(&proof, &Plan::new(&proof, RuleSet::ALL))
 }
 
 /// A scene of the repo, made small: four tiles of unlike size.
@@ -42,11 +44,11 @@ fn traced(name: &str) -> AnyWorld {
     world(&scene)
 }
 
-fn whole(world: &AnyWorld, job: &Job) -> Film {
+fn whole(world: &AnyWorld, job: &RenderSelection) -> Film {
     world.render(job, &|_| true).unwrap()
 }
 
-fn part(world: &AnyWorld, job: &Job, samples: Option<Range<u32>>) -> PartialFilm {
+fn part(world: &AnyWorld, job: &RenderSelection, samples: Option<Range<u32>>) -> PartialFilm {
     let part = world.render_part(job, samples, &|_| true);
     part.unwrap().unwrap()
 }
@@ -77,7 +79,7 @@ fn assert_same(ours: &Film, whole: &Film, what: &str) {
 }
 
 /// The tiles in three shares, each with some of them.
-fn shares(job: &Job) -> [Job; 3] {
+fn shares(job: &RenderSelection) -> [RenderSelection; 3] {
     let third = u64::MAX / 3;
     let cuts = [
         (0, third),
@@ -91,7 +93,7 @@ fn shares(job: &Job) -> [Job; 3] {
             last,
         })
     };
-    cuts.map(|cut| Job {
+    cuts.map(|cut| RenderSelection {
         tiles: tiles(cut),
         ..*job
     })
@@ -102,9 +104,9 @@ fn tiles_made_apart_are_the_picture() {
     for path in paths() {
         let world = world(&small(&path));
         for values in [Values::Display, Values::Linear] {
-            let job = Job {
+            let job = RenderSelection {
                 values,
-                ..Job::default()
+                ..RenderSelection::default()
             };
             let [a, b, c] = shares(&job).map(|job| sent(&part(&world, &job, None)));
             let name = path.display().to_string();
@@ -125,9 +127,9 @@ fn samples_made_apart_are_the_picture() {
         vec![16..80, 0..16, 80..96, 96..SAMPLES],
     ];
     for values in [Values::Display, Values::Linear] {
-        let job = Job {
+        let job = RenderSelection {
             values,
-            ..Job::default()
+            ..RenderSelection::default()
         };
         let whole = whole(&world, &job);
         for cut in &cuts {
@@ -144,7 +146,7 @@ fn samples_made_apart_are_the_picture() {
 #[test]
 fn tiles_and_samples_made_apart_are_the_crop() {
     let world = traced("glass.yaml");
-    let job = Job {
+    let job = RenderSelection {
         crop: Some(Crop {
             x: 3,
             y: 5,
@@ -152,10 +154,10 @@ fn tiles_and_samples_made_apart_are_the_crop() {
             height: 13,
         }),
         samples: NonZeroU32::new(80),
-        ..Job::default()
+        ..RenderSelection::default()
     };
     let [a, b, c] = shares(&job);
-    let of = |job: &Job, range: Range<u32>| part(&world, job, Some(range));
+    let of = |job: &RenderSelection, range: Range<u32>| part(&world, job, Some(range));
     let parts = [
         of(&b, 64..80),
         part(&world, &a, None),
@@ -168,7 +170,7 @@ fn tiles_and_samples_made_apart_are_the_crop() {
 
 #[test]
 fn parts_that_do_not_fit_are_refused() {
-    let (world, job) = (traced("five-spheres.yaml"), Job::default());
+    let (world, job) = (traced("five-spheres.yaml"), RenderSelection::default());
     for range in [8..24, 0..10, 96..112] {
         let refused = world.render_part(&job, Some(range.clone()), &|_| true);
         assert_eq!(refused.unwrap_err(), FilmError::Misaligned(range));
@@ -181,15 +183,15 @@ fn parts_that_do_not_fit_are_refused() {
     assert!(matches!(refused, FilmError::Overlap(_)), "{refused}");
     assert_eq!(film, before);
     for other in [
-        Job {
+        RenderSelection {
             values: Values::Linear,
             ..job
         },
-        Job {
+        RenderSelection {
             samples: NonZeroU32::new(99),
             ..job
         },
-        Job {
+        RenderSelection {
             crop: Some(Crop {
                 x: 1,
                 y: 0,
@@ -212,7 +214,7 @@ fn parts_that_do_not_fit_are_refused() {
 #[test]
 fn a_part_that_is_stopped_is_none() {
     let world = traced("five-spheres.yaml");
-    let stopped = world.render_part(&Job::default(), Some(0..64), &|_| false);
+    let stopped = world.render_part(&RenderSelection::default(), Some(0..64), &|_| false);
     assert_eq!(stopped, Ok(None));
 }
 
@@ -226,9 +228,9 @@ fn saved() -> Vec<u8> {
     });
     let (world, job) = (
         traced("five-spheres.yaml"),
-        Job {
+        RenderSelection {
             crop,
-            ..Job::default()
+            ..RenderSelection::default()
         },
     );
     let [a, _, c] = shares(&job);

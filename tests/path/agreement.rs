@@ -3,9 +3,11 @@
 use super::{
     add_light, add_quad, add_sphere, add_square, lambert, mean, render, render_by, scene, validate,
 };
-use rtc::internals::ir::{Emitter, Environment, Image, ImageId, Pixels, Punctual, Scene, Standard};
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Job, Strategy};
+use rtc::internals::ir::{
+    Environment, Image, ImageId, Pixels, Punctual, PunctualKind, Scene, Standard,
+};
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::{RenderSelection, SamplingStrategy};
 
 /// A glossy floor and a ball under a shining square, all kinds of scattering among them.
 fn room(samples: u32) -> Scene {
@@ -75,8 +77,8 @@ fn bright_spot() -> Image {
 }
 
 fn assert_agree(scene: &Scene, tolerance: f64) {
-    let both = mean(&render_by(scene, Strategy::Mis));
-    for strategy in [Strategy::Nee, Strategy::BsdfSampling] {
+    let both = mean(&render_by(scene, SamplingStrategy::Mis));
+    for strategy in [SamplingStrategy::Nee, SamplingStrategy::BsdfSampling] {
         let found = mean(&render_by(scene, strategy));
         let error = ((found - both) / both).abs().max_element();
         assert!(error < tolerance, "{strategy:?}: {found}, both: {both}");
@@ -124,18 +126,24 @@ fn one_thread_and_several_give_the_same_bytes() {
     add_light(
         &mut scene,
         Punctual {
-            emitter: Emitter::Sun {
+            emitter: PunctualKind::Sun {
                 direction: [1.0, 2.0, 3.0],
             },
             intensity: [1.0; 3],
         },
     );
     let proof = validate(&scene);
-    let plan = Plan::new(&proof, Rules::ALL);
+    let plan = Plan::new(&proof, RuleSet::ALL);
     let on = |threads| {
-        rtc::internals::pipeline::render(&proof, &plan, &Job::default(), threads, &|_| true)
-            .unwrap()
-            .unwrap()
+        rtc::internals::pipeline::render(
+            &proof,
+            &plan,
+            &RenderSelection::default(),
+            threads,
+            &|_| true,
+        )
+        .unwrap()
+        .unwrap()
     };
     let (one, three) = (on(1), on(3));
     assert_eq!(one.image.pixels, three.image.pixels);

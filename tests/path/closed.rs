@@ -1,7 +1,7 @@
 //! Scenes whose radiance is known in closed form.
 
 use super::{add_light, add_sphere, add_square, lambert, mean, middle, render, scene, sky};
-use rtc::internals::ir::{Emitter, Mode, PathSettings, Punctual, Standard};
+use rtc::internals::ir::{Mode, PathSettings, Punctual, PunctualKind, Standard};
 use rtc::internals::math::Vec3;
 use std::f64::consts::PI;
 
@@ -12,7 +12,7 @@ fn albedo() -> Vec3 {
 }
 
 /// The radiance in the middle of a Lambert plane under one light.
-fn under(emitter: Emitter) -> Vec3 {
+fn under(emitter: PunctualKind) -> Vec3 {
     let mut scene = scene(16);
     add_square(&mut scene, 0.0, 1.0, lambert(ALBEDO));
     add_light(
@@ -34,12 +34,12 @@ fn assert_near(found: Vec3, expected: Vec3, tolerance: f64) {
 
 #[test]
 fn a_sun_gives_e_cos_over_pi() {
-    let found = under(Emitter::Sun {
+    let found = under(PunctualKind::Sun {
         direction: [0.6, 0.0, 0.8],
     });
     assert_near(found, albedo() * (3.0 * 0.8 / PI), 1e-12);
     assert_eq!(
-        under(Emitter::Sun {
+        under(PunctualKind::Sun {
             direction: [0.0, 0.0, -1.0]
         }),
         Vec3::ZERO
@@ -50,18 +50,18 @@ fn a_sun_gives_e_cos_over_pi() {
 fn a_point_gives_i_cos_over_r_squared() {
     // 16 samples over four pixels of side 1/8 below a point 2 above: the mean of cos/r² is within 1
     // % of its middle.
-    let found = under(Emitter::Point {
+    let found = under(PunctualKind::Point {
         position: [0.0, 0.0, 2.0],
         range: None,
     });
     assert_near(found, albedo() * (3.0 / 4.0 / PI), 0.01);
-    let short = under(Emitter::Point {
+    let short = under(PunctualKind::Point {
         position: [0.0, 0.0, 2.0],
         range: Some(4.0),
     });
     assert_near(short, albedo() * (3.0 / 4.0 / PI * (1.0 - 0.0625)), 0.01);
     assert_eq!(
-        under(Emitter::Point {
+        under(PunctualKind::Point {
             position: [0.0, 0.0, 2.0],
             range: Some(1.5)
         }),
@@ -71,7 +71,7 @@ fn a_point_gives_i_cos_over_r_squared() {
 
 #[test]
 fn a_spot_fades_by_the_square_of_the_ramp_of_cosines() {
-    let spot = |direction| Emitter::Spot {
+    let spot = |direction| PunctualKind::Spot {
         position: [0.0, 0.0, 2.0],
         direction,
         inner_angle: 0.2,

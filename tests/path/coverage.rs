@@ -4,8 +4,9 @@ use super::*;
 
 fn film(scene: &Scene, background: Background) -> Film {
     let proof = validate(scene);
-    let job = Job { background, ..JOB };
-    rtc::internals::render::render(&proof, &Plan::new(&proof, Rules::ALL), &job, &|_| true).unwrap()
+    let job = RenderSelection { background, ..JOB };
+    rtc::internals::render::render(&proof, &Plan::new(&proof, RuleSet::ALL), &job, &|_| true)
+        .unwrap()
 }
 
 #[test]

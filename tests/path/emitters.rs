@@ -7,8 +7,8 @@ use rtc::internals::ir::{
     Torus,
 };
 use rtc::internals::math::Vec3;
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Film, Strategy, World};
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::{Film, SamplingStrategy, World};
 
 const CENTER: [f64; 3] = [0.4, 0.3, 0.6];
 const UP: [f64; 3] = [0.3, 0.2, 0.5];
@@ -91,9 +91,9 @@ fn room(samples: u32, shape: Shape) -> Scene {
     scene
 }
 
-fn render_by(scene: &Scene, strategy: Strategy) -> Film {
+fn render_by(scene: &Scene, strategy: SamplingStrategy) -> Film {
     let proof = validate(scene);
-    World::<rtc::internals::render::Shape>::prepare(&proof, &Plan::new(&proof, Rules::ALL))
+    World::<rtc::internals::render::Shape>::prepare(&proof, &Plan::new(&proof, RuleSet::ALL))
         .render_paths(strategy, &JOB, &|_| true)
         .unwrap()
 }
@@ -102,8 +102,8 @@ fn render_by(scene: &Scene, strategy: Strategy) -> Film {
 fn all_strategies_find_the_light_of_each_shape() {
     for shape in shapes() {
         let scene = room(256, shape.clone());
-        let both = mean(&render_by(&scene, Strategy::Mis));
-        for strategy in [Strategy::Nee, Strategy::BsdfSampling] {
+        let both = mean(&render_by(&scene, SamplingStrategy::Mis));
+        for strategy in [SamplingStrategy::Nee, SamplingStrategy::BsdfSampling] {
             let found = mean(&render_by(&scene, strategy));
             let error = ((found - both) / both).abs().max_element();
             assert!(
@@ -132,7 +132,7 @@ fn a_lamp_of_any_size_gives_the_light_of_its_power() {
         };
         scene.camera.eye = [0.0, 0.0, 1.5];
         add(&mut scene, Shape::Sphere(shape), light);
-        mean(&render_by(&scene, Strategy::Mis))
+        mean(&render_by(&scene, SamplingStrategy::Mis))
     };
     let expected = lit(1.0);
     for radius in [1e-1, 1e-2, 1e-4] {
@@ -145,7 +145,11 @@ fn a_lamp_of_any_size_gives_the_light_of_its_power() {
 fn a_lamp_inside_a_glowing_sphere_is_in_its_furnace() {
     // Every direction from inside meets the sphere of radiance 1; a surface of albedo 0.5 that
     // sees nothing else shines by half of it.
-    for strategy in [Strategy::Mis, Strategy::Nee, Strategy::BsdfSampling] {
+    for strategy in [
+        SamplingStrategy::Mis,
+        SamplingStrategy::Nee,
+        SamplingStrategy::BsdfSampling,
+    ] {
         let mut scene = scene(256);
         add_sphere(&mut scene, [0.0; 3], 0.8, lambert([0.5; 3]));
         let glow = Standard {

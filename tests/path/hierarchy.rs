@@ -5,10 +5,10 @@ use super::{
     JOB, add_light, add_sphere, add_square, lambert, material, mean, render, scene, sky, validate,
 };
 use rtc::internals::ir::{
-    Alpha, Emitter, Instance, Mesh, MeshId, Punctual, Scene, Shape, Standard, Surface,
+    Alpha, Instance, Mesh, MeshId, Punctual, PunctualKind, Scene, Shape, Standard, Surface,
 };
 use rtc::internals::math::{Vec3, cos, sin};
-use rtc::internals::plan::{Arithmetic, Plan, Rules};
+use rtc::internals::plan::{Arithmetic, Plan, RuleSet};
 use rtc::internals::render::{Hit, Intersect, Ray, Shape as Prepared, WatertightRay, World};
 
 /// Numbers in [−1, 1), always the same.
@@ -110,7 +110,7 @@ fn the_world_finds_what_its_surfaces_find() {
     place(&mut scene, 2, at(axes, [0.2, 0.1, -1.0]), lambert([0.5; 3]));
     super::add_sphere(&mut scene, [-0.5, -0.5, 0.2], 0.4, lambert([0.5; 3]));
     let proof = validate(&scene);
-    let world = World::<Prepared>::prepare(&proof, &Plan::new(&proof, Rules::NONE));
+    let world = World::<Prepared>::prepare(&proof, &Plan::new(&proof, RuleSet::NONE));
     let (mut number, mut hits, mut ties) = (numbers(7), 0, 0);
     for _ in 0..20_000 {
         let mut cube = || Vec3::new(number(), number(), number());
@@ -147,7 +147,7 @@ fn veils_of_meshes_let_through_what_veils_of_triangles_do() {
     let pictures = [false, true].map(|as_meshes| {
         let mut scene = scene(16);
         scene.environment = sky(0.5);
-        let emitter = Emitter::Sun {
+        let emitter = PunctualKind::Sun {
             direction: [0.1, 0.2, 1.0],
         };
         add_light(
@@ -205,7 +205,7 @@ fn blended(opacity: f64) -> Standard {
 /// A square in the sun, below veils of a mesh.
 fn below_veils(count: u32) -> Scene {
     let mut scene = scene(4);
-    let emitter = Emitter::Sun {
+    let emitter = PunctualKind::Sun {
         direction: [0.3, 0.4, 1.0],
     };
     add_light(
@@ -242,7 +242,7 @@ fn a_veil_that_is_opaque_changes_no_order() {
     let mut scene = below_veils(24);
     add_sphere(&mut scene, [5.0, 5.0, 0.0], 0.5, blended(1.0));
     let proof = validate(&scene);
-    let [pruned, unpruned] = [Rules::ALL, Rules::NONE].map(|rules| {
+    let [pruned, unpruned] = [RuleSet::ALL, RuleSet::NONE].map(|rules| {
         let plan = Plan::new(&proof, rules);
         rtc::internals::render::render(&proof, &plan, &JOB, &|_| true).unwrap()
     });
@@ -254,7 +254,7 @@ fn a_veil_that_is_opaque_changes_no_order() {
 fn veils_let_light_through_in_every_arithmetic() {
     let proof = validate(&below_veils(2));
     let [robust, plain, _] = Arithmetic::ALL.map(|arithmetic| {
-        let plan = Plan::with_arithmetic(arithmetic, &proof, Rules::ALL);
+        let plan = Plan::with_arithmetic(arithmetic, &proof, RuleSet::ALL);
         mean(&rtc::internals::render::render(&proof, &plan, &JOB, &|_| true).unwrap())
     });
     assert!(

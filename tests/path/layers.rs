@@ -1,7 +1,7 @@
 //! Layers beside the colours against closed forms, with both integrators and on any threads.
 
 use super::*;
-use rtc::internals::image::Layers;
+use rtc::internals::image::PixelLayers;
 use rtc::internals::pipeline::Renderer;
 use rtc::internals::render::{AnyWorld, Aov, Crop};
 
@@ -20,16 +20,16 @@ const WHOLE: Crop = Crop {
     height: 16,
 };
 
-fn of(crop: Crop) -> Job {
-    Job {
+fn of(crop: Crop) -> RenderSelection {
+    RenderSelection {
         crop: Some(crop),
-        ..Job::default()
+        ..RenderSelection::default()
     }
 }
 
-fn layers(scene: &Scene, wanted: &[Aov], crop: Crop, threads: usize) -> Layers {
+fn layers(scene: &Scene, wanted: &[Aov], crop: Crop, threads: usize) -> PixelLayers {
     let proof = validate(scene);
-    Renderer::new(&proof, &Plan::new(&proof, Rules::ALL), threads)
+    Renderer::new(&proof, &Plan::new(&proof, RuleSet::ALL), threads)
         .unwrap()
         .layers(wanted, &of(crop), &|| true)
         .unwrap()
@@ -37,7 +37,7 @@ fn layers(scene: &Scene, wanted: &[Aov], crop: Crop, threads: usize) -> Layers {
 
 /// One layer, pixel by pixel, the channels it lacks as zeros.
 fn layer(scene: &Scene, aov: Aov) -> Vec<[f64; 3]> {
-    let Layers { names, values } = layers(scene, &[aov], WHOLE, 1);
+    let PixelLayers { names, values } = layers(scene, &[aov], WHOLE, 1);
     let pixel = |pixel: &[f32]| [0, 1, 2].map(|k| pixel.get(k).copied().map_or(0.0, f64::from));
     values.chunks(names.len()).map(pixel).collect()
 }
@@ -162,7 +162,7 @@ fn of_paths_the_means_of_all_layers_belong_together() {
 fn where_nothing_is_layers_are_zero_and_depth_is_far() {
     let mut scene = scene(4);
     add_square(&mut scene, 0.0, 0.125, lambert([1.0; 3]));
-    let Layers { names, values } = layers(
+    let PixelLayers { names, values } = layers(
         &scene,
         &ALL,
         Crop {
@@ -193,7 +193,7 @@ fn a_world_that_shows_another_view_is_as_one_made_for_it() {
     };
     let [first, second] = proofs
         .each_ref()
-        .map(|proof| AnyWorld::prepare(proof, &Plan::new(proof, Rules::ALL)));
+        .map(|proof| AnyWorld::prepare(proof, &Plan::new(proof, RuleSet::ALL)));
     let expected = [seen(&first), seen(&second)];
     let mut world = first;
     world.change(proofs[1].clone());

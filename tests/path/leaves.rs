@@ -3,9 +3,9 @@
 use super::{
     add_light, add_sphere, add_square, lambert, mean, middle, render, render_by, scene, sky,
 };
-use rtc::internals::ir::{Emitter, Punctual, Scene, Standard};
+use rtc::internals::ir::{Punctual, PunctualKind, Scene, Standard};
 use rtc::internals::math::Vec3;
-use rtc::internals::render::Strategy;
+use rtc::internals::render::SamplingStrategy;
 use std::f64::consts::PI;
 
 const COLOR: [f64; 3] = [0.9, 0.6, 0.3];
@@ -24,7 +24,7 @@ fn in_the_sun(direction: [f64; 3]) -> Scene {
     let mut scene = scene(16);
     add_square(&mut scene, 0.0, 1.0, leaf(0.25));
     let sun = Punctual {
-        emitter: Emitter::Sun { direction },
+        emitter: PunctualKind::Sun { direction },
         intensity: [3.0; 3],
     };
     add_light(&mut scene, sun);
@@ -60,7 +60,7 @@ fn a_translucent_ball_alone_hides_the_light_behind_it() {
     scene.settings.max_depth = 1;
     add_sphere(&mut scene, [0.0; 3], 0.75, leaf(0.5));
     let sun = |z| Punctual {
-        emitter: Emitter::Sun {
+        emitter: PunctualKind::Sun {
             direction: [0.0, 0.0, z],
         },
         intensity: [3.0; 3],
@@ -80,8 +80,8 @@ fn a_shining_square_behind_a_leaf_is_found_by_all_strategies() {
         ..lambert([0.0; 3])
     };
     add_square(&mut scene, -0.8, 0.7, light);
-    let both = mean(&render_by(&scene, Strategy::Mis));
-    for strategy in [Strategy::Nee, Strategy::BsdfSampling] {
+    let both = mean(&render_by(&scene, SamplingStrategy::Mis));
+    for strategy in [SamplingStrategy::Nee, SamplingStrategy::BsdfSampling] {
         let found = mean(&render_by(&scene, strategy));
         let error = ((found - both) / both).abs().max_element();
         assert!(error < 0.015, "{strategy:?}: {found}, both: {both}");

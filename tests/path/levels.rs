@@ -3,9 +3,9 @@
 use super::hierarchy::{numbers, place, waves};
 use super::{JOB, lambert, scene, sky, validate};
 use rtc::internals::ir::Scene;
-use rtc::internals::math::{Column, Vec3};
+use rtc::internals::math::{Vec3, VertexColumn};
 use rtc::internals::pipeline::Renderer;
-use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::plan::{Plan, RuleSet};
 use rtc::internals::render::{Hit, Ray, Shape, SimdLevel, World};
 
 const AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -16,10 +16,10 @@ fn sea(is_moved: bool) -> Scene {
     let [x, y, z] = AXES;
     let mut scene = scene(16);
     let mut mesh = waves(130);
-    let Column::Double(positions) = &mesh.positions else {
+    let VertexColumn::Double(positions) = &mesh.positions else {
         panic!("waves are made of 64 bits");
     };
-    mesh.positions = Column::rounded(positions.iter().copied());
+    mesh.positions = VertexColumn::rounded(positions.iter().copied());
     scene.meshes = vec![mesh, waves(20)];
     let origin = if is_moved { [0.1, 0.0, -0.2] } else { [0.0; 3] };
     place(&mut scene, 0, [x, y, z, origin], lambert([0.5; 3]));
@@ -66,7 +66,7 @@ fn found(world: &World<Shape>, rays: &[Ray]) -> Found {
 fn rays_find_the_same_at_all_levels() {
     for is_moved in [false, true] {
         let proof = validate(&sea(is_moved));
-        let plan = Plan::new(&proof, Rules::NONE);
+        let plan = Plan::new(&proof, RuleSet::NONE);
         let rays = rays();
         let expected = found(&World::prepare_at(&proof, &plan, SimdLevel::best()), &rays);
         let hits = expected.0.iter().flatten().count();
@@ -86,7 +86,7 @@ fn rays_find_the_same_at_all_levels() {
 #[test]
 fn pictures_are_the_same_bytes_at_all_levels() {
     let proof = validate(&sea(true));
-    let plan = Plan::new(&proof, Rules::ALL);
+    let plan = Plan::new(&proof, RuleSet::ALL);
     let films = levels().map(|level| {
         let renderer = Renderer::at_level(&proof, &plan, 2, level).unwrap();
         renderer.render(&JOB, &|_| true).unwrap().image.pixels

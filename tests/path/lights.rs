@@ -1,10 +1,10 @@
 //! Many lights, one of which is chosen by a tree, against few, which are chosen by their power.
 
 use super::{JOB, add_light, add_quad, add_sphere, add_square, lambert, mean, scene, validate};
-use rtc::internals::ir::{Emitter, Punctual, Scene};
+use rtc::internals::ir::{Punctual, PunctualKind, Scene};
 use rtc::internals::math::Vec3;
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Job, Seeds};
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::{RenderSelection, SamplingSeeds};
 
 const GROUPS: usize = 16;
 
@@ -24,7 +24,7 @@ fn room(group: Option<usize>) -> Scene {
             add_light(
                 &mut scene,
                 Punctual {
-                    emitter: Emitter::Point {
+                    emitter: PunctualKind::Point {
                         position,
                         range: None,
                     },
@@ -52,15 +52,15 @@ fn room(group: Option<usize>) -> Scene {
 
 fn seen(scene: &Scene, seed: u64) -> Vec3 {
     let proof = validate(scene);
-    let job = Job {
-        seeds: Seeds {
+    let job = RenderSelection {
+        seeds: SamplingSeeds {
             pixel: seed,
             lens: seed,
             path: seed,
         },
         ..JOB
     };
-    let plan = Plan::new(&proof, Rules::ALL);
+    let plan = Plan::new(&proof, RuleSet::ALL);
     mean(&rtc::internals::render::render(&proof, &plan, &job, &|_| true).unwrap())
 }
 

@@ -15,15 +15,17 @@ mod lights;
 mod sides;
 mod surfaces;
 
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::{
-    Alpha, Camera, Emitter, Environment, Lens, Light, Material, MaterialId, Mode, PathSettings,
-    Phong, Projection, Punctual, Scene, Settings, Shape, SourceSpans, Sphere, Standard, Surface,
-    Triangle,
+    Alpha, Camera, Environment, Lens, Light, Material, MaterialId, Mode, PathSettings, Phong,
+    Projection, Punctual, PunctualKind, Scene, Settings, Shape, SourceSpans, Sphere, Standard,
+    Surface, Triangle,
 };
 use rtc::internals::math::Vec3;
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Background, Basic, Film, Job, Strategy, World};
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::{
+    Background, BasicShape, Film, RenderSelection, SamplingStrategy, World,
+};
 use rtc::internals::valid::{self, ValidScene};
 
 /// A scene of paths: 16 × 16 pixels that look down −z from (0, 0, 4) and see a square of side 2 at
@@ -127,7 +129,7 @@ fn sky(radiance: f64) -> Option<Environment> {
 }
 
 fn validate(scene: &Scene) -> ValidScene {
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     let proof = valid::validate(
         scene,
         &SourceSpans::default(),
@@ -137,18 +139,19 @@ fn validate(scene: &Scene) -> ValidScene {
     proof.unwrap_or_else(|| panic!("{sink:?}"))
 }
 
-const JOB: Job = crate::small::WHOLE;
+const JOB: RenderSelection = crate::small::WHOLE;
 
-fn render_by(scene: &Scene, strategy: Strategy) -> Film {
+fn render_by(scene: &Scene, strategy: SamplingStrategy) -> Film {
     let proof = validate(scene);
-    World::<Basic>::prepare(&proof, &Plan::new(&proof, Rules::ALL))
+    World::<BasicShape>::prepare(&proof, &Plan::new(&proof, RuleSet::ALL))
         .render_paths(strategy, &JOB, &|_| true)
         .unwrap()
 }
 
 fn render(scene: &Scene) -> Film {
     let proof = validate(scene);
-    rtc::internals::render::render(&proof, &Plan::new(&proof, Rules::ALL), &JOB, &|_| true).unwrap()
+    rtc::internals::render::render(&proof, &Plan::new(&proof, RuleSet::ALL), &JOB, &|_| true)
+        .unwrap()
 }
 
 fn mean(film: &Film) -> Vec3 {

@@ -2,7 +2,7 @@
 
 use super::*;
 use rtc::internals::ir::{Instance, Mesh, MeshId};
-use rtc::internals::render::{AnyWorld, Aov, Job};
+use rtc::internals::render::{AnyWorld, Aov, RenderSelection};
 
 const RED: Vec3 = Vec3::X;
 const GREEN: Vec3 = Vec3::Y;
@@ -64,19 +64,21 @@ fn coverage_and_layers_go_by_what_is_seen() {
     let mut scene = scene(4);
     add_back(&mut scene, 0.0, flat(RED));
     let proof = validate(&scene);
-    let job = Job {
+    let job = RenderSelection {
         background: Background::Nothing,
         ..JOB
     };
     let film =
-        rtc::internals::render::render(&proof, &Plan::new(&proof, Rules::ALL), &job, &|_| true)
+        rtc::internals::render::render(&proof, &Plan::new(&proof, RuleSet::ALL), &job, &|_| true)
             .unwrap();
     assert!(film.coverage.iter().all(|share| *share == 0.0) && film.counts.hits == 0);
     // The wall's triangles come third and fourth.
     let proof = validate(&before_a_wall(|scene| add_back(scene, 0.0, flat(RED))));
     let wanted = [Aov::Instance, Aov::Depth];
-    let world = AnyWorld::prepare(&proof, &Plan::new(&proof, Rules::ALL));
-    let layers = world.layers(&wanted, &Job::default(), &|_| true).unwrap();
+    let world = AnyWorld::prepare(&proof, &Plan::new(&proof, RuleSet::ALL));
+    let layers = world
+        .layers(&wanted, &RenderSelection::default(), &|_| true)
+        .unwrap();
     assert!(
         layers
             .values
@@ -93,7 +95,7 @@ fn its_shadow_stays() {
         add_light(
             &mut scene,
             Punctual {
-                emitter: Emitter::Sun {
+                emitter: PunctualKind::Sun {
                     direction: [0.0, 0.0, 1.0],
                 },
                 intensity: [1.0; 3],
@@ -259,8 +261,8 @@ fn inside(mesh: Mesh, standard: Standard) -> Scene {
 /// Lights outside of the octahedron.
 fn add_lights(scene: &mut Scene) {
     let suns = [[3.0, 4.0, 5.0], [-1.0, 0.2, 0.1], [0.3, -1.0, -0.4]]
-        .map(|direction| Emitter::Sun { direction });
-    let point = Emitter::Point {
+        .map(|direction| PunctualKind::Sun { direction });
+    let point = PunctualKind::Point {
         position: [0.5, 0.6, 0.2],
         range: None,
     };

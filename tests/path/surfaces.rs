@@ -2,8 +2,8 @@
 
 use super::{add_light, add_quad, add_square, lambert, material, mean, middle, render, scene, sky};
 use rtc::internals::ir::{
-    Alpha, Emitter, Filter, Image, ImageId, Instance, Map, Mesh, MeshId, Pixels, Projection,
-    Punctual, Sampled, Scene, Shape, Standard, Surface, Texture, TextureId, Wrap,
+    Alpha, Filter, Image, ImageId, Instance, Map, Mesh, MeshId, Pixels, Projection, Punctual,
+    PunctualKind, Sampled, Scene, Shape, Standard, Surface, Texture, TextureId, Wrap,
 };
 use rtc::internals::math::Vec3;
 
@@ -77,7 +77,7 @@ fn veils_dim_shadows() {
     add_light(
         &mut scene,
         Punctual {
-            emitter: Emitter::Sun {
+            emitter: PunctualKind::Sun {
                 direction: [0.0, 3.0, 1.0],
             },
             intensity: [1.0; 3],
@@ -196,7 +196,7 @@ fn leaning(axis: usize, sun: [f64; 3], x: [f64; 3], tangents: bool) -> f64 {
     add_light(
         &mut scene,
         Punctual {
-            emitter: Emitter::Sun { direction: sun },
+            emitter: PunctualKind::Sun { direction: sun },
             intensity: [std::f64::consts::PI; 3],
         },
     );
@@ -247,7 +247,7 @@ fn normals_made_against_the_winding_are_turned_round() {
         add_light(
             &mut scene,
             Punctual {
-                emitter: Emitter::Sun {
+                emitter: PunctualKind::Sun {
                     direction: [0.8, 0.0, 0.6],
                 },
                 intensity: [1.0; 3],

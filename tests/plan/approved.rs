@@ -5,7 +5,7 @@
 use super::dice::Dice;
 use super::{root, validated};
 use rtc::internals::ir::{Cone, Cylinder, Disc, Scene, Shape, Sphere, Torus};
-use rtc::internals::plan::{Arithmetic, EffectState, Plan, Rule, Rules, loss};
+use rtc::internals::plan::{Arithmetic, EffectState, Plan, Rule, RuleSet, loss};
 use std::fmt::Write as _;
 use std::fs;
 use xxhash_rust::xxh3::xxh3_64;
@@ -44,22 +44,22 @@ fn scene(seed: u64) -> Scene {
 
 fn line(seed: u64) -> String {
     let scene = validated(&scene(seed));
-    let plan = Plan::new(&scene, Rules::ALL);
+    let plan = Plan::new(&scene, RuleSet::ALL);
     let is_other = |rule: &Rule| (*rule as u64 ^ seed).is_multiple_of(2);
     let others = Rule::ALL
         .into_iter()
         .filter(is_other)
-        .fold(Rules::NONE, Rules::with);
+        .fold(RuleSet::NONE, RuleSet::with);
     let mut all = format!(
         "{plan:?}{:?}{:?}",
         Plan::new(&scene, others),
-        Plan::new(&scene, Rules::NONE)
+        Plan::new(&scene, RuleSet::NONE)
     );
     for arithmetic in [Arithmetic::Plain, Arithmetic::F32] {
         let _ = write!(
             all,
             "{:?}{:?}",
-            Plan::with_arithmetic(arithmetic, &scene, Rules::ALL),
+            Plan::with_arithmetic(arithmetic, &scene, RuleSet::ALL),
             loss(&scene, arithmetic)
         );
     }
@@ -104,7 +104,7 @@ fn plans_are_as_approved() {
 /// A hash does not say what differs, so the readable part is spelled out.
 #[test]
 fn effects_and_states_are_named_as_in_the_books() {
-    let plan = Plan::new(&validated(&Dice::new(0).scene()), Rules::ALL);
+    let plan = Plan::new(&validated(&Dice::new(0).scene()), RuleSet::ALL);
     let mut names = plan
         .statuses
         .iter()

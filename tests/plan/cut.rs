@@ -4,7 +4,7 @@
 use super::scenes::{ball, diffuse, first_light, material, texture, with};
 use super::validated;
 use rtc::internals::ir::{Phong, Scene, Texture, TextureId};
-use rtc::internals::plan::{Plan, Rule, Rules};
+use rtc::internals::plan::{Plan, Rule, RuleSet};
 
 /// Two spheres that reflect each other without end. A point contributes ks + kt of the radiance it
 /// reflects, and at most (ka + kd) · 0.8 + ks = 1.1 of a white light.
@@ -26,7 +26,7 @@ fn mirrors() -> Scene {
 }
 
 fn depth(scene: &Scene) -> u32 {
-    Plan::new(&validated(scene), Rules::ALL.with(Rule::Cut)).max_depth
+    Plan::new(&validated(scene), RuleSet::ALL.with(Rule::Cut)).max_depth
 }
 
 /// Asserts the number of remaining bounces, and that the rest is below half a level: Σ weightⁱ over

@@ -3,7 +3,7 @@
 use super::scenes::{ball, diffuse, shiny, with};
 use super::status;
 use rtc::internals::ir::Scene;
-use rtc::internals::plan::{Effect, PixelClass, Plan, Rules};
+use rtc::internals::plan::{Effect, PixelClass, Plan, RuleSet};
 
 /// Small spheres side by side before a wide camera, the first ones reflective.
 fn many(count: u32, mirrors: u32) -> Scene {
@@ -31,7 +31,7 @@ fn too_many_surfaces_are_kept_without_asking() {
     let plan = |count, lights| {
         let mut scene = many(count, 0);
         scene.lights = vec![scene.lights[0].clone(); lights];
-        Plan::new(&super::validated(&scene), Rules::ALL)
+        Plan::new(&super::validated(&scene), RuleSet::ALL)
     };
     let is_asked = |plan: &Plan| !status(plan, Effect::Shadows).reason.contains("too many");
     assert!(is_asked(&plan(500, 2)), "500 times 500 times 2");
@@ -43,7 +43,7 @@ fn too_many_surfaces_are_kept_without_asking() {
 #[test]
 fn too_many_mirrors_are_followed_without_asking() {
     let reason = |count, mirrors| {
-        let plan = Plan::new(&super::validated(&many(count, mirrors)), Rules::ALL);
+        let plan = Plan::new(&super::validated(&many(count, mirrors)), RuleSet::ALL);
         status(&plan, Effect::Depth).reason.clone()
     };
     assert_eq!(
@@ -62,7 +62,7 @@ fn a_large_picture_is_looked_at_in_coarse_cells() {
     let mut scene = with(&[(ball([0.0; 3], 1.0), diffuse())]);
     (scene.camera.size, scene.camera.right, scene.camera.up) =
         ([2400, 2000], [2.5e-3, 0.0, 0.0], [0.0, 2.5e-3, 0.0]);
-    let pixel_classes = Plan::new(&super::validated(&scene), Rules::ALL).pixel_classes;
+    let pixel_classes = Plan::new(&super::validated(&scene), RuleSet::ALL).pixel_classes;
     let sights = [[0, 0], [1200, 1000], [2399, 1999], [2399, 1000]]
         .map(|pixel| pixel_classes.class_of(pixel));
     assert_eq!(

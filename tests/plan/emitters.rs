@@ -4,14 +4,14 @@ use super::dice::Dice;
 use super::path_rules::{traced, white};
 use super::scenes::disc;
 use super::{film, validated};
-use rtc::internals::ir::{Emitter, Light, Punctual, Scene};
+use rtc::internals::ir::{Light, Punctual, PunctualKind, Scene};
 use rtc::internals::math::Vec3;
-use rtc::internals::plan::Rules;
+use rtc::internals::plan::RuleSet;
 use rtc::internals::render::Values;
 use std::f64::consts::PI;
 
 /// One narrow pixel at the origin, on a white floor that faces +z.
-fn floor(emitter: Emitter) -> Scene {
+fn floor(emitter: PunctualKind) -> Scene {
     let mut scene = traced(&[(disc([0.0; 3], 1.0), white())]);
     scene.camera.eye = [0.0, 0.0, 4.0];
     scene.camera.center = [0.0; 3];
@@ -25,7 +25,7 @@ fn floor(emitter: Emitter) -> Scene {
 
 /// The radiance of a white floor at the origin that faces +z under an emitter of intensity 1:
 /// cosine law, inverse-square law, and the range window of `KHR_lights_punctual`.
-fn expected(emitter: &Emitter) -> f64 {
+fn expected(emitter: &PunctualKind) -> f64 {
     let Some(position) = emitter.position().map(Vec3::from_array) else {
         let direction = Vec3::from_array(emitter.direction().unwrap()).normalize();
         return direction.z.max(0.0) / PI;
@@ -48,7 +48,7 @@ fn the_light_of_every_emitter_follows_its_profile() {
         let emitter = dice.emitter_above();
         let found = film(
             &validated(&floor(emitter.clone())),
-            Rules::ALL,
+            RuleSet::ALL,
             Values::Linear,
         );
         let expected = expected(&emitter);

@@ -5,25 +5,30 @@
 use super::dice::Dice;
 use super::{bits, film, validated};
 use rtc::internals::codec::{self, Encoding};
-use rtc::internals::diag::Sink;
-use rtc::internals::ir::{Light, Lowered, Material, Phong, Scene, SourceSpans};
+use rtc::internals::diag::DiagnosticSink;
+use rtc::internals::ir::{Light, LoweredScene, Material, Phong, Scene, SourceSpans};
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Plan, Rule, Rules};
-use rtc::internals::render::{Job, Values};
+use rtc::internals::plan::{Plan, Rule, RuleSet};
+use rtc::internals::render::{RenderSelection, Values};
 use rtc::internals::source::SourceMap;
 use std::collections::BTreeSet;
 use std::fmt::{Debug, Write as _};
 
 fn is_sound(scene: &Scene) -> bool {
-    let lowered = Lowered {
+    let lowered = LoweredScene {
         scene: scene.clone(),
         source_spans: SourceSpans::default(),
     };
-    pipeline::validate(&lowered, &Options::default(), &mut Sink::default()).is_some()
+    pipeline::validate(
+        &lowered,
+        &Options::default(),
+        &mut DiagnosticSink::default(),
+    )
+    .is_some()
 }
 
 fn decoded(encoding: Encoding, scene: &Scene) -> Scene {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = map.add("scene", codec::encode(encoding, scene).unwrap());
     codec::decode(encoding, file, &map, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
@@ -31,7 +36,7 @@ fn decoded(encoding: Encoding, scene: &Scene) -> Scene {
 /// The first invariant that a valid scene violates.
 fn broken(scene: &Scene) -> Option<String> {
     let valid = validated(scene);
-    let unpruned = film(&valid, Rules::NONE, Values::Linear);
+    let unpruned = film(&valid, RuleSet::NONE, Values::Linear);
     if let Some(index) = unpruned
         .image
         .pixels
@@ -44,7 +49,7 @@ fn broken(scene: &Scene) -> Option<String> {
         ));
     }
     let wanted = bits(&unpruned);
-    let pruned = film(&valid, Rules::ALL, Values::Linear);
+    let pruned = film(&valid, RuleSet::ALL, Values::Linear);
     let differing = bits(&pruned)
         .iter()
         .zip(&wanted)
@@ -52,7 +57,7 @@ fn broken(scene: &Scene) -> Option<String> {
         .count();
     if differing > 0 {
         let changes =
-            |rule: &Rule| bits(&film(&valid, Rules::NONE.with(*rule), Values::Linear)) != wanted;
+            |rule: &Rule| bits(&film(&valid, RuleSet::NONE.with(*rule), Values::Linear)) != wanted;
         let culprits: Vec<_> = Rule::ALL
             .into_iter()
             .filter(changes)
@@ -63,10 +68,10 @@ fn broken(scene: &Scene) -> Option<String> {
         ));
     }
     let (plan, job) = (
-        Plan::new(&valid, Rules::ALL),
-        Job {
+        Plan::new(&valid, RuleSet::ALL),
+        RenderSelection {
             values: Values::Linear,
-            ..Job::default()
+            ..RenderSelection::default()
         },
     );
     if let Err(fault) = pipeline::verify(&valid, &plan, &job, 1, &|_| true)
@@ -85,7 +90,8 @@ fn broken(scene: &Scene) -> Option<String> {
         .into_iter()
         .find(|encoding| {
             let other = decoded(*encoding, scene);
-            other != *scene || bits(&film(&validated(&other), Rules::ALL, Values::Linear)) != wanted
+            other != *scene
+                || bits(&film(&validated(&other), RuleSet::ALL, Values::Linear)) != wanted
         });
     other.map(|encoding| format!("the IR as {encoding:?} is another scene"))
 }

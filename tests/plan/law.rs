@@ -6,21 +6,26 @@ use super::scenes::{ball, diffuse, disc, first_light, shiny, with};
 use super::{bits, file_name, files, film, scene, small, validated};
 use proptest::prelude::*;
 use rtc::internals::ir::Scene;
-use rtc::internals::plan::{Plan, Rule, Rules};
-use rtc::internals::render::{AnyWorld, Job, Values};
+use rtc::internals::plan::{Plan, Rule, RuleSet};
+use rtc::internals::render::{AnyWorld, RenderSelection, Values};
 
 /// The sets of rules to compare with none: all, each alone, all but each.
-fn sets() -> Vec<(String, Rules)> {
+fn sets() -> Vec<(String, RuleSet)> {
     let is_of_whitted = |rule: &Rule| *rule != Rule::Cut && !rule.name().starts_with("P-");
     let exact = || Rule::ALL.into_iter().filter(is_of_whitted);
-    let mut sets = vec![("all".to_owned(), Rules::ALL)];
-    sets.extend(exact().map(|rule| (format!("{} alone", rule.name()), Rules::NONE.with(rule))));
-    sets.extend(exact().map(|rule| (format!("all but {}", rule.name()), Rules::ALL.without(rule))));
+    let mut sets = vec![("all".to_owned(), RuleSet::ALL)];
+    sets.extend(exact().map(|rule| (format!("{} alone", rule.name()), RuleSet::NONE.with(rule))));
+    sets.extend(exact().map(|rule| {
+        (
+            format!("all but {}", rule.name()),
+            RuleSet::ALL.without(rule),
+        )
+    }));
     sets
 }
 
 /// The sets under which the film differs from that without rules, or takes more rays.
-fn faults(scene: &Scene, sets: &[(String, Rules)]) -> Vec<String> {
+fn faults(scene: &Scene, sets: &[(String, RuleSet)]) -> Vec<String> {
     let scene = validated(scene);
     let mut faults = Vec::new();
     // Clamping can only hide a difference; one set tests that the clamped values agree.
@@ -30,7 +35,7 @@ fn faults(scene: &Scene, sets: &[(String, Rules)]) -> Vec<String> {
         &[Values::Linear]
     };
     for values in kinds.iter().copied() {
-        let unpruned = film(&scene, Rules::NONE, values);
+        let unpruned = film(&scene, RuleSet::NONE, values);
         for (name, rules) in sets {
             let pruned = film(&scene, *rules, values);
             if bits(&pruned) != bits(&unpruned) {
@@ -57,7 +62,7 @@ fn faults(scene: &Scene, sets: &[(String, Rules)]) -> Vec<String> {
     faults
 }
 
-fn obey(folder: &str, sets: &[(String, Rules)]) {
+fn obey(folder: &str, sets: &[(String, RuleSet)]) {
     for path in files(folder) {
         let Some(scene) = scene(&path) else { continue };
         let faults = faults(&small(scene), sets);
@@ -114,7 +119,7 @@ fn each_rule_leaves_something_out_of_some_scene() {
     let mut idle = Rule::ALL.to_vec();
     idle.retain(|rule| !BY_RAYS.contains(rule) && !rule.name().starts_with("P-"));
     for seed in 0..1000 {
-        let plan = Plan::new(&validated(&Dice::new(seed).scene()), Rules::ALL);
+        let plan = Plan::new(&validated(&Dice::new(seed).scene()), RuleSet::ALL);
         let fired = |rule: &Rule| {
             plan.statuses
                 .iter()
@@ -142,8 +147,8 @@ fn the_rules_of_single_rays_leave_out_rays_of_their_kind() {
     let counts = |scene: &Scene, rules| film(&validated(scene), rules, Values::Linear).counts;
     let saved = |scene: &Scene, rule| {
         let (less, more) = (
-            counts(scene, Rules::NONE.with(rule)),
-            counts(scene, Rules::NONE),
+            counts(scene, RuleSet::NONE.with(rule)),
+            counts(scene, RuleSet::NONE),
         );
         [
             more.camera - less.camera,
@@ -170,7 +175,8 @@ fn the_rules_of_single_rays_leave_out_rays_of_their_kind() {
     );
     let mut deep = with(&[(ball([0.0; 3], 14.0), shiny())]);
     deep.settings.max_depth = 40;
-    let [less, more] = [Rules::ALL.with(Rule::Cut), Rules::ALL].map(|rules| counts(&deep, rules));
+    let [less, more] =
+        [RuleSet::ALL.with(Rule::Cut), RuleSet::ALL].map(|rules| counts(&deep, rules));
     assert!(
         less.mirror < more.mirror && less.camera == more.camera,
         "{less:?}, {more:?}"
@@ -187,23 +193,23 @@ fn a_world_that_shows_another_view_keeps_the_law() {
     let first = validated(&scene);
     scene.camera.eye = [0.0, 0.0, 60.0];
     let second = validated(&scene);
-    let plans = [&first, &second].map(|scene| Plan::new(scene, Rules::ALL));
+    let plans = [&first, &second].map(|scene| Plan::new(scene, RuleSet::ALL));
     assert_ne!(plans[0].surfaces, plans[1].surfaces);
     let mut world = AnyWorld::prepare(&first, &plans[0]);
     for scene in [second, first] {
         world.change(scene.clone());
         let seen = world
             .render(
-                &Job {
+                &RenderSelection {
                     values: Values::Linear,
-                    ..Job::default()
+                    ..RenderSelection::default()
                 },
                 &|_| true,
             )
             .unwrap();
         assert_eq!(
             bits(&seen),
-            bits(&film(&scene, Rules::NONE, Values::Linear))
+            bits(&film(&scene, RuleSet::NONE, Values::Linear))
         );
     }
 }

@@ -30,12 +30,12 @@ mod written;
 
 use crate::repo::root;
 use crate::small::{bits, validated};
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::Scene;
 use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Effect, EffectState, EffectStatus, Plan, Rule, Rules};
-use rtc::internals::render::{Film, Job, Values};
+use rtc::internals::plan::{Effect, EffectState, EffectStatus, Plan, Rule, RuleSet};
+use rtc::internals::render::{Film, RenderSelection, Values};
 use rtc::internals::source::{Loader, SourceMap};
 use rtc::internals::valid::ValidScene;
 use std::path::{Path, PathBuf};
@@ -47,7 +47,11 @@ fn files(folder: &str) -> Vec<PathBuf> {
 
 /// A scene unchanged; `None` if it is rejected.
 fn scene(path: &Path) -> Option<Scene> {
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let (mut map, mut sink, options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     let file = Loader.file(path, &mut map).unwrap();
     let lowered = pipeline::load(file, &mut map, &options, &mut sink)?;
     (!sink.has_errors()).then_some(lowered.scene)
@@ -73,10 +77,10 @@ fn small(mut scene: Scene) -> Scene {
     scene
 }
 
-fn film(scene: &ValidScene, rules: Rules, values: Values) -> Film {
-    let job = Job {
+fn film(scene: &ValidScene, rules: RuleSet, values: Values) -> Film {
+    let job = RenderSelection {
         values,
-        ..Job::default()
+        ..RenderSelection::default()
     };
     pipeline::render(scene, &Plan::new(scene, rules), &job, 2, &|_| true)
         .unwrap()
@@ -98,7 +102,7 @@ fn status(plan: &Plan, effect: Effect) -> &EffectStatus {
 
 /// The state of an effect, and the rule.
 fn fate(scene: &Scene, effect: Effect) -> (EffectState, Option<Rule>) {
-    let plan = Plan::new(&validated(scene), Rules::ALL);
+    let plan = Plan::new(&validated(scene), RuleSet::ALL);
     let EffectStatus { state, rule, .. } = status(&plan, effect);
     (*state, *rule)
 }

@@ -4,10 +4,10 @@ use super::fate;
 use super::scenes::{
     ball, base_scene, diffuse, disc, first_light, material, plane, shiny, texture, with,
 };
-use rtc::internals::diag::Sink;
-use rtc::internals::ir::{Bump, Lowered, Mode, Scene, SourceSpans};
+use rtc::internals::diag::DiagnosticSink;
+use rtc::internals::ir::{Bump, LoweredScene, Mode, Scene, SourceSpans};
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Effect, EffectState, PixelClass, Plan, Rule, Rules};
+use rtc::internals::plan::{Effect, EffectState, PixelClass, Plan, Rule, RuleSet};
 
 fn is_not_needed(effect: Effect, ways: &[(&str, Scene)]) {
     assert!(ways.len() >= 3);
@@ -110,13 +110,17 @@ fn mirrors() {
 fn the_reason_names_the_weight_that_is_0() {
     let reason = |change: fn(&mut rtc::internals::ir::Phong)| {
         let scene = changed(&busy(), |scene| all(scene, change));
-        let lowered = Lowered {
+        let lowered = LoweredScene {
             scene,
             source_spans: SourceSpans::default(),
         };
-        let validated =
-            pipeline::validate(&lowered, &Options::default(), &mut Sink::default()).unwrap();
-        let plan = Plan::new(&validated, Rules::ALL);
+        let validated = pipeline::validate(
+            &lowered,
+            &Options::default(),
+            &mut DiagnosticSink::default(),
+        )
+        .unwrap();
+        let plan = Plan::new(&validated, RuleSet::ALL);
         let status = plan.statuses.iter().find(|s| s.effect == Effect::Mirror);
         status.unwrap().reason.to_string()
     };
@@ -353,8 +357,8 @@ fn a_light_that_is_not_finite_is_reported_whatever_it_is_multiplied_by() {
             })
         });
         first_light(&mut scene).color[1] = color;
-        let (mut sink, options) = (Sink::default(), Options::default());
-        let lowered = Lowered {
+        let (mut sink, options) = (DiagnosticSink::default(), Options::default());
+        let lowered = LoweredScene {
             scene,
             source_spans: SourceSpans::default(),
         };
@@ -370,8 +374,8 @@ fn pixels_that_show_nothing_are_traced_where_no_rule_may_leave_them_out() {
     let scene = super::validated(&with(&[(ball([0.0; 3], 1.0), diffuse())]));
     let pixel_classes = |rules| Plan::new(&scene, rules).pixel_classes;
     let (some, none) = (
-        pixel_classes(Rules::ALL),
-        pixel_classes(Rules::ALL.without(Rule::PixelMiss)),
+        pixel_classes(RuleSet::ALL),
+        pixel_classes(RuleSet::ALL.without(Rule::PixelMiss)),
     );
     assert_eq!(
         [some.class_of([0, 0]), none.class_of([0, 0])],
@@ -395,7 +399,7 @@ fn materials_that_show_no_highlight_are_named_and_the_others_are_not() {
         (ball([-1.2, 0.0, 0.0], 1.0), diffuse()),
         (ball([1.2, 0.0, 0.0], 1.0), shiny()),
     ]);
-    let plan = Plan::new(&super::validated(&scene), Rules::ALL);
+    let plan = Plan::new(&super::validated(&scene), RuleSet::ALL);
     for effect in [Effect::Highlight, Effect::Mirror] {
         let named = plan
             .statuses

@@ -6,7 +6,7 @@ use super::scenes::{ball, disc};
 use super::validated;
 use crate::ray_counts::{contradictions, film};
 use rtc::internals::ir::{Alpha, Scene, Standard};
-use rtc::internals::plan::{Effect, EffectState, Layer, PathFeatures, Plan, Rules};
+use rtc::internals::plan::{Effect, EffectState, Layer, PathFeatures, Plan, RuleSet};
 
 /// A sphere of a material before a white disc, under a light.
 pub(super) fn illuminated(material: &Standard) -> Scene {
@@ -22,9 +22,9 @@ pub(super) fn illuminated(material: &Standard) -> Scene {
 /// and no others.
 pub(super) fn needs(scene: &Scene) -> (Vec<Effect>, PathFeatures) {
     let proof = validated(scene);
-    let contradictions = contradictions(&proof, &film(&proof, Rules::ALL).counts);
+    let contradictions = contradictions(&proof, &film(&proof, RuleSet::ALL).counts);
     assert!(contradictions.is_empty(), "{contradictions:?}");
-    let plan = Plan::new(&proof, Rules::ALL);
+    let plan = Plan::new(&proof, RuleSet::ALL);
     let needed = plan
         .statuses
         .iter()

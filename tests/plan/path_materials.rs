@@ -8,7 +8,7 @@ use crate::ray_counts::film;
 use rtc::internals::ir::{
     self, Alpha, ImageId, Map, Mode, Pixels, Punctual, Scene, Standard, Texture, TextureId,
 };
-use rtc::internals::plan::{Effect, Plan, Rule, Rules};
+use rtc::internals::plan::{Effect, Plan, Rule, RuleSet};
 use std::ops::Range;
 
 /// A map of the first texture.
@@ -72,7 +72,7 @@ fn a_light_is_out_of_reach_where_its_range_ends_before_the_surfaces() {
         let mut scene = illuminated(white());
         let mut light = light_source([0.0, 0.0, 5.0]);
         if let ir::Light::Punctual(Punctual {
-            emitter: ir::Emitter::Point { range, .. },
+            emitter: ir::PunctualKind::Point { range, .. },
             ..
         }) = &mut light
         {
@@ -103,7 +103,7 @@ fn maps_left_after(bounces: u32, change: impl Fn(&mut Standard, Option<Map>)) ->
     add(&mut scene, &shape, &material);
     // The picture keeps its bits.
     fires(Rule::PathMapUnseen, &scene);
-    let plan = Plan::new(&validated(&scene), Rules::ALL);
+    let plan = Plan::new(&validated(&scene), RuleSet::ALL);
     plan.paths
         .unwrap()
         .materials
@@ -263,7 +263,7 @@ fn an_unlit_material_keeps_its_colour_its_alpha_and_its_sides() {
         });
         scene.meshes[0].triangles = vec![[0, 2, 1]].into();
         assert!(fires(Rule::PathUnlitMaterial, &scene));
-        film(&validated(&scene), Rules::ALL).image.pixels
+        film(&validated(&scene), RuleSet::ALL).image.pixels
     };
     let (both, one) = (unlit(|_| ()), unlit(|m| m.double_sided = false));
     assert_ne!(both, one, "its back is before the camera");
@@ -284,7 +284,7 @@ fn a_texture_is_opaque_where_all_its_texels_are() {
     };
     assert!(fires(Rule::PathOpaque, &veil(255)));
     assert!(!fires(Rule::PathOpaque, &veil(254)));
-    let plan = Plan::new(&validated(&veil(255)), Rules::ALL);
+    let plan = Plan::new(&validated(&veil(255)), RuleSet::ALL);
     assert!(plan.statuses.iter().all(|status| !status.reason.is_empty()));
     let mut statuses = plan.statuses.iter();
     let textures = statuses.find(|status| status.effect == Effect::Textures);

@@ -6,8 +6,8 @@ use super::path_materials::FIRST;
 use super::path_rules::white;
 use super::path_scenes::{cover, path, sky, standard};
 use super::validated;
-use rtc::internals::ir::{self, Alpha, Emitter, ImageId, Punctual, Scene, Standard, Texture};
-use rtc::internals::plan::{EffectState, EffectStatus, Plan, Rule, Rules};
+use rtc::internals::ir::{self, Alpha, ImageId, Punctual, PunctualKind, Scene, Standard, Texture};
+use rtc::internals::plan::{EffectState, EffectStatus, Plan, Rule, RuleSet};
 
 /// The effects in a state, one line each: the effect, the rule, the reason, the values.
 fn report_lines(scene: &Scene, state: EffectState) -> String {
@@ -18,7 +18,7 @@ fn report_lines(scene: &Scene, state: EffectState) -> String {
         let (effect, reason) = (status.effect.name(), &status.reason);
         format!("{effect}: {rule} {reason};{}", places.collect::<String>())
     };
-    let plan = Plan::new(&validated(scene), Rules::ALL);
+    let plan = Plan::new(&validated(scene), RuleSet::ALL);
     let statuses = plan.statuses.iter().filter(|status| status.state == state);
     statuses.map(line).collect::<Vec<_>>().join("\n")
 }
@@ -110,7 +110,7 @@ fn rich() -> Scene {
         samples: 4,
     };
     scene.lights.push(ir::Light::Punctual(Punctual {
-        emitter: Emitter::Sun {
+        emitter: PunctualKind::Sun {
             direction: [0.0, 0.0, 1.0],
         },
         intensity: [0.0; 3],

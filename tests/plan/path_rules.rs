@@ -5,11 +5,11 @@ use super::scenes::{ball, base_scene, disc};
 use super::validated;
 use crate::ray_counts::{difference, film};
 use rtc::internals::ir::{
-    self, Alpha, Emitter, Environment, ImageId, Material, MaterialId, Mode, PathSettings, Pixels,
-    Punctual, Scene, Shape, Standard, Surface,
+    self, Alpha, Environment, ImageId, Material, MaterialId, Mode, PathSettings, Pixels, Punctual,
+    PunctualKind, Scene, Shape, Standard, Surface,
 };
 use rtc::internals::math::Vec3;
-use rtc::internals::plan::{Effect, Plan, Rule, Rules};
+use rtc::internals::plan::{Effect, Plan, Rule, RuleSet};
 
 /// White without reflection, seen from both sides.
 pub(super) fn white() -> Standard {
@@ -49,7 +49,7 @@ pub(super) fn add(scene: &mut Scene, shape: &Shape, material: &Standard) {
 fn sun(direction: Vec3) -> ir::Light {
     let direction = direction.to_array();
     ir::Light::Punctual(Punctual {
-        emitter: Emitter::Sun { direction },
+        emitter: PunctualKind::Sun { direction },
         intensity: [1.0; 3],
     })
 }
@@ -57,7 +57,7 @@ fn sun(direction: Vec3) -> ir::Light {
 /// A white light at a point, which falls off with the square of the distance.
 pub(super) fn light_source(position: [f64; 3]) -> ir::Light {
     ir::Light::Punctual(Punctual {
-        emitter: Emitter::Point {
+        emitter: PunctualKind::Point {
             position,
             range: None,
         },
@@ -89,11 +89,11 @@ pub(super) fn across() -> ir::Mesh {
 /// its bits in any case.
 pub(super) fn fires(rule: Rule, scene: &Scene) -> bool {
     let proof = validated(scene);
-    let unpruned = film(&proof, Rules::NONE);
-    for rules in [Rules::NONE.with(rule), Rules::ALL] {
+    let unpruned = film(&proof, RuleSet::NONE);
+    for rules in [RuleSet::NONE.with(rule), RuleSet::ALL] {
         assert_eq!(difference(&proof, &unpruned, rules), None, "{rule:?}");
     }
-    let plan = Plan::new(&proof, Rules::ALL);
+    let plan = Plan::new(&proof, RuleSet::ALL);
     plan.statuses.iter().any(|status| status.rule == Some(rule))
 }
 
@@ -160,7 +160,7 @@ fn an_environment_of_one_value_is_looked_up_once_and_a_black_one_never() {
     let (even, uneven) = (around(color, color), around(color, [200, 150, 101, 255]));
     assert!(fires(Rule::PathEvenSky, &even) && !fires(Rule::PathEvenSky, &uneven));
     let looked_up = |scene| {
-        film(&validated(scene), Rules::ALL)
+        film(&validated(scene), RuleSet::ALL)
             .counts
             .of(Effect::EnvironmentMap)
     };
@@ -250,7 +250,7 @@ fn light_comes_through_glass_where_no_ray_goes_on() {
     scene.settings.max_depth = 1;
     scene.lights = vec![light_source([0.5, 0.0, -3.0])];
     assert!(fires(Rule::PathLast, &scene));
-    let picture = film(&validated(&scene), Rules::ALL).image;
+    let picture = film(&validated(&scene), RuleSet::ALL).image;
     assert!(picture.pixels.iter().any(|pixel| *pixel != [0.0; 3]));
 }
 
@@ -272,7 +272,7 @@ fn veils_dim_a_light_alike_with_a_veiled_solid_that_is_left_out() {
     }
     scene.settings.max_depth = 1;
     scene.lights = vec![light_source([0.5, 0.0, 12.0])];
-    let plan = Plan::new(&validated(&scene), Rules::ALL);
+    let plan = Plan::new(&validated(&scene), RuleSet::ALL);
     assert!(
         !plan.surfaces[1],
         "it is out of view, and off the way of the light"
@@ -318,7 +318,7 @@ fn a_lens_sees_what_is_out_of_the_view_of_a_pinhole() {
         ]);
         scene.camera.lens = ir::Lens { radius, samples: 4 };
         fires(Rule::PathCull, &scene);
-        Plan::new(&validated(&scene), Rules::ALL).surfaces[1]
+        Plan::new(&validated(&scene), RuleSet::ALL).surfaces[1]
     };
     assert!(!seen_by(0.0) && seen_by(1.0));
 }
@@ -339,7 +339,7 @@ fn half_a_million_pairs_are_tested_and_no_more() {
             };
             add(&mut scene, &ball([x, 0.0, z], 1e-4), &white());
         }
-        let plan = Plan::new(&validated(&scene), Rules::ALL);
+        let plan = Plan::new(&validated(&scene), RuleSet::ALL);
         plan.surfaces.iter().filter(|is_left| !**is_left).count()
     };
     assert_eq!(leaves_out(1000, 500), 500);

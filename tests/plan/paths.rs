@@ -5,7 +5,7 @@ use super::dice::Dice;
 use super::{file_name, files, scene, validated};
 use crate::ray_counts::{contradictions, difference, film, traced, unused_effects};
 use rtc::internals::ir::Scene;
-use rtc::internals::plan::{EffectState, Plan, Rule, Rules};
+use rtc::internals::plan::{EffectState, Plan, Rule, RuleSet};
 use std::env;
 
 /// The number of generated scenes: `RTC_SCENES=1000 cargo test --test suites plan::paths` tries
@@ -15,8 +15,8 @@ fn scenes() -> u64 {
 }
 
 /// The sets of rules to test with a scene: each rule alone that removes something, and all of them.
-fn sets(scene: &Scene) -> Vec<(String, Rules)> {
-    let plan = Plan::new(&validated(scene), Rules::ALL);
+fn sets(scene: &Scene) -> Vec<(String, RuleSet)> {
+    let plan = Plan::new(&validated(scene), RuleSet::ALL);
     let mut applied: Vec<_> = plan
         .statuses
         .iter()
@@ -26,8 +26,8 @@ fn sets(scene: &Scene) -> Vec<(String, Rules)> {
     applied.dedup();
     let alone = applied
         .into_iter()
-        .map(|rule| (rule.name().to_owned(), Rules::NONE.with(rule)));
-    alone.chain([("all".to_owned(), Rules::ALL)]).collect()
+        .map(|rule| (rule.name().to_owned(), RuleSet::NONE.with(rule)));
+    alone.chain([("all".to_owned(), RuleSet::ALL)]).collect()
 }
 
 #[test]
@@ -36,7 +36,7 @@ fn no_rule_changes_a_bit_of_a_made_up_scene() {
     for seed in (0..scenes()).chain([658]) {
         let scene = Dice::new(seed).path_scene();
         let proof = validated(&scene);
-        let unpruned = film(&proof, Rules::NONE);
+        let unpruned = film(&proof, RuleSet::NONE);
         for (name, rules) in sets(&scene) {
             let difference = difference(&proof, &unpruned, rules);
             assert_eq!(difference, None, "scene {seed}, {name}");
@@ -48,7 +48,7 @@ fn no_rule_changes_a_bit_of_a_made_up_scene() {
 fn what_is_told_absent_is_never_simulated() {
     for seed in 0..scenes() {
         let proof = validated(&Dice::new(seed).path_scene());
-        let mut contradictions = contradictions(&proof, &film(&proof, Rules::ALL).counts);
+        let mut contradictions = contradictions(&proof, &film(&proof, RuleSet::ALL).counts);
         contradictions.retain(|(_, state, _)| *state != EffectState::Needed);
         assert!(
             contradictions.is_empty(),
@@ -63,7 +63,7 @@ fn the_scenes_of_the_repo_obey_the_law_and_show_what_they_are_told_to_need() {
     for path in files("scenes") {
         let Some(scene) = scene(&path) else { continue };
         let proof = validated(&traced(scene));
-        let difference = difference(&proof, &film(&proof, Rules::NONE), Rules::ALL);
+        let difference = difference(&proof, &film(&proof, RuleSet::NONE), RuleSet::ALL);
         assert_eq!(difference, None, "{}", file_name(&path));
         all.extend(unused_effects(&file_name(&path), &proof));
     }
@@ -78,7 +78,7 @@ fn each_rule_for_paths_leaves_something_out_of_some_scene() {
         if idle.is_empty() {
             break;
         }
-        let plan = Plan::new(&validated(&Dice::new(seed).path_scene()), Rules::ALL);
+        let plan = Plan::new(&validated(&Dice::new(seed).path_scene()), RuleSet::ALL);
         idle.retain(|rule| {
             plan.statuses
                 .iter()

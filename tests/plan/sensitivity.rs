@@ -6,7 +6,7 @@ use super::scenes::{
 };
 use super::{bits, fate, film, validated};
 use rtc::internals::ir::{Mode, Scene};
-use rtc::internals::plan::{Effect, EffectState, Plan, Rule, Rules};
+use rtc::internals::plan::{Effect, EffectState, Plan, Rule, RuleSet};
 use rtc::internals::render::Values;
 
 /// A scene in which a rule removes an effect, and a change after which it is needed.
@@ -25,7 +25,7 @@ fn flips(effect: Effect, scene: &Scene, change: impl FnOnce(&mut Scene)) {
     let mut changed = scene.clone();
     change(&mut changed);
     assert_eq!(fate(&changed, effect).0, EffectState::Needed, "after");
-    let picture = |scene| bits(&film(&validated(scene), Rules::ALL, Values::Linear));
+    let picture = |scene| bits(&film(&validated(scene), RuleSet::ALL, Values::Linear));
     assert!(
         picture(scene) != picture(&changed),
         "{effect:?}: the change does not show"
@@ -84,7 +84,7 @@ fn a_light_is_asked_of_those_alone_that_may_hide_it() {
         (plane(-60.0), diffuse()),
         (plane(20.0), diffuse()),
     ]);
-    let asked = |scene: &Scene, rules: Rules| {
+    let asked = |scene: &Scene, rules: RuleSet| {
         let plan = Plan::new(&validated(scene), rules);
         let may_occlude = |receiver: usize| {
             let occluders = (0..5).filter(|occluder| {
@@ -97,14 +97,14 @@ fn a_light_is_asked_of_those_alone_that_may_hide_it() {
         };
         [0, 3].map(may_occlude)
     };
-    assert_eq!(asked(&scene, Rules::ALL), [vec![1], vec![0, 1, 2]]);
+    assert_eq!(asked(&scene, RuleSet::ALL), [vec![1], vec![0, 1, 2]]);
     let all = vec![0, 1, 2, 3, 4];
-    assert_eq!(asked(&scene, Rules::NONE), [all.clone(), all.clone()]);
-    let alone = Rules::ALL.without(Rule::ShadowConvex);
+    assert_eq!(asked(&scene, RuleSet::NONE), [all.clone(), all.clone()]);
+    let alone = RuleSet::ALL.without(Rule::ShadowConvex);
     assert_eq!(asked(&scene, alone), [vec![0, 1], vec![0, 1, 2, 3]]);
     // A light beyond the upper plane.
     first_light(&mut scene).position = [3.0, 44.0, 12.0];
-    assert_eq!(asked(&scene, Rules::ALL), [vec![4], vec![0, 1, 2, 4]]);
+    assert_eq!(asked(&scene, RuleSet::ALL), [vec![4], vec![0, 1, 2, 4]]);
 }
 
 #[test]
@@ -275,7 +275,7 @@ fn a_ball_that_comes_into_view_brings_what_it_needs() {
 fn a_second_light_behind_the_disc_is_left_out_alone() {
     let mut scene = with(&[(disc([0.0; 3], 2.0), diffuse())]);
     scene.lights.push(light([0.0, 0.0, -3.0]));
-    let plan = rtc::internals::plan::Plan::new(&validated(&scene), Rules::ALL);
+    let plan = rtc::internals::plan::Plan::new(&validated(&scene), RuleSet::ALL);
     let [lit, behind] = &*plan.lights else {
         panic!("two lights")
     };

@@ -6,15 +6,15 @@ use super::scenes::{ball, diffuse, disc, shiny, with};
 use super::{file_name, files, scene, small, validated};
 use proptest::prelude::*;
 use rtc::internals::ir::Scene;
-use rtc::internals::plan::{Effect, LightPlan, Plan, Rule, Rules};
-use rtc::internals::render::{Job, Mismatch, verify};
+use rtc::internals::plan::{Effect, LightPlan, Plan, Rule, RuleSet};
+use rtc::internals::render::{PlanMismatch, RenderSelection, verify};
 use rtc::internals::valid::CourseLightId;
 
-fn validate(scene: &Scene, change: impl FnOnce(&mut Plan)) -> Result<(), Mismatch> {
+fn validate(scene: &Scene, change: impl FnOnce(&mut Plan)) -> Result<(), PlanMismatch> {
     let scene = validated(scene);
-    let mut plan = Plan::new(&scene, Rules::ALL);
+    let mut plan = Plan::new(&scene, RuleSet::ALL);
     change(&mut plan);
-    verify(&scene, &plan, &Job::default(), &|_| true)
+    verify(&scene, &plan, &RenderSelection::default(), &|_| true)
         .unwrap()
         .map(drop)
 }
@@ -90,12 +90,12 @@ fn what_is_cut_off_is_too_small_to_see() {
     ]);
     scene.settings.max_depth = 60;
     let scene = validated(&scene);
-    let exact = Plan::new(&scene, Rules::ALL);
-    let cut = Plan::new(&scene, Rules::ALL.with(Rule::Cut));
+    let exact = Plan::new(&scene, RuleSet::ALL);
+    let cut = Plan::new(&scene, RuleSet::ALL.with(Rule::Cut));
     assert_eq!((exact.max_depth, cut.max_depth), (60, 10));
     assert_eq!(cut.rule_of(Effect::Depth), Some(Rule::Cut));
     let picture = |plan: &Plan| {
-        rtc::internals::render::render(&scene, plan, &Job::default(), &|_| true)
+        rtc::internals::render::render(&scene, plan, &RenderSelection::default(), &|_| true)
             .unwrap()
             .image
             .pixels

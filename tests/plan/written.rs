@@ -2,7 +2,7 @@
 
 use super::dice::Dice;
 use crate::scale::scaled;
-use rtc::internals::ir::{Column, Projection, Scene};
+use rtc::internals::ir::{Projection, Scene, VertexColumn};
 use rtc::internals::math::ldexp;
 use rtc::internals::pipeline::trial::is_written;
 
@@ -22,7 +22,7 @@ fn scene(seed: u64) -> Scene {
         let normals: Vec<[f64; 3]> = mesh.positions.iter().map(|_| [0.0, 3.0, 4.0]).collect();
         let length = [0.0, 1e-30, 0.5, 1.0, 1e30][(seed % 5) as usize];
         mesh.tangents = normals.iter().map(|_| [length, 0.0, 0.0, -0.3]).collect();
-        mesh.normals = Column::rounded(normals);
+        mesh.normals = VertexColumn::rounded(normals);
     }
     let power = POWERS[(seed % 7) as usize];
     scaled(&scene, ldexp(1.0, power))

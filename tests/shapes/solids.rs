@@ -2,14 +2,14 @@
 
 use super::{agrees, along_and_from, axis, ray, vector};
 use proptest::prelude::*;
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::emit;
-use rtc::internals::ir::Lowered;
-use rtc::internals::math::{Basis, U, Vec3, ldexp, unit_scale};
+use rtc::internals::ir::LoweredScene;
+use rtc::internals::math::{OrthonormalBasis, U, Vec3, ldexp, unit_scale};
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::plan::{Plan, RuleSet};
 use rtc::internals::render::{
-    BaselineShape, Interaction, Intersect, Job, Prepare, Ray, WatertightRay, World,
+    BaselineShape, Interaction, Intersect, Prepare, Ray, RenderSelection, WatertightRay, World,
 };
 use rtc::internals::source::SourceMap;
 use rtc::internals::valid::ValidScene;
@@ -65,7 +65,7 @@ const SOLIDS: &[Solid] = &[
     },
     Solid {
         words: |p| {
-            let basis = Basis::around(p.axis);
+            let basis = OrthonormalBasis::around(p.axis);
             let (x, y) = (basis.tangent * p.radius, basis.bitangent * p.radius);
             let columns = [x, y, p.axis * p.height, p.base].map(|column| column.to_array());
             format!("type: ellipsoid, transform: {:?}", columns.as_flattened())
@@ -109,15 +109,15 @@ fn scene_of(solids: &[String]) -> String {
 }
 
 /// The scene of a text that has no mistake.
-fn lowered(text: &str) -> Lowered {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+fn lowered(text: &str) -> LoweredScene {
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = map.add("solids.yaml", text.as_bytes().to_vec());
     let lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink);
     lowered.unwrap_or_else(|| panic!("{text}\n{:?}", sink.kept()))
 }
 
-fn validated(lowered: &Lowered) -> ValidScene {
-    let mut sink = Sink::default();
+fn validated(lowered: &LoweredScene) -> ValidScene {
+    let mut sink = DiagnosticSink::default();
     let proof = pipeline::validate(lowered, &Options::default(), &mut sink);
     proof.unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
@@ -125,7 +125,7 @@ fn validated(lowered: &Lowered) -> ValidScene {
 /// A solid alone in a world.
 fn world<S: Prepare>(solid: &Solid, place: &ValuePath) -> World<S> {
     let proof = validated(&lowered(&scene_of(&[(solid.words)(place)])));
-    World::prepare(&proof, &Plan::new(&proof, Rules::NONE))
+    World::prepare(&proof, &Plan::new(&proof, RuleSet::NONE))
 }
 
 /// The first hit on a solid alone: t, and the point.
@@ -249,10 +249,10 @@ proptest! {
             let proof = validated(&lowered(&scene_of(&words)));
             let film = |rules| {
                 let plan = Plan::new(&proof, rules);
-                let film = pipeline::render(&proof, &plan, &Job::default(), 1, &|_| true);
+                let film = pipeline::render(&proof, &plan, &RenderSelection::default(), 1, &|_| true);
                 film.ok().flatten().expect("nobody stops it")
             };
-            let (pruned, naive) = (film(Rules::ALL), film(Rules::NONE));
+            let (pruned, naive) = (film(RuleSet::ALL), film(RuleSet::NONE));
             let bits = |pixel: &[f64; 3]| pixel.map(f64::to_bits);
             let same = pruned.image.pixels.iter().map(bits).eq(naive.image.pixels.iter().map(bits));
             prop_assert!(same, "{:?}", words);

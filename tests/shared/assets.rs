@@ -2,7 +2,7 @@
 
 use super::scenes::each;
 use libtest_mimic::Trial;
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::source::SourceMap;
 use std::path::Path;
@@ -30,8 +30,11 @@ fn is_read(path: &Path) {
     };
     let text =
         format!("{head}- {{{object}, material: {{{material}, ka: 1, kd: 1, ks: 0, n: 1}}}}\n");
-    let (mut map, mut sink, mut options) =
-        (SourceMap::default(), Sink::default(), Options::default());
+    let (mut map, mut sink, mut options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     options.front.asset_root = path.parent().map(Path::to_owned);
     let file = map.add("scene.yaml", text.into_bytes());
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);

@@ -2,7 +2,7 @@
 
 use crate::suite::{absent, files, name, shared, trial};
 use libtest_mimic::Trial;
-use rtc::internals::diag::{Severity, Sink};
+use rtc::internals::diag::{DiagnosticSink, Severity};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::source::{Loader, SourceMap};
 use std::collections::BTreeSet;
@@ -57,7 +57,11 @@ fn official(report: &Path) -> BTreeSet<String> {
 
 /// The names of the errors found, ours where Khronos has none.
 fn errors(model: &Path) -> BTreeSet<String> {
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let (mut map, mut sink, options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     let file = Loader.file(model, &mut map).unwrap();
     if let Some(lowered) = pipeline::load(file, &mut map, &options, &mut sink) {
         pipeline::validate(&lowered, &options, &mut sink);

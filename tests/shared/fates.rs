@@ -4,7 +4,7 @@
 use super::scenes::COURSE;
 use crate::suite::{files, needs, shared};
 use libtest_mimic::Trial;
-use rtc::internals::diag::{Severity, Sink};
+use rtc::internals::diag::{DiagnosticSink, Severity};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::source::{Loader, SourceMap};
 use std::collections::{BTreeMap, BTreeSet};
@@ -75,7 +75,11 @@ enum Fate {
 
 /// What is said of a file: its fate, and the codes of its findings, notes included.
 fn fate(path: &Path) -> (Fate, BTreeSet<&'static str>) {
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let (mut map, mut sink, options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     let file = Loader.file(path, &mut map).unwrap();
     if let Some(lowered) = pipeline::load(file, &mut map, &options, &mut sink) {
         pipeline::validate(&lowered, &options, &mut sink);

@@ -6,11 +6,11 @@
 use crate::suite::needs;
 use libtest_mimic::Trial;
 use rtc::internals::color::quantize8;
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::Job;
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::RenderSelection;
 use rtc::internals::source::{Loader, SourceMap};
 use std::path::{Path, PathBuf};
 
@@ -96,7 +96,11 @@ fn is_met(figure: &Figure, course: &Path) {
 type Pixels = Vec<[u8; 3]>;
 
 fn render(path: &Path, figure: &Figure) -> Pixels {
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let (mut map, mut sink, options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     let file = Loader.file(path, &mut map).unwrap();
     let mut lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
     let Figure {
@@ -115,8 +119,8 @@ fn render(path: &Path, figure: &Figure) -> Pixels {
         .unwrap_or_else(|| panic!("{:?}", sink.kept()));
     let film = pipeline::render(
         &scene,
-        &Plan::new(&scene, Rules::ALL),
-        &Job::default(),
+        &Plan::new(&scene, RuleSet::ALL),
+        &RenderSelection::default(),
         0,
         &|_| true,
     )

@@ -3,7 +3,7 @@
 use super::scenes::{accepted, each};
 use crate::suite::needs;
 use libtest_mimic::Trial;
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::Mesh;
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::source::{Loader, SourceMap};
@@ -25,7 +25,11 @@ pub(crate) fn trials() -> Vec<Trial> {
 }
 
 fn is_lowered_and_proven(path: &Path) {
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let (mut map, mut sink, options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     let file = Loader.file(path, &mut map).unwrap();
     let lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
     let proof = pipeline::validate(&lowered, &options, &mut sink);

@@ -3,7 +3,7 @@
 
 use super::scenes::{course, validated};
 use libtest_mimic::Trial;
-use rtc::internals::plan::{Effect, EffectState, EffectStatus, Plan, Rules};
+use rtc::internals::plan::{Effect, EffectState, EffectStatus, Plan, RuleSet};
 use rtc::internals::valid::ValidScene;
 
 use Effect::{
@@ -131,7 +131,7 @@ pub(crate) fn trials() -> Vec<Trial> {
 }
 
 fn it_calls_for(scene: &ValidScene, needed: &[Effect], pruned: &[(Effect, &str)]) {
-    let plan = Plan::new(scene, Rules::ALL);
+    let plan = Plan::new(scene, RuleSet::ALL);
     assert!(plan.needs(Surfaces));
     let mut faults = Vec::new();
     for effect in EFFECTS {

@@ -5,7 +5,7 @@ use super::scenes::{accepted, each, validated};
 use crate::ray_counts::{difference, film, traced, unused_effects};
 use crate::suite::{files, needs};
 use libtest_mimic::Trial;
-use rtc::internals::plan::Rules;
+use rtc::internals::plan::RuleSet;
 use std::path::Path;
 
 const ASSETS: &str = "gltf/assets";
@@ -22,8 +22,8 @@ pub(crate) fn trials() -> Vec<Trial> {
 fn obeys_the_law(path: &Path) {
     let Some(scene) = accepted(path) else { return };
     let proof = validated(traced(scene));
-    let unpruned = film(&proof, Rules::NONE);
-    assert_eq!(difference(&proof, &unpruned, Rules::ALL), None);
+    let unpruned = film(&proof, RuleSet::NONE);
+    assert_eq!(difference(&proof, &unpruned, RuleSet::ALL), None);
 }
 
 /// An effect told absent is never counted; of those told needed all but a few are.

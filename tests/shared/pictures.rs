@@ -5,7 +5,7 @@ use crate::suite::trial;
 use libtest_mimic::Trial;
 use rtc::internals::image::Image;
 use rtc::internals::ir::Scene;
-use rtc::internals::render::{Counts, Film};
+use rtc::internals::render::{Film, RayCounts};
 
 const CURVED: [&str; 5] = [
     "tori.yaml",
@@ -63,7 +63,7 @@ fn one_wrong_pixel_is_counted() {
     let mut film = Film {
         image,
         coverage: vec![1.0; 25],
-        counts: Counts::default(),
+        counts: RayCounts::default(),
     };
     assert_eq!(outliers(&film), 0);
     film.image.pixels[12] = [0.5, 0.0, 0.5];

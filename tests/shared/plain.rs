@@ -5,8 +5,8 @@ use super::scenes::{COURSE, at, course, each, film, read, validated};
 use libtest_mimic::Trial;
 use rtc::internals::color::quantize8;
 use rtc::internals::ir::Scene;
-use rtc::internals::plan::{Arithmetic, Plan, PrecisionArtifact, Rules, loss};
-use rtc::internals::render::{Film, Job};
+use rtc::internals::plan::{Arithmetic, Plan, PrecisionArtifact, RuleSet, loss};
+use rtc::internals::render::{Film, RenderSelection};
 use rtc::internals::valid::ValidScene;
 use std::path::Path;
 
@@ -33,8 +33,8 @@ fn small(scene: Scene, side: u32) -> ValidScene {
 }
 
 fn by(scene: &ValidScene, arithmetic: Arithmetic) -> Film {
-    let plan = Plan::with_arithmetic(arithmetic, scene, Rules::ALL);
-    film(scene, &plan, &Job::default())
+    let plan = Plan::with_arithmetic(arithmetic, scene, RuleSet::ALL);
+    film(scene, &plan, &RenderSelection::default())
 }
 
 /// The share of pixels that differ in 8 bits.

@@ -7,8 +7,8 @@ use crate::small::bits;
 use libtest_mimic::Trial;
 use rtc::internals::ir::Scene;
 use rtc::internals::passes::Overrides;
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Job, Values, verify};
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::{RenderSelection, Values, verify};
 use rtc::internals::valid::ValidScene;
 use std::path::Path;
 
@@ -56,12 +56,12 @@ fn small(path: &Path) -> Option<ValidScene> {
 fn obeys_the_law(path: &Path) {
     let Some(scene) = small(path) else { return };
     for values in [Values::Linear, Values::Display] {
-        let job = Job {
+        let job = RenderSelection {
             values,
-            ..Job::default()
+            ..RenderSelection::default()
         };
-        let [pruned, unpruned] =
-            [Rules::ALL, Rules::NONE].map(|rules| film(&scene, &Plan::new(&scene, rules), &job));
+        let [pruned, unpruned] = [RuleSet::ALL, RuleSet::NONE]
+            .map(|rules| film(&scene, &Plan::new(&scene, rules), &job));
         assert!(bits(&pruned) == bits(&unpruned), "{values:?}");
         assert!(
             pruned.counts.rays() <= unpruned.counts.rays(),
@@ -74,8 +74,8 @@ fn obeys_the_law(path: &Path) {
 
 fn is_left_out_rightly(path: &Path) {
     let Some(scene) = small(path) else { return };
-    let plan = Plan::new(&scene, Rules::ALL);
-    let verified = verify(&scene, &plan, &Job::default(), &|_| true);
+    let plan = Plan::new(&scene, RuleSet::ALL);
+    let verified = verify(&scene, &plan, &RenderSelection::default(), &|_| true);
     assert_eq!(verified.unwrap().map(drop), Ok(()));
 }
 
@@ -85,8 +85,8 @@ fn takes_the_rays_counted_elsewhere(mut scene: Scene) {
     scene.camera.size = [200, 200];
     (scene.settings.supersampling, scene.settings.max_depth) = (4, 1);
     let scene = validated(scene);
-    let plan = Plan::new(&scene, Rules::AT_HITS);
-    let counts = film(&scene, &plan, &Job::default()).counts;
+    let plan = Plan::new(&scene, RuleSet::AT_HITS);
+    let counts = film(&scene, &plan, &RenderSelection::default()).counts;
     assert_eq!(counts.rays(), 2_200_208);
 }
 

@@ -2,12 +2,12 @@
 
 use crate::suite::{absent, files, shared, trial};
 use libtest_mimic::Trial;
-use rtc::internals::diag::Sink;
-use rtc::internals::ir::{Lowered, Scene, SourceSpans};
+use rtc::internals::diag::DiagnosticSink;
+use rtc::internals::ir::{LoweredScene, Scene, SourceSpans};
 use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Film, Job};
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::{Film, RenderSelection};
 use rtc::internals::source::{Loader, SourceMap};
 use rtc::internals::valid::ValidScene;
 use std::path::Path;
@@ -42,7 +42,11 @@ pub(crate) fn course(
 
 /// A scene as it is; none if it is refused.
 pub(crate) fn accepted(path: &Path) -> Option<Scene> {
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let (mut map, mut sink, options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     let file = Loader.file(path, &mut map).unwrap();
     let lowered = pipeline::load(file, &mut map, &options, &mut sink)?;
     (!sink.has_errors()).then_some(lowered.scene)
@@ -64,15 +68,15 @@ pub(crate) fn at(mut scene: Scene, size: [u32; 2], supersampling: u32) -> Scene 
 }
 
 pub(crate) fn validated(scene: Scene) -> ValidScene {
-    let (mut sink, options) = (Sink::default(), Options::default());
-    let lowered = Lowered {
+    let (mut sink, options) = (DiagnosticSink::default(), Options::default());
+    let lowered = LoweredScene {
         scene,
         source_spans: SourceSpans::default(),
     };
     pipeline::validate(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 
-pub(crate) fn film(scene: &ValidScene, plan: &Plan, job: &Job) -> Film {
+pub(crate) fn film(scene: &ValidScene, plan: &Plan, job: &RenderSelection) -> Film {
     pipeline::render(scene, plan, job, 0, &|_| true)
         .unwrap()
         .unwrap()
@@ -80,5 +84,9 @@ pub(crate) fn film(scene: &ValidScene, plan: &Plan, job: &Job) -> Film {
 
 /// A film with all rules.
 pub(crate) fn whole(scene: &ValidScene) -> Film {
-    film(scene, &Plan::new(scene, Rules::ALL), &Job::default())
+    film(
+        scene,
+        &Plan::new(scene, RuleSet::ALL),
+        &RenderSelection::default(),
+    )
 }

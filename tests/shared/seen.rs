@@ -5,11 +5,11 @@
 use super::scenes::{COURSE, each};
 use crate::suite::{files, root, trial};
 use libtest_mimic::Trial;
-use rtc::internals::diag::{Sink, codes};
+use rtc::internals::diag::{DiagnosticSink, codes};
 use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline::{self, Options, Renderer};
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Aov, Job};
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::{Aov, RenderSelection};
 use rtc::internals::source::{Loader, SourceMap};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -37,7 +37,11 @@ pub(crate) fn trials() -> Vec<Trial> {
 
 /// The surfaces warned of are none of those that the first rays meet.
 fn never_seen_is_not_shown(path: &Path) {
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let (mut map, mut sink, options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     let file = Loader.file(path, &mut map).unwrap();
     let Some(mut lowered) = pipeline::load(file, &mut map, &options, &mut sink) else {
         return;
@@ -63,8 +67,8 @@ fn never_seen_is_not_shown(path: &Path) {
     if numbers.is_empty() {
         return;
     }
-    let whole = Job::default();
-    let renderer = Renderer::new(&scene, &Plan::new(&scene, Rules::NONE), 0).unwrap();
+    let whole = RenderSelection::default();
+    let renderer = Renderer::new(&scene, &Plan::new(&scene, RuleSet::NONE), 0).unwrap();
     let layers = renderer.layers(&[Aov::Instance], &whole, &|| true).unwrap();
     let shown: BTreeSet<String> = layers.values.iter().map(f32::to_string).collect();
     for number in numbers {

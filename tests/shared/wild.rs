@@ -4,11 +4,11 @@
 use super::scenes::{COURSE, each};
 use crate::suite::{files, needs};
 use libtest_mimic::Trial;
-use rtc::internals::diag::{Severity, Sink};
+use rtc::internals::diag::{DiagnosticSink, Severity};
 use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::Job;
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::RenderSelection;
 use rtc::internals::source::{Loader, SourceMap};
 use std::path::Path;
 
@@ -65,7 +65,11 @@ fn small() -> Overrides {
 
 /// What became of a file: the warnings of one that rendered, or the errors of one that did not.
 fn outcome(path: &Path) -> Result<Vec<String>, Vec<(&'static str, String)>> {
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let (mut map, mut sink, options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     let file = Loader.file(path, &mut map).unwrap();
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
     let proof = lowered.and_then(|mut lowered| {
@@ -91,8 +95,8 @@ fn outcome(path: &Path) -> Result<Vec<String>, Vec<(&'static str, String)>> {
     };
     let film = pipeline::render(
         &scene,
-        &Plan::new(&scene, Rules::ALL),
-        &Job::default(),
+        &Plan::new(&scene, RuleSet::ALL),
+        &RenderSelection::default(),
         1,
         &|_| true,
     )
@@ -144,7 +148,7 @@ fn render(path: &Path) {
 
 /// What is said of where the files lie that a scene names, a line each.
 fn places(path: &Path, shared: &Path) -> Vec<String> {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = Loader.file(path, &mut map).unwrap();
     pipeline::load(file, &mut map, &Options::default(), &mut sink);
     let name = path.strip_prefix(shared).unwrap().display();

@@ -4,7 +4,7 @@
 use super::{read, scene, write};
 use crate::suite::trial;
 use libtest_mimic::Trial;
-use rtc::internals::ir::{Lowered, Mesh, Shape};
+use rtc::internals::ir::{LoweredScene, Mesh, Shape};
 use std::collections::BTreeMap;
 
 type Point = [f64; 3];
@@ -76,14 +76,14 @@ pub(crate) fn trials() -> Vec<Trial> {
     each.chain([whole, plane, shared]).collect()
 }
 
-fn placed(text: &str) -> Lowered {
+fn placed(text: &str) -> LoweredScene {
     scene(&format!(
         "Eye: [3, 4, 20]\nObjects: [{{{text}, material: {{color: [1, 1, 1], ka: 0, kd: 1, ks: 0, n: 1}}}}]\n"
     ))
 }
 
 /// The mesh of the one surface, in the world.
-fn mesh(lowered: &Lowered, tolerance: f64) -> (Mesh, Vec<Point>) {
+fn mesh(lowered: &LoweredScene, tolerance: f64) -> (Mesh, Vec<Point>) {
     let (bytes, _) = write(lowered, Some(tolerance));
     let after = read(&bytes.unwrap()).scene;
     let Shape::Instance(own) = &after.surfaces[0].shape else {
@@ -122,8 +122,8 @@ fn is_within(text: &str, distance: Distance, tolerance: f64) {
     assert!(worst >= tolerance / 40.0 || worst < 1e-6, "{text}: {worst}");
 }
 
-/// Each edge of a closed body belongs to two triangles that run along it in opposite directions, and
-/// normals point where the fronts of triangles are.
+/// Each edge of a closed body belongs to two triangles that run along it in opposite directions,
+/// and normals point where the fronts of triangles are.
 fn bodies_are_whole() {
     let closed = SHAPES.iter().take(5);
     for (text, _) in closed {

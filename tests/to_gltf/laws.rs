@@ -3,10 +3,10 @@
 use super::{emitted, is_near, open, read, read_text, scene, with_files, write};
 use crate::suite::{absent, files, name, root, shared, trial, trial_if};
 use libtest_mimic::Trial;
-use rtc::internals::diag::{Severity, Sink};
+use rtc::internals::diag::{DiagnosticSink, Severity};
 use rtc::internals::ir::{
-    Camera, Column, Emitter, Environment, Image, Light, Lowered, Material, Mesh, Pixels, Punctual,
-    Scene, Shape, Surface,
+    Camera, Environment, Image, Light, LoweredScene, Material, Mesh, Pixels, Punctual,
+    PunctualKind, Scene, Shape, Surface, VertexColumn,
 };
 use rtc::internals::pipeline::{self, Options};
 use serde_json::Value;
@@ -66,7 +66,7 @@ fn of_files(what: &str, folder: &Path, paths: Vec<PathBuf>) -> Vec<Trial> {
 }
 
 /// A scene is written without an error, twice the same, and is itself again.
-fn comes_back(lowered: &Lowered) {
+fn comes_back(lowered: &LoweredScene) {
     let (bytes, sink) = write(lowered, None);
     let told: Vec<_> = sink
         .kept()
@@ -88,7 +88,7 @@ fn comes_back(lowered: &Lowered) {
 }
 
 /// As a text with files beside it a scene is what it is as one file.
-fn comes_back_from_text(lowered: &Lowered) {
+fn comes_back_from_text(lowered: &LoweredScene) {
     let asset = emitted(lowered, None, Some(FOLDER)).0.unwrap();
     let from_text = read_text(&super::bytes(&asset), &asset).scene;
     let from_one = read(&write(lowered, None).0.unwrap()).scene;
@@ -158,8 +158,8 @@ fn same_light(before: &Light, after: &Light) {
         std::mem::discriminant(&b.emitter)
     );
     if let (
-        Emitter::Photometric { photometry: a, .. },
-        Emitter::Photometric { photometry: b, .. },
+        PunctualKind::Photometric { photometry: a, .. },
+        PunctualKind::Photometric { photometry: b, .. },
     ) = (&a.emitter, &b.emitter)
     {
         assert_eq!(a, b);
@@ -229,7 +229,7 @@ fn same_mesh(before: &Mesh, after: &Mesh) {
     same_column(&before.uvs, &after.uvs, (&a, &b));
     same_column(&before.second_uvs, &after.second_uvs, (&a, &b));
     same_column(&before.colors, &after.colors, (&a, &b));
-    let unit = |mesh: &Mesh| -> Column<3> {
+    let unit = |mesh: &Mesh| -> VertexColumn<3> {
         let unit = |normal: [f64; 3]| {
             let length = normal.iter().map(|part| part * part).sum::<f64>().sqrt();
             normal.map(|part| part / length)
@@ -242,7 +242,11 @@ fn same_mesh(before: &Mesh, after: &Mesh) {
     }
 }
 
-fn same_column<const N: usize>(before: &Column<N>, after: &Column<N>, (a, b): (&[u32], &[u32])) {
+fn same_column<const N: usize>(
+    before: &VertexColumn<N>,
+    after: &VertexColumn<N>,
+    (a, b): (&[u32], &[u32]),
+) {
     assert_eq!(before.is_empty(), after.is_empty());
     if before.is_empty() {
         return;
@@ -258,7 +262,7 @@ fn same_column<const N: usize>(before: &Column<N>, after: &Column<N>, (a, b): (&
 }
 
 /// A scene with something in it to look at.
-fn with(keys: &str) -> Lowered {
+fn with(keys: &str) -> LoweredScene {
     let ball = "{type: sphere, position: [0, 0, 0], radius: 1, material: {color: [1, 0, 0], ka: 0.1, kd: 0.5, ks: 0.25, n: 30}}";
     scene(&format!("{keys}\nObjects: [{ball}]\n"))
 }
@@ -284,7 +288,7 @@ fn cameras_come_back() {
 }
 
 /// A scene in a picture of 4 × 2 pixels, each with a value of its own.
-fn surrounded(kind: Pixels) -> Lowered {
+fn surrounded(kind: Pixels) -> LoweredScene {
     let mut lowered = with(&format!("{EYE}\nRenderMode: path"));
     let pixels: Vec<u8> = match kind {
         Pixels::Rgb8 | Pixels::Rgba8 => (0..8 * kind.bytes())
@@ -330,7 +334,7 @@ fn odd_pixels_are_refused() {
     let wrong = text.replace("\"width\": 4", "\"width\": 3");
     assert_ne!(text, wrong);
     let (mut map, file) = with_files(wrong.as_bytes(), &asset);
-    let (options, mut sink) = (Options::default(), Sink::default());
+    let (options, mut sink) = (Options::default(), DiagnosticSink::default());
     pipeline::load(file, &mut map, &options, &mut sink);
     let codes: Vec<_> = sink.kept().iter().map(|finding| finding.code.id).collect();
     assert!(codes.contains(&"GL026"), "{codes:?}");
@@ -363,7 +367,7 @@ fn what_is_left_out_is_told() {
     let mut far = with(EYE);
     let column = vec![[0.0, 0.0, 0.0], [1e39, 0.0, 0.0], [0.0, 1.0, 0.0]];
     far.scene.meshes.push(Mesh {
-        positions: Column::from(column),
+        positions: VertexColumn::from(column),
         triangles: vec![[0, 1, 2]].into(),
         ..Mesh::default()
     });

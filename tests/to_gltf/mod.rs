@@ -1,5 +1,5 @@
-//! What `rtc compile -o scene.glb` and `-o scene.gltf` write: sound by our own check, and read back the scene that it
-//! was; and what front/gltf reads beside what the crate `gltf` reads.
+//! What `rtc compile -o scene.glb` and `-o scene.gltf` write: sound by our own check, and read back
+//! the scene that it was; and what front/gltf reads beside what the crate `gltf` reads.
 
 #![expect(
     clippy::unwrap_used,
@@ -12,10 +12,10 @@ mod laws;
 mod peer;
 
 use libtest_mimic::Trial;
-use rtc::internals::diag::{Severity, Sink};
+use rtc::internals::diag::{DiagnosticSink, Severity};
 use rtc::internals::emit;
 use rtc::internals::emit::gltf::GltfAsset;
-use rtc::internals::ir::Lowered;
+use rtc::internals::ir::LoweredScene;
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::source::{Budget, FileId, Limits, Loader, MemoryFiles, SourceMap};
 use std::path::Path;
@@ -30,40 +30,40 @@ pub(crate) fn trials() -> Vec<Trial> {
 }
 
 /// A scene that was proven; none if it has errors.
-fn validated(mut map: SourceMap, file: FileId) -> Option<Lowered> {
-    let (options, mut sink) = (Options::default(), Sink::default());
+fn validated(mut map: SourceMap, file: FileId) -> Option<LoweredScene> {
+    let (options, mut sink) = (Options::default(), DiagnosticSink::default());
     let lowered = pipeline::load(file, &mut map, &options, &mut sink)?;
     pipeline::validate(&lowered, &options, &mut sink).map(|_| lowered)
 }
 
 /// The scene in a file.
-fn open(path: &Path) -> Option<Lowered> {
+fn open(path: &Path) -> Option<LoweredScene> {
     let mut map = SourceMap::default();
     let file = Loader.file(path, &mut map).unwrap();
     validated(map, file)
 }
 
 /// The scene in a text.
-fn scene(text: &str) -> Lowered {
+fn scene(text: &str) -> LoweredScene {
     let mut map = SourceMap::default();
     let file = map.add("scene.yaml", text.as_bytes().to_vec());
     validated(map, file).unwrap()
 }
 
 /// A scene as .glb, with what is found.
-fn write(lowered: &Lowered, tolerance: Option<f64>) -> (Option<Vec<u8>>, Sink) {
+fn write(lowered: &LoweredScene, tolerance: Option<f64>) -> (Option<Vec<u8>>, DiagnosticSink) {
     let (asset, sink) = emitted(lowered, tolerance, None);
     (asset.map(|asset| bytes(&asset)), sink)
 }
 
 /// A scene as glTF, with files in a folder if one is given, with what is found.
 fn emitted(
-    lowered: &Lowered,
+    lowered: &LoweredScene,
     tolerance: Option<f64>,
     folder: Option<&str>,
-) -> (Option<GltfAsset>, Sink) {
-    let (budget, mut sink) = (Budget::new(Limits::NONE), Sink::default());
-    let Lowered {
+) -> (Option<GltfAsset>, DiagnosticSink) {
+    let (budget, mut sink) = (Budget::new(Limits::NONE), DiagnosticSink::default());
+    let LoweredScene {
         scene,
         source_spans,
     } = lowered;
@@ -78,14 +78,14 @@ fn bytes(asset: &GltfAsset) -> Vec<u8> {
 }
 
 /// What a .glb says, which must be sound.
-fn read(bytes: &[u8]) -> Lowered {
+fn read(bytes: &[u8]) -> LoweredScene {
     let mut map = SourceMap::default();
     let file = map.add("scene.glb", bytes.to_vec());
     sound(map, file)
 }
 
 /// What a .gltf says with the files beside it, which must be sound.
-fn read_text(text: &[u8], asset: &GltfAsset) -> Lowered {
+fn read_text(text: &[u8], asset: &GltfAsset) -> LoweredScene {
     let (map, file) = with_files(text, asset);
     sound(map, file)
 }
@@ -100,8 +100,8 @@ fn with_files(text: &[u8], asset: &GltfAsset) -> (SourceMap, FileId) {
     (map, file.unwrap())
 }
 
-fn sound(mut map: SourceMap, file: FileId) -> Lowered {
-    let (options, mut sink) = (Options::default(), Sink::default());
+fn sound(mut map: SourceMap, file: FileId) -> LoweredScene {
+    let (options, mut sink) = (Options::default(), DiagnosticSink::default());
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
     let proof = lowered
         .as_ref()

@@ -2,7 +2,7 @@
 
 use super::{film, scene, smooth};
 use rtc::internals::ir::Scene;
-use rtc::internals::plan::Rules;
+use rtc::internals::plan::RuleSet;
 use rtc::internals::render::Film;
 
 /// The inside of a closed mesh with lights outside, one of them in the plane of a face of the
@@ -43,7 +43,7 @@ fn no_light_enters_a_closed_smooth_mesh() {
     ] {
         for (keys, material, corners) in cases {
             let scene = inside(file, tilt, keys, material);
-            let film = film(&scene, Rules::ALL);
+            let film = film(&scene, RuleSet::ALL);
             let wanted = f64::from(corners) * 3.0 / 1024.0;
             let seen = film.image.pixels.iter().flatten();
             // A lobe below the surface contributes nothing.
@@ -64,7 +64,7 @@ fn no_light_enters_a_closed_smooth_mesh() {
                     .map(|value| value.to_bits())
                     .collect::<Vec<_>>()
             };
-            let unpruned = super::film(&scene, Rules::NONE);
+            let unpruned = super::film(&scene, RuleSet::NONE);
             assert!(
                 bits(&unpruned) == bits(&film),
                 "{file}, {tilt}, {material}: the rules show"
@@ -78,7 +78,7 @@ fn no_light_enters_a_closed_smooth_mesh() {
 fn without_shadows_the_geometric_normal_says_nothing() {
     let mut scene = inside("icosahedron.obj", 0.0, "", "ka: 0, kd: 0.5, ks: 0, n: 1");
     scene.settings.shadows = false;
-    let lit = film(&scene, Rules::ALL)
+    let lit = film(&scene, RuleSet::ALL)
         .image
         .pixels
         .iter()

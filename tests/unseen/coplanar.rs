@@ -3,7 +3,7 @@
 use super::{film, noise, random, scene, validated};
 use rtc::internals::ir::{self, Scene};
 use rtc::internals::math::{U, Vec3, pow};
-use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::plan::{Plan, RuleSet};
 use rtc::internals::render::{Film, Intersect, Ray, Shape, World};
 
 /// The common material.
@@ -11,7 +11,7 @@ const MATERIAL: &str = "material: {color: [1, 1, 1], ka: 1, kd: 0, ks: 0, n: 1}"
 
 fn world(scene: &Scene) -> World<Shape> {
     let proof = validated(scene);
-    World::prepare(&proof, &Plan::new(&proof, Rules::NONE))
+    World::prepare(&proof, &Plan::new(&proof, RuleSet::NONE))
 }
 
 /// Coplanar parts of the plane x + 2y + 3z = 6 with integer vertices; each has a vertex that the
@@ -191,7 +191,7 @@ fn coplanar_quads_do_not_speckle() {
                  [1, 1, 1]}}\n\
                  Objects:\n{objects}"
             )),
-            Rules::ALL,
+            RuleSet::ALL,
         )
     };
     for (first, second) in (0..6)

@@ -2,7 +2,7 @@
 
 use super::{film, scene, smooth};
 use rtc::internals::ir::{Material, Scene};
-use rtc::internals::plan::Rules;
+use rtc::internals::plan::RuleSet;
 
 /// Every shape of the course, and meshes with normals.
 const SHAPES: [(&str, f64); 15] = [
@@ -100,14 +100,14 @@ fn glass(shape: Option<(&str, f64)>, eta: f64, shadows: bool) -> Scene {
 #[test]
 fn an_index_of_one_is_invisible_for_every_shape() {
     for shadows in [false, true] {
-        let empty = film(&glass(None, 1.0, shadows), Rules::ALL).image;
+        let empty = film(&glass(None, 1.0, shadows), RuleSet::ALL).image;
         // A plane occludes the light from half of the space.
         for shape in SHAPES
             .into_iter()
             .filter(|(numbers, _)| !(shadows && numbers.starts_with("plane")))
         {
             for eta in [1.0, 1.0 + 1e-12, 1.0 - 1e-12] {
-                let film = film(&glass(Some(shape), eta, shadows), Rules::ALL);
+                let film = film(&glass(Some(shape), eta, shadows), RuleSet::ALL);
                 assert!(
                     film.counts.refracted > 500,
                     "{}: the shape is looked through",
@@ -160,7 +160,7 @@ fn fresnel_divides_kt_between_the_mirror_image_and_what_is_behind() {
             wall(7, -1, behind),
             wall(-7, 1, ahead)
         );
-        film(&scene(&text), Rules::ALL).image.pixels[0][0]
+        film(&scene(&text), RuleSet::ALL).image.pixels[0][0]
     };
     for turn in [0.0, 0.2, 0.6] {
         let cosine = f64::cos(turn);

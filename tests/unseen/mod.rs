@@ -8,19 +8,22 @@ mod coplanar;
 mod glass;
 
 use crate::small::validated;
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::Scene;
 use rtc::internals::math::Vec3;
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Film, Job, Values, render};
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::{Film, RenderSelection, Values, render};
 use rtc::internals::source::SourceMap;
 use std::path::Path;
 
 /// A scene of the course, by its text; assets are those of the repo.
 fn scene(text: &str) -> Scene {
-    let (mut map, mut sink, mut options) =
-        (SourceMap::default(), Sink::default(), Options::default());
+    let (mut map, mut sink, mut options) = (
+        SourceMap::default(),
+        DiagnosticSink::default(),
+        Options::default(),
+    );
     let file = map.add("unseen", text.as_bytes().to_vec());
     options.front.asset_root = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes"));
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
@@ -28,14 +31,14 @@ fn scene(text: &str) -> Scene {
     lowered.unwrap().scene
 }
 
-fn film(scene: &Scene, rules: Rules) -> Film {
+fn film(scene: &Scene, rules: RuleSet) -> Film {
     let proof = validated(scene);
     render(
         &proof,
         &Plan::new(&proof, rules),
-        &Job {
+        &RenderSelection {
             values: Values::Linear,
-            ..Job::default()
+            ..RenderSelection::default()
         },
         &|_| true,
     )

@@ -1,6 +1,6 @@
 //! The arguments of `rtc audit`.
 
-use super::{Reading, ReportFormatArgs, ReporterArgs, StageArgs};
+use super::{ReadArgs, ReportFormatArgs, ReporterArgs, StageArgs};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -18,7 +18,7 @@ Examples:
   rtc audit glass.png scenes/glass.yaml
   rtc audit frame.exr scene.rtir --tiles 400
   rtc audit part-3.rtp scene.yaml --seed 7")]
-pub(crate) struct Audit {
+pub(crate) struct AuditArgs {
     /// The picture, as PNG, WebP or EXR, or a part that `rtc render --part` wrote
     #[arg(value_name = "PICTURE", value_hint = ValueHint::FilePath)]
     pub(crate) picture: PathBuf,
@@ -28,7 +28,7 @@ pub(crate) struct Audit {
     #[arg(value_name = "SCENE", value_hint = ValueHint::FilePath)]
     pub(crate) scene: PathBuf,
     #[command(flatten)]
-    pub(crate) draw: DrawArgs,
+    pub(crate) draw: TileDrawArgs,
     #[command(flatten)]
     pub(crate) format: ReportFormatArgs,
     /// Use N threads [default: one for each core]
@@ -42,14 +42,14 @@ pub(crate) struct Audit {
     #[command(flatten)]
     pub(crate) stage: StageArgs,
     #[command(flatten)]
-    pub(crate) reading: Reading,
+    pub(crate) reading: ReadArgs,
     #[command(flatten)]
     pub(crate) reporter: ReporterArgs,
 }
 
 /// The random choice of tiles.
 #[derive(Debug, Args)]
-pub(crate) struct DrawArgs {
+pub(crate) struct TileDrawArgs {
     /// Render N tiles again, or all if there are fewer
     #[arg(
         long,

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 /// The options for reading the input.
 #[derive(Clone, Debug, Args)]
-pub(crate) struct Reading {
+pub(crate) struct ReadArgs {
     /// Name standard input in messages
     #[arg(long, value_name = "NAME", help_heading = "Input")]
     pub(crate) stdin_name: Option<String>,
@@ -95,7 +95,7 @@ pub(crate) struct Reading {
     pub(crate) trust_project: bool,
 }
 
-impl Reading {
+impl ReadArgs {
     /// The levels of diagnostics.
     pub(crate) fn levels(&self) -> Result<DiagnosticLevels, String> {
         let mut levels = DiagnosticLevels::default();
@@ -147,7 +147,7 @@ pub(crate) struct ReporterArgs {
         value_name = "WHEN",
         help_heading = "Diagnostics"
     )]
-    pub(crate) color: Color,
+    pub(crate) color: ColorArg,
     /// Print at most N diagnostics for each file
     #[arg(
         long,
@@ -250,7 +250,7 @@ impl From<UpAxisArg> for UpAxis {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Color {
+pub(crate) enum ColorArg {
     /// On a terminal, unless NO_COLOR is set
     #[default]
     Auto,

@@ -2,7 +2,7 @@
 
 use super::super::gate::{MeasureLimits, scene_limits};
 use super::super::parse::interval;
-use super::{Reading, ReporterArgs, StageArgs};
+use super::{ReadArgs, ReporterArgs, StageArgs};
 use clap::{Args, ValueEnum, ValueHint};
 use rtc_study as study;
 use std::path::PathBuf;
@@ -25,7 +25,7 @@ Examples:
   rtc cost scene.yaml --maps maps
   rtc cost model.glb --effort quick
   rtc cost new.yaml old.yaml --effort quick --gate 'error<=1.0,time<=1.2x'")]
-pub(crate) struct Cost {
+pub(crate) struct CostArgs {
     /// The scene, and an optional reference scene; `-` is standard input
     ///
     /// Formats: YAML or JSON of the course, glTF, Mitsuba XML, pbrt, mesh files, and the IR. With a
@@ -106,7 +106,7 @@ pub(crate) struct Cost {
     #[command(flatten)]
     pub(crate) stage: StageArgs,
     #[command(flatten)]
-    pub(crate) reading: Reading,
+    pub(crate) reading: ReadArgs,
     #[command(flatten)]
     pub(crate) reporter: ReporterArgs,
 }

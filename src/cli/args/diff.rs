@@ -1,7 +1,7 @@
 //! The arguments of `rtc diff`.
 
 use super::super::gate::{MeasureLimits, picture_limits};
-use super::{Reading, ReportFormatArgs, ReporterArgs, WantedArgs};
+use super::{ReadArgs, ReportFormatArgs, ReporterArgs, WantedArgs};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ Examples:
   rtc diff new.png golden.png
   rtc diff new.png golden.png --gate 'rmse<=1,share<=0.1%' -o map.png
   rtc diff new.yaml old.yaml --html page.html")]
-pub(crate) struct Diff {
+pub(crate) struct DiffArgs {
     /// The new picture (PNG, JPEG, WebP, EXR or HDR) or scene
     #[arg(value_name = "NEW", value_hint = ValueHint::FilePath)]
     pub(crate) new: PathBuf,
@@ -58,7 +58,7 @@ pub(crate) struct Diff {
     #[command(flatten)]
     pub(crate) wanted: WantedArgs,
     #[command(flatten)]
-    pub(crate) reading: Reading,
+    pub(crate) reading: ReadArgs,
     #[command(flatten)]
     pub(crate) reporter: ReporterArgs,
 }

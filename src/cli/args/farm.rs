@@ -1,13 +1,13 @@
 //! The arguments of `rtc farm`.
 
 use super::super::parse::{frames, rate};
-use super::{OutputTransformArgs, Reading, ReporterArgs, SharedByArg, StageArgs, WantedArgs};
+use super::{OutputTransformArgs, ReadArgs, ReporterArgs, ShardByArg, StageArgs, WantedArgs};
 use clap::{Args, ValueEnum, ValueHint};
 use rtc_pipeline::MAX_SHARDS;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
-pub(crate) struct Farm {
+pub(crate) struct FarmArgs {
     /// The scene; `-` is standard input
     ///
     /// Formats: YAML or JSON of the course, glTF, USD, Mitsuba XML, pbrt, mesh files, and the IR.
@@ -15,7 +15,7 @@ pub(crate) struct Farm {
     pub(crate) file: PathBuf,
     /// Select the engine that will run the job
     #[arg(long, value_enum, value_name = "ENGINE", help_heading = "Job")]
-    pub(crate) to: Engine,
+    pub(crate) to: FarmEngine,
     /// Create this folder with the scene and the job; nothing is run
     #[arg(
         short,
@@ -53,7 +53,7 @@ pub(crate) struct Farm {
         value_name = "WHAT",
         help_heading = "Job"
     )]
-    pub(crate) parts_by: SharedByArg,
+    pub(crate) parts_by: ShardByArg,
     /// Render N views around the scene
     #[arg(
         long,
@@ -113,14 +113,14 @@ pub(crate) struct Farm {
     #[command(flatten)]
     pub(crate) stage: StageArgs,
     #[command(flatten)]
-    pub(crate) reading: Reading,
+    pub(crate) reading: ReadArgs,
     #[command(flatten)]
     pub(crate) reporter: ReporterArgs,
 }
 
 /// An engine that runs jobs on many machines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Engine {
+pub(crate) enum FarmEngine {
     /// Open Job Description, for AWS Deadline Cloud
     #[value(name = "openjd")]
     OpenJd,

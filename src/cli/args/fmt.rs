@@ -13,7 +13,7 @@ Examples:
   rtc fmt scene.yaml
   rtc fmt --check scenes
   rtc fmt --diff 'scenes/*.yaml'")]
-pub(crate) struct Fmt {
+pub(crate) struct FmtArgs {
     /// Scene files, folders, or patterns such as 'a/*.yaml'; `-` is standard input
     ///
     /// Files are YAML or JSON; in folders, all YAML files are formatted. Standard input is

@@ -14,7 +14,7 @@ pub(crate) struct OutputTransformArgs {
     /// An EXR holds linear values [default: pbr-neutral for a glTF asset, srgb for other path-
     /// traced scenes, else none].
     #[arg(long, value_enum, value_name = "MAP", help_heading = "Output")]
-    pub(crate) tonemap: Option<Tonemap>,
+    pub(crate) tonemap: Option<TonemapArg>,
     /// Set the exposure in stops, or `auto`
     ///
     /// Each stop doubles the values, in an EXR too [default: auto for the PNG of a glTF asset
@@ -49,12 +49,12 @@ pub(crate) struct OutputTransformArgs {
         value_delimiter = ',',
         help_heading = "Output"
     )]
-    pub(crate) aov: Vec<Layer>,
+    pub(crate) aov: Vec<LayerArg>,
     /// Set the bits of a channel: 8 or 16 in a PNG, 16 or 32 in an EXR
     ///
     /// [default: 8, in an EXR 32]; layers of distances, positions and indices keep 32.
     #[arg(long, help_heading = "Output")]
-    pub(crate) bits: Option<BitDepth>,
+    pub(crate) bits: Option<BitDepthArg>,
     /// Do not write metadata: the program, hashes of the scene and of tiles, the settings
     #[arg(long, help_heading = "Output")]
     pub(crate) no_metadata: bool,
@@ -87,7 +87,7 @@ impl BackgroundArg {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum BitDepth {
+pub(crate) enum BitDepthArg {
     #[value(name = "8")]
     Eight,
     #[value(name = "16")]
@@ -96,7 +96,7 @@ pub(crate) enum BitDepth {
     ThirtyTwo,
 }
 
-impl BitDepth {
+impl BitDepthArg {
     /// As a number.
     pub(crate) fn bits(self) -> u32 {
         match self {
@@ -108,7 +108,7 @@ impl BitDepth {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Layer {
+pub(crate) enum LayerArg {
     /// Channels albedo.R, .G, .B: base colours, linear
     Albedo,
     /// Channels normal.X, .Y, .Z: shading normals in the world, towards the viewer
@@ -132,24 +132,24 @@ pub(crate) enum Layer {
     Undersampled,
 }
 
-impl From<Layer> for Aov {
-    fn from(layer: Layer) -> Self {
+impl From<LayerArg> for Aov {
+    fn from(layer: LayerArg) -> Self {
         match layer {
-            Layer::Albedo => Self::Albedo,
-            Layer::Normal => Self::Normal,
-            Layer::Depth => Self::Depth,
-            Layer::Uv => Self::Uv,
-            Layer::Instance => Self::Instance,
-            Layer::Position => Self::Position,
-            Layer::Error => Self::Error,
-            Layer::Samples => Self::Samples,
-            Layer::Undersampled => Self::Undersampled,
+            LayerArg::Albedo => Self::Albedo,
+            LayerArg::Normal => Self::Normal,
+            LayerArg::Depth => Self::Depth,
+            LayerArg::Uv => Self::Uv,
+            LayerArg::Instance => Self::Instance,
+            LayerArg::Position => Self::Position,
+            LayerArg::Error => Self::Error,
+            LayerArg::Samples => Self::Samples,
+            LayerArg::Undersampled => Self::Undersampled,
         }
     }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Tonemap {
+pub(crate) enum TonemapArg {
     /// Linear values
     None,
     /// Clipped at 1, sRGB encoding
@@ -160,13 +160,13 @@ pub(crate) enum Tonemap {
     PbrNeutral,
 }
 
-impl From<Tonemap> for Tone {
-    fn from(map: Tonemap) -> Self {
+impl From<TonemapArg> for Tone {
+    fn from(map: TonemapArg) -> Self {
         match map {
-            Tonemap::None => Self::None,
-            Tonemap::Srgb => Self::Srgb,
-            Tonemap::Agx => Self::Agx,
-            Tonemap::PbrNeutral => Self::PbrNeutral,
+            TonemapArg::None => Self::None,
+            TonemapArg::Srgb => Self::Srgb,
+            TonemapArg::Agx => Self::Agx,
+            TonemapArg::PbrNeutral => Self::PbrNeutral,
         }
     }
 }

@@ -1,11 +1,11 @@
 //! The arguments of `rtc merge`.
 
-use super::{Reading, ReporterArgs, StageArgs};
+use super::{ReadArgs, ReporterArgs, StageArgs};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
-pub(crate) struct Merge {
+pub(crate) struct MergeArgs {
     /// The parts that `rtc render --part` wrote
     ///
     /// In any order; a part may be given twice.
@@ -45,7 +45,7 @@ pub(crate) struct Merge {
     #[command(flatten)]
     pub(crate) stage: StageArgs,
     #[command(flatten)]
-    pub(crate) reading: Reading,
+    pub(crate) reading: ReadArgs,
     #[command(flatten)]
     pub(crate) reporter: ReporterArgs,
 }

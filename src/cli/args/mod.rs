@@ -13,16 +13,16 @@ mod render;
 mod stage;
 mod wanted;
 
-pub(super) use audit::Audit;
-pub(super) use common::{Color, MessageFormat, Reading, ReportFormatArgs, ReporterArgs};
-pub(super) use cost::{Cost, StudyFormat};
-pub(super) use diff::Diff;
-pub(super) use farm::{Engine, Farm};
-pub(super) use fmt::Fmt;
-pub(super) use look::{BackgroundArg, BitDepth, OutputTransformArgs};
-pub(super) use merge::Merge;
-pub(super) use preview::Preview;
-pub(super) use render::{PruningArgs, Render, SharedByArg};
+pub(super) use audit::AuditArgs;
+pub(super) use common::{ColorArg, MessageFormat, ReadArgs, ReportFormatArgs, ReporterArgs};
+pub(super) use cost::{CostArgs, StudyFormat};
+pub(super) use diff::DiffArgs;
+pub(super) use farm::{FarmArgs, FarmEngine};
+pub(super) use fmt::FmtArgs;
+pub(super) use look::{BackgroundArg, BitDepthArg, OutputTransformArgs};
+pub(super) use merge::MergeArgs;
+pub(super) use preview::PreviewArgs;
+pub(super) use render::{PruningArgs, RenderArgs, ShardByArg};
 pub(super) use stage::{GroundArg, IntegratorArg, StageArgs};
 pub(super) use wanted::{ArithmeticArg, WantedArgs};
 
@@ -62,43 +62,43 @@ pub(super) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Write a first scene, with comments
-    New(New),
+    New(NewArgs),
     /// Check scenes for errors, and fix them
     Check(CheckArgs),
     /// Format scene files; comments stay
-    Fmt(Fmt),
+    Fmt(FmtArgs),
     /// Convert a scene to the IR, YAML, glTF, Mitsuba, pbrt or POV-Ray; explain what it needs
-    Compile(Compile),
+    Compile(CompileArgs),
     /// Render scenes to pictures
-    Render(Box<Render>),
+    Render(Box<RenderArgs>),
     /// Show a scene on a local web page while you edit it
-    Preview(Box<Preview>),
+    Preview(Box<PreviewArgs>),
     /// Run the language server (diagnostics, quick fixes, hover, completion)
-    Lsp(Lsp),
+    Lsp(LspArgs),
     /// Merge the parts of `rtc render --part` into the picture
-    Merge(Box<Merge>),
+    Merge(Box<MergeArgs>),
     /// Write a job that renders a picture in parts on many machines
-    Farm(Box<Farm>),
+    Farm(Box<FarmArgs>),
     /// Show the error and the time of each setting, and recommend one
-    Cost(Cost),
+    Cost(CostArgs),
     /// Compare two pictures or scenes, and apply gates
-    Diff(Diff),
+    Diff(DiffArgs),
     /// Verify a picture against its metadata: render some tiles again
-    Audit(Box<Audit>),
+    Audit(Box<AuditArgs>),
     /// Show contents, size and required features of a scene
-    Info(Box<Info>),
+    Info(Box<InfoArgs>),
     /// Explain a code of a diagnostic, or list all codes
-    Explain(Explain),
+    Explain(ExplainArgs),
     /// Print the JSON Schema of a format
-    Schema(Schema),
+    Schema(SchemaArgs),
     /// Print a completion script for a shell
-    Completions(Completions),
+    Completions(CompletionsArgs),
     /// Print a manual page
-    Man(Man),
+    Man(ManArgs),
 }
 
 #[derive(Debug, Args)]
-pub(super) struct New {
+pub(super) struct NewArgs {
     /// Write the scene to this file; `-` is standard output
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) file: PathBuf,
@@ -144,7 +144,7 @@ pub(super) struct CheckArgs {
     #[arg(long, help_heading = "Input")]
     pub(super) skip_others: bool,
     #[command(flatten)]
-    pub(super) reading: Reading,
+    pub(super) reading: ReadArgs,
     #[command(flatten)]
     pub(super) reporter: ReporterArgs,
 }
@@ -154,13 +154,13 @@ pub(super) struct CheckArgs {
     after_help = "The editor starts it, and exchanges messages over standard input and output.\n\n\
 Example, for Helix (languages.toml):\n  [language-server.rtc]\n  command = \"rtc\"\n  args = [\"lsp\"]"
 )]
-pub(super) struct Lsp {
+pub(super) struct LspArgs {
     #[command(flatten)]
-    pub(super) reading: Reading,
+    pub(super) reading: ReadArgs,
 }
 
 #[derive(Debug, Args)]
-pub(super) struct Info {
+pub(super) struct InfoArgs {
     /// The scene; `-` is standard input
     ///
     /// Formats: YAML or JSON of the course, glTF, USD, Mitsuba XML, pbrt, mesh files, and the IR.
@@ -171,13 +171,13 @@ pub(super) struct Info {
     #[command(flatten)]
     pub(super) stage: StageArgs,
     #[command(flatten)]
-    pub(super) reading: Reading,
+    pub(super) reading: ReadArgs,
     #[command(flatten)]
     pub(super) reporter: ReporterArgs,
 }
 
 #[derive(Debug, Args)]
-pub(super) struct Compile {
+pub(super) struct CompileArgs {
     /// The scene; `-` is standard input
     ///
     /// Formats: YAML or JSON of the course, glTF, USD, Mitsuba XML, pbrt, mesh files, and the IR.
@@ -218,7 +218,7 @@ pub(super) struct Compile {
     #[command(flatten)]
     pub(super) stage: StageArgs,
     #[command(flatten)]
-    pub(super) reading: Reading,
+    pub(super) reading: ReadArgs,
     #[command(flatten)]
     pub(super) reporter: ReporterArgs,
 }
@@ -233,7 +233,7 @@ pub(super) enum Explanation {
 }
 
 #[derive(Debug, Args)]
-pub(super) struct Explain {
+pub(super) struct ExplainArgs {
     /// A code such as VA001, or a rule such as E-SPEC [default: list both]
     pub(super) code: Option<String>,
     /// Print the pages of all codes, as Markdown
@@ -242,20 +242,20 @@ pub(super) struct Explain {
 }
 
 #[derive(Debug, Args)]
-pub(super) struct Schema {
+pub(super) struct SchemaArgs {
     /// The format
     #[arg(value_enum, default_value_t)]
     pub(super) of: SchemaFormat,
 }
 
 #[derive(Debug, Args)]
-pub(super) struct Completions {
+pub(super) struct CompletionsArgs {
     /// The shell
     pub(super) shell: Shell,
 }
 
 #[derive(Debug, Args)]
-pub(super) struct Man {
+pub(super) struct ManArgs {
     /// The command that the page describes [default: all]
     pub(super) command: Option<String>,
 }

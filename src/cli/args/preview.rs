@@ -1,6 +1,6 @@
 //! The arguments of `rtc preview`.
 
-use super::{OutputTransformArgs, Reading, ReporterArgs, StageArgs, WantedArgs};
+use super::{OutputTransformArgs, ReadArgs, ReporterArgs, StageArgs, WantedArgs};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -14,7 +14,7 @@ Examples:
   rtc preview scene.yaml --size 320x240 --port 8080
   rtc preview scene.yaml --against golden.png
   rtc preview scene.yaml --against HEAD~1")]
-pub(crate) struct Preview {
+pub(crate) struct PreviewArgs {
     /// The scene
     ///
     /// Formats: YAML or JSON of the course, glTF, USD, Mitsuba XML, pbrt, mesh files, and the IR.
@@ -47,7 +47,7 @@ pub(crate) struct Preview {
     #[command(flatten)]
     pub(crate) stage: StageArgs,
     #[command(flatten)]
-    pub(crate) reading: Reading,
+    pub(crate) reading: ReadArgs,
     #[command(flatten)]
     pub(crate) reporter: ReporterArgs,
 }

@@ -1,15 +1,15 @@
 //! The arguments of `rtc render`.
 
 use super::super::parse::{frames, interval, levels, radiance, rule, seconds, share};
-use super::{OutputTransformArgs, Reading, ReporterArgs, StageArgs, WantedArgs};
+use super::{OutputTransformArgs, ReadArgs, ReporterArgs, StageArgs, WantedArgs};
 use clap::{Args, ValueEnum, ValueHint};
-use rtc_pipeline::ShardBy;
+use rtc_pipeline::ShardDivision;
 use rtc_plan::Rule;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 #[derive(Debug, Args)]
-pub(crate) struct Render {
+pub(crate) struct RenderArgs {
     /// Scenes, folders of scenes, or patterns such as 'a/*.glb'; `-` is standard input
     ///
     /// Formats: YAML or JSON of the course, glTF, USD, Mitsuba XML, pbrt, mesh files, and the IR.
@@ -138,7 +138,7 @@ pub(crate) struct Render {
         requires = "part",
         help_heading = "Checkpoints and parts"
     )]
-    pub(crate) parts_by: SharedByArg,
+    pub(crate) parts_by: ShardByArg,
     /// Name the picture that `rtc merge` makes [default: the scene's name with .png]
     #[arg(
         long,
@@ -198,12 +198,12 @@ pub(crate) struct Render {
     #[command(flatten)]
     pub(crate) stage: StageArgs,
     #[command(flatten)]
-    pub(crate) reading: Reading,
+    pub(crate) reading: ReadArgs,
     #[command(flatten)]
     pub(crate) reporter: ReporterArgs,
 }
 
-impl Render {
+impl RenderArgs {
     /// The scene of a command of one.
     pub(crate) fn file(&self) -> &Path {
         self.files.first().map_or(Path::new("-"), PathBuf::as_path)
@@ -235,7 +235,7 @@ pub(crate) struct PruningArgs {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SharedByArg {
+pub(crate) enum ShardByArg {
     /// Each part has some tiles, with all their samples
     #[default]
     Tiles,
@@ -243,11 +243,11 @@ pub(crate) enum SharedByArg {
     Samples,
 }
 
-impl From<SharedByArg> for ShardBy {
-    fn from(by: SharedByArg) -> Self {
+impl From<ShardByArg> for ShardDivision {
+    fn from(by: ShardByArg) -> Self {
         match by {
-            SharedByArg::Tiles => Self::Tiles,
-            SharedByArg::Samples => Self::Samples,
+            ShardByArg::Tiles => Self::Tiles,
+            ShardByArg::Samples => Self::Samples,
         }
     }
 }

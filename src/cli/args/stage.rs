@@ -44,7 +44,7 @@ pub(crate) struct StageArgs {
     /// 34,23].
     #[arg(long, value_name = "AZ,EL[,ROLL]", value_parser = orbit, allow_hyphen_values = true,
         conflicts_with_all = ["eye", "center", "up"], help_heading = "View")]
-    pub(crate) orbit: Option<passes::Orbit>,
+    pub(crate) orbit: Option<passes::OrbitAngles>,
     /// Light the scene by an environment map, .hdr or .exr
     ///
     /// The map is equirectangular; its centre is towards -z.
@@ -67,7 +67,7 @@ pub(crate) struct StageArgs {
         allow_hyphen_values = true,
         help_heading = "Light",
     )]
-    pub(crate) sun: Vec<passes::Sun>,
+    pub(crate) sun: Vec<passes::SunLight>,
     /// Leave out the lights of the scene
     #[arg(long, help_heading = "Light")]
     pub(crate) no_scene_lights: bool,

@@ -3,7 +3,7 @@
 
 mod report;
 
-use super::args::{self, Audit, Reading, StageArgs};
+use super::args::{self, AuditArgs, ReadArgs, StageArgs};
 use super::interrupt::Interrupt;
 use super::merge::part_of;
 use super::progress::RenderProgress;
@@ -13,14 +13,14 @@ use super::{Failure, input, output, simd};
 pub(super) use report::AuditReport;
 use rtc_image::WrittenFile;
 use rtc_pipeline::{
-    AuditDraw, AuditResult, Input, Observer, PictureAudit, PictureSetup, RenderError, RenderShard,
-    RenderSubject,
+    AuditResult, Input, PictureAudit, PictureSetup, RenderError, RenderObserver, RenderShard,
+    RenderSubject, TileDraw,
 };
 use rtc_source::{Resource, SourceMap};
 use std::path::Path;
 
 /// Audits a picture and reports the result.
-pub(super) fn run(args: &Audit) -> Result<(), Failure> {
+pub(super) fn run(args: &AuditArgs) -> Result<(), Failure> {
     let mut reporter = Reporter::beside_result(&args.reporter);
     let outcome = carry_out(args, &mut reporter);
     reporter.finish()?;
@@ -38,12 +38,12 @@ pub(super) fn run(args: &Audit) -> Result<(), Failure> {
 }
 
 /// The report, and the seed of the choice of tiles.
-fn carry_out(args: &Audit, reporter: &mut Reporter) -> Result<(AuditResult, u64), Failure> {
+fn carry_out(args: &AuditArgs, reporter: &mut Reporter) -> Result<(AuditResult, u64), Failure> {
     // Read the picture and draw the seed that chooses the tiles.
     let map = SourceMap::with_limits(args.reading.limits(|_| ()));
     let bytes = read(&args.picture, &map)?;
     let seed = seed(args.draw.seed)?;
-    let draw = AuditDraw {
+    let draw = TileDraw {
         tiles: args.draw.tiles,
         seed,
     };
@@ -104,7 +104,7 @@ pub(super) fn seed(given: Option<u64>) -> Result<u64, Failure> {
 pub(super) struct AuditScene<'a> {
     pub(super) file: &'a Path,
     pub(super) stage: &'a StageArgs,
-    pub(super) reading: &'a Reading,
+    pub(super) reading: &'a ReadArgs,
     /// 0 for one a core.
     pub(super) threads: usize,
 }
@@ -151,7 +151,7 @@ impl AuditedScene {
     pub(super) fn part(
         &mut self,
         (path, part): (&Path, &RenderShard),
-        draw: AuditDraw,
+        draw: TileDraw,
         reporter: &Reporter,
     ) -> Result<AuditResult, Failure> {
         self.observed(draw, reporter, |setup, subject, order, observer| {
@@ -163,18 +163,18 @@ impl AuditedScene {
     /// Renders tiles again by `audit`, with a progress bar.
     fn observed(
         &mut self,
-        draw: AuditDraw,
+        draw: TileDraw,
         reporter: &Reporter,
         audit: impl FnOnce(
             &PictureSetup,
             &mut RenderSubject,
-            (AuditDraw, u64),
-            &Observer<'_>,
+            (TileDraw, u64),
+            &RenderObserver<'_>,
         ) -> Result<AuditResult, Failure>,
     ) -> Result<AuditResult, Failure> {
         let pixels = draw.tiles.saturating_mul(256);
         let progress = RenderProgress::start(pixels, reporter.is_quiet());
-        let observer = Observer {
+        let observer = RenderObserver {
             on_step: &|step| progress.step(step),
             is_stopped: &|| self.interrupt.is_raised(),
         };
@@ -188,7 +188,7 @@ impl AuditedScene {
 /// Reports the audit of parts, or fails with the differences.
 pub(super) fn judge_part(
     path: &Path,
-    args: &args::Merge,
+    args: &args::MergeArgs,
     seed: u64,
     result: &AuditResult,
 ) -> Result<(), Failure> {

@@ -1,7 +1,7 @@
 //! The commands that the tasks of a job run: one for a part, one for the picture of all.
 
-use super::super::args::{ArithmeticArg, BackgroundArg, Farm};
-use super::frames::Frames;
+use super::super::args::{ArithmeticArg, BackgroundArg, FarmArgs};
+use super::frames::JobFrames;
 use clap::ValueEnum;
 use rtc_image::BackgroundFill;
 use rtc_pipeline::Exposure;
@@ -9,8 +9,8 @@ use rtc_render::Crop;
 use rtc_source::Resource;
 
 /// The arguments of the commands, without those that differ between tasks.
-pub(super) struct Commands<'a> {
-    frames: &'a Frames,
+pub(super) struct JobCommands<'a> {
+    frames: &'a JobFrames,
     /// The settings of the picture that are not part of the scene.
     look: Vec<String>,
     /// The resource limits of the run.
@@ -22,8 +22,8 @@ pub(super) struct Commands<'a> {
     allows_huge: bool,
 }
 
-impl<'a> Commands<'a> {
-    pub(super) fn new(args: &Farm, frames: &'a Frames) -> Self {
+impl<'a> JobCommands<'a> {
+    pub(super) fn new(args: &FarmArgs, frames: &'a JobFrames) -> Self {
         let limit = |(name, number): &(Resource, u64)| {
             ["--limit".to_owned(), format!("{}={number}", name.name())]
         };
@@ -47,8 +47,8 @@ impl<'a> Commands<'a> {
     pub(super) fn whole(&self, frame: &str) -> Vec<String> {
         // A turntable numbers its views itself.
         let output = match self.frames {
-            Frames::Turntable(..) => self.picture.clone(),
-            Frames::One | Frames::Animation(..) => self.output(frame),
+            JobFrames::Turntable(..) => self.picture.clone(),
+            JobFrames::One | JobFrames::Animation(..) => self.output(frame),
         };
         let output = ["-o".to_owned(), output];
         [self.render("", frame), output.to_vec()].concat()
@@ -116,7 +116,7 @@ impl<'a> Commands<'a> {
         let mut arguments = scene.map(str::to_owned).to_vec();
         arguments.extend_from_slice(&self.look);
         arguments.extend_from_slice(&self.limits);
-        if let Frames::Turntable(_, count) = self.frames {
+        if let JobFrames::Turntable(_, count) = self.frames {
             let frames = format!("{frame}..{frame}");
             let turn = ["--turntable", &count.to_string(), "--frames", &frames];
             arguments.extend(turn.map(str::to_owned));
@@ -126,7 +126,7 @@ impl<'a> Commands<'a> {
 }
 
 /// The output settings that are not part of the scene.
-fn look(args: &Farm) -> Vec<String> {
+fn look(args: &FarmArgs) -> Vec<String> {
     let mut arguments = Vec::new();
     let mut flag = |name: &str, value: String| arguments.push(format!("--{name}={value}"));
     // Each setting that is not the default becomes a flag.

@@ -2,11 +2,11 @@
 //! they are of.
 
 use super::super::Failure;
-use super::super::args::{Engine, Farm};
-use super::super::turntable::Views;
+use super::super::args::{FarmArgs, FarmEngine};
+use super::super::turntable::TurntableViews;
 
 /// The pictures of a job.
-pub(super) enum Frames {
+pub(super) enum JobFrames {
     One,
     /// The first and the last of N views of one scene, from 1.
     Turntable([u32; 2], u32),
@@ -17,11 +17,11 @@ pub(super) enum Frames {
 /// The most frames of a job for Open Job Description: a list there is no longer.
 const MOST_OF_LIST: u32 = 1024;
 
-impl Frames {
-    pub(super) fn new(args: &Farm) -> Result<Self, Failure> {
+impl JobFrames {
+    pub(super) fn new(args: &FarmArgs) -> Result<Self, Failure> {
         let frames = Self::requested(args)?;
         let count = frames.range().map_or(1, |[first, last]| last - first + 1);
-        if args.to == Engine::OpenJd && count > MOST_OF_LIST {
+        if args.to == FarmEngine::OpenJd && count > MOST_OF_LIST {
             return Err(Failure::Failed(format!(
                 "a job for OpenJD has at most {MOST_OF_LIST} frames; make several, by `--frames`"
             )));
@@ -29,9 +29,9 @@ impl Frames {
         Ok(frames)
     }
 
-    fn requested(args: &Farm) -> Result<Self, Failure> {
+    fn requested(args: &FarmArgs) -> Result<Self, Failure> {
         let trouble = |message: &str| Err(Failure::Failed(message.to_owned()));
-        if let Some(views) = Views::new(args.turntable, args.frames)? {
+        if let Some(views) = TurntableViews::new(args.turntable, args.frames)? {
             if args.stage.up.is_some() {
                 return trouble(
                     "a turntable in a job turns around the axis of the scene; leave `--up` out",

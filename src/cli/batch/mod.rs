@@ -6,28 +6,28 @@ mod frames;
 mod jobs;
 
 use super::Failure;
-use super::args::{Farm, Reading};
+use super::args::{FarmArgs, ReadArgs};
 use super::input;
 use super::interrupt::Interrupt;
 use super::project;
 use super::render::{refuse_layers, set_stage, wanted};
 use super::reporter::{self, Reporter};
-use frames::Frames;
+use frames::JobFrames;
 use jobs::FarmJob;
 use rtc_codec::{self as codec, Encoding};
-use rtc_pipeline::{Input, NewFolder, RenderSubject, hash};
-use rtc_study::Goal;
+use rtc_pipeline::{AtomicFolder, Input, RenderSubject, hash};
+use rtc_study::RenderGoal;
 use std::ffi::OsStr;
 use std::io;
 use std::path::Path;
 
 /// Compiles the scene, at each moment of an animation, and writes the folder.
-pub(super) fn run(args: &Farm) -> Result<(), Failure> {
+pub(super) fn run(args: &FarmArgs) -> Result<(), Failure> {
     // Check the names, and read the first scene, before anything is written.
     refuse_name(&args.picture)?;
-    let frames = Frames::new(args)?;
+    let frames = JobFrames::new(args)?;
     let mut first = Some(staged(args, frames.first_time())?);
-    let folder = NewFolder::at(&args.output).map_err(|error| failure(args, &error))?;
+    let folder = AtomicFolder::at(&args.output).map_err(|error| failure(args, &error))?;
     let interrupt = Interrupt::listen()?;
     let mut reporter = Reporter::beside_result(&args.reporter);
     // Write one scene per frame.
@@ -39,7 +39,7 @@ pub(super) fn run(args: &Farm) -> Result<(), Failure> {
             let scene = &subject.validated.lowered.scene;
             hashes.push(hash(scene));
             let written = codec::prepare(Encoding::Binary, scene)
-                .map_err(|codec::NotFinite| io::Error::other("a number is not finite"))
+                .map_err(|codec::NonFiniteNumber| io::Error::other("a number is not finite"))
                 .and_then(|scene| folder.put(&name, &|out| scene.write(out), &interrupt));
             written.map_err(|error| stopped_or(args, &error, &interrupt))
         });
@@ -69,8 +69,8 @@ pub(super) fn run(args: &Farm) -> Result<(), Failure> {
 }
 
 /// The scene to be read, at a moment of its animation if one is given.
-fn staged(args: &Farm, time: Option<f64>) -> Result<Input, Failure> {
-    let reading = Reading {
+fn staged(args: &FarmArgs, time: Option<f64>) -> Result<Input, Failure> {
+    let reading = ReadArgs {
         time: time.or(args.reading.time),
         ..args.reading.clone()
     };
@@ -81,14 +81,14 @@ fn staged(args: &Farm, time: Option<f64>) -> Result<Input, Failure> {
 
 /// The scene with all settings of the pictures in it, and for a PNG how it is shown.
 fn settled(
-    args: &Farm,
+    args: &FarmArgs,
     mut input: Input,
     reporter: &mut Reporter,
     interrupt: &Interrupt,
 ) -> Result<RenderSubject, Failure> {
     let mut setup = wanted(&args.wanted, &args.look, Path::new(&args.picture))?;
     refuse_layers(&setup)?;
-    let settled = project::picture(&args.file, &args.reading, Goal::default())?;
+    let settled = project::picture(&args.file, &args.reading, RenderGoal::default())?;
     setup.overrides = setup.overrides.or(settled);
     let mut subject = input::subject(&mut setup, &mut input, reporter)?;
     let scene = &subject.validated.lowered.scene;
@@ -115,13 +115,13 @@ fn refuse_name(picture: &str) -> Result<(), Failure> {
     ))
 }
 
-fn stopped_or(args: &Farm, error: &io::Error, interrupt: &Interrupt) -> Failure {
+fn stopped_or(args: &FarmArgs, error: &io::Error, interrupt: &Interrupt) -> Failure {
     match interrupt.is_raised() {
         true => Failure::Interrupted,
         false => failure(args, error),
     }
 }
 
-fn failure(args: &Farm, error: &io::Error) -> Failure {
+fn failure(args: &FarmArgs, error: &io::Error) -> Failure {
     Failure::Failed(format!("can't make `{}`: {error}", args.output.display()))
 }

@@ -4,14 +4,14 @@ mod pictures;
 mod scenes;
 
 use super::Failure;
-use super::args::Diff;
+use super::args::DiffArgs;
 use super::gate::{self, GateResult};
 use super::input;
 use super::interrupt::Interrupt;
 use super::output::{self, Output};
 use super::shown::over_limit;
-use rtc_codec::Change;
-use rtc_image::{FileFormat, Image, Picture, ShownPicture};
+use rtc_codec::ValueChange;
+use rtc_image::{DisplayedPicture, FileFormat, Image, Picture};
 use rtc_source::{Budget, Resource};
 use rtc_study::{Difference, SliderPage, heat_map, slider_page, value_text};
 use schemars::JsonSchema;
@@ -37,7 +37,7 @@ const MAP_PIXEL: u64 = 40;
 const PAGE_PIXEL: u64 = 104;
 
 /// Compares two pictures or two scenes, and reports the differences.
-pub(super) fn run(args: &Diff) -> Result<(), Failure> {
+pub(super) fn run(args: &DiffArgs) -> Result<(), Failure> {
     match [&args.new, &args.old].map(|path| input::is_picture(path)) {
         [true, true] => pictures::run(args),
         [false, false] => scenes::run(args),
@@ -56,12 +56,12 @@ pub(super) fn run(args: &Diff) -> Result<(), Failure> {
 }
 
 /// The inputs of the comparison.
-struct Compared<'a> {
+struct ComparedInputs<'a> {
     /// The new picture and the old one, of one size; none of files that are the same.
-    pictures: Option<[&'a ShownPicture; 2]>,
+    pictures: Option<[&'a DisplayedPicture; 2]>,
     size: [u32; 2],
     /// What differs in their scenes.
-    changes: Option<&'a [Change]>,
+    changes: Option<&'a [ValueChange]>,
 }
 
 /// The JSON report of a comparison.
@@ -82,15 +82,15 @@ pub(super) struct DiffReport<'a> {
     gates: &'a [GateResult],
     /// The values of the IR that differ; absent if pictures were compared.
     #[serde(skip_serializing_if = "Option::is_none")]
-    changes: Option<&'a [Change]>,
+    changes: Option<&'a [ValueChange]>,
 }
 
 /// Writes the requested files, reports the differences of pictures and scenes, and applies the
 /// gates.
 fn report(
-    args: &Diff,
+    args: &DiffArgs,
     outputs: DiffOutputs,
-    compared: &Compared<'_>,
+    compared: &ComparedInputs<'_>,
     budget: &Budget,
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
@@ -114,9 +114,9 @@ fn report(
 
 /// Writes the map and the page of two pictures, and hands on how they differ.
 fn write(
-    args: &Diff,
+    args: &DiffArgs,
     outputs: DiffOutputs,
-    (compared, pictures): (&Compared<'_>, [&ShownPicture; 2]),
+    (compared, pictures): (&ComparedInputs<'_>, [&DisplayedPicture; 2]),
     budget: &Budget,
     interrupt: &Interrupt,
 ) -> Result<Difference, Failure> {
@@ -130,7 +130,7 @@ fn write(
         output.commit(&map_file(heat_map(compared.size, &flips))?, interrupt)?;
     }
     if let Some(output) = outputs.page {
-        let images = pictures.map(ShownPicture::image);
+        let images = pictures.map(DisplayedPicture::image);
         let page = slider_page(&SliderPage {
             names: [&args.new, &args.old]
                 .map(|path| page_name(path))
@@ -172,10 +172,10 @@ fn measure(found: &Difference, name: &str) -> f64 {
 }
 
 /// What differs in the scenes, a line each.
-fn changed(changes: &[Change]) -> String {
+fn changed(changes: &[ValueChange]) -> String {
     /// The maximum number of lines.
     const MOST: usize = 40;
-    let line = |Change { path, new, old }: &Change| {
+    let line = |ValueChange { path, new, old }: &ValueChange| {
         let (new, old) = (value_text(new.as_ref()), value_text(old.as_ref()));
         format!("  {path}: {old} → {new}\n")
     };
@@ -192,7 +192,7 @@ fn changed(changes: &[Change]) -> String {
     }
 }
 
-fn message(args: &Diff, [width, height]: [u32; 2], found: &Difference) -> String {
+fn message(args: &DiffArgs, [width, height]: [u32; 2], found: &Difference) -> String {
     let names = format!(
         "{} and {}: {width}×{height}",
         args.new.display(),
@@ -225,8 +225,8 @@ fn message(args: &Diff, [width, height]: [u32; 2], found: &Difference) -> String
 }
 
 fn json(
-    args: &Diff,
-    compared: &Compared<'_>,
+    args: &DiffArgs,
+    compared: &ComparedInputs<'_>,
     found: &Difference,
     gates: &[GateResult],
 ) -> Result<String, Failure> {

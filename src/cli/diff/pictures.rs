@@ -1,17 +1,17 @@
 //! Two pictures from files; the memory for decoding is charged in advance.
 
 use super::super::Failure;
-use super::super::args::Diff;
+use super::super::args::DiffArgs;
 use super::super::interrupt::Interrupt;
 use super::super::output::Output;
 use super::super::shown::{charge, decoded, opened, read};
-use super::{Compared, DiffOutputs, report};
-use rtc_image::{ShownFile, ShownPicture};
+use super::{ComparedInputs, DiffOutputs, report};
+use rtc_image::{DisplayedFile, DisplayedPicture};
 use rtc_source::{Budget, SourceMap};
 use std::path::Path;
 
 /// Compares two pictures, and reports the differences.
-pub(super) fn run(args: &Diff) -> Result<(), Failure> {
+pub(super) fn run(args: &DiffArgs) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()?;
     let map = SourceMap::with_limits(args.reading.limits(|_| ()));
     let (new, old) = (read(&args.new, &map)?, read(&args.old, &map)?);
@@ -26,7 +26,7 @@ pub(super) fn run(args: &Diff) -> Result<(), Failure> {
     };
     let budget = map.budget();
     let file = opened(&args.new, &new, budget)?;
-    let same = Compared {
+    let same = ComparedInputs {
         pictures: None,
         size: file.size(),
         changes: None,
@@ -35,7 +35,7 @@ pub(super) fn run(args: &Diff) -> Result<(), Failure> {
         return report(args, outputs, &same, budget, &interrupt);
     }
     let pictures = both(args, file, opened(&args.old, &old, budget)?, budget)?;
-    let compared = Compared {
+    let compared = ComparedInputs {
         pictures: Some(pictures.each_ref()),
         size: pictures[0].size(),
         changes: None,
@@ -45,23 +45,27 @@ pub(super) fn run(args: &Diff) -> Result<(), Failure> {
 
 /// Decodes two pictures that can be compared.
 fn both(
-    args: &Diff,
-    new: ShownFile<'_>,
-    old: ShownFile<'_>,
+    args: &DiffArgs,
+    new: DisplayedFile<'_>,
+    old: DisplayedFile<'_>,
     budget: &Budget,
-) -> Result<[ShownPicture; 2], Failure> {
+) -> Result<[DisplayedPicture; 2], Failure> {
     fitting(args, &new, &old)?;
     charge(&args.new, new.cost(), budget)?;
     charge(&args.old, old.cost(), budget)?;
     let pictures = [decoded(&args.new, new)?, decoded(&args.old, old)?];
-    match pictures.each_ref().map(ShownPicture::size) {
+    match pictures.each_ref().map(DisplayedPicture::size) {
         [a, b] if a == b => Ok(pictures),
         other => Err(sizes(args, other)),
     }
 }
 
 /// Refuses pictures that can't be compared.
-fn fitting(args: &Diff, new: &ShownFile<'_>, old: &ShownFile<'_>) -> Result<(), Failure> {
+fn fitting(
+    args: &DiffArgs,
+    new: &DisplayedFile<'_>,
+    old: &DisplayedFile<'_>,
+) -> Result<(), Failure> {
     if new.holds_light() != old.holds_light() {
         let names = [&args.new, &args.old].map(|path| path.display());
         let light = usize::from(old.holds_light());
@@ -78,7 +82,7 @@ fn fitting(args: &Diff, new: &ShownFile<'_>, old: &ShownFile<'_>) -> Result<(), 
     }
 }
 
-fn sizes(args: &Diff, [a, b]: [[u32; 2]; 2]) -> Failure {
+fn sizes(args: &DiffArgs, [a, b]: [[u32; 2]; 2]) -> Failure {
     let names = [&args.new, &args.old].map(|path| path.display());
     Failure::Failed(format!(
         "pictures of one size are compared: `{}` has {} × {} pixels, `{}` {} × {}",

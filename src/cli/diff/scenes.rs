@@ -1,29 +1,29 @@
 //! Two scenes: the differences of their IR, and their pictures from the camera of the new scene.
 
 use super::super::Failure;
-use super::super::args::Diff;
+use super::super::args::DiffArgs;
 use super::super::interrupt::Interrupt;
 use super::super::output::Output;
 use super::super::render::ended;
 use super::super::reporter::Reporter;
 use super::super::{input, simd};
-use super::{Compared, DiffOutputs, report};
+use super::{ComparedInputs, DiffOutputs, report};
 use rtc_codec::changes;
-use rtc_image::{BackgroundFill, FileFormat, Picture, ShownPicture};
+use rtc_image::{BackgroundFill, DisplayedPicture, FileFormat, Picture};
 use rtc_ir::{Camera, Scene};
-use rtc_pipeline::{Input, Observer, OutputTransform, PictureSetup, RenderSubject};
+use rtc_pipeline::{Input, OutputTransform, PictureSetup, RenderObserver, RenderSubject};
 use rtc_render::Film;
 use std::path::Path;
 
 /// A scene to be compared, as its picture is set up.
-struct DiffSide {
+struct ComparedScene {
     input: Input,
     setup: PictureSetup,
     subject: RenderSubject,
 }
 
 /// Compares two scenes, and reports the differences.
-pub(super) fn run(args: &Diff) -> Result<(), Failure> {
+pub(super) fn run(args: &DiffArgs) -> Result<(), Failure> {
     if [&args.new, &args.old]
         .iter()
         .all(|file| file.as_os_str() == "-")
@@ -37,10 +37,10 @@ pub(super) fn run(args: &Diff) -> Result<(), Failure> {
     outcome
 }
 
-fn carry_out(args: &Diff, reporter: &mut Reporter) -> Result<(), Failure> {
+fn carry_out(args: &DiffArgs, reporter: &mut Reporter) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()?;
-    let mut new = DiffSide::read(args, &args.new, None, reporter)?;
-    let mut old = DiffSide::read(args, &args.old, Some(new.size()), reporter)?;
+    let mut new = ComparedScene::read(args, &args.new, None, reporter)?;
+    let mut old = ComparedScene::read(args, &args.old, Some(new.size()), reporter)?;
     let changed = changes(new.scene(), old.scene());
     let changed = changed.expect("proven scenes hold finite numbers only");
     let open = |path: &Option<_>| {
@@ -58,7 +58,7 @@ fn carry_out(args: &Diff, reporter: &mut Reporter) -> Result<(), Failure> {
     let first = new.picture(reporter, &interrupt)?;
     old.see_by(&new.scene().camera)?;
     let second = old.picture(reporter, &interrupt)?;
-    let compared = Compared {
+    let compared = ComparedInputs {
         pictures: Some([&first, &second]),
         size: first.size(),
         changes: Some(&changed),
@@ -67,10 +67,10 @@ fn carry_out(args: &Diff, reporter: &mut Reporter) -> Result<(), Failure> {
     report(args, outputs, &compared, budget, &interrupt)
 }
 
-impl DiffSide {
+impl ComparedScene {
     /// Reads a scene, for a picture of the given size if any, and reports its diagnostics.
     fn read(
-        args: &Diff,
+        args: &DiffArgs,
         file: &Path,
         size: Option<[u32; 2]>,
         reporter: &mut Reporter,
@@ -121,13 +121,13 @@ impl DiffSide {
         &mut self,
         reporter: &mut Reporter,
         interrupt: &Interrupt,
-    ) -> Result<ShownPicture, Failure> {
+    ) -> Result<DisplayedPicture, Failure> {
         let Self {
             input,
             setup,
             subject,
         } = self;
-        let observer = Observer {
+        let observer = RenderObserver {
             on_step: &|_| (),
             is_stopped: &|| interrupt.is_raised(),
         };
@@ -145,6 +145,6 @@ impl DiffSide {
         let picture = setup.develop(subject, film, &[], input, observer.is_stopped)?;
         input::report_diagnostics(input, reporter)?;
         let Picture { image, .. } = picture;
-        Ok(ShownPicture::of(image))
+        Ok(DisplayedPicture::of(image))
     }
 }

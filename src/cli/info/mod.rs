@@ -4,18 +4,18 @@ mod report;
 
 pub(super) use report::InfoReport;
 
-use super::args::Info;
+use super::args::InfoArgs;
 use super::reporter::Reporter;
 use super::{Failure, input, output};
 use indicatif::{BinaryBytes, HumanCount};
 use report::{
-    BoundsReport, CameraReport, ContentCounts, ContentReport, EffectReport, ImageReport, InfoAsset,
-    PictureReport, SettingsReport,
+    BoundsReport, CameraReport, ContentCounts, ContentReport, EffectReport, GltfAssetReport,
+    ImageReport, PictureReport, SettingsReport,
 };
 use rtc_ir::{Light, Mesh, Mode, Projection, Scene, Shape};
 use rtc_math::{Vec3, shortest};
-use rtc_pipeline::{Input, Validated};
-use rtc_plan::{Plan, Rule, Rules};
+use rtc_pipeline::{Input, ValidatedScene};
+use rtc_plan::{Plan, Rule, RuleSet};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
@@ -26,7 +26,7 @@ const SCHEMA: &str = "rtc-info/1";
 const INDENT: usize = 12;
 
 /// Reports the contents of the scene.
-pub(super) fn run(args: &Info) -> Result<(), Failure> {
+pub(super) fn run(args: &InfoArgs) -> Result<(), Failure> {
     let mut reporter = Reporter::beside_result(&args.reporter);
     let mut input = input::staged(&args.file, &args.reading, &args.stage)?;
     let outcome = carry_out(args, &mut input, &mut reporter);
@@ -34,7 +34,7 @@ pub(super) fn run(args: &Info) -> Result<(), Failure> {
     outcome
 }
 
-fn carry_out(args: &Info, input: &mut Input, reporter: &mut Reporter) -> Result<(), Failure> {
+fn carry_out(args: &InfoArgs, input: &mut Input, reporter: &mut Reporter) -> Result<(), Failure> {
     // The picture is planned, not made.
     input.lift_rays();
     let asset = input.asset();
@@ -47,7 +47,7 @@ fn carry_out(args: &Info, input: &mut Input, reporter: &mut Reporter) -> Result<
         file: input.name().to_owned(),
         content: content.unwrap_or_default(),
         settings: settings(&validated),
-        asset: asset.as_ref().map(InfoAsset::new),
+        asset: asset.as_ref().map(GltfAssetReport::new),
     };
     let facts = serde_json::to_value(report).map_err(|error| Failure::Failed(error.to_string()))?;
     let text = match args.format.is_json() {
@@ -149,7 +149,7 @@ fn bounds(scene: &Scene) -> Option<BoundsReport> {
 }
 
 /// The settings of the picture, and the effects that it requires.
-fn settings(validated: &Validated) -> SettingsReport {
+fn settings(validated: &ValidatedScene) -> SettingsReport {
     let Scene {
         camera, settings, ..
     } = &validated.lowered.scene;
@@ -163,7 +163,7 @@ fn settings(validated: &Validated) -> SettingsReport {
     };
     let grid = u64::from(settings.supersampling).pow(2);
     // Plan the picture for the status of each effect.
-    let plan = Plan::new(&validated.scene, Rules::ALL);
+    let plan = Plan::new(&validated.scene, RuleSet::ALL);
     let statuses = plan.statuses.iter().filter(|status| status.of.is_none());
     let effects = statuses.map(|status| EffectReport {
         effect: status.effect.name(),

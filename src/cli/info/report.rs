@@ -19,7 +19,7 @@ pub(crate) struct InfoReport<'a> {
     #[serde(flatten)]
     pub(super) settings: SettingsReport,
     /// The glTF asset; null for other files.
-    pub(super) asset: Option<InfoAsset<'a>>,
+    pub(super) asset: Option<GltfAssetReport<'a>>,
 }
 
 /// The content of a scene.
@@ -135,7 +135,7 @@ pub(super) struct EffectReport {
 /// A glTF asset.
 #[derive(Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct InfoAsset<'a> {
+pub(super) struct GltfAssetReport<'a> {
     /// The version of glTF.
     version: &'a str,
     /// The program that wrote the asset; empty if unknown.
@@ -166,7 +166,7 @@ struct AnimationReport<'a> {
     seconds: f64,
 }
 
-impl<'a> InfoAsset<'a> {
+impl<'a> GltfAssetReport<'a> {
     pub(super) fn new(asset: &'a AssetSummary) -> Self {
         let animation = |animation: &'a AnimationSummary| AnimationReport {
             name: &animation.name,

@@ -42,7 +42,7 @@ pub(super) fn completions(
     let is_key = rest
         .get(end - offset..)
         .is_some_and(|rest| rest.trim_start_matches('"').starts_with(':'));
-    let quotes = Quotes::of(&document.text, before);
+    let quotes = QuoteStyle::of(&document.text, before);
     let blanks = match as_value || is_key {
         true => vec![BLANK.to_owned()],
         // A key that still wants its value, or an item.
@@ -71,7 +71,7 @@ pub(super) fn completions(
 
 /// Whether the inserted text needs quotes.
 #[derive(Clone, Copy)]
-enum Quotes {
+enum QuoteStyle {
     /// It needs none.
     None,
     /// They are there.
@@ -80,7 +80,7 @@ enum Quotes {
     Wanted,
 }
 
-impl Quotes {
+impl QuoteStyle {
     fn of(text: &str, before: &str) -> Self {
         if before.ends_with('"') {
             return Self::There;
@@ -122,7 +122,7 @@ fn proposed(
     tree: &SyntaxTree<'_>,
     offset: usize,
     vocabulary: &Vocabulary,
-    quotes: Quotes,
+    quotes: QuoteStyle,
     form: InsertTextFormat,
 ) -> Vec<CompletionItem> {
     let steps = path_at(tree, offset);
@@ -143,10 +143,10 @@ fn proposed(
     let schemas = vocabulary.at(tree, &steps);
     let mut items: Vec<CompletionItem> = words(&schemas).into_iter().map(word_item).collect();
     let is_json = match quotes {
-        Quotes::None => Some(false),
-        Quotes::Wanted => Some(true),
+        QuoteStyle::None => Some(false),
+        QuoteStyle::Wanted => Some(true),
         // An object does not stand between quotes.
-        Quotes::There => None,
+        QuoteStyle::There => None,
     };
     items.extend(
         is_json
@@ -155,7 +155,9 @@ fn proposed(
             .flatten(),
     );
     if is_file(&schemas) {
-        items.extend(files(document.path.parent().unwrap_or(Path::new("."))));
+        items.extend(files(
+            document.path.parent().unwrap_or(Path::new(".")),
+        ));
     }
     items.extend(anchors(&document.text));
     items

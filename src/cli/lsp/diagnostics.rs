@@ -1,6 +1,6 @@
 //! Diagnostics in the form of the protocol, by file, and their suggestions as quick fixes.
 
-use super::super::args::Reading;
+use super::super::args::ReadArgs;
 use super::open_text::{CheckedScene, CheckedText, OpenText};
 use super::place;
 use super::protocol::{
@@ -39,7 +39,7 @@ pub(super) fn diagnostics(document: &OpenText, columns: Columns) -> Vec<FileDiag
     }
     let mut place_of: BTreeMap<String, usize> = BTreeMap::new();
     if let Some(checked) = document.scene() {
-        let atlas = Atlas::new(document, checked, columns);
+        let atlas = DocumentLineTables::new(document, checked, columns);
         for diagnostic in &checked.diagnostics {
             let (uri, diagnostic) = atlas.diagnostic(diagnostic);
             if uri == document.uri {
@@ -58,7 +58,7 @@ pub(super) fn diagnostics(document: &OpenText, columns: Columns) -> Vec<FileDiag
 }
 
 /// The files of a checked document with their line tables, which are computed once.
-struct Atlas<'d> {
+struct DocumentLineTables<'d> {
     document: &'d OpenText,
     checked: &'d CheckedScene,
     lines: TextLines<'d>,
@@ -66,7 +66,7 @@ struct Atlas<'d> {
     others: RefCell<BTreeMap<FileId, (DocumentUri, Option<TextLines<'d>>)>>,
 }
 
-impl<'d> Atlas<'d> {
+impl<'d> DocumentLineTables<'d> {
     fn new(document: &'d OpenText, checked: &'d CheckedScene, columns: Columns) -> Self {
         Self {
             document,
@@ -146,7 +146,7 @@ pub(super) fn actions(
     document: &OpenText,
     range: Range,
     only: Option<&[CodeActionKind]>,
-    reading: &Reading,
+    reading: &ReadArgs,
     columns: Columns,
 ) -> Vec<CodeAction> {
     let lines = document.lines(columns);
@@ -163,7 +163,7 @@ pub(super) fn actions(
         return Vec::new();
     };
     // Collect the fixes of diagnostics that touch the range.
-    let atlas = Atlas::new(document, checked, columns);
+    let atlas = DocumentLineTables::new(document, checked, columns);
     let fixes = checked.diagnostics.iter().flat_map(|diagnostic| {
         let (uri, reported) = atlas.diagnostic(diagnostic);
         let is_here = uri == document.uri && touch(reported.range, range);
@@ -218,7 +218,7 @@ fn quick_fix(
 }
 
 /// What `rtc check --fix` does to the text, if that is anything.
-fn fix_all(document: &OpenText, reading: &Reading, lines: &TextLines<'_>) -> Option<CodeAction> {
+fn fix_all(document: &OpenText, reading: &ReadArgs, lines: &TextLines<'_>) -> Option<CodeAction> {
     let (options, _) = document.options(reading).ok()?;
     let wish = FixFilter::default();
     let fixed = pipeline::fix(&document.path, &document.text, &options, &wish);

@@ -2,7 +2,7 @@
 //! units of the renderer.
 
 use super::open_text::OpenText;
-use rtc_ir::{EntityKind, Field, Scene, ValuePath};
+use rtc_ir::{EntityField, EntityKind, Scene, ValuePath};
 use rtc_math::shortest;
 use rtc_source::Span;
 use rtc_source::tree::{NodeId, SyntaxTree};
@@ -58,7 +58,7 @@ fn of(scene: &Scene, path: ValuePath) -> Option<Value> {
         EntityKind::Image | EntityKind::Mesh => None,
     }?;
     let entity = ValuePath {
-        field: Field::Whole,
+        field: EntityField::Whole,
         ..path
     };
     let pointer = path.to_string();

@@ -45,7 +45,7 @@ use serde_json::{Value, json};
 use std::io::{self, BufReader, Stdout};
 use std::panic::{self, AssertUnwindSafe};
 use text::Columns;
-use wire::{Inbox, Incoming};
+use wire::{IncomingMessage, MessageQueue};
 use workspace::Workspace;
 
 /// The state of the session (LSP, "Server lifecycle").
@@ -61,17 +61,17 @@ enum SessionState {
 
 /// A server of one editor.
 struct Server {
-    inbox: Inbox,
+    inbox: MessageQueue,
     out: Stdout,
     state: SessionState,
     workspace: Workspace,
 }
 
 /// Serves one editor until it sends `exit` or disconnects.
-pub(super) fn run(args: args::Lsp) -> Result<(), Failure> {
+pub(super) fn run(args: args::LspArgs) -> Result<(), Failure> {
     let trouble = |error: io::Error| Failure::Failed(format!("lsp: {error}"));
     let mut server = Server {
-        inbox: Inbox::of(BufReader::new(io::stdin())).map_err(trouble)?,
+        inbox: MessageQueue::of(BufReader::new(io::stdin())).map_err(trouble)?,
         out: io::stdout(),
         state: SessionState::Starting,
         workspace: Workspace::new(args.reading),
@@ -83,7 +83,7 @@ pub(super) fn run(args: args::Lsp) -> Result<(), Failure> {
 ///
 /// # Panics
 /// If a message causes an internal error.
-pub(super) fn hear_all(args: args::Lsp, messages: &[u8]) {
+pub(super) fn hear_all(args: args::LspArgs, messages: &[u8]) {
     /// The maximum number of messages.
     const MOST: usize = 64;
     let mut workspace = Workspace::new(args.reading);
@@ -119,27 +119,27 @@ impl Server {
                 }
             };
             match incoming {
-                Incoming::Message(Message::Notification(own)) if own.method == "exit" => {
+                IncomingMessage::Message(Message::Notification(own)) if own.method == "exit" => {
                     let is_asked = self.state == SessionState::ShutDown;
                     let error_text = "the editor left without `shutdown`";
                     let failure = || Failure::Input(error_text.to_owned());
                     return is_asked.then_some(()).ok_or_else(failure);
                 }
-                Incoming::Message(message) => self.hear(message),
-                Incoming::Done(messages) => {
+                IncomingMessage::Message(message) => self.hear(message),
+                IncomingMessage::Done(messages) => {
                     messages.into_iter().for_each(|message| self.send(message));
                 }
-                Incoming::End => return Ok(()),
-                Incoming::Cancelled(id) => {
+                IncomingMessage::End => return Ok(()),
+                IncomingMessage::Cancelled(id) => {
                     let error_text = "cancelled".to_owned();
                     let code = ErrorCode::RequestCanceled as i32;
                     self.send(Response::new_err(id, code, error_text));
                 }
                 // An editor that is gone is noticed where its next message is waited for.
-                Incoming::NoMessage(code, error_text) => {
+                IncomingMessage::NoMessage(code, error_text) => {
                     let _ = wire::refuse(&mut self.out, code, &error_text);
                 }
-                Incoming::Broken(error_text) => {
+                IncomingMessage::Broken(error_text) => {
                     return Err(Failure::Failed(format!("lsp: {error_text}")));
                 }
             }

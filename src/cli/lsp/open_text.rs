@@ -1,7 +1,7 @@
 //! A document that is open in an editor, and its diagnostics.
 
 use super::super::Failure;
-use super::super::args::Reading;
+use super::super::args::ReadArgs;
 use super::super::input;
 use super::super::project::Project;
 use super::diagnostics::FileDiagnostics;
@@ -11,7 +11,7 @@ use super::text::{Columns, LineTable, TextLines};
 use super::uri::DocumentUri;
 use ropey::Rope;
 use rtc_diag::{Diagnostic, Severity};
-use rtc_ir::Lowered;
+use rtc_ir::LoweredScene;
 use rtc_pipeline::{Input, Options, SourceKind};
 use rtc_source::tree::{DetachedTree, SyntaxTree, yaml};
 use rtc_source::{EditedFiles, FileId, SourceMap};
@@ -56,7 +56,7 @@ pub(super) enum CheckedText {
 pub(super) struct CheckedScene {
     input: Input,
     /// The scene, if the document has no errors.
-    pub(super) lowered: Option<Lowered>,
+    pub(super) lowered: Option<LoweredScene>,
     /// Errors and warnings, in the order of the text.
     pub(super) diagnostics: Vec<Diagnostic>,
 }
@@ -164,7 +164,7 @@ impl OpenText {
     }
 
     /// Checks the document under the path of its file, as `rtc check` does, unless it is checked.
-    pub(super) fn check(&mut self, reading: &Reading) {
+    pub(super) fn check(&mut self, reading: &ReadArgs) {
         if self.checked.is_some() {
             return;
         }
@@ -180,7 +180,7 @@ impl OpenText {
         self.checked = Some(checked);
     }
 
-    fn checked_anew(&self, reading: &Reading) -> Result<CheckedScene, Failure> {
+    fn checked_anew(&self, reading: &ReadArgs) -> Result<CheckedScene, Failure> {
         let (options, project) = self.options(reading)?;
         let bytes = self.text.as_bytes().to_vec();
         let mut input = Input::edited(&self.path, bytes, options);
@@ -207,7 +207,10 @@ impl OpenText {
     }
 
     /// The options for reading the document.
-    pub(super) fn options(&self, reading: &Reading) -> Result<(Options, Option<Project>), Failure> {
+    pub(super) fn options(
+        &self,
+        reading: &ReadArgs,
+    ) -> Result<(Options, Option<Project>), Failure> {
         let project = Project::of(&self.path, reading)?;
         let options = Options {
             edited: self.others.clone(),

@@ -20,7 +20,7 @@ const CANCEL: &str = "$/cancelRequest";
 
 /// What came in.
 #[derive(Debug)]
-pub(super) enum Incoming {
+pub(super) enum IncomingMessage {
     /// A message.
     Message(Message),
     /// A request that was cancelled before it began.
@@ -36,13 +36,13 @@ pub(super) enum Incoming {
 }
 
 /// The messages that wait, in their order.
-pub(super) struct Inbox {
-    receiver: Receiver<Incoming>,
-    sender: Sender<Incoming>,
-    waiting: VecDeque<Incoming>,
+pub(super) struct MessageQueue {
+    receiver: Receiver<IncomingMessage>,
+    sender: Sender<IncomingMessage>,
+    waiting: VecDeque<IncomingMessage>,
 }
 
-impl Inbox {
+impl MessageQueue {
     /// The queue of a stream, which is read by a thread of its own.
     ///
     /// # Errors
@@ -54,8 +54,8 @@ impl Inbox {
             loop {
                 let (incoming, is_last) = match next(&mut input) {
                     Ok(Some(incoming)) => (incoming, false),
-                    Ok(None) => (Incoming::End, true),
-                    Err(error) => (Incoming::Broken(error.to_string()), true),
+                    Ok(None) => (IncomingMessage::End, true),
+                    Err(error) => (IncomingMessage::Broken(error.to_string()), true),
                 };
                 if own.send(incoming).is_err() || is_last {
                     return;
@@ -82,14 +82,14 @@ impl Inbox {
         let sender = self.sender.clone();
         let done = move || {
             // Without a reader the server has ended.
-            let _ = sender.send(Incoming::Done(work()));
+            let _ = sender.send(IncomingMessage::Done(work()));
         };
         let worker = thread::Builder::new().name("command".to_owned());
         worker.spawn(done).map(drop)
     }
 
     /// The next message, if one is there.
-    pub(super) fn next(&mut self) -> Option<Incoming> {
+    pub(super) fn next(&mut self) -> Option<IncomingMessage> {
         while let Ok(incoming) = self.receiver.try_recv() {
             self.put(incoming);
         }
@@ -97,7 +97,7 @@ impl Inbox {
     }
 
     /// The next message, which may be waited for; `None` if no more can come.
-    pub(super) fn wait(&mut self) -> Option<Incoming> {
+    pub(super) fn wait(&mut self) -> Option<IncomingMessage> {
         if let Some(incoming) = self.next() {
             return Some(incoming);
         }
@@ -106,28 +106,28 @@ impl Inbox {
     }
 
     /// Queues a message, or cancels a queued one if it is a cancellation.
-    fn put(&mut self, incoming: Incoming) {
+    fn put(&mut self, incoming: IncomingMessage) {
         let Some(id) = taken_back(&incoming) else {
             return self.waiting.push_back(incoming);
         };
-        let is_meant = |waiting: &&mut Incoming| match waiting {
-            Incoming::Message(Message::Request(request)) => request.id == id,
-            Incoming::Message(Message::Response(_) | Message::Notification(_))
-            | Incoming::Cancelled(_)
-            | Incoming::NoMessage(..)
-            | Incoming::Done(_)
-            | Incoming::End
-            | Incoming::Broken(_) => false,
+        let is_meant = |waiting: &&mut IncomingMessage| match waiting {
+            IncomingMessage::Message(Message::Request(request)) => request.id == id,
+            IncomingMessage::Message(Message::Response(_) | Message::Notification(_))
+            | IncomingMessage::Cancelled(_)
+            | IncomingMessage::NoMessage(..)
+            | IncomingMessage::Done(_)
+            | IncomingMessage::End
+            | IncomingMessage::Broken(_) => false,
         };
         if let Some(suggestion) = self.waiting.iter_mut().find(is_meant) {
-            *suggestion = Incoming::Cancelled(id);
+            *suggestion = IncomingMessage::Cancelled(id);
         }
     }
 }
 
 /// The request that a message takes back.
-fn taken_back(incoming: &Incoming) -> Option<RequestId> {
-    let Incoming::Message(Message::Notification(own)) = incoming else {
+fn taken_back(incoming: &IncomingMessage) -> Option<RequestId> {
+    let IncomingMessage::Message(Message::Notification(own)) = incoming else {
         return None;
     };
     let id = own.params.get("id").filter(|_| own.method == CANCEL)?;
@@ -135,7 +135,7 @@ fn taken_back(incoming: &Incoming) -> Option<RequestId> {
 }
 
 /// The next message of a stream; none at its end.
-fn next(input: &mut impl BufRead) -> io::Result<Option<Incoming>> {
+fn next(input: &mut impl BufRead) -> io::Result<Option<IncomingMessage>> {
     let Some(length) = head(input)? else {
         return Ok(None);
     };
@@ -145,14 +145,14 @@ fn next(input: &mut impl BufRead) -> io::Result<Option<Incoming>> {
         return Ok(None);
     }
     let no_message = |code: lsp_server::ErrorCode, error: serde_json::Error| {
-        Incoming::NoMessage(code as i32, error.to_string())
+        IncomingMessage::NoMessage(code as i32, error.to_string())
     };
     let value: Value = match serde_json::from_slice(&body) {
         Ok(value) => value,
         Err(error) => return Ok(Some(no_message(lsp_server::ErrorCode::ParseError, error))),
     };
     Ok(Some(match serde_json::from_value(value) {
-        Ok(message) => Incoming::Message(message),
+        Ok(message) => IncomingMessage::Message(message),
         Err(error) => no_message(lsp_server::ErrorCode::InvalidRequest, error),
     }))
 }
@@ -206,14 +206,14 @@ mod tests {
     fn read(text: &str) -> Vec<String> {
         let mut input = text.as_bytes();
         let reported = |incoming| match incoming {
-            Incoming::Message(Message::Request(own)) => format!("request {}", own.id),
-            Incoming::Message(Message::Notification(own)) => own.method,
-            Incoming::Message(Message::Response(_)) => "response".to_owned(),
-            Incoming::Cancelled(id) => format!("cancelled {id}"),
-            Incoming::NoMessage(code, _) => format!("no message {code}"),
-            Incoming::Done(_) => "done".to_owned(),
-            Incoming::End => "end".to_owned(),
-            Incoming::Broken(_) => "broken".to_owned(),
+            IncomingMessage::Message(Message::Request(own)) => format!("request {}", own.id),
+            IncomingMessage::Message(Message::Notification(own)) => own.method,
+            IncomingMessage::Message(Message::Response(_)) => "response".to_owned(),
+            IncomingMessage::Cancelled(id) => format!("cancelled {id}"),
+            IncomingMessage::NoMessage(code, _) => format!("no message {code}"),
+            IncomingMessage::Done(_) => "done".to_owned(),
+            IncomingMessage::End => "end".to_owned(),
+            IncomingMessage::Broken(_) => "broken".to_owned(),
         };
         let mut all = Vec::new();
         loop {
@@ -258,13 +258,19 @@ mod tests {
         let text = framed(r#"{"id":1,"method":"a"}"#)
             + &framed(r#"{"id":"x","method":"b"}"#)
             + &framed(r#"{"method":"$/cancelRequest","params":{"id":"x"}}"#);
-        let mut inbox = Inbox::of(io::Cursor::new(text)).unwrap();
+        let mut inbox = MessageQueue::of(io::Cursor::new(text)).unwrap();
         let first = inbox.wait().unwrap();
-        assert!(matches!(first, Incoming::Message(Message::Request(_))));
+        assert!(matches!(
+            first,
+            IncomingMessage::Message(Message::Request(_))
+        ));
         let (mut others, mut cancelled) = (0, 0);
-        while let Some(own) = inbox.wait().filter(|own| !matches!(own, Incoming::End)) {
+        while let Some(own) = inbox
+            .wait()
+            .filter(|own| !matches!(own, IncomingMessage::End))
+        {
             others += 1;
-            cancelled += usize::from(matches!(own, Incoming::Cancelled(_)));
+            cancelled += usize::from(matches!(own, IncomingMessage::Cancelled(_)));
         }
         // Whether the second still waited when it was taken back is for the threads to say.
         assert_eq!(others, 1);

@@ -1,6 +1,6 @@
 //! The open documents of an editor: their changes, and the publication of their diagnostics.
 
-use super::super::args::Reading;
+use super::super::args::ReadArgs;
 use super::diagnostics::{self, FileDiagnostics};
 use super::method;
 use super::open_text::OpenText;
@@ -26,7 +26,7 @@ use std::sync::Arc;
 
 /// The open documents, with the state needed for responses.
 pub(super) struct Workspace {
-    pub(super) reading: Reading,
+    pub(super) reading: ReadArgs,
     pub(super) columns: Columns,
     /// The form of whole objects in completions that the editor knows.
     pub(super) snippet_form: InsertTextFormat,
@@ -43,7 +43,7 @@ pub(super) struct Workspace {
 
 impl Workspace {
     /// An empty one; texts are read so.
-    pub(super) fn new(reading: Reading) -> Self {
+    pub(super) fn new(reading: ReadArgs) -> Self {
         Self {
             reading,
             columns: Columns::Utf16,

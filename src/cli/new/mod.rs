@@ -1,7 +1,7 @@
 //! `rtc new`: writes a first scene, with comments, from a template.
 
 use super::Failure;
-use super::args::{New, TemplateArg};
+use super::args::{NewArgs, TemplateArg};
 use super::interrupt::Interrupt;
 use super::output::{Output, is_stdout};
 use rtc_source::SourceMap;
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 const MODEL: &str = include_str!("model.gltf");
 
 /// Writes the scene, and the model of the glTF template beside it. No file is overwritten.
-pub(super) fn run(args: &New) -> Result<(), Failure> {
+pub(super) fn run(args: &NewArgs) -> Result<(), Failure> {
     let scene = match args.template {
         TemplateArg::Course => include_str!("course.yaml"),
         TemplateArg::Path => include_str!("path.yaml"),

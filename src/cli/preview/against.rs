@@ -7,9 +7,9 @@ use super::{Failure, args, input, renderings};
 use crate::project::Project;
 use crate::reporter::Reporter;
 use crate::shown;
-use rtc_image::{DecodeCost, FileFormat, Picture, PictureHead};
+use rtc_image::{DecodeCost, FileFormat, Picture, PictureHeader};
 use rtc_ir::Camera;
-use rtc_pipeline::{Input, Observer, PictureSetup, RenderError};
+use rtc_pipeline::{Input, PictureSetup, RenderError, RenderObserver};
 use rtc_source::SourceMap;
 use std::io::Read as _;
 use std::path::Path;
@@ -40,7 +40,7 @@ pub(super) struct ComparisonScene {
 
 impl ComparisonReference {
     /// The requested reference, if any; a scene is validated, and its diagnostics reported.
-    pub(super) fn new(args: &args::Preview) -> Result<Option<Self>, Failure> {
+    pub(super) fn new(args: &args::PreviewArgs) -> Result<Option<Self>, Failure> {
         let Some(path) = &args.against else {
             return Ok(None);
         };
@@ -91,7 +91,7 @@ impl ComparisonScene {
         &mut self,
         setup: &PictureSetup,
         (view_settings, camera): (&ViewSettings, &Camera),
-        observer: &Observer<'_>,
+        observer: &RenderObserver<'_>,
     ) -> Result<Option<RenderedPicture>, RenderError> {
         let camera = view_settings.view_override.is_some().then_some(camera);
         let wanted = (view_settings.clone(), camera.cloned());
@@ -117,7 +117,7 @@ impl ComparisonScene {
     pub(super) fn glance(
         &mut self,
         camera: &Camera,
-        observer: &Observer<'_>,
+        observer: &RenderObserver<'_>,
     ) -> Result<Option<RenderedPicture>, RenderError> {
         self.seen = None;
         let Some(shown) = &mut self.shown else {
@@ -129,7 +129,7 @@ impl ComparisonScene {
 }
 
 /// The picture in a file, as a PNG.
-fn picture(path: &Path, reading: &args::Reading) -> Result<RenderedPicture, Failure> {
+fn picture(path: &Path, reading: &args::ReadArgs) -> Result<RenderedPicture, Failure> {
     let refused = |message: String| Failure::Failed(format!("`{}`: {message}", path.display()));
     let map = SourceMap::with_limits(reading.limits(|_| ()));
     let bytes = shown::read(path, &map)?;
@@ -151,7 +151,7 @@ fn picture(path: &Path, reading: &args::Reading) -> Result<RenderedPicture, Fail
         image,
         ..Picture::default()
     };
-    let png = PictureHead::of(&picture, FileFormat::Png8).encode(&picture);
+    let png = PictureHeader::of(&picture, FileFormat::Png8).encode(&picture);
     Ok(RenderedPicture {
         png: Arc::new(png.map_err(|error| refused(error.to_string()))?),
         full,

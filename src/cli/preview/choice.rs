@@ -13,13 +13,13 @@ use std::collections::BTreeMap;
 /// Values of parameters that override the scene's, and the integrator.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Choice {
+pub(super) struct SettingOverrides {
     values: BTreeMap<Parameter, u32>,
     /// A value of `--integrator`.
     integrator: Option<String>,
 }
 
-impl Choice {
+impl SettingOverrides {
     /// A choice as sent by the page; none of values that no flag takes.
     pub(super) fn read(bytes: &[u8]) -> Option<Self> {
         let choice: Self = serde_json::from_slice(bytes).ok()?;
@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn a_choice_is_one_that_flags_can_say() {
-        let read = |text: &str| Choice::read(text.as_bytes());
+        let read = |text: &str| SettingOverrides::read(text.as_bytes());
         let choice = r#"{"values": {"supersampling": 2, "precision": 0}, "integrator": "path"}"#;
         let flags = [
             ("--supersampling", Some("2".to_owned())),

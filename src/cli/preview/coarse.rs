@@ -2,9 +2,9 @@
 
 use super::preview_state::RenderedPicture;
 use super::renderings::rendering;
-use rtc_diag::Sink;
+use rtc_diag::DiagnosticSink;
 use rtc_ir::{Mode, Scene, SourceSpans};
-use rtc_pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject, Traced};
+use rtc_pipeline::{Input, PictureSetup, RenderError, RenderObserver, RenderSubject, Traced};
 use rtc_render::Crop;
 use rtc_source::Limits;
 use rtc_valid::{self as valid, ValidationOptions};
@@ -20,7 +20,7 @@ pub(super) fn render(
     setup: &PictureSetup,
     subject: &mut RenderSubject,
     input: &mut Input,
-    observer: &Observer<'_>,
+    observer: &RenderObserver<'_>,
 ) -> Result<Option<RenderedPicture>, RenderError> {
     // Replace the scene by a coarse one.
     let scene = &mut subject.validated.lowered.scene;
@@ -34,7 +34,7 @@ pub(super) fn render(
         scene,
         &SourceSpans::default(),
         &options,
-        &mut Sink::default(),
+        &mut DiagnosticSink::default(),
     );
     // Render it in place of the whole scene.
     let rendered = match proof {
@@ -63,7 +63,7 @@ fn trace(
     setup: &PictureSetup,
     subject: &mut RenderSubject,
     input: &mut Input,
-    observer: &Observer<'_>,
+    observer: &RenderObserver<'_>,
 ) -> Result<RenderedPicture, RenderError> {
     subject.turn();
     let window = setup.window(&subject.validated.lowered.scene)?;

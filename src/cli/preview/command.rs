@@ -1,7 +1,7 @@
 //! The command that renders the picture of the page: `rtc render` with the arguments of the
 //! preview, the view and the settings.
 
-use super::choice::Choice;
+use super::choice::SettingOverrides;
 use crate::typed::{quoted, without};
 use std::ffi::OsString;
 
@@ -26,7 +26,7 @@ impl RenderCommand {
     }
 
     /// With the flags of a view and of settings, instead of the typed ones.
-    pub(super) fn command(&self, view: &[(&str, String)], choice: &Choice) -> String {
+    pub(super) fn command(&self, view: &[(&str, String)], choice: &SettingOverrides) -> String {
         let view = view
             .iter()
             .map(|(name, value)| (*name, Some(value.clone())));
@@ -54,16 +54,19 @@ mod tests {
         let typed: Vec<_> = typed.split(' ').map(OsString::from).collect();
         let arguments = RenderCommand::new(&typed);
         assert_eq!(
-            arguments.command(&[], &Choice::default()),
+            arguments.command(&[], &SettingOverrides::default()),
             "rtc render my.yaml --orbit 30,20 --depth=3 --spp 4"
         );
-        let choice = Choice::read(br#"{"values": {"depth": 1}, "integrator": null}"#).unwrap();
+        let choice =
+            SettingOverrides::read(br#"{"values": {"depth": 1}, "integrator": null}"#).unwrap();
         let view = [("--eye", "1,2,3".to_owned())];
         assert_eq!(
             arguments.command(&view, &choice),
             "rtc render my.yaml --spp 4 --eye 1,2,3 --depth 1"
         );
-        let choice = Choice::read(br#"{"values": {"denoise": 1, "depth": 1}, "integrator": null}"#);
+        let choice = SettingOverrides::read(
+            br#"{"values": {"denoise": 1, "depth": 1}, "integrator": null}"#,
+        );
         assert_eq!(
             arguments.command(&[], &choice.unwrap()),
             "rtc render my.yaml --orbit 30,20 --spp 4 --denoise --depth 1"

@@ -23,7 +23,7 @@ pub(super) struct Subscriber {
 }
 
 /// The next item of a stream of events.
-pub(super) enum Event {
+pub(super) enum EventStreamItem {
     /// The state, and its version.
     Color(u64, Value),
     /// The subscriber was replaced.
@@ -53,15 +53,15 @@ impl Iterator for Subscriber {
             return None;
         }
         match self.preview_state.wait(self.number, self.since) {
-            Event::Color(version, reported) => {
+            EventStreamItem::Color(version, reported) => {
                 self.since = Some(version);
                 Some(format!("data: {reported}\n\n"))
             }
-            Event::GaveWay => {
+            EventStreamItem::GaveWay => {
                 self.is_ended = true;
                 Some(GIVES_WAY.to_owned())
             }
-            Event::Ended => None,
+            EventStreamItem::Ended => None,
         }
     }
 }

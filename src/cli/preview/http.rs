@@ -61,20 +61,20 @@ impl From<io::Error> for BadRequest {
 }
 
 /// Pieces of a reply, as they come.
-pub(super) type Events = Box<dyn Iterator<Item = String>>;
+pub(super) type EventStream = Box<dyn Iterator<Item = String>>;
 
 /// The body of a reply.
-enum Body {
+enum ReplyBody {
     Whole(Arc<Vec<u8>>),
     /// Sent until it ends or the client disconnects.
-    Events(Events),
+    Events(EventStream),
 }
 
 /// A reply.
 pub(super) struct HttpReply {
     status: u16,
     kind: &'static str,
-    body: Body,
+    body: ReplyBody,
     /// What marks the script and the style that the page may have.
     nonce: Option<String>,
 }
@@ -89,15 +89,15 @@ impl HttpReply {
         Self {
             status: 200,
             kind: "image/png",
-            body: Body::Whole(bytes),
+            body: ReplyBody::Whole(bytes),
             nonce: None,
         }
     }
 
     /// A reply of server-sent events (HTML Living Standard, section 9.2).
-    pub(super) fn events(events: Events) -> Self {
+    pub(super) fn events(events: EventStream) -> Self {
         Self {
-            body: Body::Events(events),
+            body: ReplyBody::Events(events),
             ..Self::of(200, "text/event-stream", Vec::new())
         }
     }
@@ -123,7 +123,7 @@ impl HttpReply {
         Self {
             status,
             kind,
-            body: Body::Whole(Arc::new(body)),
+            body: ReplyBody::Whole(Arc::new(body)),
             nonce: None,
         }
     }
@@ -137,8 +137,8 @@ impl HttpReply {
         });
         // Events end with their connection.
         let length = match &self.body {
-            Body::Whole(bytes) => format!("Content-Length: {}\r\n", bytes.len()),
-            Body::Events(_) => String::new(),
+            ReplyBody::Whole(bytes) => format!("Content-Length: {}\r\n", bytes.len()),
+            ReplyBody::Events(_) => String::new(),
         };
         format!(
             "HTTP/1.1 {} {}\r\nContent-Type: {}\r\n{length}Connection: close\r\n\
@@ -159,8 +159,8 @@ impl HttpReply {
         stream.set_write_timeout(Some(PATIENCE))?;
         stream.write_all(self.head().as_bytes())?;
         match self.body {
-            Body::Whole(bytes) => stream.write_all(&bytes)?,
-            Body::Events(mut events) => {
+            ReplyBody::Whole(bytes) => stream.write_all(&bytes)?,
+            ReplyBody::Events(mut events) => {
                 events.try_for_each(|event| stream.write_all(event.as_bytes()))?;
             }
         }

@@ -43,14 +43,14 @@ use command::RenderCommand;
 use preview_state::PreviewState;
 use routes::Routes;
 use serve::AuthGuard;
-use session::Session;
+use session::PreviewSession;
 use std::ffi::OsString;
 use std::sync::{Arc, Mutex};
 use std::thread;
-use watch::Watched;
+use watch::WatchedFiles;
 
 /// Shows the scene until the program is stopped.
-pub(super) fn run(args: &args::Preview, typed: &[OsString]) -> Result<(), Failure> {
+pub(super) fn run(args: &args::PreviewArgs, typed: &[OsString]) -> Result<(), Failure> {
     if args.file.as_os_str() == "-" {
         let message = "standard input can be read only once, so it has no preview; give a file";
         return Err(Failure::Failed(message.to_owned()));
@@ -60,10 +60,10 @@ pub(super) fn run(args: &args::Preview, typed: &[OsString]) -> Result<(), Failur
     let against = ComparisonReference::new(args)?;
     let (preview_state, watched) = (
         Arc::new(PreviewState::default()),
-        Arc::new(Watched::default()),
+        Arc::new(WatchedFiles::default()),
     );
     let shown = (Arc::clone(&preview_state), Arc::clone(&watched));
-    let session = Session::new(args, RenderCommand::new(typed), shown, against)?;
+    let session = PreviewSession::new(args, RenderCommand::new(typed), shown, against)?;
     // Open the port and its access token.
     let (listener, port) = serve::bind(args.port)?;
     let auth_guard = AuthGuard::new(port)?;

@@ -1,9 +1,9 @@
 //! The readout of a pixel of the finished picture: its value, the surface hit there with its
 //! distance and name, and the line of its source.
 
-use rtc_image::{Image, Layers};
-use rtc_ir::{EntityKind, Field, ValuePath};
-use rtc_pipeline::{Input, Validated};
+use rtc_image::{Image, PixelLayers};
+use rtc_ir::{EntityField, EntityKind, ValuePath};
+use rtc_pipeline::{Input, ValidatedScene};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -22,8 +22,8 @@ impl PixelTable {
     /// and `depth.Z`.
     pub(super) fn new(
         image: &Image,
-        layers: &Layers,
-        validated: &Validated,
+        layers: &PixelLayers,
+        validated: &ValidatedScene,
         input: &Input,
     ) -> Self {
         let hit = |pair: &[f32; 2]| (pair[0] as u32, pair[1]);
@@ -71,11 +71,11 @@ impl PixelTable {
 }
 
 /// The name of a surface, or else its shape; and its source.
-fn surface(index: usize, validated: &Validated, input: &Input) -> [String; 2] {
+fn surface(index: usize, validated: &ValidatedScene, input: &Input) -> [String; 2] {
     let scene = &validated.lowered.scene;
     let name = scene.names.get(index).filter(|name| !name.is_empty());
     let shape = scene.surfaces.get(index).map(|own| own.shape.kind().name());
-    let path = ValuePath::new(EntityKind::Surface, index, Field::Whole);
+    let path = ValuePath::new(EntityKind::Surface, index, EntityField::Whole);
     let span = validated.lowered.source_spans.span(path);
     let line = span.map(|span| input.line(span));
     [

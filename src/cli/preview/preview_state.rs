@@ -1,8 +1,8 @@
 //! The state that page, watcher and renderer share: the shown picture, under a version that rises
 //! with every change, and the requests.
 
-use super::choice::Choice;
-use super::events::{self, Event};
+use super::choice::SettingOverrides;
+use super::events::{self, EventStreamItem};
 use super::interrupt;
 use super::pixels::PixelTable;
 use super::view::{SceneCamera, ViewOverride};
@@ -18,7 +18,7 @@ pub(super) struct ViewSettings {
     /// The view, if not the scene's own.
     pub(super) view_override: Option<ViewOverride>,
     /// In which settings.
-    pub(super) choice: Choice,
+    pub(super) choice: SettingOverrides,
 }
 
 /// A picture as the page shows it.
@@ -111,7 +111,7 @@ pub(super) struct PreviewTasks {
 }
 
 /// A piece of work for the render.
-pub(super) struct Work {
+pub(super) struct RenderTask {
     pub(super) orders: PreviewTasks,
     pub(super) view_settings: ViewSettings,
     /// The view is still changing: a crude picture will do.
@@ -180,7 +180,7 @@ impl PreviewState {
     }
 
     /// Has the scene rendered in these settings. The age of the order.
-    pub(super) fn choose(&self, choice: Choice) -> u64 {
+    pub(super) fn choose(&self, choice: SettingOverrides) -> u64 {
         self.order(|state| {
             state.view_settings.choice = choice;
             state.is_moving = false;
@@ -226,7 +226,7 @@ impl PreviewState {
     }
 
     /// Waits for work; `None` if there is to be none any more.
-    pub(super) fn next(&self) -> Option<Work> {
+    pub(super) fn next(&self) -> Option<RenderTask> {
         let is_idle =
             |state: &mut PreviewData| !state.is_ended && state.orders == PreviewTasks::default();
         let waited = self.changed.wait_while(self.state(), is_idle);
@@ -240,7 +240,7 @@ impl PreviewState {
             state.version += 1;
             self.changed.notify_all();
         }
-        Some(Work {
+        Some(RenderTask {
             orders,
             view_settings: state.view_settings.clone(),
             is_moving: state.is_moving,
@@ -274,7 +274,7 @@ impl PreviewState {
     }
 
     /// Waits until the state differs from a version.
-    pub(super) fn wait(&self, number: u64, since: Option<u64>) -> Event {
+    pub(super) fn wait(&self, number: u64, since: Option<u64>) -> EventStreamItem {
         let should_continue =
             |state: &PreviewData| !state.is_ended && state.subscribers.contains(&number);
         let is_same =
@@ -282,9 +282,9 @@ impl PreviewState {
         let waited = self.changed.wait_while(self.state(), is_same);
         let state = waited.unwrap_or_else(PoisonError::into_inner);
         match (state.is_ended, should_continue(&state)) {
-            (true, _) => Event::Ended,
-            (false, true) => Event::Color(state.version, state.reported()),
-            (false, false) => Event::GaveWay,
+            (true, _) => EventStreamItem::Ended,
+            (false, true) => EventStreamItem::Color(state.version, state.reported()),
+            (false, false) => EventStreamItem::GaveWay,
         }
     }
 }

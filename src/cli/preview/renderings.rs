@@ -4,18 +4,18 @@ use super::pixels::PixelTable;
 use super::preview_state::RenderedPicture;
 use super::{Failure, args, render};
 use crate::project;
-use rtc_pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject};
-use rtc_render::{Aov, Counts, Crop, Film, Job};
-use rtc_study::Goal;
+use rtc_pipeline::{Input, PictureSetup, RenderError, RenderObserver, RenderSubject};
+use rtc_render::{Aov, Crop, Film, RayCounts, RenderSelection};
+use rtc_study::RenderGoal;
 use std::num::NonZeroU32;
 use std::path::Path;
 use std::sync::Arc;
 
 /// The settings of requested pictures.
-pub(super) fn setup(args: &args::Preview) -> Result<PictureSetup, Failure> {
+pub(super) fn setup(args: &args::PreviewArgs) -> Result<PictureSetup, Failure> {
     let setup = render::wanted(&args.wanted, &args.look, Path::new("preview.png"))?;
     render::refuse_layers(&setup)?;
-    let settled = project::picture(&args.file, &args.reading, Goal::default())?;
+    let settled = project::picture(&args.file, &args.reading, RenderGoal::default())?;
     Ok(PictureSetup {
         threads: args.threads.map_or(0, usize::from),
         overrides: setup.overrides.or(settled),
@@ -28,14 +28,14 @@ pub(super) fn finish(
     setup: &PictureSetup,
     subject: &mut RenderSubject,
     input: &mut Input,
-    observer: &Observer<'_>,
+    observer: &RenderObserver<'_>,
 ) -> Result<(RenderedPicture, PixelTable), RenderError> {
     let window = setup.window(&subject.validated.lowered.scene)?;
     let film = trace(setup, subject, window, input, observer)?;
-    let job = Job {
+    let job = RenderSelection {
         crop: Some(window),
         samples: Some(NonZeroU32::MIN),
-        ..Job::default()
+        ..RenderSelection::default()
     };
     let is_going = || !(observer.is_stopped)();
     let (_, renderer) = setup.renderer(subject)?;
@@ -51,7 +51,7 @@ pub(super) fn whole(
     setup: &PictureSetup,
     subject: &mut RenderSubject,
     input: &mut Input,
-    observer: &Observer<'_>,
+    observer: &RenderObserver<'_>,
 ) -> Result<RenderedPicture, RenderError> {
     let window = setup.window(&subject.validated.lowered.scene)?;
     let film = trace(setup, subject, window, input, observer)?;
@@ -65,8 +65,8 @@ pub(super) fn pixel(
     subject: &mut RenderSubject,
     [x, y]: [u32; 2],
     input: &Input,
-    observer: &Observer<'_>,
-) -> Result<Option<Counts>, RenderError> {
+    observer: &RenderObserver<'_>,
+) -> Result<Option<RayCounts>, RenderError> {
     let window = setup.window(&subject.validated.lowered.scene)?;
     if x >= window.width || y >= window.height {
         return Ok(None);
@@ -91,7 +91,7 @@ fn trace(
     subject: &mut RenderSubject,
     window: Crop,
     input: &Input,
-    observer: &Observer<'_>,
+    observer: &RenderObserver<'_>,
 ) -> Result<Film, RenderError> {
     setup.check_memory(subject, window)?;
     Ok(setup.trace(subject, (window, input.rays()), observer)?.film)
@@ -103,7 +103,7 @@ pub(super) fn rendering(
     subject: &mut RenderSubject,
     film: Film,
     input: &mut Input,
-    observer: &Observer<'_>,
+    observer: &RenderObserver<'_>,
 ) -> Result<RenderedPicture, RenderError> {
     let Film {
         image,

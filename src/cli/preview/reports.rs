@@ -1,18 +1,18 @@
 //! Requested reports of a session: the effects of the picture and of a pixel, the settings and
 //! their costs.
 
-use super::preview_state::{ViewSettings, Work};
-use super::session::Session;
+use super::preview_state::{RenderTask, ViewSettings};
+use super::session::PreviewSession;
 use super::{Failure, choice, costs, renderings};
 use crate::render::effects;
 use crate::report::PlanReport;
 use rtc_ir::Scene;
-use rtc_pipeline::{Observer, PictureSetup};
+use rtc_pipeline::{PictureSetup, RenderObserver};
 use serde_json::json;
 
-impl Session<'_> {
+impl PreviewSession<'_> {
     /// Publishes the effects that the picture needs, if requested.
-    pub(super) fn publish_effects(&self, work: &Work) {
+    pub(super) fn publish_effects(&self, work: &RenderTask) {
         if !work.wants_effects {
             return;
         }
@@ -24,13 +24,13 @@ impl Session<'_> {
     }
 
     /// Publishes the effects at the requested pixel.
-    pub(super) fn publish_pixel(&mut self, work: &Work) {
+    pub(super) fn publish_pixel(&mut self, work: &RenderTask) {
         let (Some(scene), Some((setup, subject)), Some(place)) =
             (&self.scene, &mut self.shown, work.orders.pixel)
         else {
             return;
         };
-        let observer = Observer {
+        let observer = RenderObserver {
             on_step: &|_| (),
             is_stopped: &|| self.preview_state.is_stale(work.age),
         };
@@ -45,7 +45,7 @@ impl Session<'_> {
     }
 
     /// Publishes the settings of the scene, if requested.
-    pub(super) fn publish_settings(&mut self, work: &Work) {
+    pub(super) fn publish_settings(&mut self, work: &RenderTask) {
         let settings = match work.wants_settings {
             true => self.without_overrides(work),
             false => None,
@@ -57,7 +57,7 @@ impl Session<'_> {
     }
 
     /// The scene in the current view, without overridden values.
-    fn without_overrides(&mut self, work: &Work) -> Option<(PictureSetup, Scene)> {
+    fn without_overrides(&mut self, work: &RenderTask) -> Option<(PictureSetup, Scene)> {
         let scene = self.scene.as_mut()?;
         let view_settings = ViewSettings {
             view_override: work.view_settings.view_override,
@@ -70,7 +70,7 @@ impl Session<'_> {
         let found = scene.input.take_diagnostics();
         let validated = scene.validate(&self.setup, &view_settings).ok().flatten();
         let lit = validated.and_then(|(mut setup, mut subject)| {
-            let observer = Observer {
+            let observer = RenderObserver {
                 on_step: &|_| (),
                 is_stopped: &|| self.preview_state.is_stale(work.age),
             };
@@ -82,7 +82,7 @@ impl Session<'_> {
     }
 
     /// Publishes the costs of accuracy in the scene, unless a newer request arrives.
-    pub(super) fn publish_costs(&mut self, work: &Work) -> Result<(), Failure> {
+    pub(super) fn publish_costs(&mut self, work: &RenderTask) -> Result<(), Failure> {
         self.publish_settings(work);
         let Some((setup, studied)) = self.without_overrides(work) else {
             return Ok(());

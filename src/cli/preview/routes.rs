@@ -1,6 +1,6 @@
 //! The replies: fixed paths only, none of them a file.
 
-use super::choice::Choice;
+use super::choice::SettingOverrides;
 use super::events::Subscriber;
 use super::http::{HttpReply, HttpRequest};
 use super::preview_state::{PreviewState, ReadState};
@@ -34,7 +34,7 @@ pub(super) struct Routes {
 /// The diagnostics to fix: one or all.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct FixOrder {
+struct FixRequest {
     /// The reading of the scene that the diagnostic belongs to.
     load: u64,
     #[serde(rename = "finding")]
@@ -44,7 +44,7 @@ struct FixOrder {
 /// The requested view.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
-struct LookOrder {
+struct ViewRequest {
     /// The view; `None` for the scene's own.
     view: Option<Value>,
     is_moving: bool,
@@ -75,7 +75,7 @@ impl Routes {
                 }
                 Err(_) => HttpReply::empty(400),
             },
-            ("POST", "/settings") => match Choice::read(&request.body) {
+            ("POST", "/settings") => match SettingOverrides::read(&request.body) {
                 Some(choice) => {
                     let age = self.preview_state.choose(choice);
                     HttpReply::json(&json!({ "age": age }))
@@ -124,7 +124,7 @@ impl Routes {
     }
 
     fn look(&self, body: &[u8]) -> HttpReply {
-        let Ok(LookOrder { view, is_moving }) = serde_json::from_slice(body) else {
+        let Ok(ViewRequest { view, is_moving }) = serde_json::from_slice(body) else {
             return HttpReply::empty(400);
         };
         let view_override = view.as_ref().map(ViewOverride::read);
@@ -159,7 +159,7 @@ impl Routes {
 
     /// Applies the suggested fixes to the scene's own file.
     fn fix(&self, body: &[u8]) -> HttpReply {
-        let Ok(order) = serde_json::from_slice::<FixOrder>(body) else {
+        let Ok(order) = serde_json::from_slice::<FixRequest>(body) else {
             return HttpReply::empty(400);
         };
         let _pen = self.pen.lock().unwrap_or_else(PoisonError::into_inner);
@@ -182,7 +182,7 @@ impl Routes {
 }
 
 /// The requested fixes for the scene as it was read; `None` if they belong to another reading.
-fn wish(read: &ReadState, order: &FixOrder) -> Option<FixFilter> {
+fn wish(read: &ReadState, order: &FixRequest) -> Option<FixFilter> {
     if read.load != order.load {
         return None;
     }

@@ -3,17 +3,17 @@
 use super::preview_state::{RenderedPicture, ViewSettings};
 use super::view::{self, SceneCamera};
 use super::{Failure, args, coarse, input, render};
-use rtc_diag::Sink;
+use rtc_diag::DiagnosticSink;
 use rtc_ir::Camera;
 use rtc_passes::{IntegratorChoice, View};
-use rtc_pipeline::{Input, Loaded, Observer, PictureSetup, RenderError, RenderSubject};
+use rtc_pipeline::{Input, LoadedScene, PictureSetup, RenderError, RenderObserver, RenderSubject};
 
 /// A scene that was read.
 pub(super) struct ReadScene {
     pub(super) input: Input,
-    pub(super) loaded: Option<Loaded>,
+    pub(super) loaded: Option<LoadedScene>,
     /// The diagnostics of reading it.
-    found: Sink,
+    found: DiagnosticSink,
     /// The view and the integrator of the command line.
     view: View,
     integrator: Option<IntegratorChoice>,
@@ -28,7 +28,7 @@ pub(super) type ShownScene = (PictureSetup, RenderSubject);
 
 impl ReadScene {
     /// Reads an input that was staged.
-    pub(super) fn read(mut input: Input, args: &args::Preview, threads: usize) -> Self {
+    pub(super) fn read(mut input: Input, args: &args::PreviewArgs, threads: usize) -> Self {
         input.use_threads(threads);
         render::set_stage(&mut input, &args.look, None);
         let (mut view, mut integrator) = (View::default(), None);
@@ -75,7 +75,7 @@ impl ReadScene {
     pub(super) fn glance(
         &mut self,
         (setup, subject): &mut ShownScene,
-        observer: &Observer<'_>,
+        observer: &RenderObserver<'_>,
     ) -> Result<Option<RenderedPicture>, RenderError> {
         let found = self.input.take_diagnostics();
         let rendering = coarse::render(setup, subject, &mut self.input, observer);
@@ -85,7 +85,7 @@ impl ReadScene {
 }
 
 /// Reads the file of the scene, to be shown in the requested view.
-pub(super) fn of_file(args: &args::Preview, threads: usize) -> Result<ReadScene, Failure> {
+pub(super) fn of_file(args: &args::PreviewArgs, threads: usize) -> Result<ReadScene, Failure> {
     let input = input::staged(&args.file, &args.reading, &args.stage)?;
     Ok(ReadScene::read(input, args, threads))
 }

@@ -18,7 +18,7 @@ const MOST: usize = 32;
 const PAUSE: Duration = Duration::from_millis(20);
 
 /// What answers requests.
-pub(super) type Answer = dyn Fn(&HttpRequest) -> HttpReply + Send + Sync;
+pub(super) type RequestHandler = dyn Fn(&HttpRequest) -> HttpReply + Send + Sync;
 
 /// Authorisation: requests must have the token, a host name of this server, and the page's own
 /// origin.
@@ -85,9 +85,9 @@ pub(super) fn bind(port: u16) -> Result<(TcpListener, u16), Failure> {
 pub(super) fn begin(
     listener: TcpListener,
     auth_guard: AuthGuard,
-    answer: Box<Answer>,
+    answer: Box<RequestHandler>,
 ) -> Result<(), Failure> {
-    let (auth_guard, answer) = (Arc::new(auth_guard), Arc::<Answer>::from(answer));
+    let (auth_guard, answer) = (Arc::new(auth_guard), Arc::<RequestHandler>::from(answer));
     let room = Arc::new(ConnectionPool::default());
     let serve = move || {
         for stream in listener.incoming() {
@@ -175,7 +175,7 @@ impl ConnectionPermit {
         }
     }
 
-    fn serve(self, auth_guard: &AuthGuard, answer: &Answer) {
+    fn serve(self, auth_guard: &AuthGuard, answer: &RequestHandler) {
         let (reply, is_whole) = match http::read(&self.stream) {
             Ok(request) if auth_guard.admits(&request) => {
                 self.settle();

@@ -3,14 +3,16 @@
 
 use super::against::ComparisonReference;
 use super::command::RenderCommand;
-use super::preview_state::{PreviewState, ReadState, ReportedDiagnostic, ViewSettings, Work};
+use super::preview_state::{PreviewState, ReadState, RenderTask, ReportedDiagnostic, ViewSettings};
 use super::scene::{self, ReadScene, ShownScene};
 use super::view::SceneCamera;
-use super::watch::Watched;
+use super::watch::WatchedFiles;
 use super::{Failure, args, coarse, renderings};
 use crate::reporter::Reporter;
 use rtc_diag::{self as diag, Diagnostic, Severity};
-use rtc_pipeline::{self as pipeline, Input, Observer, PictureSetup, RenderError, RenderSubject};
+use rtc_pipeline::{
+    self as pipeline, Input, PictureSetup, RenderError, RenderObserver, RenderSubject,
+};
 use serde_json::Value;
 use std::sync::Arc;
 
@@ -18,10 +20,10 @@ use std::sync::Arc;
 const WIDTH: usize = 100;
 
 /// The current picture, if there is a scene.
-pub(super) struct Session<'a> {
-    args: &'a args::Preview,
+pub(super) struct PreviewSession<'a> {
+    args: &'a args::PreviewArgs,
     pub(super) preview_state: Arc<PreviewState>,
-    watched: Arc<Watched>,
+    watched: Arc<WatchedFiles>,
     reporter: Reporter,
     /// The picture in the requested settings.
     pub(super) setup: PictureSetup,
@@ -38,11 +40,11 @@ pub(super) struct Session<'a> {
     reported: Vec<Diagnostic>,
 }
 
-impl<'a> Session<'a> {
+impl<'a> PreviewSession<'a> {
     pub(super) fn new(
-        args: &'a args::Preview,
+        args: &'a args::PreviewArgs,
         arguments: RenderCommand,
-        (preview_state, watched): (Arc<PreviewState>, Arc<Watched>),
+        (preview_state, watched): (Arc<PreviewState>, Arc<WatchedFiles>),
         against: Option<ComparisonReference>,
     ) -> Result<Self, Failure> {
         let against = match against {
@@ -114,7 +116,7 @@ impl<'a> Session<'a> {
     }
 
     /// Renders the current view: coarsely, and completely unless the view is moving.
-    fn look(&mut self, work: &Work) -> Result<(), Failure> {
+    fn look(&mut self, work: &RenderTask) -> Result<(), Failure> {
         if work.is_moving && !work.orders.reload && self.move_on(work) {
             return Ok(());
         }
@@ -149,7 +151,7 @@ impl<'a> Session<'a> {
     /// Renders the scene; whether there is a picture.
     fn render(
         &mut self,
-        work: &Work,
+        work: &RenderTask,
         is_stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<bool, RenderError> {
         let Some(scene) = &mut self.scene else {
@@ -161,7 +163,7 @@ impl<'a> Session<'a> {
         };
         setup.window(&subject.validated.lowered.scene)?;
         let input = &mut scene.input;
-        let observer = Observer {
+        let observer = RenderObserver {
             on_step: &|_| (),
             is_stopped,
         };
@@ -181,7 +183,7 @@ impl<'a> Session<'a> {
     }
 
     /// Shows the last scene from another view, coarsely; false if that is impossible.
-    fn move_on(&mut self, work: &Work) -> bool {
+    fn move_on(&mut self, work: &RenderTask) -> bool {
         let (Some(shown), Some(view_override)) =
             (&mut self.shown, &work.view_settings.view_override)
         else {
@@ -194,7 +196,7 @@ impl<'a> Session<'a> {
             return false;
         }
         let is_stopped = || self.preview_state.is_stale(work.age);
-        let observer = Observer {
+        let observer = RenderObserver {
             on_step: &|_| (),
             is_stopped: &is_stopped,
         };
@@ -213,13 +215,13 @@ impl<'a> Session<'a> {
     }
 
     /// Shows the reference in the current view; false if the session ends.
-    fn show_against(&mut self, work: &Work, is_stopped: &(dyn Fn() -> bool + Sync)) -> bool {
+    fn show_against(&mut self, work: &RenderTask, is_stopped: &(dyn Fn() -> bool + Sync)) -> bool {
         let (Some(ComparisonReference::Scene(other)), Some((_, subject))) =
             (&mut self.against, &self.shown)
         else {
             return true;
         };
-        let observer = Observer {
+        let observer = RenderObserver {
             on_step: &|_| (),
             is_stopped,
         };
@@ -320,7 +322,7 @@ impl<'a> Session<'a> {
     }
 
     /// Discards the costs if they belong to another view; overrides of values do not change them.
-    fn forget_costs(&mut self, work: &Work) {
+    fn forget_costs(&mut self, work: &RenderTask) {
         let ViewSettings {
             view_override,
             choice,

@@ -2,7 +2,7 @@
 //! found by their spans. Nothing but their values is changed.
 
 use crate::parse;
-use rtc_ir::{Camera, EntityKind, Field, Lowered, ValuePath};
+use rtc_ir::{Camera, EntityField, EntityKind, LoweredScene, ValuePath};
 use rtc_math::{Vec3, shortest, unit};
 use rtc_passes::{SceneKind, StudioChoice, View, ViewAndLight};
 use rtc_pipeline::{Input, Options};
@@ -93,7 +93,7 @@ impl ViewOverride {
     }
 
     /// Shows a scene that was staged from here.
-    pub(super) fn aim(&self, lowered: &mut Lowered) -> bool {
+    pub(super) fn aim(&self, lowered: &mut LoweredScene) -> bool {
         let stage = ViewAndLight {
             view: self.view(None),
             studio: StudioChoice::Off,
@@ -156,7 +156,11 @@ impl SceneCamera {
 }
 
 /// The spans of the values of `eye`, `center` and `up` in a scene text.
-pub(super) fn keys(lowered: &Lowered, map: &SourceMap, name: &str) -> Option<[Range<usize>; 3]> {
+pub(super) fn keys(
+    lowered: &LoweredScene,
+    map: &SourceMap,
+    name: &str,
+) -> Option<[Range<usize>; 3]> {
     let span = |field| {
         let span: Span = lowered
             .source_spans
@@ -166,14 +170,15 @@ pub(super) fn keys(lowered: &Lowered, map: &SourceMap, name: &str) -> Option<[Ra
             text.starts_with('[') && text.ends_with(']') && !text.contains(['#', '&', '*']);
         (is_plain && map.name(span.file) == name).then_some(span.start as usize..span.end as usize)
     };
-    let [eye, center, up] = [Field::Eye, Field::Center, Field::Up].map(span);
+    let [eye, center, up] = [EntityField::Eye, EntityField::Center, EntityField::Up].map(span);
     let own = [eye?, center?, up?];
     let mut sorted = own.clone();
     sorted.sort_by_key(|range| range.start);
     let are_disjoint = sorted.windows(2).all(|pair| pair[0].end <= pair[1].start);
-    let right = lowered
-        .source_spans
-        .span(ValuePath::new(EntityKind::Camera, 0, Field::Right));
+    let right =
+        lowered
+            .source_spans
+            .span(ValuePath::new(EntityKind::Camera, 0, EntityField::Right));
     let is_square =
         right.is_none_or(|right| own.iter().any(|range| range.start == right.start as usize));
     (are_disjoint && is_square).then_some(own)

@@ -17,17 +17,17 @@ const EVERY: Duration = Duration::from_millis(50);
 const AT_ONCE: usize = 100;
 
 /// The state that identifies a version of a file; `None` if there is none.
-type Stamp = Option<(u64, Option<SystemTime>, u64)>;
+type FileStamp = Option<(u64, Option<SystemTime>, u64)>;
 
 /// The watched files, in the state in which they were read.
 #[derive(Default)]
-pub(super) struct Watched {
-    stamps: Mutex<BTreeMap<PathBuf, Stamp>>,
+pub(super) struct WatchedFiles {
+    stamps: Mutex<BTreeMap<PathBuf, FileStamp>>,
 }
 
-impl Watched {
+impl WatchedFiles {
     /// Watches these files from now on, relative to their state before they were read.
-    pub(super) fn set(&self, known: &BTreeMap<PathBuf, Stamp>, paths: Vec<PathBuf>) {
+    pub(super) fn set(&self, known: &BTreeMap<PathBuf, FileStamp>, paths: Vec<PathBuf>) {
         let with_stamp = |path: PathBuf| {
             let stamp = known.get(&path).copied();
             (path.clone(), stamp.unwrap_or_else(|| stamp_of(&path)))
@@ -36,7 +36,7 @@ impl Watched {
     }
 
     /// The watched files and this one, in their current state.
-    pub(super) fn now(&self, first: &Path) -> BTreeMap<PathBuf, Stamp> {
+    pub(super) fn now(&self, first: &Path) -> BTreeMap<PathBuf, FileStamp> {
         let stamps = self.stamps();
         let paths = stamps.keys().cloned().chain([first.to_owned()]);
         let now = |path: PathBuf| {
@@ -47,7 +47,7 @@ impl Watched {
     }
 
     /// The files that are not as they were.
-    fn changed(&self) -> Vec<(PathBuf, Stamp)> {
+    fn changed(&self) -> Vec<(PathBuf, FileStamp)> {
         let known = self.stamps().clone();
         let now = known.into_iter().map(|(path, before)| {
             let now = stamp_of(&path);
@@ -58,7 +58,7 @@ impl Watched {
             .collect()
     }
 
-    fn stamps(&self) -> MutexGuard<'_, BTreeMap<PathBuf, Stamp>> {
+    fn stamps(&self) -> MutexGuard<'_, BTreeMap<PathBuf, FileStamp>> {
         self.stamps.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -89,7 +89,7 @@ impl Watched {
     }
 }
 
-fn stamp_of(path: &Path) -> Stamp {
+fn stamp_of(path: &Path) -> FileStamp {
     let found = fs::metadata(path).ok()?;
     #[cfg(unix)]
     let system = std::os::unix::fs::MetadataExt::ino(&found);
@@ -110,7 +110,7 @@ mod tests {
         for name in ["a", "b", "c", "d"] {
             fs::write(path(name), name).unwrap();
         }
-        let watched = Watched::default();
+        let watched = WatchedFiles::default();
         let known = watched.now(&path("a"));
         watched.set(&known, ["a", "b", "c", "d", "e"].map(path).to_vec());
         assert!(watched.changed().is_empty());
@@ -129,7 +129,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a");
         fs::write(&path, "before").unwrap();
-        let watched = Watched::default();
+        let watched = WatchedFiles::default();
         let known = watched.now(&path);
         fs::write(&path, "behind the back").unwrap();
         watched.set(&known, vec![path.clone()]);

@@ -4,17 +4,17 @@ mod read;
 mod trust;
 
 use super::Failure;
-use super::args::Reading;
+use super::args::ReadArgs;
 use rtc_diag::{Code, Diagnostic, DiagnosticLevels, clip_path, codes};
 use rtc_front::UpAxis;
 use rtc_math::to_u32;
 use rtc_passes::Overrides;
 use rtc_pipeline::Input;
 use rtc_source::{Limits, LoadError, Loader, Resource, Span};
-use rtc_study::Goal;
+use rtc_study::RenderGoal;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use trust::Trust;
+use trust::ProjectTrust;
 
 /// The name of the file.
 const NAME: &str = "rtc.toml";
@@ -30,7 +30,7 @@ pub(super) struct Project {
     path: PathBuf,
     bytes: Vec<u8>,
     settings: ProjectSettings,
-    faults: Vec<ProjectFault>,
+    faults: Vec<ProjectFileError>,
     /// The reason why it was not read.
     withheld: Option<&'static str>,
 }
@@ -48,7 +48,7 @@ struct ProjectSettings {
 }
 
 /// An error in some of its bytes.
-struct ProjectFault {
+struct ProjectFileError {
     code: &'static Code,
     at: Range<usize>,
     message: String,
@@ -60,7 +60,7 @@ struct ProjectFault {
 impl Project {
     /// The file of a scene: in its folder, or the nearest above up to the root of a repository.
     /// Standard input belongs to the current folder.
-    pub(super) fn of(scene: &Path, reading: &Reading) -> Result<Option<Self>, Failure> {
+    pub(super) fn of(scene: &Path, reading: &ReadArgs) -> Result<Option<Self>, Failure> {
         let Some((path, scenes)) = nearest_file(scene) else {
             return Ok(None);
         };
@@ -70,8 +70,8 @@ impl Project {
             Err(reason) => (Vec::new(), Some(reason)),
         };
         let trust = match reading.trust_project || trust::is_listed(&folder)? {
-            true => Trust::Full,
-            false => Trust::Within(scenes),
+            true => ProjectTrust::Full,
+            false => ProjectTrust::Within(scenes),
         };
         let (settings, faults) = read::read(&bytes, &folder, trust);
         // As a person in this folder would name it.
@@ -141,16 +141,20 @@ impl Project {
 
 /// The settings of pictures of a scene. A compiled scene already has them; a picture with a target
 /// has no number of samples.
-pub(super) fn picture(scene: &Path, reading: &Reading, goal: Goal) -> Result<Overrides, Failure> {
+pub(super) fn picture(
+    scene: &Path,
+    reading: &ReadArgs,
+    goal: RenderGoal,
+) -> Result<Overrides, Failure> {
     let is_compiled = scene.extension().is_some_and(|own| own == "rtir");
     let project = Project::of(scene, reading)?.filter(|_| !is_compiled);
     let settled = project.map_or_else(Overrides::default, |own| own.settings.render);
     Ok(match goal {
-        Goal {
+        RenderGoal {
             error: None,
             time: None,
         } => settled,
-        Goal { error: _, time: _ } => Overrides {
+        RenderGoal { error: _, time: _ } => Overrides {
             supersampling: None,
             aperture_samples: None,
             spp: None,
@@ -163,7 +167,7 @@ pub(super) fn picture(scene: &Path, reading: &Reading, goal: Goal) -> Result<Ove
 fn content(
     path: &Path,
     folder: &Path,
-    reading: &Reading,
+    reading: &ReadArgs,
 ) -> Result<Result<Vec<u8>, &'static str>, Failure> {
     const LINK: &str = "it is a link that leaves its folder";
     let is_link = path.is_symlink();

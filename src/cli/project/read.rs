@@ -1,8 +1,8 @@
 //! The parser of an `rtc.toml`: each key and value, all errors with spans.
 
 use super::super::parse;
-use super::trust::Trust;
-use super::{ProjectFault, ProjectSettings};
+use super::trust::ProjectTrust;
+use super::{ProjectFileError, ProjectSettings};
 use rtc_diag::{Code, DiagnosticLevel, LevelSubject, clip, codes, nearest};
 use rtc_front::UpAxis;
 use rtc_passes::CountSetting;
@@ -23,12 +23,12 @@ type Value<'t> = Spanned<DeValue<'t>>;
 pub(super) fn read(
     bytes: &[u8],
     folder: &Path,
-    trust: Trust,
-) -> (ProjectSettings, Vec<ProjectFault>) {
+    trust: ProjectTrust,
+) -> (ProjectSettings, Vec<ProjectFileError>) {
     let mut reader = ProjectReader {
         folder,
         settings: ProjectSettings {
-            is_trusted: matches!(trust, Trust::Full),
+            is_trusted: matches!(trust, ProjectTrust::Full),
             ..ProjectSettings::default()
         },
         trust,
@@ -50,9 +50,9 @@ pub(super) fn read(
 
 struct ProjectReader<'f> {
     folder: &'f Path,
-    trust: Trust,
+    trust: ProjectTrust,
     settings: ProjectSettings,
-    faults: Vec<ProjectFault>,
+    faults: Vec<ProjectFileError>,
 }
 
 impl ProjectReader<'_> {
@@ -194,7 +194,7 @@ impl ProjectReader<'_> {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("the keys here are {}", known.join(", ")),
         };
-        self.faults.push(ProjectFault {
+        self.faults.push(ProjectFileError {
             code: &codes::SETTINGS_UNKNOWN,
             at: key.span(),
             message: format!("unknown key `{}`", clip(name)),
@@ -206,14 +206,14 @@ impl ProjectReader<'_> {
     /// Whether the scene may name the files in a folder.
     fn is_lent(&self, folder: &Path) -> bool {
         match &self.trust {
-            Trust::Full => true,
-            Trust::Within(own) => folder.starts_with(own),
+            ProjectTrust::Full => true,
+            ProjectTrust::Within(own) => folder.starts_with(own),
         }
     }
 
     /// Reports keys that only a trusted file may have.
     fn untrusted(&mut self, at: Range<usize>, message: &str) {
-        self.faults.push(ProjectFault {
+        self.faults.push(ProjectFileError {
             code: &codes::SETTINGS_UNTRUSTED,
             at,
             message: format!("{message}, for this file is not trusted"),
@@ -224,7 +224,7 @@ impl ProjectReader<'_> {
 
     fn fault(&mut self, at: Range<usize>, message: String, hint: &str) {
         let code: &'static Code = &codes::SETTINGS_WRONG;
-        self.faults.push(ProjectFault {
+        self.faults.push(ProjectFileError {
             code,
             at,
             message,

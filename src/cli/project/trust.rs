@@ -11,7 +11,7 @@ use toml::de::{DeTable, DeValue};
 const LIST: &str = "trusted-projects";
 
 /// The trust in an `rtc.toml`.
-pub(super) enum Trust {
+pub(super) enum ProjectTrust {
     /// Everything.
     Full,
     /// It may lower limits, and add this folder, that of the scene, to the search.

@@ -2,11 +2,11 @@
 //! rendered, and the file appears with the last.
 
 use super::super::output::Output;
-use super::super::turntable::{Turntable, Views};
+use super::super::turntable::{Turntable, TurntableViews};
 use super::super::{Failure, args, reporter};
 use super::RenderSetup;
 use super::checkpoint::RunContext;
-use rtc_image::{AnimatedGif, AnimatedPng, FileFormat, Picture, PictureHead};
+use rtc_image::{AnimatedGif, AnimatedPng, FileFormat, Picture, PictureHeader};
 use rtc_math::to_u32;
 use rtc_pipeline::RenderSubject;
 use std::ffi::OsStr;
@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 const RATE: u16 = 12;
 
 /// The frames per second of an animation; `None` for other outputs.
-pub(super) fn rate(args: &args::Render, output: &Path) -> Result<Option<u16>, Failure> {
+pub(super) fn rate(args: &args::RenderArgs, output: &Path) -> Result<Option<u16>, Failure> {
     let refused = |message: &str| Err(Failure::Failed(message.to_owned()));
     match output.extension().is_some_and(is_apng) || is_gif(output) {
         false if args.fps.is_some() => {
@@ -39,7 +39,7 @@ impl RenderSetup {
     /// Renders views around the scene into one file, with the given frames per second.
     pub(super) fn shoot_animation(
         &self,
-        (views, rate): (&Views, u16),
+        (views, rate): (&TurntableViews, u16),
         subject: &mut RenderSubject,
         (input, reporter, interrupt): RunContext<'_>,
     ) -> Result<(), Failure> {
@@ -62,7 +62,7 @@ impl RenderSetup {
 
     fn write_frames(
         &self,
-        (views, rate): (&Views, u16),
+        (views, rate): (&TurntableViews, u16),
         subject: &mut RenderSubject,
         (input, reporter, interrupt): RunContext<'_>,
         file: &mut File,
@@ -84,7 +84,7 @@ impl RenderSetup {
             let (picture, made) = self.take(subject, &self.output, window, run_context)?;
             // The first frame gives the size of the animation.
             if let Some(file) = file.take() {
-                let head = PictureHead::of(&picture, FileFormat::Png8);
+                let head = PictureHeader::of(&picture, FileFormat::Png8);
                 begun = Some(match is_gif(&self.output) {
                     true => FrameAnimation::Gif(AnimatedGif::begin(&head, rate, file)?),
                     false => FrameAnimation::Png(AnimatedPng::begin(&head, frames, rate, file)?),

@@ -4,19 +4,19 @@
 use super::super::merge::{read_part, unfit};
 use super::super::output::Output;
 use super::super::progress::RenderProgress;
-use super::super::turntable::{self, Turntable, Views};
+use super::super::turntable::{self, Turntable, TurntableViews};
 use super::super::{Failure, args, input, interrupt::Interrupt, reporter, reporter::Reporter};
 use super::rendering::{ResumedRender, workers};
-use super::{MadePicture, RenderSetup, halted};
+use super::{FinishedPicture, RenderSetup, halted};
 use rtc_image::Picture;
 use rtc_math::to_u32;
 use rtc_pipeline::{
-    Input, MAX_SHARDS, NewFile, Observer, RenderError, RenderShard, RenderSubject, ShardBy,
-    ShardPlan, hash_of_file,
+    AtomicFile, Input, MAX_SHARDS, RenderError, RenderObserver, RenderShard, RenderSubject,
+    ShardDivision, ShardPlan, hash_of_file,
 };
 use rtc_render::{Crop, Tiles};
 use rtc_source::{Loader, Resource, SourceMap};
-use rtc_study::{Goal, WorkBatch};
+use rtc_study::{RenderGoal, WorkBatch};
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -43,7 +43,7 @@ pub(crate) fn or_restart(failure: Failure) -> Failure {
 }
 
 /// A picture that is saved on its way.
-pub(super) struct Saving<'c> {
+pub(super) struct CheckpointedRender<'c> {
     checkpoint: &'c Checkpoint,
     /// The destination of the picture.
     pub(super) output: PathBuf,
@@ -56,7 +56,7 @@ pub(super) struct Saving<'c> {
 /// Findings, talk, and whether to stop.
 pub(super) type RunContext<'d> = (&'d mut Input, &'d mut Reporter, &'d Interrupt);
 
-impl<'c> Saving<'c> {
+impl<'c> CheckpointedRender<'c> {
     /// Reads the checkpoint, and checks that the file can be written, before the render.
     pub(super) fn begin(
         checkpoint: &'c Checkpoint,
@@ -83,7 +83,7 @@ impl<'c> Saving<'c> {
 
 impl Checkpoint {
     /// The requested checkpoint, if any.
-    pub(super) fn new(args: &args::Render) -> Option<Self> {
+    pub(super) fn new(args: &args::RenderArgs) -> Option<Self> {
         Some(Self {
             file: args.checkpoint.clone()?,
             every: args.every,
@@ -112,7 +112,7 @@ impl RenderSetup {
     /// Renders the picture, saving it on its way, and writes it; its hash is noted.
     pub(super) fn shoot_saving(
         &self,
-        saving: &mut Saving<'_>,
+        saving: &mut CheckpointedRender<'_>,
         subject: &mut RenderSubject,
         (input, reporter, interrupt): RunContext<'_>,
     ) -> Result<(), Failure> {
@@ -142,11 +142,11 @@ impl RenderSetup {
     /// The saved state of the picture; without finished shares if nothing was saved.
     pub(super) fn begun(
         &self,
-        saving: &mut Saving<'_>,
+        saving: &mut CheckpointedRender<'_>,
         subject: &mut RenderSubject,
         window: Crop,
     ) -> Result<RenderShard, Failure> {
-        let nobody = Observer {
+        let nobody = RenderObserver {
             on_step: &|_| (),
             is_stopped: &|| false,
         };
@@ -162,12 +162,12 @@ impl RenderSetup {
     /// The picture by shares, with its messages.
     fn share_by_share(
         &self,
-        saving: &Saving<'_>,
+        saving: &CheckpointedRender<'_>,
         subject: &mut RenderSubject,
         done: &mut RenderShard,
         (window, rays): (Crop, u64),
         (input, reporter, interrupt): RunContext<'_>,
-    ) -> Result<(Picture, MadePicture), Failure> {
+    ) -> Result<(Picture, FinishedPicture), Failure> {
         let progress = RenderProgress::start(window.pixels() as u64, reporter.is_quiet());
         let watch = (interrupt, &progress);
         let traced = self.trace_saving(saving.checkpoint, subject, done, (window, rays), watch);
@@ -185,19 +185,19 @@ impl RenderSetup {
             .for_each(|diagnostic| input.push(diagnostic));
         let size = [picture.image.width, picture.image.height];
         let work = (counts, elapsed);
-        let made = MadePicture::new(&saving.output, &self.picture, size, work);
+        let made = FinishedPicture::new(&saving.output, &self.picture, size, work);
         Ok((picture, made))
     }
 
     /// The picture rendered to its target, with its messages.
     fn round_by_round(
         &self,
-        saving: &Saving<'_>,
+        saving: &CheckpointedRender<'_>,
         subject: &mut RenderSubject,
         done: &mut RenderShard,
         order: (Crop, u64),
         (input, reporter, interrupt): RunContext<'_>,
-    ) -> Result<(Picture, MadePicture), Failure> {
+    ) -> Result<(Picture, FinishedPicture), Failure> {
         // Save the film after rounds of samples.
         let begun = done.take_growth();
         let (checkpoint, is_saved) = (saving.checkpoint, AtomicBool::new(false));
@@ -227,7 +227,7 @@ impl RenderSetup {
         let size = [rendering.image.width, rendering.image.height];
         let work = (rendering.counts, rendering.elapsed);
         let made =
-            MadePicture::new(&saving.output, &self.picture, size, work).with(rendering.quality);
+            FinishedPicture::new(&saving.output, &self.picture, size, work).with(rendering.quality);
         let film = (rendering.image, rendering.coverage, &rendering.counts);
         let is_stopped = || interrupt.is_raised();
         let picture = self
@@ -245,7 +245,7 @@ impl RenderSetup {
         (window, rays): (Crop, u64),
         (interrupt, progress): (&Interrupt, &RenderProgress),
     ) -> Result<(), RenderError> {
-        let observer = Observer {
+        let observer = RenderObserver {
             on_step: &|step| progress.step(step),
             is_stopped: &|| interrupt.is_raised(),
         };
@@ -280,15 +280,15 @@ pub(crate) fn ended(error: RenderError, input: &mut Input, reporter: &mut Report
 }
 
 /// Whether the picture has a target instead of a number of samples.
-fn has_goal(goal: Goal) -> bool {
-    goal != Goal::default()
+fn has_goal(goal: RenderGoal) -> bool {
+    goal != RenderGoal::default()
 }
 
 /// Shares of a picture of about one tile each.
 fn shares(window: Crop, [first, last]: [u32; 2]) -> ShardPlan {
     let count = u32::try_from(Tiles::of(window).count()).unwrap_or(MAX_SHARDS);
     ShardPlan {
-        by: ShardBy::Tiles,
+        by: ShardDivision::Tiles,
         first,
         last,
         count: count.clamp(1, MAX_SHARDS),
@@ -325,7 +325,7 @@ pub(crate) fn print_saved(file: &Path, what: &str) {
 
 /// Saves the state atomically, with a warning if that fails: the work continues.
 pub(crate) fn try_save(file: &Path, bytes: &[u8]) -> bool {
-    let saved = NewFile::save(file, bytes);
+    let saved = AtomicFile::save(file, bytes);
     if let Err(error) = &saved {
         let file = file.display();
         reporter::print_message(&format!(
@@ -354,8 +354,8 @@ impl RenderSetup {
     /// Renders the frames that are missing, and writes them.
     pub(super) fn turn_saving(
         &self,
-        views: &Views,
-        mut saving: Saving<'_>,
+        views: &TurntableViews,
+        mut saving: CheckpointedRender<'_>,
         subject: &mut RenderSubject,
         (input, reporter, interrupt): RunContext<'_>,
     ) -> Result<(), Failure> {

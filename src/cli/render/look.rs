@@ -1,7 +1,7 @@
 //! The requested output transform, and the file format of a name.
 
 use super::super::Failure;
-use super::super::args::{BitDepth, OutputTransformArgs};
+use super::super::args::{BitDepthArg, OutputTransformArgs};
 use super::super::output::is_stdout;
 use rtc_color::Tone;
 use rtc_image::FileFormat;
@@ -39,7 +39,7 @@ pub(crate) fn refuse_layers(setup: &PictureSetup) -> Result<(), Failure> {
 }
 
 /// The pixel file format of a name.
-pub(crate) fn kind(output: &Path, bits: Option<BitDepth>) -> Result<FileFormat, Failure> {
+pub(crate) fn kind(output: &Path, bits: Option<BitDepthArg>) -> Result<FileFormat, Failure> {
     let extension = output
         .extension()
         .map(|extension| extension.to_string_lossy().to_lowercase());
@@ -61,7 +61,7 @@ pub(crate) fn kind(output: &Path, bits: Option<BitDepth>) -> Result<FileFormat, 
             names.join(", .")
         )));
     };
-    let wanted = bits.map_or(usual.traits().bits, BitDepth::bits);
+    let wanted = bits.map_or(usual.traits().bits, BitDepthArg::bits);
     forms()
         .find(|form| form.traits().bits == wanted)
         .ok_or_else(|| {

@@ -4,31 +4,31 @@ use super::super::{progress, system};
 use indicatif::{HumanBytes, HumanCount};
 use rtc_pipeline::PictureSetup;
 use rtc_plan::Effect;
-use rtc_render::{ClampedLight, Counts};
-use rtc_study::{CoarsePicture, ProbedError, Samples};
+use rtc_render::{ClampedLight, RayCounts};
+use rtc_study::{CoarsePicture, ProbedError, SampleStatistics};
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// A picture that was made.
-pub(crate) struct MadePicture {
+pub(crate) struct FinishedPicture {
     output: PathBuf,
     size: [u32; 2],
     /// The stops by which it was exposed, if they were found.
     exposure: Option<f64>,
     /// The message about its light.
     light: String,
-    counts: Counts,
+    counts: RayCounts,
     elapsed: Duration,
     /// Whether it is denoised.
     is_denoised: bool,
     /// Whether light of its paths is clamped.
     is_clamped: bool,
-    quality: Option<Quality>,
+    quality: Option<PictureQuality>,
 }
 
 /// How good a picture is, if that is known.
-pub(super) struct Quality {
+pub(super) struct PictureQuality {
     /// The bound on its error in grey levels.
     pub(super) error: f64,
     /// The largest radiance that no sample may have hit, if there is no bound.
@@ -42,7 +42,7 @@ pub(super) enum EstimateSource {
     Growing {
         /// If the time was too short for it.
         coarse: Option<CoarsePicture>,
-        samples: Samples,
+        samples: SampleStatistics,
         /// Its rays ran out.
         has_run_out: bool,
         /// The target in grey levels, if the picture ended with a larger bound.
@@ -61,13 +61,13 @@ pub(super) enum EstimateSource {
     },
 }
 
-impl MadePicture {
+impl FinishedPicture {
     /// A picture with its setup, pixels, rays and seconds.
     pub(super) fn new(
         output: &Path,
         setup: &PictureSetup,
         size: [u32; 2],
-        (counts, elapsed): (Counts, Duration),
+        (counts, elapsed): (RayCounts, Duration),
     ) -> Self {
         Self {
             output: output.to_owned(),
@@ -83,7 +83,7 @@ impl MadePicture {
     }
 
     /// The same, with how good it is.
-    pub(super) fn with(self, quality: Option<Quality>) -> Self {
+    pub(super) fn with(self, quality: Option<PictureQuality>) -> Self {
         Self { quality, ..self }
     }
 
@@ -96,7 +96,7 @@ impl MadePicture {
         let simulated = verbose.then(|| simulated(&self.counts));
         let pages = verbose.then(huge_pages).flatten();
         let clamped = self.is_clamped.then(|| clamped(&self.counts.clamped));
-        let quality = self.quality.as_ref().map(Quality::text);
+        let quality = self.quality.as_ref().map(PictureQuality::text);
         let lines = [Some(line), simulated, pages, clamped, quality];
         lines.into_iter().flatten().collect::<Vec<_>>().join("\n")
     }
@@ -106,7 +106,7 @@ impl MadePicture {
         let simulated: Map<String, Value> = effects(&self.counts)
             .map(|(name, count)| (name.to_owned(), json!(count)))
             .collect();
-        let quality = self.quality.as_ref().map(Quality::object);
+        let quality = self.quality.as_ref().map(PictureQuality::object);
         let object = json!({
             "output": self.output.display().to_string(),
             "size": self.size,
@@ -123,7 +123,7 @@ impl MadePicture {
 }
 
 /// How often each effect was simulated: its rays, or its evaluations.
-pub(crate) fn effects(counts: &Counts) -> impl Iterator<Item = (&'static str, u64)> {
+pub(crate) fn effects(counts: &RayCounts) -> impl Iterator<Item = (&'static str, u64)> {
     let effects = Effect::OF_PATHS.into_iter().chain(Effect::OF_WHITTED);
     let counted = effects.map(|effect| (effect.name(), counts.of(effect)));
     counted.filter(|(_, count)| *count > 0)
@@ -140,12 +140,12 @@ fn clamped_object(light: &ClampedLight) -> Value {
     json!({ "paths": light.paths, "shareOfLight": light.share() })
 }
 
-fn simulated(counts: &Counts) -> String {
+fn simulated(counts: &RayCounts) -> String {
     let text = effects(counts).map(|(name, count)| format!("{name} {}", HumanCount(count)));
     format!("simulated: {}", text.collect::<Vec<_>>().join("; "))
 }
 
-impl Quality {
+impl PictureQuality {
     /// For a denoised picture.
     pub(super) fn probed(probed: &ProbedError) -> Self {
         Self {
@@ -179,7 +179,7 @@ impl Quality {
         // Tell how it was estimated.
         match &self.known {
             EstimateSource::Growing {
-                samples: Samples { min, mean, most },
+                samples: SampleStatistics { min, mean, most },
                 has_run_out,
                 ends_above,
                 ..
@@ -226,7 +226,7 @@ impl Quality {
         });
         match &self.known {
             EstimateSource::Growing {
-                samples: Samples { min, mean, most },
+                samples: SampleStatistics { min, mean, most },
                 has_run_out,
                 ends_above,
                 ..

@@ -2,7 +2,7 @@
 
 use super::super::reporter::{self, Reporter};
 use super::super::{Failure, args, files, interrupt};
-use super::sheet::Sheet;
+use super::sheet::ContactSheet;
 use super::{RenderSetup, stem};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::{OsStr, OsString};
@@ -19,7 +19,7 @@ pub(super) struct RenderJob {
 }
 
 /// The scenes and their pictures; `None` of one scene whose picture has a name of its own.
-pub(super) fn jobs(args: &args::Render) -> Result<Option<Vec<RenderJob>>, Failure> {
+pub(super) fn jobs(args: &args::RenderArgs) -> Result<Option<Vec<RenderJob>>, Failure> {
     // Find the scenes.
     let found = files::scenes(&args.files, false)?;
     found.report_skipped(args.reporter.quiet);
@@ -129,7 +129,7 @@ impl<'a> Destination<'a> {
 
 /// Renders the scenes and writes their pictures.
 pub(super) fn run(
-    mut args: args::Render,
+    mut args: args::RenderArgs,
     jobs: Vec<RenderJob>,
     typed: &[OsString],
 ) -> Result<(), Failure> {
@@ -141,7 +141,9 @@ pub(super) fn run(
         plans.push((scene, RenderSetup::new(&args, typed)?));
     }
     let sheet = args.contact_sheet.as_deref();
-    let sheet = sheet.map(|path| Sheet::new(path, &plans)).transpose()?;
+    let sheet = sheet
+        .map(|path| ContactSheet::new(path, &plans))
+        .transpose()?;
     let mut made = Vec::new();
     for (_, plan) in &plans {
         make_folder(&plan.output, &mut made)?;
@@ -177,7 +179,7 @@ fn make_folder(output: &Path, made: &mut Vec<PathBuf>) -> Result<(), Failure> {
 /// Goes on after a failure, unless it is the end of all; notes the pictures that are made.
 fn carry_out(
     plans: Vec<(PathBuf, RenderSetup)>,
-    args: &args::Render,
+    args: &args::RenderArgs,
     reporter: &mut Reporter,
     made: &mut BTreeSet<PathBuf>,
 ) -> Result<(), Failure> {

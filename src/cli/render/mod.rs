@@ -28,20 +28,20 @@ use super::project;
 use super::reporter::{self, Reporter};
 use super::simd;
 use super::suggest;
-use super::turntable::{self, Turntable, Views};
+use super::turntable::{self, Turntable, TurntableViews};
 use budget::PictureClock;
-use checkpoint::{Checkpoint, RunContext, Saving};
+use checkpoint::{Checkpoint, CheckpointedRender, RunContext};
 pub(super) use checkpoint::{ended, or_restart, print_saved, try_save};
 use layers::LayerFiles;
 pub(super) use look::{kind, refuse_layers};
-pub(super) use made::{MadePicture, effects};
+pub(super) use made::{FinishedPicture, effects};
 use part::PartSetup;
 use rtc_image::{BackgroundFill, Picture};
 use rtc_passes::Overrides;
-use rtc_pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject};
-use rtc_plan::{Rule, Rules};
+use rtc_pipeline::{Input, PictureSetup, RenderError, RenderObserver, RenderSubject};
+use rtc_plan::{Rule, RuleSet};
 use rtc_render::Crop;
-use rtc_study::Goal;
+use rtc_study::RenderGoal;
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
@@ -52,7 +52,7 @@ struct RenderSetup {
     /// The requests of the command line.
     requested: Overrides,
     /// Views around the scene, if more than its own.
-    turntable: Option<Views>,
+    turntable: Option<TurntableViews>,
     /// Pictures a second of a turntable in one file.
     rate: Option<u16>,
     up: Option<[f64; 3]>,
@@ -78,7 +78,7 @@ impl From<RenderError> for Failure {
 }
 
 /// Renders the scene and writes the picture.
-pub(super) fn run(args: args::Render, typed: &[OsString]) -> Result<(), Failure> {
+pub(super) fn run(args: args::RenderArgs, typed: &[OsString]) -> Result<(), Failure> {
     if let Some(jobs) = many::jobs(&args)? {
         return many::run(args, jobs, typed);
     }
@@ -90,7 +90,7 @@ pub(super) fn run(args: args::Render, typed: &[OsString]) -> Result<(), Failure>
 }
 
 impl RenderSetup {
-    fn new(args: &args::Render, typed: &[OsString]) -> Result<Self, Failure> {
+    fn new(args: &args::RenderArgs, typed: &[OsString]) -> Result<Self, Failure> {
         // Choose the output.
         let part = PartSetup::new(args, typed)?;
         let output = match (&args.output, &part) {
@@ -99,7 +99,7 @@ impl RenderSetup {
             (None, None) => beside_here(args)?,
         };
         // Refuse combinations of flags that can't be written.
-        let turntable = Views::new(args.turntable, args.frames)?;
+        let turntable = TurntableViews::new(args.turntable, args.frames)?;
         if turntable.is_some() && output::is_stdout(&output) {
             return Err(Failure::Failed(
                 "a turntable is many pictures; give `-o NAME-%04d.png`".to_owned(),
@@ -112,7 +112,7 @@ impl RenderSetup {
             ));
         }
         // Find the goal and the format of the picture.
-        let goal = Goal {
+        let goal = RenderGoal {
             error: args.target_error,
             time: args.time_budget,
         };
@@ -162,7 +162,7 @@ impl RenderSetup {
     fn begin(
         mut self,
         file: &Path,
-        args: &args::Render,
+        args: &args::RenderArgs,
         reporter: &mut Reporter,
     ) -> Result<(), Failure> {
         let mut input = input::staged(file, &args.reading, &args.stage)?;
@@ -197,7 +197,7 @@ impl RenderSetup {
         self.picture.window(scene)?;
         // Measure exposure and light.
         let interrupt = Interrupt::listen()?;
-        let observer = Observer {
+        let observer = RenderObserver {
             on_step: &|_| (),
             is_stopped: &|| interrupt.is_raised(),
         };
@@ -205,7 +205,7 @@ impl RenderSetup {
         input::report_diagnostics(input, reporter)?;
         // Render with a checkpoint, as an animation, a turntable, a part or a picture.
         if let Some(checkpoint) = &self.checkpoint {
-            let mut saving = Saving::begin(checkpoint, &self.output, input)?;
+            let mut saving = CheckpointedRender::begin(checkpoint, &self.output, input)?;
             let run_context = (input, reporter, &interrupt);
             return match &self.turntable {
                 None => self.shoot_saving(&mut saving, &mut subject, run_context),
@@ -228,7 +228,7 @@ impl RenderSetup {
     /// Renders views around the scene, or a part of the only one, and writes them.
     fn shoot_around(
         &self,
-        views: &Views,
+        views: &TurntableViews,
         subject: &mut RenderSubject,
         input: &mut Input,
         reporter: &mut Reporter,
@@ -295,15 +295,15 @@ impl RenderSetup {
         path: &Path,
         window: Crop,
         (input, reporter, interrupt): RunContext<'_>,
-    ) -> Result<(Picture, MadePicture), Failure> {
+    ) -> Result<(Picture, FinishedPicture), Failure> {
         // Render once, or until the goal is met.
         let quiet = reporter.is_quiet();
         let rendering = match self.picture.goal {
-            Goal {
+            RenderGoal {
                 error: None,
                 time: None,
             } => self.trace(subject, (window, input.rays()), interrupt, quiet),
-            Goal { error: _, time: _ } => {
+            RenderGoal { error: _, time: _ } => {
                 self.approach(subject, (window, input.rays()), interrupt, quiet, None)
             }
         };
@@ -312,7 +312,7 @@ impl RenderSetup {
         let coarse = rendering.coarse();
         let size = [rendering.image.width, rendering.image.height];
         let work = (rendering.counts, rendering.elapsed);
-        let made = MadePicture::new(path, &self.picture, size, work).with(rendering.quality);
+        let made = FinishedPicture::new(path, &self.picture, size, work).with(rendering.quality);
         let film = (rendering.image, rendering.coverage, &rendering.counts);
         let is_stopped = || interrupt.is_raised();
         let picture = self
@@ -355,17 +355,17 @@ pub(super) fn set_stage(
 }
 
 /// The rules that may leave something out.
-fn rules(args: &args::PruningArgs, goal: Goal) -> Rules {
+fn rules(args: &args::PruningArgs, goal: RenderGoal) -> RuleSet {
     // The error that is promised counts no other one.
-    let is_exact = !args.approx || goal != Goal::default();
+    let is_exact = !args.approx || goal != RenderGoal::default();
     let all = if is_exact {
-        Rules::ALL
+        RuleSet::ALL
     } else {
-        Rules::ALL.with(Rule::Cut)
+        RuleSet::ALL.with(Rule::Cut)
     };
     match args.no_prune.as_deref() {
         None => all,
-        Some([]) => Rules::NONE,
+        Some([]) => RuleSet::NONE,
         Some(named) => named.iter().fold(all, |rules, rule| rules.without(*rule)),
     }
 }
@@ -387,12 +387,12 @@ pub(super) fn wanted(
 }
 
 /// The name of the scene with `.png`, in the current folder.
-fn beside_here(args: &args::Render) -> Result<PathBuf, Failure> {
+fn beside_here(args: &args::RenderArgs) -> Result<PathBuf, Failure> {
     Ok(PathBuf::from(stem(args.file(), args)?).with_added_extension("png"))
 }
 
 /// The name of a scene without its extension.
-fn stem<'a>(file: &'a Path, args: &'a args::Render) -> Result<&'a OsStr, Failure> {
+fn stem<'a>(file: &'a Path, args: &'a args::RenderArgs) -> Result<&'a OsStr, Failure> {
     let name = if file.as_os_str() == "-" {
         args.reading.stdin_name.as_deref().map(Path::new)
     } else {

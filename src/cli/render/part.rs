@@ -3,7 +3,7 @@
 use super::super::progress::{self, RenderProgress};
 use super::super::{Failure, args, interrupt::Interrupt, reporter, reporter::Reporter, typed};
 use super::{RenderSetup, beside_here, halted};
-use rtc_pipeline::{Input, Observer, RenderSubject, ShardBy, ShardPlan};
+use rtc_pipeline::{Input, RenderObserver, RenderSubject, ShardDivision, ShardPlan};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -18,7 +18,10 @@ pub(super) struct PartSetup {
 
 impl PartSetup {
     /// The requested share, if any.
-    pub(super) fn new(args: &args::Render, typed: &[OsString]) -> Result<Option<Self>, Failure> {
+    pub(super) fn new(
+        args: &args::RenderArgs,
+        typed: &[OsString],
+    ) -> Result<Option<Self>, Failure> {
         let Some([index, count]) = args.part else {
             return Ok(None);
         };
@@ -57,7 +60,7 @@ impl PartSetup {
     }
 
     /// The name of the scene with the share and `.rtp`, in the current folder.
-    pub(super) fn beside_here(&self, args: &args::Render) -> Result<PathBuf, Failure> {
+    pub(super) fn beside_here(&self, args: &args::RenderArgs) -> Result<PathBuf, Failure> {
         let ShardPlan { first, count, .. } = self.shares;
         let picture = beside_here(args)?;
         Ok(picture.with_extension(format!("{first}-of-{count}.rtp")))
@@ -65,7 +68,7 @@ impl PartSetup {
 }
 
 /// Whether the picture has a target instead of a number of samples.
-fn has_goal(args: &args::Render) -> bool {
+fn has_goal(args: &args::RenderArgs) -> bool {
     args.target_error.is_some() || args.time_budget.is_some()
 }
 
@@ -85,11 +88,11 @@ impl RenderSetup {
             by, first, count, ..
         } = part.shares;
         let pixels = match by {
-            ShardBy::Tiles => window.pixels() as u64 / u64::from(count),
-            ShardBy::Samples => window.pixels() as u64,
+            ShardDivision::Tiles => window.pixels() as u64 / u64::from(count),
+            ShardDivision::Samples => window.pixels() as u64,
         };
         let progress = RenderProgress::start(pixels, reporter.is_quiet());
-        let observer = Observer {
+        let observer = RenderObserver {
             on_step: &|step| progress.step(step),
             is_stopped: &|| interrupt.is_raised(),
         };

@@ -4,14 +4,16 @@
 use super::super::progress::RenderProgress;
 use super::super::{Failure, input, interrupt::Interrupt, output::Output, reporter::Reporter};
 use super::budget::PictureClock;
-use super::made::{EstimateSource, Quality, error};
-use super::{MadePicture, RenderSetup, halted};
+use super::made::{EstimateSource, PictureQuality, error};
+use super::{FinishedPicture, RenderSetup, halted};
 use rtc_image::Image;
-use rtc_pipeline::{Input, Observer, PictureSetup, RayCounter, RenderError, RenderSubject, Traced};
-use rtc_render::{Counts, Crop, Film};
+use rtc_pipeline::{
+    Input, PictureSetup, RayCounter, RenderError, RenderObserver, RenderSubject, Traced,
+};
+use rtc_render::{Crop, Film, RayCounts};
 use rtc_study::{
-    CheckpointSink, CoarsePicture, Goal, PixelQuality, ProgressiveRender, RenderOrder, Stopped,
-    TargetResult, Watch,
+    CheckpointSink, CoarsePicture, PixelQuality, ProgressiveRender, RenderCallbacks, RenderGoal,
+    RenderOrder, Stopped, TargetResult,
 };
 use std::fs::File;
 use std::io::ErrorKind;
@@ -19,20 +21,25 @@ use std::path::Path;
 use std::time::Duration;
 
 /// A render, and its messages.
-pub(super) struct Rendered {
+pub(super) struct RenderResult {
     pub(super) image: Image,
     pub(super) coverage: Vec<f32>,
     /// The quality of each pixel, if it grew towards a goal.
     pub(super) pixels: Vec<PixelQuality>,
-    pub(super) counts: Counts,
+    pub(super) counts: RayCounts,
     pub(super) elapsed: Duration,
     /// Its quality, if requested.
-    pub(super) quality: Option<Quality>,
+    pub(super) quality: Option<PictureQuality>,
 }
 
-impl Rendered {
+impl RenderResult {
     /// A picture that grew towards a goal.
-    fn reached(reached: TargetResult, goal: Goal, elapsed: Duration, has_run_out: bool) -> Self {
+    fn reached(
+        reached: TargetResult,
+        goal: RenderGoal,
+        elapsed: Duration,
+        has_run_out: bool,
+    ) -> Self {
         let TargetResult {
             image,
             coverage,
@@ -54,7 +61,7 @@ impl Rendered {
             pixels,
             counts,
             elapsed,
-            quality: Some(Quality {
+            quality: Some(PictureQuality {
                 error,
                 undersampled,
                 known: EstimateSource::Growing {
@@ -118,9 +125,9 @@ impl RenderSetup {
         (window, rays): (Crop, u64),
         interrupt: &Interrupt,
         quiet: bool,
-    ) -> Result<Rendered, RenderError> {
+    ) -> Result<RenderResult, RenderError> {
         let progress = RenderProgress::start(window.pixels() as u64, quiet);
-        let observer = Observer {
+        let observer = RenderObserver {
             on_step: &|step| progress.step(step),
             is_stopped: &|| interrupt.is_raised(),
         };
@@ -132,13 +139,13 @@ impl RenderSetup {
             coverage,
             counts,
         } = film;
-        Ok(Rendered {
+        Ok(RenderResult {
             image,
             coverage,
             pixels: Vec::new(),
             counts,
             elapsed,
-            quality: probed.as_ref().map(Quality::probed),
+            quality: probed.as_ref().map(PictureQuality::probed),
         })
     }
 
@@ -151,7 +158,7 @@ impl RenderSetup {
         interrupt: &Interrupt,
         quiet: bool,
         kept: Option<ResumedRender<'_>>,
-    ) -> Result<Rendered, RenderError> {
+    ) -> Result<RenderResult, RenderError> {
         // Order the picture with what remains of the time.
         let setup = &self.picture;
         let time = setup
@@ -169,11 +176,11 @@ impl RenderSetup {
         // Watch the limit of rays, the interrupt and the progress.
         let left = rays.saturating_sub(begun.map_or(0, ProgressiveRender::rays));
         let meter = RayCounter::new(left, window);
-        let observer = Observer {
+        let observer = RenderObserver {
             on_step: &|step| progress.step(step),
             is_stopped: &|| interrupt.is_raised(),
         };
-        let watch = Watch {
+        let watch = RenderCallbacks {
             on_pixel: &|step| {
                 progress.step(step);
                 !interrupt.is_raised() && meter.step(step)
@@ -199,7 +206,12 @@ impl RenderSetup {
             (Err(Stopped), Some(diagnostic)) => return Err(RenderError::RanOut(diagnostic)),
             (Err(Stopped), None) => return Err(RenderError::Stopped),
         };
-        Ok(Rendered::reached(reached, order.goal, elapsed, has_run_out))
+        Ok(RenderResult::reached(
+            reached,
+            order.goal,
+            elapsed,
+            has_run_out,
+        ))
     }
 }
 
@@ -221,7 +233,7 @@ impl RenderSetup {
         setup.check_memory(subject, strip)?;
         let output = Output::open(path, input)?;
         let progress = RenderProgress::start(window.pixels() as u64, reporter.is_quiet());
-        let observer = Observer {
+        let observer = RenderObserver {
             on_step: &|step| progress.step(step),
             is_stopped: &|| interrupt.is_raised(),
         };
@@ -245,7 +257,7 @@ impl RenderSetup {
         written?;
         input::report_diagnostics(input, reporter)?;
         let size = [window.width, window.height];
-        reporter.made(&MadePicture::new(path, setup, size, (counts, elapsed)));
+        reporter.made(&FinishedPicture::new(path, setup, size, (counts, elapsed)));
         Ok(())
     }
 }

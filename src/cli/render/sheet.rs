@@ -4,7 +4,7 @@ use super::super::Failure;
 use super::super::interrupt::Interrupt;
 use super::super::output::Output;
 use super::RenderSetup;
-use rtc_image::{FileFormat, Picture, ShownPicture, contact_sheet, for_sheet};
+use rtc_image::{DisplayedPicture, FileFormat, Picture, contact_sheet, for_sheet};
 use rtc_source::{Loader, SourceMap};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -16,12 +16,12 @@ const MOST: usize = 2048;
 const MAX_BYTES: u64 = 1 << 32;
 
 /// A sheet to be, and the pictures that it shows.
-pub(super) struct Sheet {
+pub(super) struct ContactSheet {
     output: Output,
     pictures: Vec<PathBuf>,
 }
 
-impl Sheet {
+impl ContactSheet {
     /// A sheet of the pictures of these renders, which are not made yet. It is none of them.
     pub(super) fn new(path: &Path, plans: &[(PathBuf, RenderSetup)]) -> Result<Self, Failure> {
         let name = path.display();
@@ -61,7 +61,7 @@ impl Sheet {
             let path = made.get(path);
             let bytes =
                 path.and_then(|path| Loader.bytes(path, MAX_BYTES, &SourceMap::default()).ok());
-            let read = bytes.and_then(|bytes| ShownPicture::read(&bytes, u64::MAX).ok());
+            let read = bytes.and_then(|bytes| DisplayedPicture::read(&bytes, u64::MAX).ok());
             (name, read.map(|picture| for_sheet(picture.image())))
         });
         let sheet = contact_sheet(&pictures.collect::<Vec<_>>());

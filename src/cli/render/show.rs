@@ -2,7 +2,7 @@
 //! colours.
 
 use super::super::{Failure, output};
-use rtc_image::{Image, ShownPicture, shrunk};
+use rtc_image::{DisplayedPicture, Image, shrunk};
 use rtc_source::{Loader, SourceMap};
 use std::fmt::Write;
 use std::path::Path;
@@ -19,7 +19,7 @@ pub(super) fn show(path: &Path) -> Result<(), Failure> {
     let trouble = |message: String| Failure::Failed(format!("`{}`: {message}", path.display()));
     let bytes = Loader.bytes(path, MAX_BYTES, &SourceMap::default());
     let bytes = bytes.map_err(|error| trouble(error.to_string()))?;
-    let picture = ShownPicture::read(&bytes, u64::MAX);
+    let picture = DisplayedPicture::read(&bytes, u64::MAX);
     let picture = picture.map_err(|error| trouble(error.to_string()))?;
     let columns = std::env::var("COLUMNS").ok();
     let columns = columns.and_then(|columns| columns.parse().ok());

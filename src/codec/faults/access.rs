@@ -3,7 +3,7 @@
 
 use super::error::NodeError;
 use super::reader::NodeReader;
-use super::{FaultPart, FieldNames, Notes};
+use super::{ErrorCollector, FieldNames, NodePart};
 use rtc_source::tree::{NodeId, NodeKind};
 use serde::de::value::StrDeserializer;
 use serde::de::{
@@ -12,15 +12,19 @@ use serde::de::{
 };
 
 /// The items of a list.
-pub(super) struct Items<'n, 't> {
-    notes: &'n Notes<'t>,
+pub(super) struct NodeListAccess<'n, 't> {
+    notes: &'n ErrorCollector<'t>,
     items: std::vec::IntoIter<NodeId>,
     /// The number of items still expected, present or not; `None` for the items that are present.
     remaining: Option<usize>,
 }
 
-impl<'n, 't> Items<'n, 't> {
-    pub(super) fn new(notes: &'n Notes<'t>, items: Vec<NodeId>, length: Option<usize>) -> Self {
+impl<'n, 't> NodeListAccess<'n, 't> {
+    pub(super) fn new(
+        notes: &'n ErrorCollector<'t>,
+        items: Vec<NodeId>,
+        length: Option<usize>,
+    ) -> Self {
         Self {
             notes,
             items: items.into_iter(),
@@ -29,7 +33,7 @@ impl<'n, 't> Items<'n, 't> {
     }
 }
 
-impl<'de> SeqAccess<'de> for Items<'_, '_> {
+impl<'de> SeqAccess<'de> for NodeListAccess<'_, '_> {
     type Error = NodeError;
 
     fn next_element_seed<S: DeserializeSeed<'de>>(
@@ -55,8 +59,8 @@ impl<'de> SeqAccess<'de> for Items<'_, '_> {
 }
 
 /// The members of a map.
-pub(super) struct Members<'n, 't> {
-    notes: &'n Notes<'t>,
+pub(super) struct NodeMapAccess<'n, 't> {
+    notes: &'n ErrorCollector<'t>,
     map: Option<NodeId>,
     pairs: std::vec::IntoIter<(NodeId, NodeId)>,
     /// The fields of the struct; `None` to accept any key.
@@ -70,9 +74,13 @@ pub(super) struct Members<'n, 't> {
     value: Option<NodeId>,
 }
 
-impl<'n, 't> Members<'n, 't> {
+impl<'n, 't> NodeMapAccess<'n, 't> {
     /// The members of a map as the fields of a struct; placeholders if there is no map.
-    pub(super) fn of(notes: &'n Notes<'t>, map: Option<NodeId>, fields: FieldNames) -> Self {
+    pub(super) fn of(
+        notes: &'n ErrorCollector<'t>,
+        map: Option<NodeId>,
+        fields: FieldNames,
+    ) -> Self {
         let pairs: Vec<_> = map.map_or_else(Vec::new, |map| notes.tree.pairs(map).collect());
         Self {
             notes,
@@ -87,7 +95,7 @@ impl<'n, 't> Members<'n, 't> {
     }
 
     /// All members of a map.
-    pub(super) fn any(notes: &'n Notes<'t>, map: NodeId) -> Self {
+    pub(super) fn any(notes: &'n ErrorCollector<'t>, map: NodeId) -> Self {
         Self {
             fields: None,
             absent: Vec::new(),
@@ -113,19 +121,19 @@ impl<'n, 't> Members<'n, 't> {
                 }
             };
             self.has_unknown |= !self.seen.contains(&text);
-            self.notes.note(key, FaultPart::Whole, fault.what);
+            self.notes.note(key, NodePart::Whole, fault.what);
         }
         let name = self.absent.pop()?;
         if let Some(map) = self.map.filter(|_| !self.has_unknown) {
             self.notes
-                .note(map, FaultPart::Whole, NodeError::missing_field(name).what);
+                .note(map, NodePart::Whole, NodeError::missing_field(name).what);
         }
         self.value = None;
         Some(name)
     }
 }
 
-impl<'de> MapAccess<'de> for Members<'_, '_> {
+impl<'de> MapAccess<'de> for NodeMapAccess<'_, '_> {
     type Error = NodeError;
 
     fn next_key_seed<S: DeserializeSeed<'de>>(
@@ -147,14 +155,14 @@ impl<'de> MapAccess<'de> for Members<'_, '_> {
 }
 
 /// An enum variant and its content.
-pub(super) struct Variant<'n, 't> {
+pub(super) struct NodeVariantAccess<'n, 't> {
     name: &'n str,
     content: NodeReader<'n, 't>,
     /// The node, if the variant is a name without content.
     bare: Option<NodeReader<'n, 't>>,
 }
 
-impl<'n, 't> Variant<'n, 't> {
+impl<'n, 't> NodeVariantAccess<'n, 't> {
     /// The variant at a node; the first variant if the node is none.
     pub(super) fn of(
         at: NodeReader<'n, 't>,
@@ -203,7 +211,7 @@ impl<'n, 't> Variant<'n, 't> {
         }
         notes.note(
             name,
-            FaultPart::Whole,
+            NodePart::Whole,
             NodeError::unknown_variant(text, variants).what,
         );
         Self {
@@ -221,7 +229,7 @@ impl<'n, 't> Variant<'n, 't> {
     }
 }
 
-impl<'de, 'n, 't> EnumAccess<'de> for Variant<'n, 't> {
+impl<'de, 'n, 't> EnumAccess<'de> for NodeVariantAccess<'n, 't> {
     type Error = NodeError;
     type Variant = Self;
 
@@ -230,7 +238,7 @@ impl<'de, 'n, 't> EnumAccess<'de> for Variant<'n, 't> {
     }
 }
 
-impl<'de> VariantAccess<'de> for Variant<'_, '_> {
+impl<'de> VariantAccess<'de> for NodeVariantAccess<'_, '_> {
     type Error = NodeError;
 
     fn unit_variant(self) -> Result<(), NodeError> {

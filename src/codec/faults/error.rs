@@ -56,14 +56,14 @@ impl de::Error for NodeError {
     fn invalid_type(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
         Self::custom(format_args!(
             "invalid type: {}, expected {expected}",
-            Json(found)
+            FoundJsonValue(found)
         ))
     }
 
     fn invalid_value(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
         Self::custom(format_args!(
             "invalid value: {}, expected {expected}",
-            Json(found)
+            FoundJsonValue(found)
         ))
     }
 
@@ -76,9 +76,9 @@ impl de::Error for NodeError {
 }
 
 /// The value that was found, as `serde_json` names it.
-struct Json<'a>(Unexpected<'a>);
+struct FoundJsonValue<'a>(Unexpected<'a>);
 
-impl Display for Json<'_> {
+impl Display for FoundJsonValue<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         if let Unexpected::Unit = self.0 {
             f.write_str("null")

@@ -25,7 +25,7 @@ const MAX_RUNS: usize = 64;
 
 /// An error of a JSON document.
 #[derive(Debug)]
-pub(super) struct TextFault {
+pub(super) struct JsonTextError {
     /// The wrong bytes.
     pub(super) span: Span,
     /// Their JSON pointer; `None` for syntax errors, which `serde_json` reports.
@@ -35,8 +35,8 @@ pub(super) struct TextFault {
 }
 
 /// All errors of decoding a tree as a `T`.
-pub(super) fn all<T: DeserializeOwned>(tree: &SyntaxTree<'_>) -> Vec<TextFault> {
-    let mut notes = Notes::new(tree);
+pub(super) fn all<T: DeserializeOwned>(tree: &SyntaxTree<'_>) -> Vec<JsonTextError> {
+    let mut notes = ErrorCollector::new(tree);
     notes.find_required::<T>();
     for _ in 0..MAX_RUNS {
         match T::deserialize(NodeReader::new(&notes, tree.root())) {
@@ -50,23 +50,23 @@ pub(super) fn all<T: DeserializeOwned>(tree: &SyntaxTree<'_>) -> Vec<TextFault> 
         .collect()
 }
 
-fn fault(tree: &SyntaxTree<'_>, at: NodeId, what: String, part: FaultPart) -> TextFault {
+fn fault(tree: &SyntaxTree<'_>, at: NodeId, what: String, part: NodePart) -> JsonTextError {
     let Span { file, start, end } = tree.span(at);
     let (start, end) = match part {
-        FaultPart::Whole => (start, end),
-        FaultPart::Bracket => (start, start + 1),
-        FaultPart::LastDigit => (end - 1, end),
+        NodePart::Whole => (start, end),
+        NodePart::Bracket => (start, start + 1),
+        NodePart::LastDigit => (end - 1, end),
     };
-    TextFault {
+    JsonTextError {
         span: Span::new(file, start, end),
-        pointer: (part != FaultPart::LastDigit).then(|| tree.pointer(at)),
+        pointer: (part != NodePart::LastDigit).then(|| tree.pointer(at)),
         what,
     }
 }
 
 /// Which part of a node is wrong.
 #[derive(Clone, Copy, PartialEq)]
-enum FaultPart {
+enum NodePart {
     /// All of it.
     Whole,
     /// The opening bracket: a list or map is not allowed here.
@@ -79,16 +79,16 @@ enum FaultPart {
 type FieldNames = &'static [&'static str];
 
 /// The state of error collection.
-struct Notes<'t> {
+struct ErrorCollector<'t> {
     tree: &'t SyntaxTree<'t>,
-    found: RefCell<BTreeMap<(NodeId, String), FaultPart>>,
+    found: RefCell<BTreeMap<(NodeId, String), NodePart>>,
     /// Nodes that can't be decoded and are replaced by placeholders.
     rejected: BTreeSet<NodeId>,
     /// The required fields of each struct, as far as known.
     required: BTreeMap<FieldNames, Vec<&'static str>>,
 }
 
-impl<'t> Notes<'t> {
+impl<'t> ErrorCollector<'t> {
     fn new(tree: &'t SyntaxTree<'t>) -> Self {
         Self {
             tree,
@@ -127,12 +127,12 @@ impl<'t> Notes<'t> {
             return self.require(fields, name);
         }
         let Some(at) = error.at else { return false };
-        self.note(at, FaultPart::Whole, error.what.clone());
+        self.note(at, NodePart::Whole, error.what.clone());
         self.rejected.insert(at)
     }
 
     /// Records an error, once.
-    fn note(&self, at: NodeId, part: FaultPart, what: String) {
+    fn note(&self, at: NodeId, part: NodePart, what: String) {
         let mut found = self.found.borrow_mut();
         if found.len() < MAX_FAULTS {
             found.entry((at, what)).or_insert(part);

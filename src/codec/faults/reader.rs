@@ -1,15 +1,15 @@
 //! Decodes values from the nodes of a tree; a wrong node yields a placeholder.
 
-use super::access::{Items, Members, Variant};
+use super::access::{NodeListAccess, NodeMapAccess, NodeVariantAccess};
 use super::error::NodeError;
-use super::{FaultPart, FieldNames, Notes};
+use super::{ErrorCollector, FieldNames, NodePart};
 use rtc_source::tree::{NodeId, NodeKind};
 use serde::de::{Deserializer, Error as _, Expected, Unexpected, Visitor};
 
 /// Decodes a node, or yields a placeholder if there is none.
 #[derive(Clone, Copy)]
 pub(super) struct NodeReader<'n, 't> {
-    pub(super) notes: &'n Notes<'t>,
+    pub(super) notes: &'n ErrorCollector<'t>,
     pub(super) at: Option<NodeId>,
 }
 
@@ -70,13 +70,13 @@ impl JsonNumber {
 
 impl<'n, 't> NodeReader<'n, 't> {
     /// Decodes a node, unless it is to be replaced by a placeholder.
-    pub(super) fn new(notes: &'n Notes<'t>, at: NodeId) -> Self {
+    pub(super) fn new(notes: &'n ErrorCollector<'t>, at: NodeId) -> Self {
         let at = (!notes.rejected.contains(&at)).then_some(at);
         Self { notes, at }
     }
 
     /// Yields a placeholder.
-    pub(super) fn placeholder(notes: &'n Notes<'t>) -> Self {
+    pub(super) fn placeholder(notes: &'n ErrorCollector<'t>) -> Self {
         Self { notes, at: None }
     }
 
@@ -92,7 +92,7 @@ impl<'n, 't> NodeReader<'n, 't> {
             return Some(number);
         }
         let what = "number out of range".to_owned();
-        self.notes.note(at, FaultPart::LastDigit, what);
+        self.notes.note(at, NodePart::LastDigit, what);
         Some(JsonNumber::Unsigned(0))
     }
 
@@ -106,10 +106,10 @@ impl<'n, 't> NodeReader<'n, 't> {
             return;
         };
         let (found, part) = match kind {
-            NodeKind::Null => (Unexpected::Unit, FaultPart::Whole),
+            NodeKind::Null => (Unexpected::Unit, NodePart::Whole),
             NodeKind::Bool => {
                 let boolean = self.notes.tree.boolean(at).unwrap_or_default();
-                (Unexpected::Bool(boolean), FaultPart::Whole)
+                (Unexpected::Bool(boolean), NodePart::Whole)
             }
             NodeKind::Number => {
                 let number = JsonNumber::of(self.notes.tree.written(at));
@@ -118,14 +118,14 @@ impl<'n, 't> NodeReader<'n, 't> {
                     self.number();
                     return;
                 }
-                (number.unexpected(), FaultPart::Whole)
+                (number.unexpected(), NodePart::Whole)
             }
             NodeKind::Word | NodeKind::Text => (
                 Unexpected::Str(self.text().unwrap_or_default()),
-                FaultPart::Whole,
+                NodePart::Whole,
             ),
-            NodeKind::List => (Unexpected::Seq, FaultPart::Bracket),
-            NodeKind::Map => (Unexpected::Map, FaultPart::Bracket),
+            NodeKind::List => (Unexpected::Seq, NodePart::Bracket),
+            NodeKind::Map => (Unexpected::Map, NodePart::Bracket),
         };
         let error = NodeError::invalid_type(found, expected);
         self.notes.note(at, part, error.what);
@@ -134,7 +134,7 @@ impl<'n, 't> NodeReader<'n, 't> {
     /// Reports an error for the whole node.
     pub(super) fn note(self, error: NodeError) {
         if let Some(at) = self.at {
-            self.notes.note(at, FaultPart::Whole, error.what);
+            self.notes.note(at, NodePart::Whole, error.what);
         }
     }
 
@@ -174,7 +174,7 @@ impl<'n, 't> NodeReader<'n, 't> {
             let expected = format!("{} with {length} elements", &visitor as &dyn Expected);
             self.note(NodeError::invalid_length(items.len(), &expected.as_str()));
         }
-        let items = Items::new(self.notes, items, Some(length));
+        let items = NodeListAccess::new(self.notes, items, Some(length));
         visitor.visit_seq(items).map_err(|error| error.at(self.at))
     }
 
@@ -194,7 +194,7 @@ impl<'n, 't> NodeReader<'n, 't> {
         if list.is_some() && length.is_some_and(|length| items.len() != length) {
             self.note(NodeError::invalid_length(items.len(), &visitor));
         }
-        let items = Items::new(self.notes, items, length);
+        let items = NodeListAccess::new(self.notes, items, length);
         visitor.visit_seq(items).map_err(|error| error.at(self.at))
     }
 }
@@ -220,7 +220,7 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
         let tree = self.notes.tree;
         let Some((at, kind)) = self.at.zip(self.kind()) else {
             // Types that accept anything, such as columns, accept an empty list.
-            return visitor.visit_seq(Items::new(self.notes, Vec::new(), None));
+            return visitor.visit_seq(NodeListAccess::new(self.notes, Vec::new(), None));
         };
         let value: Result<V::Value, NodeError> = match kind {
             NodeKind::Null => visitor.visit_unit(),
@@ -230,10 +230,12 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
                 .unwrap_or(JsonNumber::Unsigned(0))
                 .visit(visitor),
             NodeKind::Word | NodeKind::Text => visitor.visit_str(self.text().unwrap_or_default()),
-            NodeKind::List => {
-                visitor.visit_seq(Items::new(self.notes, tree.items(at).collect(), None))
-            }
-            NodeKind::Map => visitor.visit_map(Members::any(self.notes, at)),
+            NodeKind::List => visitor.visit_seq(NodeListAccess::new(
+                self.notes,
+                tree.items(at).collect(),
+                None,
+            )),
+            NodeKind::Map => visitor.visit_map(NodeMapAccess::any(self.notes, at)),
         };
         value.map_err(|error| error.at(self.at))
     }
@@ -351,7 +353,7 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
         if map.is_none() {
             self.wrong_type(&visitor);
         }
-        let members = Members::of(self.notes, map, fields);
+        let members = NodeMapAccess::of(self.notes, map, fields);
         let value = visitor.visit_map(members);
         value.map_err(|error| error.of(fields).at(self.at))
     }
@@ -362,7 +364,7 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
         variants: FieldNames,
         visitor: V,
     ) -> Result<V::Value, NodeError> {
-        let variant = Variant::of(self, variants, &visitor);
+        let variant = NodeVariantAccess::of(self, variants, &visitor);
         let value = visitor.visit_enum(variant);
         value.map_err(|error| error.at(self.at))
     }

@@ -14,7 +14,7 @@ use annotate_snippets::{
 use rtc_source::SourceMap;
 
 /// A label, and whether it is the primary one.
-type Mark<'a> = (&'a Label, AnnotationKind);
+type PrintedLabel<'a> = (&'a Label, AnnotationKind);
 
 /// One diagnostic, with the number of equal ones, and an empty line.
 pub(super) fn diagnostic(
@@ -95,7 +95,7 @@ fn marks<'a>(diagnostic: &'a Diagnostic, map: &'a SourceMap) -> Vec<Element<'a>>
         .primary
         .iter()
         .map(|label| (label, AnnotationKind::Primary));
-    let mut marks: Vec<Mark<'a>> = primary
+    let mut marks: Vec<PrintedLabel<'a>> = primary
         .chain(
             diagnostic
                 .secondary
@@ -109,7 +109,7 @@ fn marks<'a>(diagnostic: &'a Diagnostic, map: &'a SourceMap) -> Vec<Element<'a>>
     runs.iter().flat_map(|run| snippet(run, map)).collect()
 }
 
-fn snippet<'a>(run: &[Mark<'a>], map: &'a SourceMap) -> Vec<Element<'a>> {
+fn snippet<'a>(run: &[PrintedLabel<'a>], map: &'a SourceMap) -> Vec<Element<'a>> {
     let head = run
         .iter()
         .find(|(_, kind)| *kind == AnnotationKind::Primary)
@@ -127,7 +127,7 @@ fn snippet<'a>(run: &[Mark<'a>], map: &'a SourceMap) -> Vec<Element<'a>> {
         .map(|(label, _)| window::mark(map, label.span))
         .collect();
     let window = SourceWindow::new(map, &spans);
-    let annotation = |(&(label, kind), &span): (&Mark<'a>, _)| -> Annotation<'a> {
+    let annotation = |(&(label, kind), &span): (&PrintedLabel<'a>, _)| -> Annotation<'a> {
         let text = Some(clean(&label.text)).filter(|text| !text.is_empty());
         kind.span(window.range(span)).label(text)
     };
@@ -139,7 +139,7 @@ fn snippet<'a>(run: &[Mark<'a>], map: &'a SourceMap) -> Vec<Element<'a>> {
 }
 
 /// The location and the labels of spans whose source is not printed.
-fn without_source<'a>(run: &[Mark<'a>], place: &SourceLocation) -> Vec<Element<'a>> {
+fn without_source<'a>(run: &[PrintedLabel<'a>], place: &SourceLocation) -> Vec<Element<'a>> {
     let labels = run.iter().filter(|(label, _)| !label.text.is_empty());
     let notes = labels.map(|(label, _)| Level::NOTE.message(clean(&label.text)).into());
     std::iter::once(Origin::path(place.to_string()).into())

@@ -23,11 +23,11 @@ struct JsonDiagnostic<'a> {
     /// The file that was checked.
     file: &'a str,
     /// The span that is wrong, or null.
-    primary: Option<Marked<'a>>,
+    primary: Option<JsonLabel<'a>>,
     /// Other spans that matter.
-    labels: Vec<Marked<'a>>,
+    labels: Vec<JsonLabel<'a>>,
     /// The hint.
-    hints: Vec<Advice<'a>>,
+    hints: Vec<JsonHint<'a>>,
     /// A JSON pointer to the value, or null.
     pointer: Option<&'a str>,
     /// The code of Khronos' glTF validator; absent if it has none.
@@ -37,7 +37,7 @@ struct JsonDiagnostic<'a> {
 
 /// A location with the text of a label, or with the new text of a replacement.
 #[derive(Serialize, JsonSchema)]
-struct Marked<'a> {
+struct JsonLabel<'a> {
     #[serde(flatten)]
     location: SourceLocation<'a>,
     /// The text of the label, or the new text of a replacement.
@@ -46,7 +46,7 @@ struct Marked<'a> {
 
 /// Advice.
 #[derive(Serialize, JsonSchema)]
-struct Advice<'a> {
+struct JsonHint<'a> {
     /// The hint.
     text: &'a str,
     /// As a change of the source, or null.
@@ -57,14 +57,14 @@ struct Advice<'a> {
 #[derive(Serialize, JsonSchema)]
 struct JsonChange<'a> {
     #[serde(flatten)]
-    mark: Marked<'a>,
+    mark: JsonLabel<'a>,
     /// Whether it is a guess.
     guess: bool,
 }
 
 /// The last line, if diagnostics were left out.
 #[derive(Serialize, JsonSchema)]
-struct Omitted {
+struct OmittedCount {
     /// The number of diagnostics left out.
     omitted: usize,
 }
@@ -75,7 +75,7 @@ struct Omitted {
 #[expect(dead_code, reason = "only its schema is used")]
 enum JsonLine<'a> {
     Diagnostic(JsonDiagnostic<'a>),
-    Omitted(Omitted),
+    Omitted(OmittedCount),
 }
 
 /// The schema of one line of the JSON format.
@@ -114,22 +114,22 @@ pub(super) fn diagnostic(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -
 
 /// The last line, if `count` diagnostics were left out.
 pub(super) fn omitted(count: usize) -> String {
-    line(&Omitted { omitted: count })
+    line(&OmittedCount { omitted: count })
 }
 
-fn labelled<'a>(map: &'a SourceMap, label: &'a Label) -> Marked<'a> {
+fn labelled<'a>(map: &'a SourceMap, label: &'a Label) -> JsonLabel<'a> {
     let Label { span, text } = label;
     marked(map, *span, text)
 }
 
-fn marked<'a>(map: &'a SourceMap, span: Span, text: &'a str) -> Marked<'a> {
-    Marked {
+fn marked<'a>(map: &'a SourceMap, span: Span, text: &'a str) -> JsonLabel<'a> {
+    JsonLabel {
         location: SourceLocation::new(map, span),
         text,
     }
 }
 
-fn advice<'a>(map: &'a SourceMap, hint: &'a Hint) -> Advice<'a> {
+fn advice<'a>(map: &'a SourceMap, hint: &'a Hint) -> JsonHint<'a> {
     let Hint { text, replacement } = hint;
     let replacement = replacement.as_ref().map(|change| {
         let Replacement {
@@ -142,7 +142,7 @@ fn advice<'a>(map: &'a SourceMap, hint: &'a Hint) -> Advice<'a> {
             guess: *is_guess,
         }
     });
-    Advice { text, replacement }
+    JsonHint { text, replacement }
 }
 
 fn line(value: &impl Serialize) -> String {

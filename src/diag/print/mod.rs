@@ -1,10 +1,10 @@
 //! Printers: diagnostics as text, in the formats of `--message-format`.
 //!
-//! A [`Printer`] takes the diagnostics of one file at a time. They are sorted by span, equal ones
-//! are folded (`fold`), and their number is capped. `human` shows the source with labels (`window`
-//! selects the lines), `short` prints one line each, `json` one object per line; `sarif` and
-//! `github` follow their specifications. Control characters of the input are escaped (`text`), so
-//! that no input can send a command to a terminal. A printer returns text and writes nothing.
+//! A [`DiagnosticPrinter`] takes the diagnostics of one file at a time. They are sorted by span,
+//! equal ones are folded (`fold`), and their number is capped. `human` shows the source with labels
+//! (`window` selects the lines), `short` prints one line each, `json` one object per line; `sarif`
+//! and `github` follow their specifications. Control characters of the input are escaped (`text`),
+//! so that no input can send a command to a terminal. A printer returns text and writes nothing.
 
 mod fold;
 mod github;
@@ -19,7 +19,7 @@ mod window;
 #[cfg(test)]
 mod tests;
 
-use super::{Diagnostic, Severity, Sink, codes};
+use super::{Diagnostic, DiagnosticSink, Severity, codes};
 use fold::FoldedDiagnostic;
 use rtc_source::SourceMap;
 use schemars::Schema;
@@ -86,7 +86,7 @@ pub struct PrintOptions {
 
 /// Turns the diagnostics of one file after another into text.
 #[derive(Debug)]
-pub struct Printer {
+pub struct DiagnosticPrinter {
     format: Format,
     options: PrintOptions,
     omitted: usize,
@@ -95,7 +95,7 @@ pub struct Printer {
     settings: Option<String>,
 }
 
-impl Printer {
+impl DiagnosticPrinter {
     /// A printer before its first file.
     #[must_use]
     pub fn new(format: Format, options: PrintOptions) -> Self {
@@ -117,7 +117,7 @@ impl Printer {
     }
 
     /// The text for the diagnostics of the file `name`; empty if none is printed.
-    pub fn file(&mut self, name: &str, mut sink: Sink, map: &SourceMap) -> String {
+    pub fn file(&mut self, name: &str, mut sink: DiagnosticSink, map: &SourceMap) -> String {
         // Keep what the options show, in the order of the text.
         sink.sort();
         let visible = |diagnostic: &&Diagnostic| {

@@ -23,11 +23,11 @@ fn print(
 ) -> String {
     let mut map = SourceMap::default();
     let file = map.add("a b.yaml", text.to_vec());
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     make(Span::new(file, 0, 0))
         .into_iter()
         .for_each(|diagnostic| sink.push(diagnostic));
-    let mut printer = Printer::new(format, options);
+    let mut printer = DiagnosticPrinter::new(format, options);
     let text = printer.file("a b.yaml", sink, &map);
     text + &printer.finish()
 }

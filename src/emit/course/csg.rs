@@ -8,12 +8,12 @@ use std::fmt::Write as _;
 
 /// An operand, or an operation over others. Operations that are the first operand of the same one
 /// are merged with it.
-enum Node {
+enum CsgNode {
     Operand(usize),
-    Operation(SetStep, Vec<Node>),
+    Operation(SetStep, Vec<CsgNode>),
 }
 
-impl Node {
+impl CsgNode {
     /// The tree of an expression.
     fn of(steps: &[SetStep]) -> Option<Self> {
         let (mut stack, mut operands) = (Vec::new(), 0..);
@@ -36,7 +36,7 @@ impl Node {
 }
 
 /// The inputs for writing operands.
-struct OperandLooks<'a, 's> {
+struct OperandSurfaces<'a, 's> {
     csg: &'s Csg,
     parts: &'s [Surface],
     scene: &'s Scene,
@@ -52,12 +52,12 @@ impl<'s> SceneWriter<'s> {
         scene: &'s Scene,
         materials: &mut MaterialNames,
     ) -> Result<(), String> {
-        let node = match Node::of(&csg.steps).ok_or("the operations over solids do not fit")? {
+        let node = match CsgNode::of(&csg.steps).ok_or("the operations over solids do not fit")? {
             // A solid on its own is a union of one.
-            node @ Node::Operand(_) => Node::Operation(SetStep::Union, vec![node]),
-            node @ Node::Operation(..) => node,
+            node @ CsgNode::Operand(_) => CsgNode::Operation(SetStep::Union, vec![node]),
+            node @ CsgNode::Operation(..) => node,
         };
-        let mut operands = OperandLooks {
+        let mut operands = OperandSurfaces {
             csg,
             parts,
             scene,
@@ -68,13 +68,13 @@ impl<'s> SceneWriter<'s> {
 
     fn node(
         &mut self,
-        node: &Node,
+        node: &CsgNode,
         indent: usize,
-        operands: &mut OperandLooks<'_, 's>,
+        operands: &mut OperandSurfaces<'_, 's>,
     ) -> Result<(), String> {
         match node {
-            Node::Operand(index) => self.operand(*index, indent, operands),
-            Node::Operation(operation, nodes) => {
+            CsgNode::Operand(index) => self.operand(*index, indent, operands),
+            CsgNode::Operation(operation, nodes) => {
                 let word = match operation {
                     SetStep::Operand | SetStep::Union => "union",
                     SetStep::Intersection => "intersection",
@@ -93,7 +93,7 @@ impl<'s> SceneWriter<'s> {
         &mut self,
         index: usize,
         indent: usize,
-        operands: &mut OperandLooks<'_, 's>,
+        operands: &mut OperandSurfaces<'_, 's>,
     ) -> Result<(), String> {
         let start = self.text.len();
         let solid = operands.csg.operands.get(index);

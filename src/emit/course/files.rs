@@ -12,27 +12,27 @@ const UV: &str = "UV";
 
 /// A file to which a text refers.
 #[derive(Debug)]
-pub struct Attachment<'s> {
+pub struct SidecarFile<'s> {
     /// Its path relative to the folder of the text, with `/`.
     pub name: String,
-    content: AttachmentContent<'s>,
+    content: SidecarContent<'s>,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum AttachmentContent<'s> {
+enum SidecarContent<'s> {
     Mesh(&'s Mesh),
     Image(&'s Image),
 }
 
-impl Attachment<'_> {
+impl SidecarFile<'_> {
     /// The bytes of the file; always the same.
     ///
     /// # Errors
     /// A message, if there is no such file.
     pub fn bytes(&self) -> Result<Vec<u8>, String> {
         match self.content {
-            AttachmentContent::Mesh(mesh) => Ok(ply::encode(mesh)),
-            AttachmentContent::Image(image) => encode(image),
+            SidecarContent::Mesh(mesh) => Ok(ply::encode(mesh)),
+            SidecarContent::Image(image) => encode(image),
         }
     }
 }
@@ -43,7 +43,7 @@ pub(super) struct FileNames<'s> {
     uses_original_names: bool,
     /// The folder of new files.
     folder: Option<String>,
-    new: BTreeMap<String, Attachment<'s>>,
+    new: BTreeMap<String, SidecarFile<'s>>,
     /// The quoted names so far: a mesh with many instances is hashed once.
     of_images: BTreeMap<u32, String>,
     of_meshes: BTreeMap<u32, String>,
@@ -72,7 +72,7 @@ impl<'s> FileNames<'s> {
         }
     }
 
-    pub(super) fn into_files(self) -> Vec<Attachment<'s>> {
+    pub(super) fn into_files(self) -> Vec<SidecarFile<'s>> {
         self.new.into_values().collect()
     }
 
@@ -89,7 +89,7 @@ impl<'s> FileNames<'s> {
             .images
             .get(id as usize)
             .ok_or("an image is referred to that does not exist")?;
-        let name = self.name(&image.name, AttachmentContent::Image(image))?;
+        let name = self.name(&image.name, SidecarContent::Image(image))?;
         self.of_images.insert(id, name.clone());
         Ok(name)
     }
@@ -111,12 +111,12 @@ impl<'s> FileNames<'s> {
         if let Some(name) = self.of_meshes.get(&id) {
             return Ok((name.clone(), part));
         }
-        let name = self.name(&mesh.name, AttachmentContent::Mesh(mesh))?;
+        let name = self.name(&mesh.name, SidecarContent::Mesh(mesh))?;
         self.of_meshes.insert(id, name.clone());
         Ok((name, part))
     }
 
-    fn name(&mut self, original: &str, content: AttachmentContent<'s>) -> Result<String, String> {
+    fn name(&mut self, original: &str, content: SidecarContent<'s>) -> Result<String, String> {
         let original_file = file_name(original);
         if self.uses_original_names && (original_file.is_ok() || self.folder.is_none()) {
             return original_file;
@@ -126,14 +126,14 @@ impl<'s> FileNames<'s> {
             return Err(message.to_owned());
         };
         let (fallback, extension, hash) = match content {
-            AttachmentContent::Mesh(mesh) => ("mesh", "ply", xxh3_64(&ply::encode(mesh))),
-            AttachmentContent::Image(image) => ("image", extension(image), hash(image)),
+            SidecarContent::Mesh(mesh) => ("mesh", "ply", xxh3_64(&ply::encode(mesh))),
+            SidecarContent::Image(image) => ("image", extension(image), hash(image)),
         };
         let name = sidecar::path(folder, original, fallback, hash, extension);
         let quoted = quoted(&name);
         self.new
             .entry(name.clone())
-            .or_insert(Attachment { name, content });
+            .or_insert(SidecarFile { name, content });
         Ok(quoted)
     }
 }

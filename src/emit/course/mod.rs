@@ -12,7 +12,7 @@ mod material;
 mod shape;
 mod standard;
 
-pub use files::Attachment;
+pub use files::SidecarFile;
 
 use crate::export::parts_of_one;
 use files::FileNames;
@@ -29,7 +29,7 @@ pub struct WrittenScene<'s> {
     /// The scene.
     pub text: String,
     /// The sidecar files.
-    pub files: Vec<Attachment<'s>>,
+    pub files: Vec<SidecarFile<'s>>,
 }
 
 /// Writes the scene in canonical spelling with a `Camera`.

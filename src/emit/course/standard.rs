@@ -46,7 +46,7 @@ struct ParameterWriter<'t, 's> {
 }
 
 /// The text of a value, or why it can't be written.
-type Written = Result<String, String>;
+type WrittenValue = Result<String, String>;
 
 #[expect(
     clippy::unnecessary_wraps,
@@ -54,57 +54,57 @@ type Written = Result<String, String>;
     reason = "the rows of the table are alike"
 )]
 impl ParameterWriter<'_, '_> {
-    fn number(&mut self, value: &f64) -> Written {
+    fn number(&mut self, value: &f64) -> WrittenValue {
         self.text.finite &= value.is_finite();
         Ok(shortest(*value))
     }
 
-    fn fraction(&mut self, value: &f64) -> Written {
+    fn fraction(&mut self, value: &f64) -> WrittenValue {
         self.number(value)
     }
 
-    fn non_negative(&mut self, value: &f64) -> Written {
+    fn non_negative(&mut self, value: &f64) -> WrittenValue {
         self.number(value)
     }
 
-    fn ior(&mut self, value: &f64) -> Written {
+    fn ior(&mut self, value: &f64) -> WrittenValue {
         self.number(value)
     }
 
-    fn index_of_refraction(&mut self, value: &f64) -> Written {
+    fn index_of_refraction(&mut self, value: &f64) -> WrittenValue {
         self.number(value)
     }
 
-    fn distance(&mut self, value: &Option<f64>) -> Written {
+    fn distance(&mut self, value: &Option<f64>) -> WrittenValue {
         self.number(&value.unwrap_or(f64::NAN))
     }
 
-    fn pair(&mut self, values: &[f64; 2]) -> Written {
+    fn pair(&mut self, values: &[f64; 2]) -> WrittenValue {
         Ok(self.text.list(*values))
     }
 
-    fn color(&mut self, values: &[f64; 3]) -> Written {
+    fn color(&mut self, values: &[f64; 3]) -> WrittenValue {
         Ok(self.text.list(*values))
     }
 
-    fn fraction_color(&mut self, values: &[f64; 3]) -> Written {
+    fn fraction_color(&mut self, values: &[f64; 3]) -> WrittenValue {
         Ok(self.text.list(*values))
     }
 
-    fn fractions(&mut self, values: &[f64; 4]) -> Written {
+    fn fractions(&mut self, values: &[f64; 4]) -> WrittenValue {
         Ok(self.text.list(*values))
     }
 
-    fn some_fractions(&mut self, values: &Option<[f64; 4]>) -> Written {
+    fn some_fractions(&mut self, values: &Option<[f64; 4]>) -> WrittenValue {
         Ok(self.text.list(values.unwrap_or_default()))
     }
 
     #[expect(clippy::unused_self, reason = "a row of the table like the others")]
-    fn flag(&mut self, value: &bool) -> Written {
+    fn flag(&mut self, value: &bool) -> WrittenValue {
         Ok(value.to_string())
     }
 
-    fn alpha(&mut self, alpha: &Alpha) -> Written {
+    fn alpha(&mut self, alpha: &Alpha) -> WrittenValue {
         match alpha {
             Alpha::Opaque => Ok("opaque".to_owned()),
             Alpha::Blend => Ok("blend".to_owned()),
@@ -112,7 +112,7 @@ impl ParameterWriter<'_, '_> {
         }
     }
 
-    fn map(&mut self, map: &Option<Map>) -> Written {
+    fn map(&mut self, map: &Option<Map>) -> WrittenValue {
         // Resolve the texture.
         let Some(Map {
             texture,

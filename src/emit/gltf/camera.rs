@@ -1,9 +1,9 @@
 //! Writes the camera: perspective or orthographic. Image size, plane of focus, off-centre
 //! projection and lens go to `extras.rtc`, because glTF can't express them.
 
-use super::document::{self, Index, Node};
+use super::document::{self, GltfIndex, Node};
 use super::writer::{GltfWriter, extras, single};
-use rtc_ir::{Camera, EntityKind, Field, Lens, Projection, ValuePath};
+use rtc_ir::{Camera, EntityField, EntityKind, Lens, Projection, ValuePath};
 use rtc_math::{Vec3, atan2, length, unit};
 use serde_json::{Map as JsonObject, Value, json};
 
@@ -50,7 +50,7 @@ impl GltfWriter<'_> {
             extras: extras(rtc_extras),
         };
         let node = Node {
-            camera: Some(Index::push(&mut self.root.cameras, camera)),
+            camera: Some(GltfIndex::push(&mut self.root.cameras, camera)),
             ..Node::default()
         };
         self.node(node, [x, y, z, eye].map(|column| column.to_array()));
@@ -62,7 +62,7 @@ impl GltfWriter<'_> {
         shift: [f64; 2],
         lens: &Lens,
     ) -> JsonObject<String, Value> {
-        let path = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
+        let path = ValuePath::new(EntityKind::Camera, 0, EntityField::Whole);
         let [width, height] = self.scene.camera.size;
         let mut rtc_extras = JsonObject::new();
         let mut insert = |key: &str, value| {

@@ -38,9 +38,9 @@ pub(super) type Extras = Option<Value>;
 /// The index of an object in its array.
 #[derive(Serialize)]
 #[serde(transparent)]
-pub(super) struct Index<T>(u32, PhantomData<fn() -> T>);
+pub(super) struct GltfIndex<T>(u32, PhantomData<fn() -> T>);
 
-impl<T> Index<T> {
+impl<T> GltfIndex<T> {
     /// Adds an object to its array.
     pub(super) fn push(list: &mut Vec<T>, part: T) -> Self {
         list.push(part);
@@ -53,13 +53,13 @@ impl<T> Index<T> {
     }
 }
 
-impl<T> Clone for Index<T> {
+impl<T> Clone for GltfIndex<T> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<T> Copy for Index<T> {}
+impl<T> Copy for GltfIndex<T> {}
 
 /// The root object. It has one scene.
 #[derive(Default, Serialize)]
@@ -107,14 +107,14 @@ pub(super) struct Asset {
 #[derive(Default, Serialize)]
 pub(super) struct Scene {
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub(super) nodes: Vec<Index<Node>>,
+    pub(super) nodes: Vec<GltfIndex<Node>>,
 }
 
 /// A node. Its matrix is column-major.
 #[derive(Default, Serialize)]
 pub(super) struct Node {
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) camera: Option<Index<Camera>>,
+    pub(super) camera: Option<GltfIndex<Camera>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) extensions: Option<NodeExtensions>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -122,7 +122,7 @@ pub(super) struct Node {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) matrix: Option<[f64; 16]>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) mesh: Option<Index<Mesh>>,
+    pub(super) mesh: Option<GltfIndex<Mesh>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) name: Option<String>,
 }
@@ -139,8 +139,8 @@ pub(super) struct Mesh {
 #[derive(Serialize)]
 pub(super) struct Primitive {
     pub(super) attributes: Attributes,
-    pub(super) indices: Index<Accessor>,
-    pub(super) material: Index<Material>,
+    pub(super) indices: GltfIndex<Accessor>,
+    pub(super) material: GltfIndex<Material>,
 }
 
 /// Vertex attributes.
@@ -148,24 +148,24 @@ pub(super) struct Primitive {
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]
 pub(super) struct Attributes {
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) position: Option<Index<Accessor>>,
+    pub(super) position: Option<GltfIndex<Accessor>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) normal: Option<Index<Accessor>>,
+    pub(super) normal: Option<GltfIndex<Accessor>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) tangent: Option<Index<Accessor>>,
+    pub(super) tangent: Option<GltfIndex<Accessor>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) color_0: Option<Index<Accessor>>,
+    pub(super) color_0: Option<GltfIndex<Accessor>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) texcoord_0: Option<Index<Accessor>>,
+    pub(super) texcoord_0: Option<GltfIndex<Accessor>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) texcoord_1: Option<Index<Accessor>>,
+    pub(super) texcoord_1: Option<GltfIndex<Accessor>>,
 }
 
 /// A typed view of a buffer view.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Accessor {
-    pub(super) buffer_view: Index<BufferView>,
+    pub(super) buffer_view: GltfIndex<BufferView>,
     pub(super) count: usize,
     pub(super) component_type: u32,
     #[serde(rename = "type")]
@@ -203,7 +203,7 @@ pub(super) struct Buffer {
 #[serde(rename_all = "camelCase")]
 pub(super) struct Image {
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) buffer_view: Option<Index<BufferView>>,
+    pub(super) buffer_view: Option<GltfIndex<BufferView>>,
     pub(super) mime_type: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) name: Option<String>,
@@ -224,15 +224,15 @@ pub(super) struct Sampler {
 /// An image with its sampler.
 #[derive(Serialize)]
 pub(super) struct Texture {
-    pub(super) sampler: Index<Sampler>,
-    pub(super) source: Index<Image>,
+    pub(super) sampler: GltfIndex<Sampler>,
+    pub(super) source: GltfIndex<Image>,
 }
 
 /// A reference to a texture. A normal map has a scale.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct TextureInfo {
-    pub(super) index: Index<Texture>,
+    pub(super) index: GltfIndex<Texture>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) scale: Option<f64>,
     pub(super) tex_coord: u32,
@@ -351,5 +351,5 @@ pub(super) struct NodeExtensions {
 /// The light of a node.
 #[derive(Serialize)]
 pub(super) struct LightReference {
-    pub(super) light: Index<Light>,
+    pub(super) light: GltfIndex<Light>,
 }

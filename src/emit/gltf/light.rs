@@ -1,11 +1,13 @@
 //! Writes lights: `KHR_lights_punctual`, and other values in `extras.rtc`.
 
-use super::document::{self, Index, Spot};
+use super::document::{self, GltfIndex, Spot};
 use super::material::strength;
 use super::writer::{GltfWriter, extras, lit};
 use rtc_diag::codes;
-use rtc_ir::{Emitter, EntityKind, Field, Light, Photometry, PointLight, Punctual, ValuePath};
-use rtc_math::{Basis, Vec3, unit};
+use rtc_ir::{
+    EntityField, EntityKind, Light, Photometry, PointLight, Punctual, PunctualKind, ValuePath,
+};
+use rtc_math::{OrthonormalBasis, Vec3, unit};
 use serde_json::{Map as JsonObject, Value, json};
 
 /// A light in terms of glTF.
@@ -31,7 +33,7 @@ impl GltfWriter<'_> {
             .bounding_sphere()
             .map_or(Vec3::ZERO, |sphere| sphere.center);
         for (index, light) in scene.lights.iter().enumerate() {
-            let path = ValuePath::new(EntityKind::Light, index, Field::Whole);
+            let path = ValuePath::new(EntityKind::Light, index, EntityField::Whole);
             let light = match light {
                 Light::Point(point) => self.course_light(point, middle, path),
                 Light::Punctual(punctual) => self.punctual(punctual, middle, path),
@@ -77,12 +79,12 @@ impl GltfWriter<'_> {
             columns,
         };
         match emitter {
-            Emitter::Sun { direction } => light(
+            PunctualKind::Sun { direction } => light(
                 "directional",
                 pointing_from(middle.to_array(), *direction, None),
             ),
-            Emitter::Point { position, range: _ } => light("point", placed(*position)),
-            Emitter::Spot {
+            PunctualKind::Point { position, range: _ } => light("point", placed(*position)),
+            PunctualKind::Spot {
                 position,
                 direction,
                 inner_angle,
@@ -96,7 +98,7 @@ impl GltfWriter<'_> {
                 )
             },
             // A photometric light becomes a uniform point light of its mean intensity.
-            Emitter::Photometric {
+            PunctualKind::Photometric {
                 position,
                 direction,
                 horizontal,
@@ -164,7 +166,7 @@ impl GltfWriter<'_> {
             kind,
         };
         let extensions = self.root.extensions.get_or_insert_default();
-        let light = Index::push(&mut extensions.punctual.lights, light);
+        let light = GltfIndex::push(&mut extensions.punctual.lights, light);
         self.node(lit(light), columns);
     }
 }
@@ -178,7 +180,7 @@ fn placed(position: [f64; 3]) -> [[f64; 3]; 4] {
 /// given.
 fn pointing_from(position: [f64; 3], back: [f64; 3], across: Option<[f64; 3]>) -> [[f64; 3]; 4] {
     let z = unit(Vec3::from_array(back)).unwrap_or(Vec3::Z);
-    let around = Basis::around(z);
+    let around = OrthonormalBasis::around(z);
     let x = across.and_then(|across| {
         let across = Vec3::from_array(across);
         unit(across - z * across.dot(z))

@@ -1,12 +1,13 @@
 //! Writes materials: the glTF material from the table of its parameters, the Phong model by an
 //! approximation.
 
-use super::document::{self, Index, PbrMetallicRoughness, TextureInfo};
+use super::document::{self, GltfIndex, PbrMetallicRoughness, TextureInfo};
 use super::writer::{GltfWriter, extras};
 use crate::approximation::approximate_phong;
 use rtc_diag::codes;
 use rtc_ir::{
-    Alpha, Bump, EntityKind, Field, Map, Material, MaterialId, MeshId, Phong, Standard, ValuePath,
+    Alpha, Bump, EntityField, EntityKind, Map, Material, MaterialId, MeshId, Phong, Standard,
+    ValuePath,
 };
 use rtc_tables as standard;
 use serde_json::{Map as JsonObject, Value, json};
@@ -17,13 +18,17 @@ pub(super) type GltfMaterialKey = (u32, [bool; 2]);
 
 impl GltfWriter<'_> {
     /// The material for a mesh.
-    pub(super) fn material(&mut self, id: MaterialId, mesh: MeshId) -> Index<document::Material> {
+    pub(super) fn material(
+        &mut self,
+        id: MaterialId,
+        mesh: MeshId,
+    ) -> GltfIndex<document::Material> {
         let mesh = &self.scene.meshes[mesh.0 as usize];
         let key = (id.0, [!mesh.uvs.is_empty(), !mesh.second_uvs.is_empty()]);
         if let Some(known) = self.materials.get(&key) {
             return *known;
         }
-        let path = ValuePath::new(EntityKind::Material, id.0 as usize, Field::Whole);
+        let path = ValuePath::new(EntityKind::Material, id.0 as usize, EntityField::Whole);
         let (mut standard, rtc_extras) = match &self.scene.materials[id.0 as usize] {
             Material::Standard(standard) => ((**standard).clone(), JsonObject::new()),
             Material::Phong(phong) => {
@@ -37,7 +42,7 @@ impl GltfWriter<'_> {
             extras: extras(rtc_extras),
             ..material
         };
-        let index = Index::push(&mut self.root.materials, material);
+        let index = GltfIndex::push(&mut self.root.materials, material);
         self.materials.insert(key, index);
         index
     }

@@ -1,10 +1,10 @@
 //! Writes meshes and nodes: accessors once per mesh of the scene, a glTF mesh per mesh and
 //! material, a node per surface.
 
-use super::document::{self, Accessor, Attributes, Index, Node, Primitive};
+use super::document::{self, Accessor, Attributes, GltfIndex, Node, Primitive};
 use super::writer::{GltfWriter, extras, single};
 use rtc_diag::codes;
-use rtc_ir::{Column, EntityKind, Field, Instance, Mesh, MeshId, Shape, ValuePath};
+use rtc_ir::{EntityField, EntityKind, Instance, Mesh, MeshId, Shape, ValuePath, VertexColumn};
 use rtc_math::{Vec3, cross, to_u32, unit};
 use rtc_source::Resource;
 use std::collections::BTreeMap;
@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Copy)]
 pub(super) struct MeshAccessors {
     of_vertices: Attributes,
-    triangles: Index<Accessor>,
+    triangles: GltfIndex<Accessor>,
 }
 
 /// Lengths that count as 1, so that numbers stay unchanged; the tolerance of the glTF validator is
@@ -32,7 +32,7 @@ impl GltfWriter<'_> {
         else {
             unreachable!("all shapes have become meshes");
         };
-        let path = ValuePath::new(EntityKind::Surface, index, Field::Whole);
+        let path = ValuePath::new(EntityKind::Surface, index, EntityField::Whole);
         if scene.meshes[mesh.0 as usize].triangles.is_empty() {
             return Some(());
         }
@@ -59,9 +59,9 @@ impl GltfWriter<'_> {
     fn mesh(
         &mut self,
         id: MeshId,
-        material: Index<document::Material>,
+        material: GltfIndex<document::Material>,
         path: ValuePath,
-    ) -> Option<Index<document::Mesh>> {
+    ) -> Option<GltfIndex<document::Mesh>> {
         let key = (id.0, material.value());
         if let Some(known) = self.meshes.get(&key) {
             return Some(*known);
@@ -80,7 +80,7 @@ impl GltfWriter<'_> {
             name: Some(name.clone()).filter(|name| !name.is_empty()),
             primitives: [primitive],
         };
-        let mesh = Index::push(&mut self.root.meshes, mesh);
+        let mesh = GltfIndex::push(&mut self.root.meshes, mesh);
         self.meshes.insert(key, mesh);
         Some(mesh)
     }
@@ -167,14 +167,16 @@ impl GltfWriter<'_> {
     /// A column as f32; `None` if a value is out of range, which is reported.
     fn rounded<const N: usize>(
         &mut self,
-        column: &Column<N>,
+        column: &VertexColumn<N>,
         path: ValuePath,
     ) -> Option<Vec<[f32; N]>> {
         let vectors: Vec<[f32; N]> = match column {
-            Column::Single(vectors) => vectors.to_vec(),
-            Column::Double(vectors) => vectors.iter().map(|vector| vector.map(single)).collect(),
+            VertexColumn::Single(vectors) => vectors.to_vec(),
+            VertexColumn::Double(vectors) => {
+                vectors.iter().map(|vector| vector.map(single)).collect()
+            }
         };
-        if let Column::Double(exact) = column {
+        if let VertexColumn::Double(exact) = column {
             if !vectors.iter().flatten().all(|number| number.is_finite()) {
                 let message = "a mesh reaches beyond the range of the 32-bit floats of glTF";
                 self.reporter
@@ -201,8 +203,8 @@ impl GltfWriter<'_> {
     /// bits. A tangent without direction becomes one perpendicular to its normal.
     fn tangents(
         &mut self,
-        tangents: &Column<4>,
-        normals: &Column<3>,
+        tangents: &VertexColumn<4>,
+        normals: &VertexColumn<3>,
         path: ValuePath,
     ) -> Option<Vec<[f32; 4]>> {
         let mut rounded = self.rounded(tangents, path)?;
@@ -224,7 +226,7 @@ impl GltfWriter<'_> {
     /// direction becomes that of a triangle at the vertex.
     fn directions(
         &mut self,
-        normals: &Column<3>,
+        normals: &VertexColumn<3>,
         corners: &[[f32; 3]],
         triangles: &[[u32; 3]],
         path: ValuePath,

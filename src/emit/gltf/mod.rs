@@ -20,9 +20,9 @@ mod writer;
 
 use super::reporter::ExportReporter;
 use super::tessellate::{TargetFormat, with_meshes};
-use document::{Asset, Buffer, Index};
-use rtc_diag::{Sink, codes};
-use rtc_ir::{EntityKind, Field, Scene, SourceSpans, ValuePath};
+use document::{Asset, Buffer, GltfIndex};
+use rtc_diag::{DiagnosticSink, codes};
+use rtc_ir::{EntityField, EntityKind, Scene, SourceSpans, ValuePath};
 use rtc_source::{Budget, Resource};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -57,7 +57,7 @@ pub fn emit(
     tolerance: Option<f64>,
     folder: Option<&str>,
     budget: &Budget,
-    sink: &mut Sink,
+    sink: &mut DiagnosticSink,
 ) -> Option<GltfAsset> {
     let mut reporter = ExportReporter::new(source_spans, sink);
     let scene = with_meshes(scene, &FORMAT, tolerance, budget, &mut reporter)?;
@@ -82,7 +82,7 @@ fn charge_pictures(
     for (index, image) in scene.images.iter().enumerate() {
         if let Err(error) = budget.charge(Resource::Memory, image.pixels.len() as u64) {
             let message = format!("the picture takes too much as a PNG: {error}");
-            let path = ValuePath::new(EntityKind::Image, index, Field::Whole);
+            let path = ValuePath::new(EntityKind::Image, index, EntityField::Whole);
             reporter.report_error(&codes::OVER_LIMIT, &message, path);
             return None;
         }
@@ -102,7 +102,7 @@ impl GltfWriter<'_> {
                 let bytes = std::mem::take(&mut self.bin);
                 self.file(folder, ("", "buffer", "bin"), bytes)
             });
-            Index::push(&mut self.root.buffers, Buffer { byte_length, uri });
+            GltfIndex::push(&mut self.root.buffers, Buffer { byte_length, uri });
         }
         let text = match self.folder {
             Some(_) => serde_json::to_vec_pretty(&self.root),
@@ -113,7 +113,7 @@ impl GltfWriter<'_> {
         };
         if u32::try_from(json.len() + self.bin.len() + HEADS).is_err() {
             let message = "the scene takes more than the 4 GiB that a .glb holds";
-            let path = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
+            let path = ValuePath::new(EntityKind::Settings, 0, EntityField::Whole);
             self.reporter
                 .report_error(&codes::GLTF_UNSAID, message, path);
             return None;

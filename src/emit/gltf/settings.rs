@@ -2,7 +2,7 @@
 
 use super::writer::{GltfWriter, extras, number};
 use rtc_color::Tone;
-use rtc_ir::{Display, EntityKind, Environment, Field, Pixels, Settings, ValuePath};
+use rtc_ir::{Display, EntityField, EntityKind, Environment, Pixels, Settings, ValuePath};
 use serde_json::{Map as JsonObject, Value, json};
 
 impl GltfWriter<'_> {
@@ -11,12 +11,12 @@ impl GltfWriter<'_> {
     pub(super) fn settings(&mut self) {
         let mut rtc_extras = JsonObject::new();
         if self.scene.settings != Settings::paths() {
-            let path = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
+            let path = ValuePath::new(EntityKind::Settings, 0, EntityField::Whole);
             self.reporter.in_extras("how the picture is made", path);
             rtc_extras = settings(&self.scene.settings);
         }
         if !self.scene.display.is_plain() {
-            let path = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
+            let path = ValuePath::new(EntityKind::Settings, 0, EntityField::Whole);
             self.reporter.in_extras("how the picture is shown", path);
             let Display { exposure, tone } = &self.scene.display;
             let tone = tone.map(Tone::name);
@@ -41,7 +41,7 @@ impl GltfWriter<'_> {
             image,
             image_from_world,
         } = environment;
-        let path = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
+        let path = ValuePath::new(EntityKind::Environment, 0, EntityField::Whole);
         self.reporter.in_extras("what surrounds the scene", path);
         let mut values = json!({ "radiance": radiance });
         if let Some(id) = image {

@@ -1,7 +1,7 @@
 //! Writes textures: images as PNG, samplers, and texture references.
 
 use super::document::{
-    CLAMP_TO_EDGE, Image, Index, LINEAR, LINEAR_MIPMAP_LINEAR, MIRRORED_REPEAT, NEAREST_FILTER,
+    CLAMP_TO_EDGE, GltfIndex, Image, LINEAR, LINEAR_MIPMAP_LINEAR, MIRRORED_REPEAT, NEAREST_FILTER,
     REPEAT, Sampler, Texture, TextureInfo,
 };
 use super::writer::{GltfWriter, number};
@@ -9,8 +9,8 @@ use rtc_color::nearest8;
 use rtc_diag::codes;
 use rtc_image::png_bytes;
 use rtc_ir::{
-    self as ir, EntityKind, Field, Filter, Map, Pixels, Procedural, Sampled, TextureId, ValuePath,
-    Wrap,
+    self as ir, EntityField, EntityKind, Filter, Map, Pixels, Procedural, Sampled, TextureId,
+    ValuePath, Wrap,
 };
 use rtc_math::{TextureMapping, Vec3, atan2, cos, sin};
 use serde_json::{Value, json};
@@ -60,7 +60,7 @@ impl GltfWriter<'_> {
     }
 
     /// A texture of the scene.
-    pub(super) fn texture(&mut self, id: TextureId, path: ValuePath) -> Index<Texture> {
+    pub(super) fn texture(&mut self, id: TextureId, path: ValuePath) -> GltfIndex<Texture> {
         if let Some(known) = self.textures.get(&id.0) {
             return *known;
         }
@@ -87,12 +87,12 @@ impl GltfWriter<'_> {
             }
         };
         let sampler = self.sampler(wrap, filter);
-        let index = Index::push(&mut self.root.textures, Texture { sampler, source });
+        let index = GltfIndex::push(&mut self.root.textures, Texture { sampler, source });
         self.textures.insert(id.0, index);
         index
     }
 
-    fn sampler(&mut self, wrap: [Wrap; 2], filter: Filter) -> Index<Sampler> {
+    fn sampler(&mut self, wrap: [Wrap; 2], filter: Filter) -> GltfIndex<Sampler> {
         let [wrap_s, wrap_t] = wrap.map(wrapping);
         let [mag_filter, min_filter] = match filter {
             Filter::Linear => [LINEAR, LINEAR_MIPMAP_LINEAR],
@@ -108,13 +108,13 @@ impl GltfWriter<'_> {
             wrap_s,
             wrap_t,
         };
-        let sampler = Index::push(&mut self.root.samplers, sampler);
+        let sampler = GltfIndex::push(&mut self.root.samplers, sampler);
         self.samplers.insert(key, sampler);
         sampler
     }
 
     /// An image of the scene, with 8 bits per channel.
-    pub(super) fn image(&mut self, id: u32) -> Index<Image> {
+    pub(super) fn image(&mut self, id: u32) -> GltfIndex<Image> {
         if let Some(known) = self.images.get(&id) {
             return *known;
         }
@@ -125,7 +125,7 @@ impl GltfWriter<'_> {
             kind,
             pixels,
         } = &self.scene.images[id as usize];
-        let path = ValuePath::new(EntityKind::Image, id as usize, Field::Whole);
+        let path = ValuePath::new(EntityKind::Image, id as usize, EntityField::Whole);
         let bytes = match kind {
             Pixels::Rgb8 | Pixels::Rgba8 => pixels.to_vec(),
             Pixels::Rgb32f => {
@@ -141,7 +141,7 @@ impl GltfWriter<'_> {
     }
 
     /// The image of the colours (u, 0, v), v upwards.
-    fn uv_image(&mut self) -> Index<Image> {
+    fn uv_image(&mut self) -> GltfIndex<Image> {
         if let Some(known) = self.uv_image {
             return known;
         }
@@ -164,7 +164,7 @@ impl GltfWriter<'_> {
     }
 
     /// The picture of a pattern over the unit square of texture coordinates, or its mean colour.
-    fn pattern_image(&mut self, texture: &Procedural, path: ValuePath) -> Index<Image> {
+    fn pattern_image(&mut self, texture: &Procedural, path: ValuePath) -> GltfIndex<Image> {
         let is_in_space = texture.mapping == TextureMapping::World;
         let side = if is_in_space { 1 } else { PATTERN_SIDE };
         let solid = texture.solid();
@@ -193,7 +193,7 @@ impl GltfWriter<'_> {
         self.png(png_bytes([side; 2], false, &pixels), "pattern")
     }
 
-    fn png(&mut self, png: Vec<u8>, name: &str) -> Index<Image> {
+    fn png(&mut self, png: Vec<u8>, name: &str) -> GltfIndex<Image> {
         let (uri, buffer_view) = match self.folder {
             Some(folder) => (Some(self.file(folder, (name, "image", "png"), png)), None),
             None => (None, Some(self.view(&png, None))),
@@ -204,7 +204,7 @@ impl GltfWriter<'_> {
             name: Some(name.to_owned()).filter(|name| !name.is_empty()),
             uri,
         };
-        Index::push(&mut self.root.images, image)
+        GltfIndex::push(&mut self.root.images, image)
     }
 }
 

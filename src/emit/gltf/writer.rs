@@ -1,9 +1,9 @@
 //! The state of the glTF writer: the document, the binary chunk, and the objects written so far.
 
 use super::document::{
-    ARRAY_BUFFER, Accessor, BufferView, ELEMENT_ARRAY_BUFFER, Extras, FLOAT, Image, Index, Light,
-    LightReference, Material, Mesh, Node, NodeExtensions, Root, Sampler, Texture, UNSIGNED_INT,
-    UNSIGNED_SHORT,
+    ARRAY_BUFFER, Accessor, BufferView, ELEMENT_ARRAY_BUFFER, Extras, FLOAT, GltfIndex, Image,
+    Light, LightReference, Material, Mesh, Node, NodeExtensions, Root, Sampler, Texture,
+    UNSIGNED_INT, UNSIGNED_SHORT,
 };
 use super::material::GltfMaterialKey;
 use super::mesh::MeshAccessors;
@@ -27,14 +27,14 @@ pub(super) struct GltfWriter<'w> {
     pub(super) folder: Option<&'w str>,
     pub(super) files: BTreeMap<String, Vec<u8>>,
     /// The objects written so far, by their source.
-    pub(super) images: BTreeMap<u32, Index<Image>>,
-    pub(super) textures: BTreeMap<u32, Index<Texture>>,
-    pub(super) samplers: BTreeMap<[u32; 3], Index<Sampler>>,
-    pub(super) materials: BTreeMap<GltfMaterialKey, Index<Material>>,
+    pub(super) images: BTreeMap<u32, GltfIndex<Image>>,
+    pub(super) textures: BTreeMap<u32, GltfIndex<Texture>>,
+    pub(super) samplers: BTreeMap<[u32; 3], GltfIndex<Sampler>>,
+    pub(super) materials: BTreeMap<GltfMaterialKey, GltfIndex<Material>>,
     pub(super) attributes: BTreeMap<u32, MeshAccessors>,
-    pub(super) meshes: BTreeMap<(u32, u32), Index<Mesh>>,
+    pub(super) meshes: BTreeMap<(u32, u32), GltfIndex<Mesh>>,
     /// The image of the colours (u, 0, v).
-    pub(super) uv_image: Option<Index<Image>>,
+    pub(super) uv_image: Option<GltfIndex<Image>>,
 }
 
 impl<'w> GltfWriter<'w> {
@@ -83,7 +83,7 @@ impl<'w> GltfWriter<'w> {
         let [[a, b, c], [d, e, f], [g, h, i], [x, y, z]] = columns;
         let matrix = (columns != IDENTITY)
             .then_some([a, b, c, 0.0, d, e, f, 0.0, g, h, i, 0.0, x, y, z, 1.0]);
-        let index = Index::push(&mut self.root.nodes, Node { matrix, ..node });
+        let index = GltfIndex::push(&mut self.root.nodes, Node { matrix, ..node });
         self.root.scenes[0].nodes.push(index);
     }
 }
@@ -103,7 +103,7 @@ pub(super) fn extras(rtc: Map<String, Value>) -> Extras {
 }
 
 /// A node with a light.
-pub(super) fn lit(light: Index<Light>) -> Node {
+pub(super) fn lit(light: GltfIndex<Light>) -> Node {
     Node {
         extensions: Some(NodeExtensions {
             punctual: LightReference { light },
@@ -119,7 +119,7 @@ pub(super) fn number(ImageId(id): ImageId) -> u32 {
 
 impl GltfWriter<'_> {
     /// Adds bytes as a buffer view, padded to a multiple of 4 bytes.
-    pub(super) fn view(&mut self, bytes: &[u8], target: Option<u32>) -> Index<BufferView> {
+    pub(super) fn view(&mut self, bytes: &[u8], target: Option<u32>) -> GltfIndex<BufferView> {
         let offset = self.bin.len();
         self.bin.extend_from_slice(bytes);
         self.bin.resize(self.bin.len().next_multiple_of(4), 0);
@@ -129,7 +129,7 @@ impl GltfWriter<'_> {
             byte_offset: offset,
             target,
         };
-        Index::push(&mut self.root.buffer_views, view)
+        GltfIndex::push(&mut self.root.buffer_views, view)
     }
 
     /// Adds float vectors, one per vertex. Positions need their minimum and maximum.
@@ -137,7 +137,7 @@ impl GltfWriter<'_> {
         &mut self,
         vectors: &[[f32; N]],
         needs_extent: bool,
-    ) -> Index<Accessor> {
+    ) -> GltfIndex<Accessor> {
         let bytes: Vec<u8> = vectors
             .iter()
             .flatten()
@@ -158,22 +158,26 @@ impl GltfWriter<'_> {
             max,
             ..accessor(view, vectors.len(), FLOAT, kind)
         };
-        Index::push(&mut self.root.accessors, accessor)
+        GltfIndex::push(&mut self.root.accessors, accessor)
     }
 
     /// Adds the pixels of a float image, in rows from the top.
-    pub(super) fn pixels(&mut self, image: &ir::Image) -> Index<Accessor> {
+    pub(super) fn pixels(&mut self, image: &ir::Image) -> GltfIndex<Accessor> {
         let view = self.view(&image.pixels, None);
         let count = image.pixels.len() / image.kind.bytes();
         let accessor = Accessor {
             name: Some(image.name.clone()).filter(|name| !name.is_empty()),
             ..accessor(view, count, FLOAT, "VEC3")
         };
-        Index::push(&mut self.root.accessors, accessor)
+        GltfIndex::push(&mut self.root.accessors, accessor)
     }
 
     /// Adds the vertex indices of triangles, in the smallest type that fits `vertices`.
-    pub(super) fn indices(&mut self, triangles: &[[u32; 3]], vertices: usize) -> Index<Accessor> {
+    pub(super) fn indices(
+        &mut self,
+        triangles: &[[u32; 3]],
+        vertices: usize,
+    ) -> GltfIndex<Accessor> {
         let corners = triangles.iter().flatten();
         // The largest value of a type is the primitive restart index (glTF 2.0, section 3.7.2.1).
         let short: Option<Vec<u8>> = (vertices <= usize::from(u16::MAX)).then(|| {
@@ -191,12 +195,12 @@ impl GltfWriter<'_> {
         };
         let view = self.view(&bytes, Some(ELEMENT_ARRAY_BUFFER));
         let accessor = accessor(view, 3 * triangles.len(), component, "SCALAR");
-        Index::push(&mut self.root.accessors, accessor)
+        GltfIndex::push(&mut self.root.accessors, accessor)
     }
 }
 
 fn accessor(
-    buffer_view: Index<BufferView>,
+    buffer_view: GltfIndex<BufferView>,
     count: usize,
     component_type: u32,
     kind: &'static str,

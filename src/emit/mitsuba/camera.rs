@@ -5,7 +5,7 @@ use super::MitsubaWriter;
 use crate::export::joined;
 use crate::flat::{around, side};
 use crate::path_tracer::{CameraFrame, SQUARE};
-use rtc_ir::{EntityKind, Field, Projection, ValuePath};
+use rtc_ir::{EntityField, EntityKind, Projection, ValuePath};
 use rtc_math::{Vec3, length, shortest};
 
 impl MitsubaWriter<'_> {
@@ -48,7 +48,7 @@ impl MitsubaWriter<'_> {
     fn square_pixels(&mut self, right: f64, up: f64) {
         if (right / up - 1.0).abs() > SQUARE {
             let message = "pixels are not square: Mitsuba's are, as high as these";
-            let path = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
+            let path = ValuePath::new(EntityKind::Camera, 0, EntityField::Whole);
             self.beside.reporter.unsupported(message, path);
         }
     }
@@ -70,7 +70,7 @@ impl MitsubaWriter<'_> {
             }
             (true, true) => {
                 let message = "a lens looks past the middle of the picture: Mitsuba's does not";
-                let path = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
+                let path = ValuePath::new(EntityKind::Camera, 0, EntityField::Whole);
                 self.beside.reporter.unsupported(message, path);
             }
         }
@@ -80,7 +80,7 @@ impl MitsubaWriter<'_> {
     fn orthographic(&mut self, frame: &CameraFrame) {
         if frame.is_slanted() {
             let message = "rays come slantwise through the picture: Mitsuba's come straight";
-            let path = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
+            let path = ValuePath::new(EntityKind::Camera, 0, EntityField::Whole);
             self.beside.reporter.unsupported(message, path);
         }
         self.line(1, r#"<sensor type="orthographic">"#);

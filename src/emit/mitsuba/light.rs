@@ -5,8 +5,8 @@ use crate::export::joined;
 use crate::path_tracer::{PathTracerLight, SpotEdge, SpotLight, lights};
 use crate::picture;
 use rtc_image::{FileFormat, Image as Radiances, Picture};
-use rtc_ir::{EntityKind, Environment, Field, ValuePath};
-use rtc_math::{Basis, Vec3, cos, shortest, sin, unit};
+use rtc_ir::{EntityField, EntityKind, Environment, ValuePath};
+use rtc_math::{OrthonormalBasis, Vec3, cos, shortest, sin, unit};
 
 /// The side in pixels of the picture of the profile of a spot.
 const PROFILE: u32 = 256;
@@ -50,7 +50,7 @@ impl MitsubaWriter<'_> {
 
     /// A spot whose edge fades as that of Mitsuba.
     fn linear_spot(&mut self, spot: &SpotLight) {
-        let basis = Basis::around(spot.direction);
+        let basis = OrthonormalBasis::around(spot.direction);
         let position = Vec3::from_array(spot.position);
         let [beam, cutoff] = [spot.inner_angle, spot.outer_angle].map(f64::to_degrees);
         self.line(1, r#"<emitter type="spot">"#);
@@ -72,7 +72,7 @@ impl MitsubaWriter<'_> {
         }
         let cutoff = outer.min(WIDEST);
         // Sample the profile in directions through the pixels of the plane.
-        let basis = Basis::around(spot.direction);
+        let basis = OrthonormalBasis::around(spot.direction);
         let reach = sin(cutoff.to_radians()) / cos(cutoff.to_radians());
         let at = |index: u32| ((f64::from(index) + 0.5) / f64::from(PROFILE) * 2.0 - 1.0) * reach;
         let pixel = |x: u32, y: u32| {
@@ -122,7 +122,7 @@ impl MitsubaWriter<'_> {
             self.line(1, "</emitter>");
             return Some(());
         };
-        let path = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
+        let path = ValuePath::new(EntityKind::Environment, 0, EntityField::Whole);
         let image = &self.scene.images[image.0 as usize];
         let cost = u64::from(image.width) * u64::from(image.height) * 96;
         let beside = &mut self.beside;

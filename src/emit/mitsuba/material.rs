@@ -6,7 +6,7 @@ use crate::path_tracer::{
     SurfaceMaterial, TextureChannel, TexturedFactor, absorption, is_glass, missing_features,
     opacity,
 };
-use rtc_ir::{EntityKind, Field, Standard, ValuePath};
+use rtc_ir::{EntityField, EntityKind, Standard, ValuePath};
 use rtc_math::shortest;
 use std::collections::BTreeSet;
 
@@ -25,9 +25,9 @@ impl MitsubaWriter<'_> {
         let mut reported = BTreeSet::new();
         for variant in SurfaceMaterial::all(scene) {
             let index = variant.material as usize;
-            let path = ValuePath::new(EntityKind::Material, index, Field::Whole);
+            let path = ValuePath::new(EntityKind::Material, index, EntityField::Whole);
             let material = variant.standard(scene);
-            let (plugin, message) = Plugin::of(&material);
+            let (plugin, message) = MitsubaPlugin::of(&material);
             if reported.insert(index) {
                 self.report_material(&material, message, path);
             }
@@ -65,7 +65,7 @@ impl MitsubaWriter<'_> {
         &mut self,
         variant: SurfaceMaterial,
         material: &Standard,
-        plugin: Plugin,
+        plugin: MitsubaPlugin,
         path: ValuePath,
     ) -> Option<()> {
         // A mask applies the opacity.
@@ -80,7 +80,7 @@ impl MitsubaWriter<'_> {
             self.slot(2, "opacity", opacity, path)?;
         }
         // A partly transmissive material blends layers with glass.
-        let is_mixed = plugin == Plugin::Layered && material.transmission > 0.0;
+        let is_mixed = plugin == MitsubaPlugin::Layered && material.transmission > 0.0;
         if is_mixed {
             self.line(depth, &format!(r#"<bsdf type="blendbsdf"{id}>"#));
             let weight = TexturedFactor {
@@ -90,10 +90,10 @@ impl MitsubaWriter<'_> {
             };
             self.slot(depth + 1, "weight", weight, path)?;
             self.two_sided(depth + 1, "", variant, (plugin, material), path)?;
-            let glass = Plugin::glass(material);
+            let glass = MitsubaPlugin::glass(material);
             self.bsdf(depth + 1, "", variant, (glass, material), path)?;
             self.line(depth, "</bsdf>");
-        } else if matches!(plugin, Plugin::Glass(_)) {
+        } else if matches!(plugin, MitsubaPlugin::Glass(_)) {
             self.bsdf(depth, &id, variant, (plugin, material), path)?;
         } else {
             self.two_sided(depth, &id, variant, (plugin, material), path)?;
@@ -112,7 +112,7 @@ impl MitsubaWriter<'_> {
         depth: usize,
         id: &str,
         variant: SurfaceMaterial,
-        material: (Plugin, &Standard),
+        material: (MitsubaPlugin, &Standard),
         path: ValuePath,
     ) -> Option<()> {
         self.line(depth, &format!(r#"<bsdf type="twosided"{id}>"#));
@@ -126,7 +126,7 @@ impl MitsubaWriter<'_> {
         depth: usize,
         id: &str,
         variant: SurfaceMaterial,
-        (plugin, material): (Plugin, &Standard),
+        (plugin, material): (MitsubaPlugin, &Standard),
         path: ValuePath,
     ) -> Option<()> {
         let Some(slot) = TexturedFactor::normal(material) else {
@@ -144,7 +144,7 @@ impl MitsubaWriter<'_> {
         depth: usize,
         id: &str,
         variant: SurfaceMaterial,
-        (plugin, material): (Plugin, &Standard),
+        (plugin, material): (MitsubaPlugin, &Standard),
         path: ValuePath,
     ) -> Option<()> {
         let inner = depth + 1;
@@ -154,17 +154,17 @@ impl MitsubaWriter<'_> {
         );
         let color = TexturedFactor::color(material, variant.has_colors);
         match plugin {
-            Plugin::Black => self.rgb(inner, "reflectance", [0.0; 3]),
-            Plugin::Diffuse => self.slot(inner, "reflectance", color, path)?,
-            Plugin::Mirror => {
+            MitsubaPlugin::Black => self.rgb(inner, "reflectance", [0.0; 3]),
+            MitsubaPlugin::Diffuse => self.slot(inner, "reflectance", color, path)?,
+            MitsubaPlugin::Mirror => {
                 self.value(inner, "string", "material", "none");
                 self.slot(inner, "specular_reflectance", color, path)?;
             }
-            Plugin::Glass(_) => {
+            MitsubaPlugin::Glass(_) => {
                 self.dielectric_interface(inner, material);
                 self.slot(inner, "specular_transmittance", color, path)?;
             }
-            Plugin::Layered => {
+            MitsubaPlugin::Layered => {
                 let factor = plugin.color(material, color.factor);
                 self.slot(
                     inner,
@@ -277,7 +277,7 @@ fn principled_color(material: &Standard, color: [f64; 3]) -> [f64; 3] {
 
 /// The Mitsuba plugin of a material.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Plugin {
+pub(super) enum MitsubaPlugin {
     /// What reflects nothing.
     Black,
     Diffuse,
@@ -287,7 +287,7 @@ pub(super) enum Plugin {
     Layered,
 }
 
-impl Plugin {
+impl MitsubaPlugin {
     /// The plugin, and a message if it differs from the material.
     pub(super) fn of(material: &Standard) -> (Self, Option<&'static str>) {
         let (metal, rough) = (material.metallic, material.roughness);

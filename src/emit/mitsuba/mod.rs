@@ -14,7 +14,7 @@ use super::path_tracer::{
 };
 use super::reporter::ExportReporter;
 use super::tessellate::{TargetFormat, with_meshes};
-use rtc_diag::{Sink, codes};
+use rtc_diag::{DiagnosticSink, codes};
 use rtc_ir::{Scene, SourceSpans};
 use rtc_source::Budget;
 use std::collections::BTreeMap;
@@ -35,7 +35,7 @@ pub fn emit(
     source_spans: &SourceSpans,
     folder: &str,
     budget: &Budget,
-    sink: &mut Sink,
+    sink: &mut DiagnosticSink,
 ) -> Option<ExportedScene> {
     // Replace shapes that Mitsuba lacks by meshes.
     let mut reporter = ExportReporter::new(source_spans, sink);

@@ -2,13 +2,13 @@
 //! material.
 
 use super::MitsubaWriter;
-use super::material::Plugin;
+use super::material::MitsubaPlugin;
 use crate::export::{called, joined};
 use crate::path_tracer::{
     BasicShape, CornerColor, SurfaceMaterial, absorption, basic_shapes, radiance,
 };
-use rtc_ir::{Alpha, Disc, EntityKind, Field, Instance, Sphere, Standard, ValuePath};
-use rtc_math::{Basis, Vec3, shortest, unit};
+use rtc_ir::{Alpha, Disc, EntityField, EntityKind, Instance, Sphere, Standard, ValuePath};
+use rtc_math::{OrthonormalBasis, Vec3, shortest, unit};
 
 impl MitsubaWriter<'_> {
     /// Writes all surfaces; `None` if a mesh exceeds the budget, which is reported.
@@ -56,7 +56,7 @@ impl MitsubaWriter<'_> {
         if let Some(radiance) = radiance(&material, variant.has_colors) {
             self.shines = true;
             let index = variant.material as usize;
-            let path = ValuePath::new(EntityKind::Material, index, Field::Whole);
+            let path = ValuePath::new(EntityKind::Material, index, EntityField::Whole);
             self.line(2, r#"<emitter type="area">"#);
             self.slot(3, "radiance", radiance, path)?;
             self.line(2, "</emitter>");
@@ -84,7 +84,7 @@ impl MitsubaWriter<'_> {
     /// Mitsuba's disc has radius 1 and the z axis as its normal.
     fn disc(&mut self, disc: &Disc, material: SurfaceMaterial) -> Option<()> {
         let normal = unit(Vec3::from_array(disc.normal)).unwrap_or(Vec3::Z);
-        let basis = Basis::around(normal);
+        let basis = OrthonormalBasis::around(normal);
         let columns = [
             basis.tangent * disc.radius,
             basis.bitangent * disc.radius,
@@ -113,7 +113,7 @@ impl MitsubaWriter<'_> {
                 called(&material.name)
             );
             let index = variant.material as usize;
-            let path = ValuePath::new(EntityKind::Material, index, Field::Whole);
+            let path = ValuePath::new(EntityKind::Material, index, EntityField::Whole);
             self.beside.reporter.unsupported(&message, path);
         }
         let corner = |color| corner(&material, color);
@@ -146,7 +146,7 @@ impl MitsubaWriter<'_> {
 fn corner(material: &Standard, color: [f64; 4]) -> [f64; 4] {
     let base = material.base_color;
     let [r, g, b, a] = [0, 1, 2, 3].map(|channel| color[channel] * base[channel]);
-    let color = Plugin::of(material).0.color(material, [r, g, b]);
+    let color = MitsubaPlugin::of(material).0.color(material, [r, g, b]);
     let opacity = match material.alpha {
         Alpha::Mask(cutoff) => f64::from(u8::from(a >= cutoff)),
         Alpha::Blend | Alpha::Opaque => a,

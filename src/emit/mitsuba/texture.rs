@@ -4,7 +4,7 @@
 use super::MitsubaWriter;
 use crate::export::joined;
 use crate::path_tracer::{TextureChannel, TexturedFactor};
-use crate::picture::Coding;
+use crate::picture::ColorCoding;
 use rtc_ir::{Filter, Map, ValuePath, Wrap};
 use rtc_math::shortest;
 
@@ -60,7 +60,7 @@ impl MitsubaWriter<'_> {
         // Write the sampler.
         self.line(depth, &format!(r#"<texture type="bitmap" name="{name}">"#));
         self.value(depth + 1, "string", "filename", &bitmap.file);
-        if bitmap.coding == Coding::Linear {
+        if bitmap.coding == ColorCoding::Linear {
             self.value(depth + 1, "boolean", "raw", "true");
         }
         if bitmap.filter == Filter::Nearest {

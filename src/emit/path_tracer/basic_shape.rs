@@ -4,8 +4,8 @@ use super::surface_material::{SurfaceMaterial, standard};
 use crate::flat::{around, finite, side, split, square};
 use crate::reporter::ExportReporter;
 use rtc_ir::{
-    BoundingSphere, Column, Cylinder, Disc, Ellipsoid, EntityKind, Field, Instance, Mesh, Scene,
-    Shape, Sphere, Surface, ValuePath,
+    BoundingSphere, Cylinder, Disc, Ellipsoid, EntityField, EntityKind, Instance, Mesh, Scene,
+    Shape, Sphere, Surface, ValuePath, VertexColumn,
 };
 use rtc_math::{Vec3, is_flat, shortest, to_u32, unit};
 
@@ -70,7 +70,7 @@ impl TriangleSoup {
 
     pub(super) fn mesh(self) -> Mesh {
         Mesh {
-            positions: Column::from(self.corners),
+            positions: VertexColumn::from(self.corners),
             triangles: self.triangles.into(),
             ..Mesh::default()
         }
@@ -87,7 +87,7 @@ pub(crate) fn basic_shapes<'s>(
     let around = around(scene);
     let mut shapes = Vec::with_capacity(scene.surfaces.len());
     for (index, surface) in scene.surfaces.iter().enumerate() {
-        let path = ValuePath::new(EntityKind::Surface, index, Field::Whole);
+        let path = ValuePath::new(EntityKind::Surface, index, EntityField::Whole);
         report_finite(&surface.shape, around, (renderer, path), reporter);
         let found = parts(&surface.shape, around);
         let material = SurfaceMaterial::of(scene, surface);

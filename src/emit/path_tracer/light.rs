@@ -3,10 +3,11 @@
 use crate::export::mean_over_directions;
 use crate::reporter::ExportReporter;
 use rtc_ir::{
-    Emitter, EntityKind, Field, Light, Photometry, PointLight, Punctual, Scene, ValuePath,
+    EntityField, EntityKind, Light, Photometry, PointLight, Punctual, PunctualKind, Scene,
+    ValuePath,
 };
 use rtc_math::{Vec3, cos, unit};
-use rtc_profile::Profile;
+use rtc_profile::LightProfile;
 
 /// A light without extent.
 pub(crate) enum PathTracerLight {
@@ -33,7 +34,7 @@ pub(crate) struct SpotLight {
     pub(crate) outer_angle: f64,
     pub(crate) intensity: [f64; 3],
     /// The factor of the intensity by direction.
-    pub(crate) profile: Profile,
+    pub(crate) profile: LightProfile,
     pub(crate) edge: SpotEdge,
 }
 
@@ -57,7 +58,7 @@ pub(crate) fn lights(
     let emitting = scene.lights.iter().enumerate();
     let emitting = emitting.filter(|(_, light)| light.emits());
     let written = emitting.map(|(index, light)| {
-        let path = ValuePath::new(EntityKind::Light, index, Field::Whole);
+        let path = ValuePath::new(EntityKind::Light, index, EntityField::Whole);
         let light = match light {
             Light::Point(light) => with_falloff(scene, light, reporter, path),
             Light::Punctual(light) => photometric_spot(light).unwrap_or_else(|| {
@@ -91,15 +92,15 @@ fn with_falloff(
 fn punctual(Punctual { emitter, intensity }: &Punctual) -> PathTracerLight {
     let direction_of = |direction: &[f64; 3]| unit(Vec3::from_array(*direction));
     match emitter {
-        Emitter::Sun { direction } => PathTracerLight::Distant {
+        PunctualKind::Sun { direction } => PathTracerLight::Distant {
             to_light: direction_of(direction).unwrap_or(Vec3::Z),
             irradiance: *intensity,
         },
-        Emitter::Point { position, range: _ } => PathTracerLight::Point {
+        PunctualKind::Point { position, range: _ } => PathTracerLight::Point {
             position: *position,
             intensity: *intensity,
         },
-        Emitter::Spot {
+        PunctualKind::Spot {
             position,
             direction,
             inner_angle,
@@ -111,10 +112,10 @@ fn punctual(Punctual { emitter, intensity }: &Punctual) -> PathTracerLight {
             inner_angle: *inner_angle,
             outer_angle: *outer_angle,
             intensity: *intensity,
-            profile: emitter.profile().unwrap_or(Profile::Uniform),
+            profile: emitter.profile().unwrap_or(LightProfile::Uniform),
             edge: SpotEdge::Squared,
         }),
-        Emitter::Photometric { position, .. } => {
+        PunctualKind::Photometric { position, .. } => {
             let mean = mean_over_directions(emitter);
             PathTracerLight::Point {
                 position: *position,
@@ -126,7 +127,7 @@ fn punctual(Punctual { emitter, intensity }: &Punctual) -> PathTracerLight {
 
 /// A photometric light that is the spot of a path tracer.
 fn photometric_spot(light: &Punctual) -> Option<PathTracerLight> {
-    let Emitter::Photometric {
+    let PunctualKind::Photometric {
         position,
         direction,
         photometry,

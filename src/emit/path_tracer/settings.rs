@@ -1,7 +1,7 @@
 //! Settings of a scene for a path tracer.
 
 use crate::reporter::ExportReporter;
-use rtc_ir::{Display, EntityKind, Field, Mode, PathSettings, Scene, Settings, ValuePath};
+use rtc_ir::{Display, EntityField, EntityKind, Mode, PathSettings, Scene, Settings, ValuePath};
 
 impl ExportReporter<'_> {
     /// The number of samples of a pixel. Reports the settings that a renderer lacks.
@@ -17,7 +17,7 @@ impl ExportReporter<'_> {
                     "{renderer} traces paths, and this scene uses another integrator: \
                      `--integrator path` renders the exported scene"
                 );
-                let path = ValuePath::new(EntityKind::Settings, 0, Field::Mode);
+                let path = ValuePath::new(EntityKind::Settings, 0, EntityField::Mode);
                 self.unsupported(&message, path);
                 settings.supersampling.saturating_pow(2)
             }
@@ -27,7 +27,7 @@ impl ExportReporter<'_> {
         if *exposure != 0.0 || tone.is_some() {
             let message =
                 format!("exposure and tone map are left out: {renderer} writes linear values");
-            let path = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
+            let path = ValuePath::new(EntityKind::Settings, 0, EntityField::Whole);
             self.unsupported(&message, path);
         }
         samples

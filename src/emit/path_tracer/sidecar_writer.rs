@@ -3,13 +3,14 @@
 use super::basic_shape::TriangleSoup;
 use super::surface_material::{SurfaceMaterial, uv_set};
 use super::textured_factor::{TextureChannel, TexturedFactor};
-use crate::picture::{Coding, TexturePicture};
+use crate::picture::{ColorCoding, TexturePicture};
 use crate::reporter::ExportReporter;
 use crate::{ply, sidecar};
 use rtc_diag::codes;
 use rtc_image::EncodeError;
 use rtc_ir::{
-    Column, EntityKind, Field, Filter, Map, Mesh, MeshId, Scene, Standard, ValuePath, Wrap,
+    EntityField, EntityKind, Filter, Map, Mesh, MeshId, Scene, Standard, ValuePath, VertexColumn,
+    Wrap,
 };
 use rtc_source::Budget;
 use std::collections::BTreeMap;
@@ -48,7 +49,7 @@ struct MeshFileKey {
 /// The picture of a texture, and how it is looked up.
 pub(crate) struct BitmapTexture {
     pub(crate) file: String,
-    pub(crate) coding: Coding,
+    pub(crate) coding: ColorCoding,
     pub(crate) filter: Filter,
     /// What is beyond its edges.
     pub(crate) wrap: Wrap,
@@ -159,7 +160,7 @@ impl<'w> SidecarWriter<'w> {
         let mesh = &self.scene.meshes[id.0 as usize];
         let set = uv_set(material);
         let uvs = match (material.maps().next(), set) {
-            (None, _) => &Column::default(),
+            (None, _) => &VertexColumn::default(),
             (Some(_), 0) => &mesh.uvs,
             (Some(_), _) => &mesh.second_uvs,
         };
@@ -178,7 +179,7 @@ impl<'w> SidecarWriter<'w> {
             corners.map(|at| color(mesh.colors.at(at))).collect()
         });
         let uvs = match self.is_v_upward {
-            true => Column::rounded(uvs.iter().map(|[u, v]| [u, 1.0 - v])),
+            true => VertexColumn::rounded(uvs.iter().map(|[u, v]| [u, 1.0 - v])),
             false => uvs.clone(),
         };
         let bare = Mesh {
@@ -188,7 +189,7 @@ impl<'w> SidecarWriter<'w> {
             uvs,
             ..Mesh::default()
         };
-        let path = ValuePath::new(EntityKind::Mesh, id.0 as usize, Field::Whole);
+        let path = ValuePath::new(EntityKind::Mesh, id.0 as usize, EntityField::Whole);
         let name = self.ply(&mesh.name, &bare, colors, path)?;
         self.meshes.insert(key, name.clone());
         Some(name)
@@ -196,7 +197,7 @@ impl<'w> SidecarWriter<'w> {
 
     /// The file of the triangles of a material.
     pub(crate) fn triangles(&mut self, soup: TriangleSoup, material: u32) -> Option<String> {
-        let path = ValuePath::new(EntityKind::Material, material as usize, Field::Whole);
+        let path = ValuePath::new(EntityKind::Material, material as usize, EntityField::Whole);
         self.ply("triangles", &soup.mesh(), Vec::new(), path)
     }
 
@@ -209,7 +210,7 @@ impl<'w> SidecarWriter<'w> {
         colors: Vec<[f64; 4]>,
         path: ValuePath,
     ) -> Option<String> {
-        let colors = Column::from(colors);
+        let colors = VertexColumn::from(colors);
         let columns = mesh.positions.bytes() + mesh.normals.bytes();
         let columns = columns + mesh.uvs.bytes() + colors.bytes();
         let bytes = columns as u64 + TRIANGLE * mesh.triangles.len() as u64 + HEAD;

@@ -1,6 +1,6 @@
 //! The values of materials that textures may vary: a factor, times a channel of a texture.
 
-use crate::picture::Coding;
+use crate::picture::ColorCoding;
 use rtc_ir::{Map, Standard};
 
 /// A value of a material: a factor, times a texture if there is one.
@@ -65,12 +65,12 @@ impl<'m> TexturedFactor<'m> {
 }
 
 impl TextureChannel {
-    pub(crate) fn coding(self) -> Coding {
+    pub(crate) fn coding(self) -> ColorCoding {
         let is_color = matches!(self, Self::Color | Self::Corners);
         if is_color {
-            Coding::Srgb
+            ColorCoding::Srgb
         } else {
-            Coding::Linear
+            ColorCoding::Linear
         }
     }
 

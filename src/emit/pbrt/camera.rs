@@ -2,7 +2,7 @@
 
 use super::{PbrtWriter, matrix, numbers};
 use crate::path_tracer::CameraFrame;
-use rtc_ir::{EntityKind, Field, Projection, ValuePath};
+use rtc_ir::{EntityField, EntityKind, Projection, ValuePath};
 use rtc_math::{Vec3, atan2};
 
 impl PbrtWriter<'_> {
@@ -26,7 +26,7 @@ impl PbrtWriter<'_> {
         };
         if camera.projection == Projection::Orthographic && frame.is_slanted() {
             let message = "rays come slantwise through the picture: pbrt's come straight";
-            let path = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
+            let path = ValuePath::new(EntityKind::Camera, 0, EntityField::Whole);
             self.beside.reporter.unsupported(message, path);
         }
         let lens = match camera.lens.radius > 0.0 && camera.projection == Projection::Perspective {

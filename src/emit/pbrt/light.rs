@@ -3,7 +3,7 @@
 use super::equal_area;
 use super::{PbrtWriter, numbers, string};
 use crate::path_tracer::{PathTracerLight, SpotEdge, SpotLight, lights};
-use rtc_ir::{EntityKind, Environment, Field, ValuePath};
+use rtc_ir::{EntityField, EntityKind, Environment, ValuePath};
 use rtc_math::{Vec3, acos, cos};
 use std::f64::consts::TAU;
 
@@ -79,7 +79,7 @@ impl PbrtWriter<'_> {
             return Some(());
         };
         // Resample the map to a square of equal areas.
-        let path = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
+        let path = ValuePath::new(EntityKind::Environment, 0, EntityField::Whole);
         let image = &self.scene.images[image.0 as usize];
         let beside = &mut self.beside;
         beside

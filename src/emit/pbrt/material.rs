@@ -9,7 +9,7 @@ use crate::path_tracer::{
     SurfaceMaterial, TextureChannel, TexturedFactor, absorption, is_glass, missing_features,
     radiance,
 };
-use rtc_ir::{EntityKind, Field, Scene, Shape, Standard, ValuePath};
+use rtc_ir::{EntityField, EntityKind, Scene, Shape, Standard, ValuePath};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
 use std::rc::Rc;
@@ -26,7 +26,7 @@ impl PbrtWriter<'_> {
         let mut reported = BTreeSet::new();
         for (variant, shown) in self.shown.clone() {
             let index = variant.material as usize;
-            let path = ValuePath::new(EntityKind::Material, index, Field::Whole);
+            let path = ValuePath::new(EntityKind::Material, index, EntityField::Whole);
             if reported.insert(index) {
                 self.report_material(&shown, path);
             }

@@ -20,7 +20,7 @@ use super::path_tracer::{
 use super::reporter::ExportReporter;
 use super::tessellate::{TargetFormat, with_meshes};
 use material::ShownMaterial;
-use rtc_diag::{Sink, codes};
+use rtc_diag::{DiagnosticSink, codes};
 use rtc_ir::{Scene, Shape, SourceSpans, Surface};
 use rtc_math::Vec3;
 use rtc_source::Budget;
@@ -49,7 +49,7 @@ pub fn emit(
     source_spans: &SourceSpans,
     folder: &str,
     budget: &Budget,
-    sink: &mut Sink,
+    sink: &mut DiagnosticSink,
 ) -> Option<ExportedScene> {
     // Replace shapes that pbrt lacks by meshes.
     let mut reporter = ExportReporter::new(source_spans, sink);

@@ -6,8 +6,8 @@ use crate::path_tracer::{
     BasicShape, SurfaceMaterial, TexturedFactor, absorption, basic_shapes, opacity, radiance,
 };
 use crate::picture::TexturePicture;
-use rtc_ir::{Disc, Ellipsoid, EntityKind, Field, Instance, Sphere, Standard, ValuePath};
-use rtc_math::{Basis, Vec3, unit};
+use rtc_ir::{Disc, Ellipsoid, EntityField, EntityKind, Instance, Sphere, Standard, ValuePath};
+use rtc_math::{OrthonormalBasis, Vec3, unit};
 use std::collections::BTreeMap;
 
 /// How often a mesh is shown with a material.
@@ -104,7 +104,7 @@ impl PbrtWriter<'_> {
             return Some(String::new());
         };
         let index = variant.material as usize;
-        let path = ValuePath::new(EntityKind::Material, index, Field::Whole);
+        let path = ValuePath::new(EntityKind::Material, index, EntityField::Whole);
         self.slot("alpha", opacity, path)
     }
 
@@ -210,6 +210,6 @@ fn mesh(file: &str) -> String {
 
 /// The transform of a shape about +z: the direction of that axis, and the origin.
 fn along(axis: Vec3, origin: Vec3) -> [Vec3; 4] {
-    let basis = Basis::around(axis);
+    let basis = OrthonormalBasis::around(axis);
     [basis.tangent, basis.bitangent, axis, origin]
 }

@@ -3,7 +3,7 @@
 
 use super::{PbrtWriter, numbers, string};
 use crate::path_tracer::{BitmapTexture, TexturedFactor};
-use crate::picture::Coding;
+use crate::picture::ColorCoding;
 use rtc_ir::{Filter, Map, ValuePath, Wrap};
 
 impl PbrtWriter<'_> {
@@ -15,7 +15,7 @@ impl PbrtWriter<'_> {
         slot: TexturedFactor<'_>,
         path: ValuePath,
     ) -> Option<String> {
-        let is_color = slot.channel.coding() == Coding::Srgb;
+        let is_color = slot.channel.coding() == ColorCoding::Srgb;
         let Some(map) = slot.map else {
             return Some(match is_color {
                 true => numbers("rgb", name, slot.factor),
@@ -55,8 +55,8 @@ impl PbrtWriter<'_> {
             format!(r#""{kind}" "imagemap""#),
             string("string", "filename", &bitmap.file),
             match bitmap.coding {
-                Coding::Srgb => String::new(),
-                Coding::Linear => string("string", "encoding", "linear"),
+                ColorCoding::Srgb => String::new(),
+                ColorCoding::Linear => string("string", "encoding", "linear"),
             },
             match bitmap.filter {
                 Filter::Linear => String::new(),

@@ -5,7 +5,9 @@ use super::{PovWriter, vector};
 use crate::export::mean_over_directions;
 use crate::flat::around;
 use crate::picture;
-use rtc_ir::{Emitter, EntityKind, Environment, Field, Light, PointLight, Punctual, ValuePath};
+use rtc_ir::{
+    EntityField, EntityKind, Environment, Light, PointLight, Punctual, PunctualKind, ValuePath,
+};
 use rtc_math::{Vec3, shortest, unit};
 use std::f64::consts::PI;
 
@@ -18,7 +20,7 @@ impl PovWriter<'_> {
         let scene = self.scene;
         let emitting = scene.lights.iter().enumerate();
         for (index, light) in emitting.filter(|(_, light)| light.emits()) {
-            let path = ValuePath::new(EntityKind::Light, index, Field::Whole);
+            let path = ValuePath::new(EntityKind::Light, index, EntityField::Whole);
             self.shines = true;
             match light {
                 Light::Point(light) => self.course_light(light),
@@ -57,7 +59,7 @@ impl PovWriter<'_> {
         };
         let fade = format!("fade_distance {} fade_power 2", shortest(near));
         let text = match emitter {
-            Emitter::Sun { direction } => {
+            PunctualKind::Sun { direction } => {
                 let to = unit(Vec3::from_array(*direction)).unwrap_or(Vec3::Z);
                 let from = around.center + to * (1e3 * around.radius);
                 let color = vector(intensity.map(|channel| channel / PI));
@@ -67,11 +69,11 @@ impl PovWriter<'_> {
                     vector(around.center.to_array())
                 )
             }
-            Emitter::Point { position, .. } => {
+            PunctualKind::Point { position, .. } => {
                 let (position, color) = (vector(*position), color(1.0));
                 format!("light_source {{ {position}, rgb {color} {fade} }}")
             }
-            Emitter::Spot {
+            PunctualKind::Spot {
                 position,
                 direction,
                 inner_angle,
@@ -91,7 +93,7 @@ impl PovWriter<'_> {
                     vector(at.to_array())
                 )
             }
-            Emitter::Photometric { position, .. } => {
+            PunctualKind::Photometric { position, .. } => {
                 let color = color(mean_over_directions(emitter));
                 format!(
                     "light_source {{ {}, rgb {color} {fade} }}",
@@ -112,7 +114,7 @@ impl PovWriter<'_> {
         else {
             return Some(());
         };
-        let path = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
+        let path = ValuePath::new(EntityKind::Environment, 0, EntityField::Whole);
         self.shines |= *radiance != [0.0; 3];
         let Some(image) = image else {
             self.line(&format!(

@@ -3,7 +3,7 @@
 
 use super::{PovWriter, vector};
 use crate::export::{called, enumeration, used_materials};
-use crate::picture::{Coding, TexturePicture};
+use crate::picture::{ColorCoding, TexturePicture};
 use crate::sidecar;
 use rtc_ir::{
     Alpha, Ambient, Light, Map, Material, MaterialId, Phong, Scene, Shape, Standard, Surface,
@@ -62,7 +62,12 @@ impl PovWriter<'_> {
         let kept = if phong.kt < 1.0 { 1.0 - phong.kt } else { 1.0 };
         let ambient = vector(ambient.map(|channel| channel / kept));
         let map = phong.color_map.map(Map::from);
-        let pigment = self.pigment(phong.color, (map.as_ref(), Coding::Linear), phong.kt, path)?;
+        let pigment = self.pigment(
+            phong.color,
+            (map.as_ref(), ColorCoding::Linear),
+            phong.kt,
+            path,
+        )?;
         let [kd, ks, n] = [phong.kd / kept, phong.ks, phong.n].map(shortest);
         let kr = match phong.fresnel {
             false => shortest(phong.mirror_weight()),
@@ -81,7 +86,7 @@ impl PovWriter<'_> {
     fn pigment(
         &mut self,
         color: [f64; 3],
-        (map, coding): (Option<&Map>, Coding),
+        (map, coding): (Option<&Map>, ColorCoding),
         transmit: f64,
         path: ValuePath,
     ) -> Option<String> {
@@ -94,8 +99,8 @@ impl PovWriter<'_> {
         };
         let factor = match coding {
             // The texture of Phong's model replaces the colour.
-            Coding::Linear => [1.0; 3],
-            Coding::Srgb => color,
+            ColorCoding::Linear => [1.0; 3],
+            ColorCoding::Srgb => color,
         };
         let picture = TexturePicture::new(self.scene, map.texture);
         self.reporter.charge(picture.cost(), self.budget, path)?;
@@ -110,8 +115,8 @@ impl PovWriter<'_> {
         };
         let gamma = match (extension, coding) {
             ("exr", _) => "",
-            (_, Coding::Srgb) => " gamma srgb",
-            (_, Coding::Linear) => " gamma 1",
+            (_, ColorCoding::Srgb) => " gamma srgb",
+            (_, ColorCoding::Linear) => " gamma 1",
         };
         let kind = if extension == "exr" { "exr" } else { "png" };
         let transmit = match transmit > 0.0 {
@@ -168,7 +173,7 @@ impl PovWriter<'_> {
         let is_sharp = roughness < SHARP && !material.unlit;
         let metal = if is_sharp { metallic } else { 0.0 };
         let diffuse = if material.unlit { 0.0 } else { 1.0 - metal };
-        let map = (material.base_color_map.as_ref(), Coding::Srgb);
+        let map = (material.base_color_map.as_ref(), ColorCoding::Srgb);
         let pigment = self.pigment(color, map, through, path)?;
         let reflection = match (is_sharp, metallic > 0.5) {
             (false, _) => String::new(),

@@ -9,10 +9,10 @@ use super::ExportedScene;
 use super::export::joined;
 use super::reporter::ExportReporter;
 use super::tessellate::{TargetFormat, with_meshes};
-use rtc_diag::{Sink, codes};
+use rtc_diag::{DiagnosticSink, codes};
 use rtc_ir::{
-    Camera, Display, EntityKind, Field, Mode, Pattern, Projection, Scene, Settings, SourceSpans,
-    ValuePath,
+    Camera, Display, EntityField, EntityKind, Mode, Pattern, Projection, Scene, Settings,
+    SourceSpans, ValuePath,
 };
 use rtc_math::Vec3;
 use rtc_source::Budget;
@@ -36,7 +36,7 @@ pub fn emit(
     source_spans: &SourceSpans,
     folder: Option<&str>,
     budget: &Budget,
-    sink: &mut Sink,
+    sink: &mut DiagnosticSink,
 ) -> Option<ExportedScene> {
     let mut reporter = ExportReporter::new(source_spans, sink);
     let scene = &with_meshes(scene, &FORMAT, None, budget, &mut reporter)?;
@@ -103,7 +103,7 @@ impl PovWriter<'_> {
             (factor, _) => format!(" +A0.0 +AM1 +R{factor} +J"),
         };
         // Report what POV-Ray does not support.
-        let path = ValuePath::new(EntityKind::Settings, 0, Field::Mode);
+        let path = ValuePath::new(EntityKind::Settings, 0, EntityField::Mode);
         let is_path = matches!(mode, Mode::Path(_));
         if is_path {
             let message = "POV-Ray gathers the light between surfaces at few points (radiosity): \
@@ -164,7 +164,7 @@ impl PovWriter<'_> {
         };
         if lens.radius > 0.0 {
             let message = "the lens is left out: POV-Ray samples it by another pattern";
-            let path = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
+            let path = ValuePath::new(EntityKind::Camera, 0, EntityField::Whole);
             self.reporter.unsupported(message, path);
         }
         let [right, up, view_direction] = [right, up, view_direction].map(|v| vector(v.to_array()));

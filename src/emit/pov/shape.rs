@@ -6,10 +6,11 @@ use crate::export::{part_of, parts_of_one, shape_name};
 use crate::flat::split;
 use crate::picture::TexturePicture;
 use rtc_ir::{
-    Column, Cone, Csg, Cylinder, Disc, Ellipsoid, EntityKind, Field, InfiniteCylinder, Instance,
+    Cone, Csg, Cylinder, Disc, Ellipsoid, EntityField, EntityKind, InfiniteCylinder, Instance,
     MaterialId, MeshId, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle, ValuePath,
+    VertexColumn,
 };
-use rtc_math::{Basis, SetStep, Vec3, is_flat, shortest, unit};
+use rtc_math::{OrthonormalBasis, SetStep, Vec3, is_flat, shortest, unit};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
@@ -26,7 +27,7 @@ impl PovWriter<'_> {
             let index = next;
             let parts = &scene.surfaces[index..][..parts_of_one(&scene.surfaces[index..])];
             next += parts.len();
-            let path = ValuePath::new(EntityKind::Surface, index, Field::Whole);
+            let path = ValuePath::new(EntityKind::Surface, index, EntityField::Whole);
             if let Shape::Instance(Instance { mesh, .. }) = &surface.shape {
                 let name = self.mesh_name(*mesh, surface.material);
                 if declared.insert(name.clone()) {
@@ -184,7 +185,7 @@ impl PovWriter<'_> {
     ) -> Option<()> {
         let scene = self.scene;
         let mesh = &scene.meshes[index];
-        let path = ValuePath::new(EntityKind::Mesh, index, Field::Whole);
+        let path = ValuePath::new(EntityKind::Mesh, index, EntityField::Whole);
         if !mesh.colors.is_empty() {
             let message = "the colours of the corners of a mesh are left out";
             self.reporter.unsupported(message, path);
@@ -220,7 +221,7 @@ impl PovWriter<'_> {
         Some(())
     }
 
-    fn vectors(&mut self, key: &str, column: &Column<3>) {
+    fn vectors(&mut self, key: &str, column: &VertexColumn<3>) {
         let each = (0..column.len()).map(|index| vector(column.at(index)));
         self.list(key, column.len(), each);
     }
@@ -264,7 +265,7 @@ fn cylinder(cylinder: &Cylinder) -> String {
 
 /// The quadric x² + z² = radius², about the y axis.
 fn infinite_cylinder(cylinder: &InfiniteCylinder) -> String {
-    let basis = Basis::around(direction(cylinder.axis));
+    let basis = OrthonormalBasis::around(direction(cylinder.axis));
     let columns = [basis.bitangent, basis.normal, basis.tangent];
     let columns = columns.iter().flat_map(Vec3::to_array);
     let columns = vector(columns.chain(cylinder.center));
@@ -274,7 +275,7 @@ fn infinite_cylinder(cylinder: &InfiniteCylinder) -> String {
 
 /// POV-Ray's torus has the y axis as its axis.
 fn torus(torus: &Torus) -> String {
-    let basis = Basis::around(direction(torus.axis));
+    let basis = OrthonormalBasis::around(direction(torus.axis));
     let columns = [basis.bitangent, basis.normal, basis.tangent];
     let columns = columns.iter().flat_map(Vec3::to_array);
     let columns = vector(columns.chain(torus.center));

@@ -1,6 +1,6 @@
 //! Builds meshes from grids of vertices with normals.
 
-use rtc_ir::{Column, Mesh};
+use rtc_ir::{Mesh, VertexColumn};
 use rtc_math::{Vec3, cos_sin_revolutions, to_u32};
 
 /// A vertex.
@@ -75,9 +75,9 @@ impl MeshBuilder {
         let normal = |vertex: &GridVertex| vertex.normal.normalize().to_array();
         let uvs = used.iter().filter(|_| has_uvs).map(|vertex| vertex.uv);
         Mesh {
-            positions: Column::rounded(used.iter().map(|vertex| vertex.position.to_array())),
-            normals: Column::rounded(used.iter().map(normal)),
-            uvs: Column::rounded(uvs),
+            positions: VertexColumn::rounded(used.iter().map(|vertex| vertex.position.to_array())),
+            normals: VertexColumn::rounded(used.iter().map(normal)),
+            uvs: VertexColumn::rounded(uvs),
             triangles: triangles.into(),
             ..Mesh::default()
         }

@@ -8,7 +8,7 @@
 use super::{ShapeMesh, Tessellator};
 use crate::reporter::ExportReporter;
 use glam::DAffine3;
-use rtc_ir::{Column, Csg, Mesh, Solid, ValuePath};
+use rtc_ir::{Csg, Mesh, Solid, ValuePath, VertexColumn};
 use rtc_math::{Bounds, Vec3, cross, evaluate_set, to_u32, unit};
 use std::collections::BTreeMap;
 
@@ -88,7 +88,8 @@ impl Tessellator<'_> {
                 (unit_shape.mesh(), world)
             }
         };
-        let vectors = |column: &Column<3>| column.iter().map(Vec3::from_array).collect::<Vec<_>>();
+        let vectors =
+            |column: &VertexColumn<3>| column.iter().map(Vec3::from_array).collect::<Vec<_>>();
         let (positions, normals) = (vectors(&mesh.positions), vectors(&mesh.normals));
         let turn = world.matrix3.inverse().transpose();
         let corners = |triangle: &[u32; 3]| {
@@ -253,8 +254,8 @@ impl<'c> Clipper<'c> {
         let positions = self.corners.iter().map(|corner| corner.position.to_array());
         let normals = self.corners.iter().map(|corner| corner.normal.to_array());
         Mesh {
-            positions: Column::rounded(positions),
-            normals: Column::rounded(normals),
+            positions: VertexColumn::rounded(positions),
+            normals: VertexColumn::rounded(normals),
             triangles: self.triangles.into(),
             ..Mesh::default()
         }
@@ -273,10 +274,10 @@ fn halves(corners: ClipTriangle, edge: usize) -> [ClipTriangle; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{TargetFormat, Tessellation};
+    use super::super::{TargetFormat, TessellationTolerance};
     use super::*;
-    use rtc_diag::{Sink, codes};
-    use rtc_ir::{BoundingSphere, EntityKind, Field, SourceSpans, Sphere};
+    use rtc_diag::{DiagnosticSink, codes};
+    use rtc_ir::{BoundingSphere, EntityField, EntityKind, SourceSpans, Sphere};
     use rtc_math::SetStep;
     use rtc_source::Budget;
     use std::f64::consts::PI;
@@ -336,7 +337,7 @@ mod tests {
             };
             let tessellator = Tessellator {
                 format: &format,
-                tessellation: Tessellation::new(None),
+                tessellation: TessellationTolerance::new(None),
                 around: BoundingSphere {
                     center: Vec3::ZERO,
                     radius: 2.0,
@@ -345,9 +346,9 @@ mod tests {
                 unit_meshes: BTreeMap::new(),
                 meshes: Vec::new(),
             };
-            let (spans, mut sink) = (SourceSpans::default(), Sink::default());
+            let (spans, mut sink) = (SourceSpans::default(), DiagnosticSink::default());
             let mut reporter = ExportReporter::new(&spans, &mut sink);
-            let path = ValuePath::new(EntityKind::Surface, 0, Field::Whole);
+            let path = ValuePath::new(EntityKind::Surface, 0, EntityField::Whole);
             let Some(ShapeMesh::World(mesh)) = tessellator.csg(&csg, path, &mut reporter) else {
                 panic!("no mesh");
             };

@@ -4,9 +4,9 @@
 
 use super::ShapeMesh;
 use super::builder::{GridVertex, MeshBuilder, fraction};
-use super::tolerance::Tessellation;
+use super::tolerance::TessellationTolerance;
 use crate::flat::{split, square};
-use rtc_ir::{BoundingSphere, Column, Mesh, Plane, Quad, Triangle};
+use rtc_ir::{BoundingSphere, Mesh, Plane, Quad, Triangle, VertexColumn};
 use rtc_math::{Vec3, is_flat};
 
 pub(super) fn plane(plane: &Plane, around: BoundingSphere) -> ShapeMesh {
@@ -21,7 +21,7 @@ pub(super) fn triangle(triangle: &Triangle) -> ShapeMesh {
 }
 
 /// Steps along each side of a quadrilateral; 1 if it is flat.
-pub(super) fn steps(quad: &Quad, tessellation: &Tessellation) -> u32 {
+pub(super) fn steps(quad: &Quad, tessellation: &TessellationTolerance) -> u32 {
     let corners = quad.vertices.map(Vec3::from_array);
     if is_flat(corners) {
         return 1;
@@ -29,7 +29,7 @@ pub(super) fn steps(quad: &Quad, tessellation: &Tessellation) -> u32 {
     let [a, b, c, d] = corners;
     let size = a.distance(c).max(b.distance(d)) / 2.0;
     let twist = (a - b + c - d).length() / size;
-    Tessellation::along_patch(twist, tessellation.fraction(size))
+    TessellationTolerance::along_patch(twist, tessellation.fraction(size))
 }
 
 /// A flat quadrilateral, or a bilinear patch with this number of steps along each side.
@@ -57,7 +57,7 @@ pub(super) fn quad(quad: &Quad, steps: u32) -> ShapeMesh {
 fn flat(corners: &[Vec3], uvs: Vec<[f64; 2]>, triangles: Vec<[u32; 3]>) -> ShapeMesh {
     ShapeMesh::World(Box::new(Mesh {
         positions: corners.iter().map(|corner| corner.to_array()).collect(),
-        uvs: Column::from(uvs),
+        uvs: VertexColumn::from(uvs),
         triangles: triangles.into(),
         ..Mesh::default()
     }))

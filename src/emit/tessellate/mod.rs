@@ -4,9 +4,9 @@
 //! steps; the instance has its position and size. So all spheres share one mesh.
 //!
 //! - [`Tessellator`] converts shape by shape and charges vertices to the budget.
-//! - [`Tessellation`] computes the numbers of steps from the tolerance.
+//! - [`TessellationTolerance`] computes the numbers of steps from the tolerance.
 //! - `csg` clips the meshes of the operands of a CSG solid.
-//! - [`UnitShape`] is a round shape of radius 1; `round` and `flat` build the meshes with
+//! - [`UnitRoundShape`] is a round shape of radius 1; `round` and `flat` build the meshes with
 //!   `MeshBuilder`.
 
 mod builder;
@@ -19,16 +19,16 @@ use crate::export::shape_name;
 use crate::flat::{around, finite, side};
 use crate::reporter::ExportReporter;
 use glam::DAffine3;
-use round::UnitShape;
+use round::UnitRoundShape;
 use rtc_diag::{Code, codes};
 use rtc_ir::{
-    BoundingSphere, EntityKind, Field, Instance, Mesh, MeshId, Scene, Shape, ShapeKind, Surface,
-    ValuePath,
+    BoundingSphere, EntityField, EntityKind, Instance, Mesh, MeshId, Scene, Shape, ShapeKind,
+    Surface, ValuePath,
 };
 use rtc_math::{shortest, to_u32};
 use rtc_source::{Budget, Resource};
 use std::collections::BTreeMap;
-use tolerance::Tessellation;
+use tolerance::TessellationTolerance;
 
 /// Bytes per vertex with normal and texture coordinates, as f64 and in the file, including its
 /// share of the triangles.
@@ -37,7 +37,7 @@ const VERTEX: u64 = 160;
 /// The mesh of a shape.
 enum ShapeMesh {
     /// A round shape and its transform.
-    Round(UnitShape, DAffine3),
+    Round(UnitRoundShape, DAffine3),
     /// A mesh in world coordinates.
     World(Box<Mesh>),
 }
@@ -62,7 +62,7 @@ pub(super) fn with_meshes(
 ) -> Option<Scene> {
     let mut tessellator = Tessellator {
         format,
-        tessellation: Tessellation::new(tolerance),
+        tessellation: TessellationTolerance::new(tolerance),
         around: around(scene),
         budget,
         unit_meshes: BTreeMap::new(),
@@ -70,7 +70,7 @@ pub(super) fn with_meshes(
     };
     let mut surfaces = Vec::with_capacity(scene.surfaces.len());
     for (index, surface) in scene.surfaces.iter().enumerate() {
-        let path = ValuePath::new(EntityKind::Surface, index, Field::Whole);
+        let path = ValuePath::new(EntityKind::Surface, index, EntityField::Whole);
         let shape = if (format.has)(scene, surface) {
             surface.shape.clone()
         } else {
@@ -91,11 +91,11 @@ pub(super) fn with_meshes(
 /// Converts shapes to meshes.
 struct Tessellator<'m> {
     format: &'m TargetFormat,
-    tessellation: Tessellation,
+    tessellation: TessellationTolerance,
     around: BoundingSphere,
     budget: &'m Budget,
     /// The meshes of round shapes so far.
-    unit_meshes: BTreeMap<UnitShape, MeshId>,
+    unit_meshes: BTreeMap<UnitRoundShape, MeshId>,
     meshes: Vec<Mesh>,
 }
 
@@ -163,7 +163,7 @@ impl Tessellator<'_> {
 
     fn round(
         &mut self,
-        unit_shape: UnitShape,
+        unit_shape: UnitRoundShape,
         path: ValuePath,
         reporter: &mut ExportReporter<'_>,
     ) -> Option<MeshId> {

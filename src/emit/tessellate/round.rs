@@ -2,15 +2,15 @@
 
 use super::ShapeMesh;
 use super::builder::{GridVertex, MeshBuilder, circle_point, fraction};
-use super::tolerance::Tessellation;
+use super::tolerance::TessellationTolerance;
 use glam::{DAffine3, DMat3};
 use rtc_ir::{Cone, Cylinder, Disc, Ellipsoid, Mesh, Paraboloid, Sphere, Torus};
-use rtc_math::{Basis, Vec3, length, unit};
+use rtc_math::{OrthonormalBasis, Vec3, length, unit};
 
 /// A round shape of radius 1 (and height 1 along +z) with its numbers of steps around and along the
 /// axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum UnitShape {
+pub(super) enum UnitRoundShape {
     /// With its poles at ±z.
     Sphere {
         around: u32,
@@ -37,7 +37,7 @@ pub(super) enum UnitShape {
     },
 }
 
-pub(super) fn sphere(sphere: &Sphere, tessellation: &Tessellation) -> ShapeMesh {
+pub(super) fn sphere(sphere: &Sphere, tessellation: &TessellationTolerance) -> ShapeMesh {
     let Sphere {
         center,
         radius,
@@ -50,7 +50,7 @@ pub(super) fn sphere(sphere: &Sphere, tessellation: &Tessellation) -> ShapeMesh 
     ShapeMesh::Round(unit_shape, placed(axes, *center))
 }
 
-pub(super) fn ellipsoid(ellipsoid: &Ellipsoid, tessellation: &Tessellation) -> ShapeMesh {
+pub(super) fn ellipsoid(ellipsoid: &Ellipsoid, tessellation: &TessellationTolerance) -> ShapeMesh {
     let Ellipsoid { center, axes } = ellipsoid;
     let axes = axes.map(Vec3::from_array);
     let longest = axes.iter().fold(0.0, |most, axis| length(*axis).max(most));
@@ -58,46 +58,52 @@ pub(super) fn ellipsoid(ellipsoid: &Ellipsoid, tessellation: &Tessellation) -> S
 }
 
 /// The unit sphere, for a sphere of this radius.
-fn unit_sphere(radius: f64, tessellation: &Tessellation) -> UnitShape {
-    let along = Tessellation::along_sphere(tessellation.fraction(radius));
-    UnitShape::Sphere {
+fn unit_sphere(radius: f64, tessellation: &TessellationTolerance) -> UnitRoundShape {
+    let along = TessellationTolerance::along_sphere(tessellation.fraction(radius));
+    UnitRoundShape::Sphere {
         around: along.saturating_mul(2),
         along,
     }
 }
 
-pub(super) fn cylinder(cylinder: &Cylinder, tessellation: &Tessellation) -> ShapeMesh {
+pub(super) fn cylinder(cylinder: &Cylinder, tessellation: &TessellationTolerance) -> ShapeMesh {
     let Cylinder {
         base,
         axis,
         height,
         radius,
     } = cylinder;
-    let around = Tessellation::around(tessellation.fraction(*radius));
+    let around = TessellationTolerance::around(tessellation.fraction(*radius));
     let up = unit(Vec3::from_array(*axis)).unwrap_or(Vec3::Z) * *height;
-    ShapeMesh::Round(UnitShape::Cylinder { around }, on_base(*base, up, *radius))
+    ShapeMesh::Round(
+        UnitRoundShape::Cylinder { around },
+        on_base(*base, up, *radius),
+    )
 }
 
-pub(super) fn cone(cone: &Cone, tessellation: &Tessellation) -> ShapeMesh {
+pub(super) fn cone(cone: &Cone, tessellation: &TessellationTolerance) -> ShapeMesh {
     let Cone { base, up, radius } = cone;
-    let around = Tessellation::around(tessellation.fraction(*radius));
+    let around = TessellationTolerance::around(tessellation.fraction(*radius));
     let world = on_base(*base, Vec3::from_array(*up), *radius);
-    ShapeMesh::Round(UnitShape::Cone { around }, world)
+    ShapeMesh::Round(UnitRoundShape::Cone { around }, world)
 }
 
-pub(super) fn paraboloid(paraboloid: &Paraboloid, tessellation: &Tessellation) -> ShapeMesh {
+pub(super) fn paraboloid(
+    paraboloid: &Paraboloid,
+    tessellation: &TessellationTolerance,
+) -> ShapeMesh {
     let Paraboloid { base, up, radius } = paraboloid;
     let up = Vec3::from_array(*up);
     // Half of the tolerance for each direction.
     let fraction = tessellation.fraction(*radius) / 2.0;
-    let unit_shape = UnitShape::Paraboloid {
-        around: Tessellation::around(fraction),
-        along: Tessellation::along_parabola(length(up) / radius, fraction),
+    let unit_shape = UnitRoundShape::Paraboloid {
+        around: TessellationTolerance::around(fraction),
+        along: TessellationTolerance::along_parabola(length(up) / radius, fraction),
     };
     ShapeMesh::Round(unit_shape, on_base(*base, up, *radius))
 }
 
-pub(super) fn torus(torus: &Torus, tessellation: &Tessellation) -> ShapeMesh {
+pub(super) fn torus(torus: &Torus, tessellation: &TessellationTolerance) -> ShapeMesh {
     let Torus {
         center,
         axis,
@@ -107,30 +113,33 @@ pub(super) fn torus(torus: &Torus, tessellation: &Tessellation) -> ShapeMesh {
     // Half of the tolerance for each direction; the default tolerance is relative to the radius of
     // the tube.
     let fraction = tessellation.fraction(*minor) / 2.0;
-    let unit_shape = UnitShape::Torus {
-        around: Tessellation::around(fraction * minor / (major + minor)),
-        along: Tessellation::around(fraction),
+    let unit_shape = UnitRoundShape::Torus {
+        around: TessellationTolerance::around(fraction * minor / (major + minor)),
+        along: TessellationTolerance::around(fraction),
         tube: (minor / major).to_bits(),
     };
     let up = unit(Vec3::from_array(*axis)).unwrap_or(Vec3::Z) * *major;
     ShapeMesh::Round(unit_shape, on_base(*center, up, *major))
 }
 
-pub(super) fn disc(disc: &Disc, tessellation: &Tessellation) -> ShapeMesh {
+pub(super) fn disc(disc: &Disc, tessellation: &TessellationTolerance) -> ShapeMesh {
     let Disc {
         center,
         normal,
         radius,
     } = disc;
-    let around = Tessellation::around(tessellation.fraction(*radius));
+    let around = TessellationTolerance::around(tessellation.fraction(*radius));
     let up = unit(Vec3::from_array(*normal)).unwrap_or(Vec3::Z) * *radius;
-    ShapeMesh::Round(UnitShape::Disc { around }, on_base(*center, up, *radius))
+    ShapeMesh::Round(
+        UnitRoundShape::Disc { around },
+        on_base(*center, up, *radius),
+    )
 }
 
 /// The transform of a round shape on a base: +z is mapped to `up`. The perpendicular axes are those
 /// of the texture coordinates.
 fn on_base(base: [f64; 3], up: Vec3, radius: f64) -> DAffine3 {
-    let around = Basis::around(unit(up).unwrap_or(Vec3::Z));
+    let around = OrthonormalBasis::around(unit(up).unwrap_or(Vec3::Z));
     placed(
         [around.tangent * radius, around.bitangent * radius, up],
         base,
@@ -141,7 +150,7 @@ fn placed([x, y, z]: [Vec3; 3], origin: [f64; 3]) -> DAffine3 {
     DAffine3::from_mat3_translation(DMat3::from_cols(x, y, z), Vec3::from_array(origin))
 }
 
-impl UnitShape {
+impl UnitRoundShape {
     /// An upper bound of the number of vertices while its mesh is built.
     pub(super) fn vertices(self) -> u64 {
         let grid = |around: u32, along: u32| (u64::from(around) + 1) * (u64::from(along) + 1);

@@ -10,9 +10,9 @@ const DEFAULT_TOLERANCE: f64 = 1e-3;
 const MIN_STEPS: u32 = 12;
 
 /// The maximum distance between a mesh and its shape, before rounding to f32.
-pub(super) struct Tessellation(Option<f64>);
+pub(super) struct TessellationTolerance(Option<f64>);
 
-impl Tessellation {
+impl TessellationTolerance {
     /// A length in scene units; `None` for a fraction of the radius of each shape.
     pub(super) fn new(tolerance: Option<f64>) -> Self {
         Self(tolerance)

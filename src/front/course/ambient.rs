@@ -1,12 +1,12 @@
 //! How often the ambient term is added: once, or once per light.
 
-use super::decode::{Context, Spanned};
+use super::decode::{DecodeContext, Spanned};
 use super::keyword::{Keyword, KeywordTable};
 use super::lower::Lowering;
-use super::record::FieldOutcome;
+use super::record::FieldResult;
 use super::settings::Scene;
 use rtc_diag::{Severity, codes};
-use rtc_ir::{self as ir, Ambient, EntityKind, Field};
+use rtc_ir::{self as ir, Ambient, EntityField, EntityKind};
 use rtc_source::Span;
 
 impl Keyword for Ambient {
@@ -24,22 +24,22 @@ impl Lowering {
     /// Sets how often the ambient term is added. Without the key `Ambient` a JSON scene adds it
     /// once and a YAML scene adds it per light, as the programs of these years did. Call it after
     /// the lights and the objects.
-    pub(super) fn ambient(&mut self, scene: &Scene, context: &mut Context<'_>) {
+    pub(super) fn ambient(&mut self, scene: &Scene, context: &mut DecodeContext<'_>) {
         let light = scene.ambient_light.read();
         if let Some(Spanned { value, span }) = light {
             self.scene.settings.ambient_light = value.0;
-            self.record_span(EntityKind::Settings, 0, Field::AmbientLight, *span);
+            self.record_span(EntityKind::Settings, 0, EntityField::AmbientLight, *span);
             self.report_ambient_light(scene, *span, context);
         }
         self.scene.settings.ambient = match &scene.ambient {
-            FieldOutcome::Read(Spanned { value, .. }) => *value,
-            FieldOutcome::Absent | FieldOutcome::Broken if light.is_some() => Ambient::Once,
-            FieldOutcome::Absent | FieldOutcome::Broken
+            FieldResult::Read(Spanned { value, .. }) => *value,
+            FieldResult::Absent | FieldResult::Broken if light.is_some() => Ambient::Once,
+            FieldResult::Absent | FieldResult::Broken
                 if is_json(context) && self.scene.settings.mode == ir::Mode::Phong =>
             {
                 Ambient::Once
             }
-            FieldOutcome::Absent | FieldOutcome::Broken => Ambient::PerLight,
+            FieldResult::Absent | FieldResult::Broken => Ambient::PerLight,
         };
         let is_assumed = light.is_none()
             && scene.ambient.is_absent()
@@ -58,7 +58,12 @@ impl Lowering {
     }
 
     /// Reports an ambient light that multiplies nothing.
-    fn report_ambient_light(&self, scene: &Scene, span: Option<Span>, context: &mut Context<'_>) {
+    fn report_ambient_light(
+        &self,
+        scene: &Scene,
+        span: Option<Span>,
+        context: &mut DecodeContext<'_>,
+    ) {
         let is_per_light = scene
             .ambient
             .read()
@@ -91,7 +96,7 @@ impl Lowering {
 }
 
 /// Whether the scene is written as JSON: an opening brace, then a key in quotes.
-fn is_json(context: &Context<'_>) -> bool {
+fn is_json(context: &DecodeContext<'_>) -> bool {
     let text = context.tree.written(context.tree.root());
     let inside = text.strip_prefix('{').map(str::trim_start);
     inside.is_some_and(|inside| inside.starts_with('"'))

@@ -1,13 +1,13 @@
 //! Area lights: rectangles of points.
 
-use super::decode::{Context, Decode, Spanned};
+use super::decode::{Decode, DecodeContext, Spanned};
 use super::light::Light;
 use super::lower::Lowering;
 use super::number::{integer, json_number};
-use super::record::FieldOutcome;
-use super::schema::Definitions;
+use super::record::FieldResult;
+use super::schema::SchemaDefinitions;
 use super::value::tuple;
-use rtc_ir::{self as ir, EntityKind, Field};
+use rtc_ir::{self as ir, EntityField, EntityKind};
 use rtc_math::{Vec3, cross, unit};
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
@@ -18,20 +18,20 @@ const MAX_CELLS: u32 = 64;
 /// The number of cells of an area light along its width and its height: one number for both, or a
 /// list of two.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cells(pub(super) [u32; 2]);
+pub(super) struct AreaLightCells(pub(super) [u32; 2]);
 
-impl Decode for Cells {
+impl Decode for AreaLightCells {
     const IS_LIST: bool = true;
 
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         if context.tree.is_list(node) {
-            let each = |node, context: &mut Context<'_>| integer(1, MAX_CELLS, node, context);
+            let each = |node, context: &mut DecodeContext<'_>| integer(1, MAX_CELLS, node, context);
             return tuple(node, "a list of two whole numbers", context, each).map(Self);
         }
         integer(1, MAX_CELLS, node, context).map(|count| Self([count; 2]))
     }
 
-    fn schema(_: &mut Definitions) -> Json {
+    fn schema(_: &mut SchemaDefinitions) -> Json {
         let count = json!({ "type": "integer", "minimum": 1, "maximum": MAX_CELLS });
         let pair = json!({ "type": "array", "items": count, "minItems": 2, "maxItems": 2 });
         json!({ "anyOf": [count, pair] })
@@ -47,10 +47,10 @@ impl Lowering {
     /// have the colour of the light. Returns whether it is one.
     pub(super) fn area_light(&mut self, light: &Spanned<Light>) -> bool {
         let Light {
-            position: FieldOutcome::Read(position),
-            color: FieldOutcome::Read(color),
-            width: FieldOutcome::Read(width),
-            height: FieldOutcome::Read(height),
+            position: FieldResult::Read(position),
+            color: FieldResult::Read(color),
+            width: FieldResult::Read(width),
+            height: FieldResult::Read(height),
             direction,
             cells,
             ..
@@ -63,7 +63,7 @@ impl Lowering {
             .read()
             .map_or(Vec3::NEG_Y, |direction| direction.value.0.into());
         let [along_width, along_height] = sides(direction);
-        let Cells([columns, rows]) = cells.value;
+        let AreaLightCells([columns, rows]) = cells.value;
         // A point light at the centre of each cell has an equal part of the colour.
         let count = f64::from(columns) * f64::from(rows);
         let center = Vec3::from_array(position.value.0);
@@ -82,9 +82,9 @@ impl Lowering {
                 }));
                 // Record the origin of each value.
                 for (field, span) in [
-                    (Field::Whole, light.span),
-                    (Field::Position, position.span),
-                    (Field::Color, color.span),
+                    (EntityField::Whole, light.span),
+                    (EntityField::Position, position.span),
+                    (EntityField::Color, color.span),
                 ] {
                     self.record_span(EntityKind::Light, index, field, span);
                 }

@@ -1,16 +1,16 @@
 //! The camera, as a `Camera` or in the older form of an `Eye`.
 
-use super::decode::{Context, Spanned};
+use super::decode::{DecodeContext, Spanned};
 use super::keyword::{Keyword, KeywordTable};
 use super::lower::Lowering;
 use super::number::{Count, FieldOfView, NonNegative, PixelCount, Positive};
-use super::record::{FieldOutcome, keys, record};
+use super::record::{FieldResult, keys, record};
 use super::synonym::{EYE, IMAGE_SIZE, TARGET};
 use super::value::{Point, Vector};
 use super::view_size::ViewSize;
 use rtc_diag::{Severity, codes};
-use rtc_ir::{self as ir, Field};
-use rtc_math::{BasisFault, Vec3, camera_basis, fallback_up, length, shortest, unit};
+use rtc_ir::{self as ir, EntityField};
+use rtc_math::{CameraBasisError, Vec3, camera_basis, fallback_up, length, shortest, unit};
 use rtc_source::Span;
 
 record! {
@@ -87,7 +87,7 @@ pub(super) const DEFAULT_SIZE: ViewSize = ViewSize([400, 400]);
 
 impl Lowering {
     /// Lowers a `Camera`.
-    pub(super) fn camera(&mut self, camera: &Spanned<Camera>, context: &mut Context<'_>) {
+    pub(super) fn camera(&mut self, camera: &Spanned<Camera>, context: &mut DecodeContext<'_>) {
         let (center, up) = image_plane(&camera.value);
         let Camera {
             eye,
@@ -106,8 +106,8 @@ impl Lowering {
         } = &camera.value;
         // The size of the image, from either variant.
         let view_size = match (view_size, sides) {
-            (FieldOutcome::Read(size), _) => *size,
-            (_, FieldOutcome::Read([width, height])) => {
+            (FieldResult::Read(size), _) => *size,
+            (_, FieldResult::Read([width, height])) => {
                 height.map(|_| ViewSize([width.value.0, height.value.0]))
             }
             _ => return,
@@ -118,21 +118,21 @@ impl Lowering {
         let basis = basis(&camera.value, &center, &up, context);
         // The spans of the values.
         for (field, span) in [
-            (Field::Whole, camera.span),
-            (Field::Eye, eye.span),
-            (Field::Center, center.span),
+            (EntityField::Whole, camera.span),
+            (EntityField::Eye, eye.span),
+            (EntityField::Center, center.span),
             (
-                Field::Right,
-                if let FieldOutcome::Read(step) = step {
+                EntityField::Right,
+                if let FieldResult::Read(step) = step {
                     step.span
                 } else {
                     up.span
                 },
             ),
-            (Field::Up, up.span),
-            (Field::Size, view_size.span),
-            (Field::LensRadius, aperture_radius.span),
-            (Field::LensSamples, aperture_samples.span),
+            (EntityField::Up, up.span),
+            (EntityField::Size, view_size.span),
+            (EntityField::LensRadius, aperture_radius.span),
+            (EntityField::LensSamples, aperture_samples.span),
         ] {
             self.record_span(ir::EntityKind::Camera, 0, field, span);
         }
@@ -160,18 +160,18 @@ impl Lowering {
         &mut self,
         [eye, center, up]: &[Spanned<Point>; 3],
         size: ViewSize,
-        context: &mut Context<'_>,
+        context: &mut DecodeContext<'_>,
     ) {
         let camera = Camera {
             eye: *eye,
             center: *center,
             up: up.map(|point| Vector(point.0)),
-            right: FieldOutcome::Absent,
-            view_size: FieldOutcome::Read(Spanned::without_span(size)),
-            sides: FieldOutcome::Absent,
-            focal_distance: FieldOutcome::Absent,
-            pixel_size: FieldOutcome::Absent,
-            fov: FieldOutcome::Absent,
+            right: FieldResult::Absent,
+            view_size: FieldResult::Read(Spanned::without_span(size)),
+            sides: FieldResult::Absent,
+            focal_distance: FieldResult::Absent,
+            pixel_size: FieldResult::Absent,
+            fov: FieldResult::Absent,
             projection: Spanned::without_span(ir::Projection::Perspective),
             stereo: Spanned::without_span(NonNegative(0.0)),
             aperture_radius: Spanned::without_span(NonNegative(0.0)),
@@ -196,8 +196,8 @@ impl Lowering {
             size: size.0,
             ..ir::Camera::default()
         };
-        self.record_span(ir::EntityKind::Camera, 0, Field::Whole, eye.span);
-        self.record_span(ir::EntityKind::Camera, 0, Field::Eye, eye.span);
+        self.record_span(ir::EntityKind::Camera, 0, EntityField::Whole, eye.span);
+        self.record_span(ir::EntityKind::Camera, 0, EntityField::Eye, eye.span);
     }
 }
 
@@ -220,7 +220,7 @@ fn image_plane(camera: &Camera) -> (Spanned<Point>, Spanned<Vector>) {
 }
 
 /// Reports a `pixelSize` that another key overrides.
-fn report_pixel_size_without_effect(camera: &Camera, context: &mut Context<'_>) {
+fn report_pixel_size_without_effect(camera: &Camera, context: &mut DecodeContext<'_>) {
     let span = camera.pixel_size.read().and_then(|size| size.span);
     if let (Some(span), false) = (span, camera.uses_up_length()) {
         let message = || "`pixelSize` has no effect with `fov` or `right`".to_owned();
@@ -232,8 +232,8 @@ fn report_pixel_size_without_effect(camera: &Camera, context: &mut Context<'_>) 
 
 /// The vertical field of view in radians, if it is given. Reports a `fov` or a length of `up`
 /// without effect.
-fn fov(camera: &Camera, up: &Spanned<Vector>, context: &mut Context<'_>) -> Option<f64> {
-    let FieldOutcome::Read(Spanned {
+fn fov(camera: &Camera, up: &Spanned<Vector>, context: &mut DecodeContext<'_>) -> Option<f64> {
+    let FieldResult::Read(Spanned {
         value: FieldOfView(degrees),
         span: Some(span),
     }) = camera.fov
@@ -266,18 +266,18 @@ fn basis(
     camera: &Camera,
     center: &Spanned<Point>,
     up: &Spanned<Vector>,
-    context: &mut Context<'_>,
+    context: &mut DecodeContext<'_>,
 ) -> Option<(Vec3, Vec3)> {
     let Camera { eye, right, .. } = camera;
     match right {
-        FieldOutcome::Read(right) => {
+        FieldResult::Read(right) => {
             return Some((
                 Vec3::from_array(right.value.0),
                 Vec3::from_array(up.value.0),
             ));
         }
-        FieldOutcome::Broken => return None,
-        FieldOutcome::Absent => {}
+        FieldResult::Broken => return None,
+        FieldResult::Absent => {}
     }
     // Without `right` the basis follows from the view direction and `up`.
     let [from, to, mut upward] = [eye.value.0, center.value.0, up.value.0].map(Vec3::from_array);
@@ -286,7 +286,7 @@ fn basis(
     }
     match camera_basis(from, to, upward) {
         Ok(basis) => Some(basis),
-        Err(BasisFault::ZeroGaze) => {
+        Err(CameraBasisError::ZeroGaze) => {
             if let Some(span) = center.span {
                 let message = || "the camera looks at the point where it stands".to_owned();
                 context.report(&codes::EYE_IS_CENTER, span, message, |d| {
@@ -297,7 +297,7 @@ fn basis(
             }
             None
         }
-        Err(BasisFault::ZeroUp) => {
+        Err(CameraBasisError::ZeroUp) => {
             if let Some(span) = up.span {
                 context.report(
                     &codes::ZERO_UP,
@@ -314,7 +314,7 @@ fn basis(
             }
             None
         }
-        Err(BasisFault::Parallel) => report_parallel_up(to - from, upward, up.span?, context)
+        Err(CameraBasisError::Parallel) => report_parallel_up(to - from, upward, up.span?, context)
             .and_then(|up| camera_basis(from, to, up).ok()),
     }
 }
@@ -324,7 +324,7 @@ fn report_parallel_up(
     view_dir: Vec3,
     up: Vec3,
     span: Span,
-    context: &mut Context<'_>,
+    context: &mut DecodeContext<'_>,
 ) -> Option<Vec3> {
     let replacement = fallback_up(view_dir, up);
     let [x, y, z] = replacement.to_array().map(shortest);

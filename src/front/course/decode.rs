@@ -1,12 +1,12 @@
 //! The basis of decoding: the trait [`Decode`], values with spans, and the context that collects
 //! all diagnostics.
 
-use super::schema::Definitions;
+use super::schema::SchemaDefinitions;
 use super::spelling::same_letters;
 use super::suggestion;
 use crate::FrontOptions;
 use rtc_diag::clip;
-use rtc_diag::{Code, Diagnostic, Severity, Sink, codes};
+use rtc_diag::{Code, Diagnostic, DiagnosticSink, Severity, codes};
 use rtc_source::tree::{NodeContent, NodeId, SyntaxTree};
 use rtc_source::{Budget, Resource, Span};
 use serde_json::Value as Json;
@@ -19,10 +19,10 @@ pub(super) trait Decode: Sized {
     const IS_LIST: bool = false;
 
     /// Decodes the value; `None` if that fails, which is reported.
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self>;
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self>;
 
     /// The JSON Schema of exactly the values that [`Decode::decode`] accepts without an error.
-    fn schema(definitions: &mut Definitions) -> Json;
+    fn schema(definitions: &mut SchemaDefinitions) -> Json;
 
     /// The value as the schema shows a default.
     fn json(&self) -> Json {
@@ -65,7 +65,7 @@ pub(super) struct SharedValue<T> {
 impl<T: Decode> Decode for SharedValue<T> {
     const IS_LIST: bool = T::IS_LIST;
 
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         let target = context.tree.target(node);
         if context.decoded.contains(&target) {
             return Some(Self {
@@ -81,7 +81,7 @@ impl<T: Decode> Decode for SharedValue<T> {
         })
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         T::schema(definitions)
     }
 }
@@ -104,16 +104,16 @@ impl<T> LazyList<T> {
 
 impl<T: Decode> LazyList<T> {
     /// The number of items, valid or not.
-    pub(super) fn len(&self, context: &Context<'_>) -> usize {
+    pub(super) fn len(&self, context: &DecodeContext<'_>) -> usize {
         self.list.map_or(0, |list| context.tree.items(list).count())
     }
 
     /// Decodes each item and passes it to `take` with its span; items that fail are omitted.
     pub(super) fn decode_each(
         &self,
-        context: &mut Context<'_>,
+        context: &mut DecodeContext<'_>,
         name: &'static str,
-        mut take: impl FnMut(&mut Context<'_>, Spanned<T>),
+        mut take: impl FnMut(&mut DecodeContext<'_>, Spanned<T>),
     ) {
         let tree = context.tree;
         for item in self.list.iter().flat_map(|list| tree.items(*list)) {
@@ -132,7 +132,7 @@ impl<T: Decode> LazyList<T> {
 impl<T: Decode> Decode for LazyList<T> {
     const IS_LIST: bool = true;
 
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         match context.tree.shape(node) {
             NodeContent::List => Some(Self {
                 list: Some(node),
@@ -144,7 +144,7 @@ impl<T: Decode> Decode for LazyList<T> {
         }
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         serde_json::json!({ "type": "array", "items": T::schema(definitions) })
     }
 
@@ -174,7 +174,7 @@ pub(super) struct MapEntry<'a> {
 const MAX_REMEMBERED: usize = 10_000;
 
 /// The state of decoding one tree, with its diagnostics.
-pub(super) struct Context<'a> {
+pub(super) struct DecodeContext<'a> {
     pub(super) tree: &'a SyntaxTree<'a>,
     pub(super) options: &'a FrontOptions,
     pub(super) key: ValueKey<'a>,
@@ -188,7 +188,7 @@ pub(super) struct Context<'a> {
     pub(super) other_case: Option<(&'a str, &'static str, Span)>,
     /// Unknown keys: the key that was probably intended, and the span.
     pub(super) typos: Vec<(&'static str, Span)>,
-    sink: &'a mut Sink,
+    sink: &'a mut DiagnosticSink,
     /// The shared values decoded so far.
     decoded: BTreeSet<NodeId>,
     /// The codes reported for each span: aliases visit a node several times.
@@ -198,12 +198,12 @@ pub(super) struct Context<'a> {
     max_steps: u64,
 }
 
-impl<'a> Context<'a> {
+impl<'a> DecodeContext<'a> {
     pub(super) fn new(
         tree: &'a SyntaxTree<'a>,
         options: &'a FrontOptions,
         budget: &Budget,
-        sink: &'a mut Sink,
+        sink: &'a mut DiagnosticSink,
     ) -> Self {
         Self {
             tree,

@@ -2,7 +2,7 @@
 
 use super::keyword::{Keyword, KeywordTable};
 use super::lower::Lowering;
-use super::record::FieldOutcome;
+use super::record::FieldResult;
 use super::settings::Scene;
 use rtc_color::Tone;
 use rtc_ir as ir;
@@ -34,8 +34,8 @@ impl Lowering {
         self.scene.display = ir::Display {
             exposure: scene.exposure.value.0,
             tone: match &scene.tone {
-                FieldOutcome::Read(tone) => Some(tone.value),
-                FieldOutcome::Absent | FieldOutcome::Broken => None,
+                FieldResult::Read(tone) => Some(tone.value),
+                FieldResult::Absent | FieldResult::Broken => None,
             },
         };
     }

@@ -1,12 +1,12 @@
 //! The environment light.
 
-use super::decode::{Context, Spanned};
+use super::decode::{DecodeContext, Spanned};
 use super::lower::Lowering;
-use super::record::{FieldOutcome, keys, record};
+use super::record::{FieldResult, keys, record};
 use super::rotation::{RotationRows, euler_axes};
 use super::value::{Channels, FileName, Vector};
 use rtc_diag::{Severity, codes};
-use rtc_ir::{self as ir, EntityKind, Field};
+use rtc_ir::{self as ir, EntityField, EntityKind};
 use rtc_source::Span;
 
 record! {
@@ -32,7 +32,7 @@ impl Lowering {
     pub(super) fn environment(
         &mut self,
         environment: &Spanned<Environment>,
-        context: &mut Context<'_>,
+        context: &mut DecodeContext<'_>,
     ) {
         let Environment {
             color,
@@ -41,35 +41,40 @@ impl Lowering {
             matrix,
         } = &environment.value;
         let image = match file {
-            FieldOutcome::Read(file) => Some(self.files.environment(&mut self.scene, file)),
-            FieldOutcome::Absent => None,
-            FieldOutcome::Broken => return,
+            FieldResult::Read(file) => Some(self.files.environment(&mut self.scene, file)),
+            FieldResult::Absent => None,
+            FieldResult::Broken => return,
         };
         let rotation_keys = match (matrix, rotation) {
-            (FieldOutcome::Read(matrix), rotation) => {
-                if let FieldOutcome::Read(rotation) = rotation {
+            (FieldResult::Read(matrix), rotation) => {
+                if let FieldResult::Read(rotation) = rotation {
                     report_two_rotations(rotation.span, context);
                 }
                 Some(matrix.value.0)
             }
             // The rotated axes are the columns of world_from_image, and so the rows of its inverse.
-            (FieldOutcome::Absent, FieldOutcome::Read(rotation)) => {
+            (FieldResult::Absent, FieldResult::Read(rotation)) => {
                 Some(euler_axes(rotation.value.0).map(|axis| axis.to_array()))
             }
-            (FieldOutcome::Absent, FieldOutcome::Absent) => None,
-            (FieldOutcome::Broken, _) | (_, FieldOutcome::Broken) => return,
+            (FieldResult::Absent, FieldResult::Absent) => None,
+            (FieldResult::Broken, _) | (_, FieldResult::Broken) => return,
         };
         self.scene.environment = Some(ir::Environment {
             radiance: color.value.0,
             image,
             image_from_world: rotation_keys,
         });
-        self.record_span(EntityKind::Environment, 0, Field::Whole, environment.span);
+        self.record_span(
+            EntityKind::Environment,
+            0,
+            EntityField::Whole,
+            environment.span,
+        );
     }
 }
 
 /// Reports a `rotation` beside a `matrix`, which takes precedence.
-fn report_two_rotations(rotation: Option<Span>, context: &mut Context<'_>) {
+fn report_two_rotations(rotation: Option<Span>, context: &mut DecodeContext<'_>) {
     let Some(span) = rotation else { return };
     let message = || "`rotation` has no effect with `matrix`".to_owned();
     context.report(&codes::NO_EFFECT, span, message, |d| {

@@ -1,10 +1,10 @@
 //! Glass: materials that files declare transparent by a keyword (`isTransparent`, `type:
 //! refraction`) instead of by the weight `kt`.
 
-use super::decode::Context;
+use super::decode::DecodeContext;
 use super::lower::Lowering;
-use super::material::{Finish, PhongMaterial};
-use super::record::FieldOutcome;
+use super::material::{MaterialFinish, PhongMaterial};
+use super::record::FieldResult;
 use rtc_diag::{Severity, codes};
 use rtc_ir::{self as ir, MaterialId};
 use rtc_source::Span;
@@ -21,7 +21,7 @@ pub(super) struct Glass {
 impl Lowering {
     /// Removes the ambient and diffuse term of clear glass. If the scene follows no refracted rays,
     /// glass keeps them, and that is reported. Call it after the settings are known.
-    pub(super) fn glass(&mut self, context: &mut Context<'_>) {
+    pub(super) fn glass(&mut self, context: &mut DecodeContext<'_>) {
         let ir::Settings {
             mode, max_depth, ..
         } = &self.scene.settings;
@@ -45,16 +45,18 @@ pub(super) fn glass_setting(material: &PhongMaterial) -> Option<(bool, Span)> {
         ..
     } = material;
     match (is_transparent, kind) {
-        (FieldOutcome::Read(is_transparent), _) => {
+        (FieldResult::Read(is_transparent), _) => {
             Some((is_transparent.value, is_transparent.span?))
         }
-        (_, FieldOutcome::Read(kind)) => Some((kind.value == Finish::Refraction, kind.span?)),
+        (_, FieldResult::Read(kind)) => {
+            Some((kind.value == MaterialFinish::Refraction, kind.span?))
+        }
         _ => None,
     }
 }
 
 /// Removes the ambient and diffuse term of glass, so that it shows only transmitted light.
-fn remove_own_color(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
+fn remove_own_color(phong: &mut ir::Phong, span: Span, context: &mut DecodeContext<'_>) {
     let is_colored = phong.color_map.is_some() || phong.color != [1.0; 3];
     // The validator rejects a negative weight.
     (phong.ka, phong.kd) = (phong.ka.min(0.0), phong.kd.min(0.0));
@@ -69,7 +71,7 @@ fn remove_own_color(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>
 }
 
 /// Reports that glass transmits no light, because `MaxRecursionDepth` is 0.
-fn report_opaque_glass(span: Span, context: &mut Context<'_>) {
+fn report_opaque_glass(span: Span, context: &mut DecodeContext<'_>) {
     let message = || "without a `MaxRecursionDepth` glass is opaque".to_owned();
     context.report(&codes::NO_EFFECT, span, message, |d| {
         d.at(span, "shows only its own colour")
@@ -79,7 +81,7 @@ fn report_opaque_glass(span: Span, context: &mut Context<'_>) {
 }
 
 /// Makes a surface opaque and reports that its `kt` has no effect.
-pub(super) fn make_opaque(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
+pub(super) fn make_opaque(phong: &mut ir::Phong, span: Span, context: &mut DecodeContext<'_>) {
     phong.kt = 0.0;
     // The validator rejects a negative index.
     if phong.ior > 0.0 {
@@ -93,7 +95,10 @@ pub(super) fn make_opaque(phong: &mut ir::Phong, span: Span, context: &mut Conte
 }
 
 /// Reports an index of refraction without a weight: it has no effect.
-pub(super) fn report_index_without_weight(material: &PhongMaterial, context: &mut Context<'_>) {
+pub(super) fn report_index_without_weight(
+    material: &PhongMaterial,
+    context: &mut DecodeContext<'_>,
+) {
     let PhongMaterial { kt, eta, .. } = material;
     let refracts = eta.value.0 > 0.0 && (eta.value.0 - 1.0).abs() > 1e-9;
     if let (true, None, Some(span)) = (refracts, kt.span, eta.span) {

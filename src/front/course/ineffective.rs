@@ -2,10 +2,10 @@
 //!
 //! Each diagnostic is reported once per scene, and only if the key has no effect anywhere in it.
 
-use super::decode::{Context, Spanned};
+use super::decode::{DecodeContext, Spanned};
 use super::lower::Lowering;
 use super::material::PhongMaterial;
-use super::record::FieldOutcome;
+use super::record::FieldResult;
 use super::settings::{Mode, Scene};
 use rtc_diag::{Severity, codes};
 use rtc_ir as ir;
@@ -28,7 +28,7 @@ impl DependentKeys {
         if samples.value.0 > 1 {
             self.glossy_samples = self.glossy_samples.or(samples.span);
         }
-        if let FieldOutcome::Read(Spanned {
+        if let FieldResult::Read(Spanned {
             span: Some(span), ..
         }) = material.specular_map
         {
@@ -47,7 +47,7 @@ impl DependentKeys {
 impl Lowering {
     /// Reports keys that have no effect because another setting is missing. Call it after all
     /// entities are lowered and the mode is resolved.
-    pub(super) fn report_ineffective(&self, scene: &Scene, context: &mut Context<'_>) {
+    pub(super) fn report_ineffective(&self, scene: &Scene, context: &mut DecodeContext<'_>) {
         let is_path = matches!(self.scene.settings.mode, ir::Mode::Path(_));
         let is_phong = self.scene.settings.mode == ir::Mode::Phong && scene.mode.value != Mode::Uv;
         if is_phong {
@@ -61,7 +61,7 @@ impl Lowering {
         }
         if !is_path {
             report_lens(scene, context);
-            if let FieldOutcome::Read(paths) = &scene.paths {
+            if let FieldResult::Read(paths) = &scene.paths {
                 let message = "`PathParameters` has no effect: the scene is not path traced";
                 let hint = "`RenderMode: path` selects path tracing";
                 report(paths.span, message, hint, Severity::Warning, context);
@@ -73,7 +73,7 @@ impl Lowering {
         }
     }
 
-    fn report_materials(&self, context: &mut Context<'_>) {
+    fn report_materials(&self, context: &mut DecodeContext<'_>) {
         let is_glossy =
             |phong: &ir::Phong| phong.glossy_samples > 1 && phong.most_mirror_weight() > 0.0;
         let has_bounces = self.scene.settings.max_depth > 0;
@@ -94,7 +94,7 @@ impl Lowering {
         }
     }
 
-    fn report_light_samples(&self, scene: &Scene, context: &mut Context<'_>) {
+    fn report_light_samples(&self, scene: &Scene, context: &mut DecodeContext<'_>) {
         let mut points = self.scene.lights.iter().filter_map(ir::Light::point);
         let is_off = scene
             .soft_shadows
@@ -116,8 +116,8 @@ impl Lowering {
 }
 
 /// Reports a lens without a radius, and a radius with a single sample.
-fn report_lens(scene: &Scene, context: &mut Context<'_>) {
-    let FieldOutcome::Read(camera) = &scene.camera else {
+fn report_lens(scene: &Scene, context: &mut DecodeContext<'_>) {
+    let FieldResult::Read(camera) = &scene.camera else {
         return;
     };
     let (radius, samples) = (
@@ -145,7 +145,7 @@ fn report(
     message: &str,
     hint: &str,
     severity: Severity,
-    context: &mut Context<'_>,
+    context: &mut DecodeContext<'_>,
 ) {
     if let Some(span) = span {
         context.report(

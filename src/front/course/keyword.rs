@@ -1,7 +1,7 @@
 //! Values that are written as keywords.
 
-use super::decode::{Context, Decode};
-use super::schema::Definitions;
+use super::decode::{Decode, DecodeContext};
+use super::schema::SchemaDefinitions;
 use super::spelling::quoted_list;
 use rtc_diag::{clip, codes, nearest};
 use rtc_source::tree::NodeId;
@@ -18,11 +18,11 @@ pub(super) trait Keyword: Copy + PartialEq + 'static {
 }
 
 impl<T: Keyword> Decode for T {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         keyword(node, T::KEYWORDS, context)
     }
 
-    fn schema(_: &mut Definitions) -> Json {
+    fn schema(_: &mut SchemaDefinitions) -> Json {
         keyword_schema(T::KEYWORDS)
     }
 
@@ -36,7 +36,7 @@ impl<T: Keyword> Decode for T {
 pub(super) fn keyword<T: Copy>(
     node: NodeId,
     table: KeywordTable<T>,
-    context: &mut Context<'_>,
+    context: &mut DecodeContext<'_>,
 ) -> Option<T> {
     let keywords = || table.iter().map(|(keyword, ..)| *keyword);
     let tree = context.tree;

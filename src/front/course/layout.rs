@@ -1,8 +1,8 @@
 //! Formats the text of a scene.
 
 use super::syntax;
-use rtc_diag::Sink;
-use rtc_source::tree::yaml::{self, FormatTextFault, Mistake};
+use rtc_diag::DiagnosticSink;
+use rtc_source::tree::yaml::{self, FormatTextFault, YamlError};
 use rtc_source::{FileId, SourceMap};
 
 /// The formatted text of a file. Syntax errors are reported only if there is no tree.
@@ -12,10 +12,10 @@ use rtc_source::{FileId, SourceMap};
 pub fn format_text(
     file: FileId,
     map: &SourceMap,
-    sink: &mut Sink,
+    sink: &mut DiagnosticSink,
 ) -> Result<String, FormatTextFault> {
     let mut found = Vec::new();
-    let report = &mut |mistake: Mistake<'_>| found.push(syntax::diagnostic(mistake));
+    let report = &mut |mistake: YamlError<'_>| found.push(syntax::diagnostic(mistake));
     let formatted = yaml::layout(file, map.bytes(file), report);
     if formatted == Err(FormatTextFault::Mistakes) {
         found

@@ -1,16 +1,16 @@
 //! The lights: points and spheres, suns, spots, and photometric lights.
 
-use super::area_light::Cells;
+use super::area_light::AreaLightCells;
 use super::assets::AssetTarget;
-use super::decode::{Context, Spanned};
+use super::decode::{DecodeContext, Spanned};
 use super::keyword::{Keyword, KeywordTable};
 use super::lower::Lowering;
 use super::number::{HalfAngle, NonNegative, Positive};
-use super::record::{FieldOutcome, keys, record};
+use super::record::{FieldResult, keys, record};
 use super::synonym::{POSITION, with_canonical};
 use super::value::{Channels, Color, FileName, Point, Vector};
 use rtc_diag::{Severity, codes};
-use rtc_ir::{self as ir, EntityKind, Field, Photometry};
+use rtc_ir::{self as ir, EntityField, EntityKind, Photometry};
 use rtc_source::Span;
 
 record! {
@@ -35,7 +35,7 @@ record! {
         /// The number of points of an area light along its width and its height, one number for
         /// both or a list of two, each with an equal part of the colour: more points make softer
         /// shadows.
-        cells: Spanned<Cells>, default(Cells([4; 2])), keys!["cells"];
+        cells: Spanned<AreaLightCells>, default(AreaLightCells([4; 2])), keys!["cells"];
         /// The direction from the scene to a sun; the direction in which a spot points, or that an
         /// area light faces, which is down by default; with a `file`, the direction of vertical
         /// angle 0.
@@ -111,7 +111,7 @@ impl Keyword for LightKind {
 
 impl Lowering {
     /// Lowers a light.
-    pub(super) fn light(&mut self, light: &Spanned<Light>, context: &mut Context<'_>) {
+    pub(super) fn light(&mut self, light: &Spanned<Light>, context: &mut DecodeContext<'_>) {
         if self.area_light(light) {
             report_unused(&light.value, LightKind::Area, false, context);
             return;
@@ -122,7 +122,7 @@ impl Lowering {
         report_unused(&light.value, kind, light_ir.point().is_none(), context);
         let index = self.scene.lights.len();
         self.scene.lights.push(light_ir);
-        self.record_span(EntityKind::Light, index, Field::Whole, light.span);
+        self.record_span(EntityKind::Light, index, EntityField::Whole, light.span);
     }
 
     /// The light and its type, from the keys that are present.
@@ -139,24 +139,34 @@ impl Lowering {
         // The keys that are present select the type.
         match (position, color, direction, irradiance, file, intensity) {
             (
-                FieldOutcome::Read(position),
+                FieldResult::Read(position),
                 color,
-                FieldOutcome::Read(direction),
+                FieldResult::Read(direction),
                 _,
-                FieldOutcome::Read(file),
+                FieldResult::Read(file),
                 _,
             ) => self.photometric_light(light, [position.value.0, direction.value.0], color, file),
-            (FieldOutcome::Read(position), _, direction, .., FieldOutcome::Read(intensity)) => {
+            (FieldResult::Read(position), _, direction, .., FieldResult::Read(intensity)) => {
                 let (emitter, kind) = point_or_spot(light, position.value.0, direction)?;
                 let intensity = intensity.value.0;
                 let light = ir::Punctual { emitter, intensity };
                 Some((ir::Light::Punctual(light), kind))
             }
-            (FieldOutcome::Read(position), FieldOutcome::Read(color), ..) => {
+            (FieldResult::Read(position), FieldResult::Read(color), ..) => {
                 let (index, radius) = (self.scene.lights.len(), &light.radius);
-                self.record_span(EntityKind::Light, index, Field::Position, position.span);
-                self.record_span(EntityKind::Light, index, Field::Color, color.span);
-                self.record_span(EntityKind::Light, index, Field::LightRadius, radius.span);
+                self.record_span(
+                    EntityKind::Light,
+                    index,
+                    EntityField::Position,
+                    position.span,
+                );
+                self.record_span(EntityKind::Light, index, EntityField::Color, color.span);
+                self.record_span(
+                    EntityKind::Light,
+                    index,
+                    EntityField::LightRadius,
+                    radius.span,
+                );
                 let (position, color, radius) = (position.value.0, color.value.0, radius.value.0);
                 let point = ir::PointLight {
                     position,
@@ -165,8 +175,8 @@ impl Lowering {
                 };
                 Some((ir::Light::Point(point), LightKind::Point))
             }
-            (_, _, FieldOutcome::Read(direction), FieldOutcome::Read(irradiance), ..) => {
-                let emitter = ir::Emitter::Sun {
+            (_, _, FieldResult::Read(direction), FieldResult::Read(irradiance), ..) => {
+                let emitter = ir::PunctualKind::Sun {
                     direction: direction.value.0,
                 };
                 let sun = ir::Punctual {
@@ -184,17 +194,17 @@ impl Lowering {
         &mut self,
         light: &Light,
         [position, direction]: [[f64; 3]; 2],
-        color: &FieldOutcome<Spanned<Color>>,
+        color: &FieldResult<Spanned<Color>>,
         file: &Spanned<FileName>,
     ) -> Option<(ir::Light, LightKind)> {
         let intensity = match color {
-            FieldOutcome::Read(color) => color.value.0,
-            FieldOutcome::Absent => [1.0; 3],
-            FieldOutcome::Broken => return None,
+            FieldResult::Read(color) => color.value.0,
+            FieldResult::Absent => [1.0; 3],
+            FieldResult::Broken => return None,
         };
         self.files
             .add_pending(AssetTarget::Photometry(self.scene.lights.len()), file);
-        let emitter = ir::Emitter::Photometric {
+        let emitter = ir::PunctualKind::Photometric {
             position,
             direction,
             horizontal: light.horizontal.value.0,
@@ -209,16 +219,16 @@ impl Lowering {
 fn point_or_spot(
     light: &Light,
     position: [f64; 3],
-    direction: &FieldOutcome<Spanned<Vector>>,
-) -> Option<(ir::Emitter, LightKind)> {
+    direction: &FieldResult<Spanned<Vector>>,
+) -> Option<(ir::PunctualKind, LightKind)> {
     let range = match light.range {
-        FieldOutcome::Read(range) => Some(range.value.0),
-        FieldOutcome::Absent => None,
-        FieldOutcome::Broken => return None,
+        FieldResult::Read(range) => Some(range.value.0),
+        FieldResult::Absent => None,
+        FieldResult::Broken => return None,
     };
     match (direction, light.outer_angle) {
-        (FieldOutcome::Read(direction), FieldOutcome::Read(outer)) => {
-            let spot = ir::Emitter::Spot {
+        (FieldResult::Read(direction), FieldResult::Read(outer)) => {
+            let spot = ir::PunctualKind::Spot {
                 position,
                 direction: direction.value.0,
                 inner_angle: light.inner_angle.value.0,
@@ -227,17 +237,23 @@ fn point_or_spot(
             };
             Some((spot, LightKind::Spot))
         }
-        (FieldOutcome::Absent, FieldOutcome::Absent) => {
-            Some((ir::Emitter::Point { position, range }, LightKind::Point))
-        }
+        (FieldResult::Absent, FieldResult::Absent) => Some((
+            ir::PunctualKind::Point { position, range },
+            LightKind::Point,
+        )),
         _ => None,
     }
 }
 
 /// Reports keys without effect on a light of this type.
-fn report_unused(light: &Light, kind: LightKind, is_physical: bool, context: &mut Context<'_>) {
+fn report_unused(
+    light: &Light,
+    kind: LightKind,
+    is_physical: bool,
+    context: &mut DecodeContext<'_>,
+) {
     // The keys of the light decide its kind, not its declared type.
-    if let FieldOutcome::Read(declared) = light.kind
+    if let FieldResult::Read(declared) = light.kind
         && declared.value != kind
     {
         let message = "the `type` of the light has no effect: its other keys say otherwise";
@@ -268,7 +284,7 @@ fn report_unused(light: &Light, kind: LightKind, is_physical: bool, context: &mu
         no_effect(light.inner_angle.span, message, "remove it", context);
     }
     let has_range = is_physical && matches!(kind, LightKind::Point | LightKind::Spot);
-    if let (false, FieldOutcome::Read(range)) = (has_range, light.range) {
+    if let (false, FieldResult::Read(range)) = (has_range, light.range) {
         let message = "`range` has no effect on the light: only a point or a spot with an \
                        `intensity` has one";
         no_effect(range.span, message, "remove it", context);
@@ -276,7 +292,7 @@ fn report_unused(light: &Light, kind: LightKind, is_physical: bool, context: &mu
 }
 
 /// Reports a key without effect, if it is present.
-fn no_effect(span: Option<Span>, message: &str, hint: &str, context: &mut Context<'_>) {
+fn no_effect(span: Option<Span>, message: &str, hint: &str, context: &mut DecodeContext<'_>) {
     if let Some(span) = span {
         context.report(
             &codes::NO_EFFECT,

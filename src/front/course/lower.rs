@@ -3,19 +3,21 @@
 
 use super::assets::{PendingAsset, PendingMaterial};
 use super::camera;
-use super::decode::{Context, Decode, ValueKey};
+use super::decode::{Decode, DecodeContext, ValueKey};
 use super::glass::Glass;
 use super::ineffective::DependentKeys;
-use super::object::sizing::Sizing;
+use super::object::sizing::MeshSizing;
 use super::object::torus::AmbiguousTorus;
-use super::record::FieldOutcome;
+use super::record::FieldResult;
 use super::settings::Scene;
 use super::syntax;
 use super::texture::NamedFiles;
 use crate::FrontOptions;
-use rtc_diag::{Diagnostic, Sink, clip, codes};
-use rtc_ir::{self as ir, EntityKind, Field, Lowered, MaterialId, SourceSpans, ValuePath};
-use rtc_source::tree::yaml::{self, Mistake};
+use rtc_diag::{Diagnostic, DiagnosticSink, clip, codes};
+use rtc_ir::{
+    self as ir, EntityField, EntityKind, LoweredScene, MaterialId, SourceSpans, ValuePath,
+};
+use rtc_source::tree::yaml::{self, YamlError};
 use rtc_source::tree::{NodeContent, NodeId};
 use rtc_source::{FileId, SourceMap, Span};
 use std::collections::BTreeMap;
@@ -29,9 +31,9 @@ pub fn lower(
     file: FileId,
     map: &SourceMap,
     options: &FrontOptions,
-    sink: &mut Sink,
+    sink: &mut DiagnosticSink,
 ) -> Option<UnfinishedScene> {
-    let report = &mut |mistake: Mistake<'_>| sink.push(syntax::diagnostic(mistake));
+    let report = &mut |mistake: YamlError<'_>| sink.push(syntax::diagnostic(mistake));
     let tree = yaml::parse(file, map.bytes(file), report)?;
     match tree.shape(tree.root()) {
         NodeContent::Map => {}
@@ -55,7 +57,7 @@ pub fn lower(
             return None;
         }
     }
-    let mut context = Context::new(&tree, options, map.budget(), sink);
+    let mut context = DecodeContext::new(&tree, options, map.budget(), sink);
     let mut lowering = Lowering::new();
     lowering.scene(&mut context);
     report_spellings(&mut context);
@@ -69,11 +71,11 @@ pub fn lower(
 #[derive(Clone, Debug)]
 pub struct UnfinishedScene {
     /// The scene, with an image of one pixel or an empty mesh for each file.
-    pub lowered: Lowered,
+    pub lowered: LoweredScene,
     /// The files, each once.
     pub pending_assets: Vec<PendingAsset>,
     /// The sizings of meshes, to be applied after loading.
-    pub(super) sizings: Vec<Sizing>,
+    pub(super) sizings: Vec<MeshSizing>,
     /// The source of each mesh's material.
     pub(super) pending_materials: Vec<PendingMaterial>,
 }
@@ -81,7 +83,7 @@ pub struct UnfinishedScene {
 impl UnfinishedScene {
     /// A scene with these pending files.
     #[must_use]
-    pub fn new(lowered: Lowered, pending_assets: Vec<PendingAsset>) -> Self {
+    pub fn new(lowered: LoweredScene, pending_assets: Vec<PendingAsset>) -> Self {
         Self {
             lowered,
             pending_assets,
@@ -103,7 +105,7 @@ pub(super) struct Lowering {
     /// The materials that transmit light.
     pub(super) glass: Vec<Glass>,
     /// The sizings of meshes, to be applied after loading.
-    pub(super) sizings: Vec<Sizing>,
+    pub(super) sizings: Vec<MeshSizing>,
     /// The source of each mesh's material.
     pub(super) pending_materials: Vec<PendingMaterial>,
     /// The keys whose effect depends on other settings.
@@ -139,7 +141,7 @@ impl Lowering {
         &mut self,
         entity: EntityKind,
         index: usize,
-        field: Field,
+        field: EntityField,
         span: Option<Span>,
     ) {
         self.source_spans
@@ -152,7 +154,7 @@ impl Lowering {
         self.scene.names.truncate(first);
     }
 
-    fn scene(&mut self, context: &mut Context<'_>) {
+    fn scene(&mut self, context: &mut DecodeContext<'_>) {
         let root = context.tree.root();
         context.key = ValueKey {
             text: "the file",
@@ -165,7 +167,7 @@ impl Lowering {
         self.choose_camera(&scene, context);
         self.report_unused_sizes(&scene, context);
         self.settings(&scene, context);
-        if let FieldOutcome::Read(environment) = &scene.environment {
+        if let FieldResult::Read(environment) = &scene.environment {
             self.environment(environment, context);
         }
         scene
@@ -176,7 +178,7 @@ impl Lowering {
             });
         if self.scene.lights.is_empty() {
             let path = scene.lights.span.unwrap_or_else(|| context.head(root));
-            self.record_span(EntityKind::Light, 0, Field::Whole, Some(path));
+            self.record_span(EntityKind::Light, 0, EntityField::Whole, Some(path));
         }
         self.resolve_soft_lights(&scene, context);
         // Objects.
@@ -207,7 +209,7 @@ impl Lowering {
     }
 
     /// Lowers one of the cameras and reports the others.
-    fn choose_camera(&mut self, scene: &Scene, context: &mut Context<'_>) {
+    fn choose_camera(&mut self, scene: &Scene, context: &mut DecodeContext<'_>) {
         let Scene {
             camera,
             eye,
@@ -220,29 +222,28 @@ impl Lowering {
             .map_or(camera::DEFAULT_SIZE, |size| size.value);
         // `Camera` wins over `CameraEye` and its companions, and these over `Eye`.
         match (camera, look, eye) {
-            (FieldOutcome::Absent, FieldOutcome::Absent, FieldOutcome::Absent) => {
+            (FieldResult::Absent, FieldResult::Absent, FieldResult::Absent) => {
                 report_no_camera(context)
             }
-            (FieldOutcome::Read(camera), ..) => self.camera(camera, context),
-            (FieldOutcome::Absent, FieldOutcome::Read(look), _) => {
+            (FieldResult::Read(camera), ..) => self.camera(camera, context),
+            (FieldResult::Absent, FieldResult::Read(look), _) => {
                 self.camera_from_keys(look, size, context)
             }
-            (FieldOutcome::Absent, FieldOutcome::Absent, FieldOutcome::Read(eye)) => {
+            (FieldResult::Absent, FieldResult::Absent, FieldResult::Read(eye)) => {
                 self.old_eye_camera(*eye, size)
             }
-            (FieldOutcome::Broken, ..)
-            | (_, FieldOutcome::Broken, _)
-            | (.., FieldOutcome::Broken) => {}
+            (FieldResult::Broken, ..) | (_, FieldResult::Broken, _) | (.., FieldResult::Broken) => {
+            }
         }
         // Report the keys that lose.
-        if let (false, FieldOutcome::Read(look)) = (camera.is_absent(), look) {
+        if let (false, FieldResult::Read(look)) = (camera.is_absent(), look) {
             report_ignored_camera("CameraEye", "Camera", look[0].span, context);
         }
         match (camera.is_absent(), look.is_absent(), eye) {
-            (false, _, FieldOutcome::Read(eye)) => {
+            (false, _, FieldResult::Read(eye)) => {
                 report_ignored_camera("Eye", "Camera", eye.span, context)
             }
-            (true, false, FieldOutcome::Read(eye)) => {
+            (true, false, FieldResult::Read(eye)) => {
                 report_ignored_camera("Eye", "CameraEye", eye.span, context)
             }
             _ => {}
@@ -277,7 +278,7 @@ impl Lowering {
         // Hand on the scene with what later steps complete.
         source_spans.finish();
         UnfinishedScene {
-            lowered: Lowered {
+            lowered: LoweredScene {
                 scene,
                 source_spans,
             },
@@ -288,7 +289,7 @@ impl Lowering {
     }
 }
 
-fn report_no_camera(context: &mut Context<'_>) {
+fn report_no_camera(context: &mut DecodeContext<'_>) {
     let span = context.head(context.tree.root());
     let message = || "the scene has no `Camera`".to_owned();
     let cause = context.typo_for(&["Camera", "Eye"], 0);
@@ -300,7 +301,12 @@ fn report_no_camera(context: &mut Context<'_>) {
     });
 }
 
-fn report_ignored_camera(ignored: &str, used: &str, span: Option<Span>, context: &mut Context<'_>) {
+fn report_ignored_camera(
+    ignored: &str,
+    used: &str,
+    span: Option<Span>,
+    context: &mut DecodeContext<'_>,
+) {
     let severity = context.unknown_key_severity();
     if let Some(span) = span {
         let message = || format!("the scene has both `{used}` and `{ignored}`");
@@ -313,7 +319,7 @@ fn report_ignored_camera(ignored: &str, used: &str, span: Option<Span>, context:
 }
 
 /// Reports once which spellings are not canonical.
-fn report_spellings(context: &mut Context<'_>) {
+fn report_spellings(context: &mut DecodeContext<'_>) {
     let spellings = std::mem::take(&mut context.spellings);
     let Some((_, _, first)) = spellings.first().copied() else {
         return;
@@ -334,7 +340,7 @@ fn report_spellings(context: &mut Context<'_>) {
 }
 
 /// Reports once that keys differ in case from the declared ones.
-fn record_case(context: &mut Context<'_>) {
+fn record_case(context: &mut DecodeContext<'_>) {
     let Some((written, canonical, span)) = context.other_case else {
         return;
     };

@@ -1,19 +1,19 @@
 //! The Phong material, and the choice between it and the `standard` material.
 
-use super::decode::{Context, Decode, SharedValue, Spanned};
+use super::decode::{Decode, DecodeContext, SharedValue, Spanned};
 use super::glass::{Glass, glass_setting, make_opaque, report_index_without_weight};
 use super::keyword::{Keyword, KeywordTable, keyword_schema};
 use super::lower::Lowering;
 use super::number::{Count, NonNegative};
 use super::pattern::{FileOrPattern, PatternMap};
 use super::reader::look_up;
-use super::record::{FieldOutcome, keys, record};
-use super::schema::Definitions;
+use super::record::{FieldResult, keys, record};
+use super::schema::SchemaDefinitions;
 use super::standard::{self, StandardMaterial};
 use super::texture::add_texture;
 use super::value::Color;
 use rtc_diag::codes;
-use rtc_ir::{self as ir, EntityKind, Field, MaterialId};
+use rtc_ir::{self as ir, EntityField, EntityKind, MaterialId};
 use rtc_source::Span;
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
@@ -58,7 +58,7 @@ record! {
         /// In some files the kind of material: `refraction` is glass, a `kt` of 1 without `ka` and
         /// `kd`; `reflection` and `default` have a mirror reflection of weight `ks`, though in
         /// those files `default` has none.
-        kind: Spanned<Finish>, optional, keys!["type"];
+        kind: Spanned<MaterialFinish>, optional, keys!["type"];
         /// In some files whether it is glass: `true` is a `kt` of 1 with `fresnel` besides its `ka`
         /// and `kd`, and no other mirror image; `false` a `kt` of 0.
         is_transparent: Spanned<bool>, optional, keys!["isTransparent"], json "isTransparent";
@@ -92,7 +92,7 @@ const STANDARD: KeywordTable<()> = &[(
 const KIND: &str = "type";
 
 impl Decode for Material {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         let is_map = context.tree.is_map(node);
         let kind = is_map.then(|| look_up(KIND, node, context)).flatten();
         let keyword = kind.and_then(|kind| context.tree.text(kind));
@@ -103,7 +103,7 @@ impl Decode for Material {
         PhongMaterial::decode(node, context).map(|material| Self::Phong(Box::new(material)))
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         let standard = keyword_schema(STANDARD);
         json!({
             "if": { "type": "object", "properties": { KIND: standard }, "required": [KIND] },
@@ -115,27 +115,27 @@ impl Decode for Material {
 
 /// The kind of a material in some files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Finish {
+pub(super) enum MaterialFinish {
     Default,
     Reflection,
     Refraction,
 }
 
-impl Keyword for Finish {
+impl Keyword for MaterialFinish {
     const KEYWORDS: KeywordTable<Self> = &[
         (
             "default",
-            Finish::Default,
+            MaterialFinish::Default,
             "A mirror reflection of weight `ks`.",
         ),
         (
             "reflection",
-            Finish::Reflection,
+            MaterialFinish::Reflection,
             "A mirror reflection of weight `ks`.",
         ),
         (
             "refraction",
-            Finish::Refraction,
+            MaterialFinish::Refraction,
             "Glass: a `kt` of 1 without `ka` and `kd`.",
         ),
     ];
@@ -155,7 +155,7 @@ impl Lowering {
     pub(super) fn material(
         &mut self,
         material: &Spanned<SharedValue<Material>>,
-        context: &mut Context<'_>,
+        context: &mut DecodeContext<'_>,
     ) -> Option<MaterialId> {
         let SharedValue { node, value } = &material.value;
         if let Some(id) = self.shared.get(node) {
@@ -169,7 +169,7 @@ impl Lowering {
                 self.record_span(
                     EntityKind::Material,
                     id.0 as usize,
-                    Field::Whole,
+                    EntityField::Whole,
                     material.span,
                 );
                 id
@@ -183,13 +183,13 @@ impl Lowering {
         &mut self,
         value: &PhongMaterial,
         span: Option<Span>,
-        context: &mut Context<'_>,
+        context: &mut DecodeContext<'_>,
     ) -> Option<MaterialId> {
         // The texture replaces an absent colour.
         let color = match (&value.color, &value.texture) {
-            (FieldOutcome::Read(color), _) => *color,
-            (FieldOutcome::Absent, _) => Spanned::without_span(Color([1.0; 3])),
-            (FieldOutcome::Broken, _) => return None,
+            (FieldResult::Read(color), _) => *color,
+            (FieldResult::Absent, _) => Spanned::without_span(Color([1.0; 3])),
+            (FieldResult::Broken, _) => return None,
         };
         let mut phong = self.phong(value, color.value);
         // `isTransparent` is an older key for refraction.
@@ -265,9 +265,9 @@ impl Lowering {
     }
 
     /// Reports that `type: default` acts as a mirror here, if the image shows it.
-    fn report_mirror(&self, material: &PhongMaterial, context: &mut Context<'_>) {
-        let FieldOutcome::Read(Spanned {
-            value: Finish::Default,
+    fn report_mirror(&self, material: &PhongMaterial, context: &mut DecodeContext<'_>) {
+        let FieldResult::Read(Spanned {
+            value: MaterialFinish::Default,
             span: Some(span),
         }) = material.kind
         else {
@@ -286,8 +286,8 @@ impl Lowering {
         }
     }
 
-    fn texture(&mut self, file: &FieldOutcome<Spanned<FileOrPattern>>) -> Option<ir::TextureId> {
-        let FieldOutcome::Read(Spanned { value, span }) = file else {
+    fn texture(&mut self, file: &FieldResult<Spanned<FileOrPattern>>) -> Option<ir::TextureId> {
+        let FieldResult::Read(Spanned { value, span }) = file else {
             return None;
         };
         Some(match value {
@@ -300,7 +300,7 @@ impl Lowering {
     pub(super) fn pattern(&mut self, pattern: &PatternMap, span: Option<Span>) -> ir::TextureId {
         let texture = ir::Texture::Procedural(pattern.lowered());
         let id = add_texture(&mut self.scene, texture);
-        self.record_span(EntityKind::Texture, id.0 as usize, Field::Whole, span);
+        self.record_span(EntityKind::Texture, id.0 as usize, EntityField::Whole, span);
         id
     }
 
@@ -331,27 +331,27 @@ impl Lowering {
         } = material;
         // Record the origin of each number.
         for (field, span) in [
-            (Field::Whole, span),
-            (Field::Color, color),
-            (Field::Ka, ka.span),
-            (Field::Kd, kd.span),
-            (Field::Ks, specular(ks).span),
-            (Field::Kr, kr.ok().and_then(|kr| kr.span)),
-            (Field::N, n.span),
-            (Field::Kt, kt.span),
-            (Field::Ior, eta.span),
-            (Field::GlossySamples, glossy_samples.span),
+            (EntityField::Whole, span),
+            (EntityField::Color, color),
+            (EntityField::Ka, ka.span),
+            (EntityField::Kd, kd.span),
+            (EntityField::Ks, specular(ks).span),
+            (EntityField::Kr, kr.ok().and_then(|kr| kr.span)),
+            (EntityField::N, n.span),
+            (EntityField::Kt, kt.span),
+            (EntityField::Ior, eta.span),
+            (EntityField::GlossySamples, glossy_samples.span),
         ] {
             self.record_span(EntityKind::Material, id.0 as usize, field, span);
         }
         // Record the origin of each texture.
         for (field, file) in [
-            (Field::ColorMap, texture),
-            (Field::SpecularMap, specular_map),
-            (Field::NormalMap, normal_map),
-            (Field::Bump, bump),
+            (EntityField::ColorMap, texture),
+            (EntityField::SpecularMap, specular_map),
+            (EntityField::NormalMap, normal_map),
+            (EntityField::Bump, bump),
         ] {
-            if let FieldOutcome::Read(file) = file {
+            if let FieldResult::Read(file) = file {
                 self.record_span(EntityKind::Material, id.0 as usize, field, file.span);
             }
         }
@@ -386,6 +386,6 @@ fn refraction(kt: f64, eta: f64) -> (f64, f64) {
 }
 
 /// The weight of the highlight; 1 if only a texture gives it.
-fn specular(ks: &FieldOutcome<Spanned<NonNegative>>) -> Spanned<NonNegative> {
+fn specular(ks: &FieldResult<Spanned<NonNegative>>) -> Spanned<NonNegative> {
     ks.ok().unwrap_or(Spanned::without_span(NonNegative(1.0)))
 }

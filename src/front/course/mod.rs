@@ -1,7 +1,7 @@
 //! The front end of the course's scene format: YAML (or JSON) to IR.
 //!
 //! ```text
-//! text ──▶ spanned tree ──▶ declarations ──▶ UnfinishedScene ──▶ Lowered
+//! text ──▶ spanned tree ──▶ declarations ──▶ UnfinishedScene ──▶ LoweredScene
 //!   yaml::parse      Decode::decode     Lowering        assets::load
 //! ```
 //!
@@ -32,7 +32,7 @@
 //! * With `strict` unknown keys are errors; with `lenient` mistakes that have one sensible repair
 //!   are repaired with a warning.
 //! * Work is bounded: aliases and merge keys that repeat parts of the tree are counted against the
-//!   budget (`decode::Context::step`).
+//!   budget (`decode::DecodeContext::step`).
 
 mod ambient;
 mod area_light;

@@ -4,8 +4,8 @@
 //! the validator checks ranges, because a scene need not come from text.
 
 use super::core_schema::{ScalarNumber, is_foreign_non_finite, parse_number};
-use super::decode::{Context, Decode, describe};
-use super::schema::Definitions;
+use super::decode::{Decode, DecodeContext, describe};
+use super::schema::SchemaDefinitions;
 use rtc_diag::clip;
 use rtc_diag::codes;
 use rtc_ir::Display;
@@ -15,7 +15,7 @@ use serde_json::{Value as Json, json};
 use std::f64::consts::FRAC_PI_2;
 
 /// The number that an unquoted scalar spells, if any; reports nothing.
-pub(super) fn plain_number(node: NodeId, context: &Context<'_>) -> Option<f64> {
+pub(super) fn plain_number(node: NodeId, context: &DecodeContext<'_>) -> Option<f64> {
     match context.tree.shape(node) {
         NodeContent::Word(scalar) => match parse_number(scalar) {
             ScalarNumber::Number(value) => Some(value),
@@ -31,7 +31,7 @@ pub(super) fn is_number(scalar: &str) -> bool {
 }
 
 /// Reads a finite number; reports anything else.
-pub(super) fn number(node: NodeId, what: &str, context: &mut Context<'_>) -> Option<f64> {
+pub(super) fn number(node: NodeId, what: &str, context: &mut DecodeContext<'_>) -> Option<f64> {
     let tree = context.tree;
     // A number is an unquoted scalar.
     let (scalar, quoted) = match tree.shape(node) {
@@ -72,7 +72,7 @@ pub(super) fn number(node: NodeId, what: &str, context: &mut Context<'_>) -> Opt
     }
 }
 
-fn not_finite(scalar: &str, span: Span, context: &mut Context<'_>) {
+fn not_finite(scalar: &str, span: Span, context: &mut DecodeContext<'_>) {
     let key = context.key;
     let message = || format!("`{}` is not finite: `{}`", clip(key.text), clip(scalar));
     context.report(&codes::NOT_FINITE, span, message, |d| {
@@ -84,7 +84,12 @@ fn not_finite(scalar: &str, span: Span, context: &mut Context<'_>) {
 /// replaced by `min`.
 ///
 /// An integer from 0 to `min` is lowered as it is; the validator rejects it.
-pub(super) fn integer(min: u32, max: u32, node: NodeId, context: &mut Context<'_>) -> Option<u32> {
+pub(super) fn integer(
+    min: u32,
+    max: u32,
+    node: NodeId,
+    context: &mut DecodeContext<'_>,
+) -> Option<u32> {
     let value = number(node, "a whole number", context)?;
     #[expect(
         clippy::float_cmp,
@@ -108,7 +113,7 @@ pub(super) fn integer(min: u32, max: u32, node: NodeId, context: &mut Context<'_
     Some(value as u32)
 }
 
-fn out_of_range(range: &str, node: NodeId, context: &mut Context<'_>) {
+fn out_of_range(range: &str, node: NodeId, context: &mut DecodeContext<'_>) {
     let (tree, key) = (context.tree, context.key);
     let (span, scalar) = (tree.span(node), tree.text(node).unwrap_or_default());
     let message = || {
@@ -124,7 +129,7 @@ fn out_of_range(range: &str, node: NodeId, context: &mut Context<'_>) {
 }
 
 /// Warns of an angle in degrees that is probably in radians.
-fn report_likely_radians(angle: f64, node: NodeId, context: &mut Context<'_>) {
+fn report_likely_radians(angle: f64, node: NodeId, context: &mut DecodeContext<'_>) {
     let degrees = (angle.to_degrees() * 100.0).round() / 100.0;
     let message = |key: &str| format!("`{}` is in degrees, and looks like radians", clip(key));
     report_other_unit(message, format!("{degrees}"), node, context);
@@ -132,7 +137,7 @@ fn report_likely_radians(angle: f64, node: NodeId, context: &mut Context<'_>) {
 
 /// Warns of an angle in radians that is probably in degrees: above one revolution and a multiple of
 /// 5.
-pub(super) fn radians(angle: f64, node: NodeId, context: &mut Context<'_>) -> f64 {
+pub(super) fn radians(angle: f64, node: NodeId, context: &mut DecodeContext<'_>) -> f64 {
     if angle.abs() > std::f64::consts::TAU && angle % 5.0 == 0.0 {
         let radians = (angle.to_radians() * 10_000.0).round() / 10_000.0;
         let message = |key: &str| format!("`{}` is in radians, and looks like degrees", clip(key));
@@ -145,7 +150,7 @@ fn report_other_unit(
     message: impl FnOnce(&str) -> String,
     replacement: String,
     node: NodeId,
-    context: &mut Context<'_>,
+    context: &mut DecodeContext<'_>,
 ) {
     let (key, span) = (context.key, context.tree.span(node));
     context.report(
@@ -180,12 +185,12 @@ macro_rules! ranged {
         pub(crate) struct $name(pub(crate) $inner);
 
         impl Decode for $name {
-            fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-                let decode: fn(NodeId, &mut Context<'_>) -> Option<$inner> = $decode;
+            fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
+                let decode: fn(NodeId, &mut DecodeContext<'_>) -> Option<$inner> = $decode;
                 decode(node, context).map(Self)
             }
 
-            fn schema(_: &mut Definitions) -> Json {
+            fn schema(_: &mut SchemaDefinitions) -> Json {
                 json!($schema)
             }
 

@@ -8,9 +8,9 @@ use super::material::PhongMaterial;
 use super::object::{KINDS, ObjectKind};
 use super::path_settings::PathParameters;
 use super::pattern::PatternMap;
-use super::record::{FieldDeclaration, Record, Requirement};
+use super::record::{FieldDeclaration, FieldRequirement, Record};
 use super::sampling::SamplingMap;
-use super::schema::Definitions;
+use super::schema::SchemaDefinitions;
 use super::settings::{Gooch, Scene};
 use super::standard::{StandardMaterial, TextureMap};
 use super::view_size::SizeMap;
@@ -90,17 +90,17 @@ fn section(title: &str, record: &Record, page: &mut String) {
         let in_variant = record.variants.iter().any(|variant| variant.contains(name));
         // The default.
         let default = match requirement {
-            Requirement::Required => "required".to_owned(),
-            Requirement::Unless(other) => {
+            FieldRequirement::Required => "required".to_owned(),
+            FieldRequirement::Unless(other) => {
                 let other = record.fields.iter().find(|field| field.name == *other);
                 let other = other.map_or_else(String::new, |field| code(field.spellings[0]));
                 format!("required without {other}")
             }
-            Requirement::Optional if in_variant => "see below".to_owned(),
-            Requirement::Optional => "none".to_owned(),
-            Requirement::Default(default) => format!("`{}`", default()),
+            FieldRequirement::Optional if in_variant => "see below".to_owned(),
+            FieldRequirement::Optional => "none".to_owned(),
+            FieldRequirement::Default(default) => format!("`{}`", default()),
         };
-        let kind = kind(&schema(&mut Definitions::default()));
+        let kind = kind(&schema(&mut SchemaDefinitions::default()));
         let (key, others, meaning) = (code(canonical), others.join("; "), doc.trim());
         writeln!(
             page,

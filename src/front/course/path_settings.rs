@@ -4,7 +4,7 @@ use super::assets::AssetTarget;
 use super::decode::Spanned;
 use super::lower::Lowering;
 use super::number::Count;
-use super::record::{FieldOutcome, keys, record};
+use super::record::{FieldResult, keys, record};
 use super::settings::{Mode, Scene};
 use rtc_ir as ir;
 
@@ -60,11 +60,11 @@ impl Lowering {
         let default = ir::PathSettings::default();
         let settings = &mut self.scene.settings;
         settings.mode = ir::Mode::Path(match &scene.paths {
-            FieldOutcome::Read(paths) => ir::PathSettings {
+            FieldResult::Read(paths) => ir::PathSettings {
                 samples: paths.value.samples.value.0,
                 multiple_scattering: paths.value.multiple_scattering.value,
             },
-            FieldOutcome::Absent | FieldOutcome::Broken => {
+            FieldResult::Absent | FieldResult::Broken => {
                 settings.supersampling = 1;
                 let samples = if sampling.span.is_some() {
                     rays

@@ -1,10 +1,10 @@
 //! Procedural textures: patterns in closed form, instead of an image file.
 
-use super::decode::{Context, Decode, Spanned};
+use super::decode::{Decode, DecodeContext, Spanned};
 use super::keyword::{Keyword, KeywordTable, keyword_schema};
 use super::number::{NonNegative, integer, json_number, ranged};
 use super::record::{keys, record};
-use super::schema::Definitions;
+use super::schema::SchemaDefinitions;
 use super::value::{Color, FileName, tuple};
 use rtc_ir::Procedural;
 use rtc_math::{GradientNoise, TextureMapping, TexturePattern};
@@ -105,11 +105,11 @@ pub(super) struct ColorPair([Color; 2]);
 impl Decode for ColorPair {
     const IS_LIST: bool = true;
 
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         tuple(node, "a list of two colours", context, Color::decode).map(Self)
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         let color = Color::schema(definitions);
         json!({ "type": "array", "items": color, "minItems": 2, "maxItems": 2 })
     }
@@ -160,7 +160,7 @@ pub(super) enum FileOrPattern {
 }
 
 impl Decode for FileOrPattern {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         if context.tree.is_map(node) {
             return PatternMap::decode(node, context).map(|map| Self::Pattern(Box::new(map)));
         }
@@ -170,14 +170,14 @@ impl Decode for FileOrPattern {
         FileName::decode(node, context).map(Self::File)
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         json!({ "title": "file or pattern", "anyOf": Self::variants(definitions) })
     }
 }
 
 impl FileOrPattern {
     /// The schemas of a file, of the keyword of a pattern, and of its map.
-    pub(super) fn variants(definitions: &mut Definitions) -> [Json; 3] {
+    pub(super) fn variants(definitions: &mut SchemaDefinitions) -> [Json; 3] {
         let word = keyword_schema(PatternKind::KEYWORDS);
         [
             FileName::schema(definitions),
@@ -188,7 +188,7 @@ impl FileOrPattern {
 }
 
 /// The pattern that a keyword names.
-pub(super) fn pattern_word(node: NodeId, context: &Context<'_>) -> Option<PatternMap> {
+pub(super) fn pattern_word(node: NodeId, context: &DecodeContext<'_>) -> Option<PatternMap> {
     let NodeContent::Word(word) = context.tree.shape(node) else {
         return None;
     };

@@ -1,9 +1,9 @@
 //! Reads the maps of the file field by field, in the order of the declaration of the record, and
 //! reports keys that are unknown or missing.
 
-use super::decode::{Context, MapEntry, ValueKey, describe};
+use super::decode::{DecodeContext, MapEntry, ValueKey, describe};
 use super::material::is_material_key;
-use super::record::{FieldDeclaration, FieldOutcome, FieldValue, Record, Requirement};
+use super::record::{FieldDeclaration, FieldRequirement, FieldResult, FieldValue, Record};
 use super::spelling::{quoted_list, same_letters};
 use super::synonym::foreign_key_advice;
 use super::variant;
@@ -40,7 +40,7 @@ impl MapReader {
     pub(super) fn open(
         record: &'static Record,
         node: NodeId,
-        context: &mut Context<'_>,
+        context: &mut DecodeContext<'_>,
     ) -> Option<Self> {
         if !context.tree.is_map(node) {
             return context.expected(node, "a map");
@@ -68,12 +68,15 @@ impl MapReader {
     }
 
     /// Reads the next field of the declaration.
-    pub(super) fn next<S: FieldValue>(&mut self, context: &mut Context<'_>) -> FieldOutcome<S> {
+    pub(super) fn next<S: FieldValue>(
+        &mut self,
+        context: &mut DecodeContext<'_>,
+    ) -> FieldResult<S> {
         let field = &self.record.fields[self.rows.len()];
         let found = self.spelling(field, context);
         self.rows.push(found.map(|(spelling, _)| spelling));
         let Some((spelling, found)) = found else {
-            return FieldOutcome::Absent;
+            return FieldResult::Absent;
         };
         for ((key, canonical), at) in spelling.iter().zip(field.spellings[0]).zip(found) {
             context.entries[at].claimed = true;
@@ -85,7 +88,7 @@ impl MapReader {
                 );
             }
         }
-        S::take(&found[..spelling.len()], context).map_or(FieldOutcome::Broken, FieldOutcome::Read)
+        S::take(&found[..spelling.len()], context).map_or(FieldResult::Broken, FieldResult::Read)
     }
 
     /// The first spelling of the field whose keys are all present and unused, with the indices of
@@ -93,7 +96,7 @@ impl MapReader {
     fn spelling(
         &self,
         field: &FieldDeclaration,
-        context: &Context<'_>,
+        context: &DecodeContext<'_>,
     ) -> Option<(&'static [&'static str], [usize; MAX_GROUP])> {
         let entries = &context.entries[self.first_entry..];
         let find = |key: &str| {
@@ -115,7 +118,7 @@ impl MapReader {
 
     /// Reports keys that were not read and keys that are missing. Returns false if the map has none
     /// of the variants of the record.
-    pub(super) fn close(self, context: &mut Context<'_>) -> bool {
+    pub(super) fn close(self, context: &mut DecodeContext<'_>) -> bool {
         let (mut partial, typos) = (0_u64, context.typos.len());
         for at in self.first_entry..context.entries.len() {
             let entry = context.entries[at];
@@ -134,9 +137,9 @@ impl MapReader {
             at.is_some_and(|at| self.rows[at].is_some())
         };
         let required = |field: &FieldDeclaration| match field.requirement {
-            Requirement::Required => true,
-            Requirement::Unless(other) => !has(other),
-            Requirement::Optional | Requirement::Default(_) => false,
+            FieldRequirement::Required => true,
+            FieldRequirement::Unless(other) => !has(other),
+            FieldRequirement::Optional | FieldRequirement::Default(_) => false,
         };
         let absent = |at: &usize| self.rows[*at].is_none() && partial & (1 << at) == 0;
         let fields = self.record.fields.iter().enumerate();
@@ -161,7 +164,7 @@ impl MapReader {
 
     /// Reports a key that no field read. If the key belongs to an incomplete group of a field,
     /// returns the bit of that field.
-    fn report_unused_key(&self, entry: MapEntry<'_>, context: &mut Context<'_>) -> u64 {
+    fn report_unused_key(&self, entry: MapEntry<'_>, context: &mut DecodeContext<'_>) -> u64 {
         let Record {
             name: record_name,
             fields,
@@ -226,7 +229,7 @@ impl MapReader {
     }
 
     /// Reports an unknown key, with the key that was probably intended.
-    fn report_unknown(&self, entry: MapEntry<'_>, context: &mut Context<'_>) {
+    fn report_unknown(&self, entry: MapEntry<'_>, context: &mut DecodeContext<'_>) {
         let Record {
             name: record_name,
             fields,
@@ -280,7 +283,7 @@ impl MapReader {
     fn nearest_group(
         &self,
         key: &str,
-        context: &Context<'_>,
+        context: &DecodeContext<'_>,
     ) -> Option<(usize, Vec<&'static str>)> {
         let unused = context.entries[self.first_entry..]
             .iter()
@@ -318,7 +321,7 @@ pub(super) fn missing_keys(
     head: Span,
     missing: &[&str],
     cause: Option<Span>,
-    context: &mut Context<'_>,
+    context: &mut DecodeContext<'_>,
 ) {
     let message = || {
         format!(
@@ -352,7 +355,7 @@ fn with_suggestion(
 fn unknown_key(
     record_name: &str,
     entry: MapEntry<'_>,
-    context: &mut Context<'_>,
+    context: &mut DecodeContext<'_>,
     advise: impl FnOnce(Diagnostic) -> Diagnostic,
 ) {
     let span = context.tree.span(entry.key_node);
@@ -366,7 +369,7 @@ fn unknown_key(
 }
 
 /// Replaces unknown keys by known ones that differ only in case, unless the map has these as well.
-fn fold_case(record: &'static Record, first_entry: usize, context: &mut Context<'_>) {
+fn fold_case(record: &'static Record, first_entry: usize, context: &mut DecodeContext<'_>) {
     let keys = || {
         record
             .fields
@@ -393,7 +396,7 @@ fn fold_case(record: &'static Record, first_entry: usize, context: &mut Context<
 
 /// Adds the entries of a map to those of the context: the entries of the map itself, then the
 /// merged ones.
-fn collect_entries(map: NodeId, context: &mut Context<'_>) {
+fn collect_entries(map: NodeId, context: &mut DecodeContext<'_>) {
     let tree = context.tree;
     let mut open_maps = vec![map];
     // Merging a map twice changes nothing. Without this set, merges of merges would grow without
@@ -441,7 +444,7 @@ fn collect_entries(map: NodeId, context: &mut Context<'_>) {
 }
 
 /// The value of a key of a map or of the maps that it merges.
-pub(super) fn look_up(key: &str, map: NodeId, context: &mut Context<'_>) -> Option<NodeId> {
+pub(super) fn look_up(key: &str, map: NodeId, context: &mut DecodeContext<'_>) -> Option<NodeId> {
     if let Some(value) = context.tree.get(map, key) {
         return Some(value);
     }

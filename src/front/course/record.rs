@@ -5,8 +5,8 @@
 //! have several spellings, the canonical one first; the declaration marks those of the course's
 //! JSON files. Every key of a map is either read by one field or reported.
 
-use super::decode::{Context, Decode, MapEntry, Spanned, ValueKey};
-use super::schema::Definitions;
+use super::decode::{Decode, DecodeContext, MapEntry, Spanned, ValueKey};
+use super::schema::SchemaDefinitions;
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
@@ -15,7 +15,7 @@ use serde_json::{Value as Json, json};
 pub(super) type Spellings = &'static [&'static [&'static str]];
 
 /// Whether a field is required.
-pub(super) enum Requirement {
+pub(super) enum FieldRequirement {
     Required,
     Optional,
     /// Required, unless the field of this name is present.
@@ -31,9 +31,9 @@ pub(super) struct FieldDeclaration {
     pub(super) spellings: Spellings,
     /// The spellings in the JSON files of the course, by their first keys.
     pub(super) json: &'static [&'static str],
-    pub(super) requirement: Requirement,
+    pub(super) requirement: FieldRequirement,
     /// The schema of each value of the field.
-    pub(super) schema: fn(&mut Definitions) -> Json,
+    pub(super) schema: fn(&mut SchemaDefinitions) -> Json,
 }
 
 /// The declaration of a record.
@@ -98,7 +98,7 @@ macro_rules! record {
         impl $crate::course::decode::Decode for $name {
             fn decode(
                 node: rtc_source::tree::NodeId,
-                context: &mut $crate::course::decode::Context<'_>,
+                context: &mut $crate::course::decode::DecodeContext<'_>,
             ) -> Option<Self> {
                 let mut reader =
                     $crate::course::reader::MapReader::open(&Self::RECORD, node, context)?;
@@ -107,21 +107,21 @@ macro_rules! record {
                 Some(Self { $($field: record!(@value $requirement $field $(, $default)?)),+ })
             }
 
-            fn schema(definitions: &mut $crate::course::schema::Definitions) -> serde_json::Value {
+            fn schema(definitions: &mut $crate::course::schema::SchemaDefinitions) -> serde_json::Value {
                 $crate::course::schema::record(&Self::RECORD, definitions)
             }
         }
     };
-    (@type optional $type:ty) => { $crate::course::record::FieldOutcome<$type> };
-    (@type unless $type:ty) => { $crate::course::record::FieldOutcome<$type> };
+    (@type optional $type:ty) => { $crate::course::record::FieldResult<$type> };
+    (@type unless $type:ty) => { $crate::course::record::FieldResult<$type> };
     (@type $requirement:ident $type:ty) => { $type };
-    (@requirement required $type:ty) => { $crate::course::record::Requirement::Required };
-    (@requirement optional $type:ty) => { $crate::course::record::Requirement::Optional };
+    (@requirement required $type:ty) => { $crate::course::record::FieldRequirement::Required };
+    (@requirement optional $type:ty) => { $crate::course::record::FieldRequirement::Optional };
     (@requirement unless $type:ty, $other:expr) => {
-        $crate::course::record::Requirement::Unless($other)
+        $crate::course::record::FieldRequirement::Unless($other)
     };
     (@requirement default $type:ty, $default:expr) => {
-        $crate::course::record::Requirement::Default(|| {
+        $crate::course::record::FieldRequirement::Default(|| {
             $crate::course::decode::Decode::json(&$default)
         })
     };
@@ -137,7 +137,7 @@ pub(super) use {keys, record};
 
 /// The result of reading a field.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum FieldOutcome<T> {
+pub(super) enum FieldResult<T> {
     /// The field is not present.
     Absent,
     /// The field is present but can't be read, which was reported.
@@ -146,7 +146,7 @@ pub(super) enum FieldOutcome<T> {
     Read(T),
 }
 
-impl<T> FieldOutcome<T> {
+impl<T> FieldResult<T> {
     pub(super) fn ok(self) -> Option<T> {
         match self {
             Self::Read(value) => Some(value),
@@ -175,14 +175,14 @@ impl<T> FieldOutcome<T> {
 pub(super) trait FieldValue: Sized {
     /// Reads the values of the entries of these indices. `None` if one of them can't be read, which
     /// is reported.
-    fn take(entries: &[usize], context: &mut Context<'_>) -> Option<Self>;
+    fn take(entries: &[usize], context: &mut DecodeContext<'_>) -> Option<Self>;
 
     /// The schema of each value.
-    fn schema(definitions: &mut Definitions) -> Json;
+    fn schema(definitions: &mut SchemaDefinitions) -> Json;
 }
 
 impl<T: Decode> FieldValue for Spanned<T> {
-    fn take(entries: &[usize], context: &mut Context<'_>) -> Option<Self> {
+    fn take(entries: &[usize], context: &mut DecodeContext<'_>) -> Option<Self> {
         let MapEntry {
             key: text,
             key_node,
@@ -212,13 +212,13 @@ impl<T: Decode> FieldValue for Spanned<T> {
         })
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         one_or_only(T::schema(definitions), T::IS_LIST)
     }
 }
 
 impl<T: Decode, const N: usize> FieldValue for [Spanned<T>; N] {
-    fn take(entries: &[usize], context: &mut Context<'_>) -> Option<Self> {
+    fn take(entries: &[usize], context: &mut DecodeContext<'_>) -> Option<Self> {
         // Collected first, so that a mistake in one value does not hide those in others.
         let read: Vec<_> = entries
             .chunks(1)
@@ -228,13 +228,13 @@ impl<T: Decode, const N: usize> FieldValue for [Spanned<T>; N] {
         read?.try_into().ok()
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         one_or_only(T::schema(definitions), T::IS_LIST)
     }
 }
 
 /// The item of a list of one item, as some files write single values; any other node unchanged.
-fn only_item(node: NodeId, context: &mut Context<'_>) -> NodeId {
+fn only_item(node: NodeId, context: &mut DecodeContext<'_>) -> NodeId {
     let tree = context.tree;
     if !tree.is_list(node) {
         return node;

@@ -1,9 +1,9 @@
 //! Rotations: by angles about the axes, by an axis and an angle, and by quaternions; and matrices.
 
-use super::decode::{Context, Decode, Spanned};
+use super::decode::{Decode, DecodeContext, Spanned};
 use super::number::{Degrees, number, plain_number};
-use super::record::FieldOutcome;
-use super::schema::Definitions;
+use super::record::FieldResult;
+use super::schema::SchemaDefinitions;
 use super::value::{Angles, Vector, tuple};
 use rtc_diag::{Severity, clip, codes};
 use rtc_math::{Vec3, cos, rotated_about, sin, unit};
@@ -18,7 +18,7 @@ pub(super) struct Quaternion(pub(super) [f64; 4]);
 impl Decode for Quaternion {
     const IS_LIST: bool = true;
 
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         const WHAT: &str = "a list of four numbers";
         tuple(node, WHAT, context, |node, context| {
             number(node, WHAT, context)
@@ -26,7 +26,7 @@ impl Decode for Quaternion {
         .map(Self)
     }
 
-    fn schema(_: &mut Definitions) -> Json {
+    fn schema(_: &mut SchemaDefinitions) -> Json {
         json!({ "type": "array", "items": { "type": "number" }, "minItems": 4, "maxItems": 4 })
     }
 }
@@ -41,14 +41,14 @@ macro_rules! matrix {
         impl Decode for $name {
             const IS_LIST: bool = true;
 
-            fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+            fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
                 let numbers: [f64; $count] =
                     tuple(node, $what, context, |node, context| number(node, $what, context))?;
                 let vectors = numbers.as_chunks::<3>().0;
                 Some(Self(std::array::from_fn(|at| vectors[at])))
             }
 
-            fn schema(_: &mut Definitions) -> Json {
+            fn schema(_: &mut SchemaDefinitions) -> Json {
                 let item = json!({ "type": "number", "minimum": -1e60, "maximum": 1e60 });
                 json!({ "type": "array", "items": item, "minItems": $count, "maxItems": $count })
             }
@@ -78,7 +78,7 @@ pub(super) struct Rotation<T>(pub(super) Option<T>);
 impl<T: Decode> Decode for Rotation<T> {
     const IS_LIST: bool = T::IS_LIST;
 
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         let tree = context.tree;
         let is_known = tree.is_list(node)
             && tree.items(node).take(4).count() == 3
@@ -98,7 +98,7 @@ impl<T: Decode> Decode for Rotation<T> {
         Some(Self(None))
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         T::schema(definitions)
     }
 
@@ -110,9 +110,9 @@ impl<T: Decode> Decode for Rotation<T> {
 /// The keys of an object's rotation: angles about x, y and z; or an axis and an angle.
 pub(super) struct RotationKeys<'o> {
     /// The angles; beside an angle the axis.
-    pub(super) rotation: &'o FieldOutcome<Spanned<Rotation<Angles>>>,
-    pub(super) axis: &'o FieldOutcome<Spanned<Vector>>,
-    pub(super) angle: &'o FieldOutcome<Spanned<Degrees>>,
+    pub(super) rotation: &'o FieldResult<Spanned<Rotation<Angles>>>,
+    pub(super) axis: &'o FieldResult<Spanned<Vector>>,
+    pub(super) angle: &'o FieldResult<Spanned<Degrees>>,
 }
 
 impl RotationKeys<'_> {
@@ -131,7 +131,7 @@ impl RotationKeys<'_> {
     }
 
     /// The rotated axes. Reports keys without effect. `None` if a key can't be read.
-    pub(super) fn axes(&self, context: &mut Context<'_>) -> Option<[Vec3; 3]> {
+    pub(super) fn axes(&self, context: &mut DecodeContext<'_>) -> Option<[Vec3; 3]> {
         let Self {
             rotation,
             axis,
@@ -167,7 +167,7 @@ fn rotation_about(axis: [f64; 3], degrees: f64) -> [Vec3; 3] {
     axes_rotated_about(Vec3::from_array(axis), degrees.to_radians())
 }
 
-fn report_no_rotation(span: Option<Span>, message: &str, context: &mut Context<'_>) {
+fn report_no_rotation(span: Option<Span>, message: &str, context: &mut DecodeContext<'_>) {
     if let Some(span) = span {
         context.report(
             &codes::NO_EFFECT,

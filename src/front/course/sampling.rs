@@ -1,10 +1,10 @@
 //! Supersampling: the number and the positions of the rays of a pixel.
 
-use super::decode::{Context, Decode, Spanned};
+use super::decode::{Decode, DecodeContext, Spanned};
 use super::keyword::{Keyword, KeywordTable};
 use super::number::{Count, is_number, plain_number};
 use super::record::{keys, record};
-use super::schema::Definitions;
+use super::schema::SchemaDefinitions;
 use rtc_diag::codes;
 use rtc_ir as ir;
 use rtc_source::Span;
@@ -60,7 +60,7 @@ impl SuperSampling {
 }
 
 impl Decode for SuperSampling {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         match context.tree.shape(node) {
             NodeContent::Map => {
                 let SamplingMap { factor, pattern } = SamplingMap::decode(node, context)?;
@@ -89,7 +89,7 @@ impl Decode for SuperSampling {
         }
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         let boolean = json!({ "type": "boolean", "deprecated": true });
         json!({ "anyOf": [Count::schema(definitions), SamplingMap::schema(definitions), boolean] })
     }
@@ -107,7 +107,7 @@ fn is_boolean_word(scalar: &str) -> bool {
 }
 
 /// The number of rays in a file that only switches supersampling on or off.
-fn factor_of_switch(boolean: bool, node: NodeId, context: &mut Context<'_>) -> SuperSampling {
+fn factor_of_switch(boolean: bool, node: NodeId, context: &mut DecodeContext<'_>) -> SuperSampling {
     if !boolean {
         return SuperSampling::ONE;
     }

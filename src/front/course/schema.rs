@@ -7,18 +7,18 @@ use super::decode::Decode;
 use super::keyword::enumeration;
 use super::object::{KINDS, ObjectKind};
 use super::reader::{COMMENT, MATERIAL};
-use super::record::{FieldDeclaration, Record, Requirement};
+use super::record::{FieldDeclaration, FieldRequirement, Record};
 use super::settings::Scene;
 use super::snippet::example;
 use serde_json::{Map, Value as Json, json};
 
 /// The schemas of the records so far, by their names.
 #[derive(Default)]
-pub(super) struct Definitions {
+pub(super) struct SchemaDefinitions {
     schemas: Map<String, Json>,
 }
 
-impl Definitions {
+impl SchemaDefinitions {
     /// The example of a record whose schema is known.
     pub(super) fn example(&self, name: &str) -> Json {
         let schema = self.schemas.get(name).unwrap_or(&Json::Null);
@@ -29,7 +29,7 @@ impl Definitions {
 /// The JSON Schema (2020-12) of the format.
 #[must_use]
 pub fn schema() -> Json {
-    let mut definitions = Definitions::default();
+    let mut definitions = SchemaDefinitions::default();
     let root = Scene::schema(&mut definitions);
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -40,7 +40,7 @@ pub fn schema() -> Json {
 }
 
 /// A reference to the schema of a record. The schema is generated at the first reference.
-pub(super) fn record(record: &Record, definitions: &mut Definitions) -> Json {
+pub(super) fn record(record: &Record, definitions: &mut SchemaDefinitions) -> Json {
     let name = record.name.replace('`', "").replace(' ', "-");
     definition(&name, definitions, |definitions| {
         record_schema(record, definitions)
@@ -51,8 +51,8 @@ pub(super) fn record(record: &Record, definitions: &mut Definitions) -> Json {
 /// reference.
 fn definition(
     name: &str,
-    definitions: &mut Definitions,
-    generate: impl FnOnce(&mut Definitions) -> Json,
+    definitions: &mut SchemaDefinitions,
+    generate: impl FnOnce(&mut SchemaDefinitions) -> Json,
 ) -> Json {
     if !definitions.schemas.contains_key(name) {
         definitions.schemas.insert(name.to_owned(), Json::Null);
@@ -63,7 +63,7 @@ fn definition(
 }
 
 /// A reference to the schema of an object within another, whose material it has if it has none.
-pub(super) fn operand(definitions: &mut Definitions) -> Json {
+pub(super) fn operand(definitions: &mut SchemaDefinitions) -> Json {
     definition("operand", definitions, |definitions| {
         let mut choices = Vec::new();
         for ObjectKind { names, schema, .. } in KINDS {
@@ -105,7 +105,7 @@ fn choice(name: &str, schema: &Json) -> Json {
 
 /// A reference to the schema of an object. Without a material it must be of a type that needs none;
 /// the objects within it need theirs then.
-pub(super) fn object(definitions: &mut Definitions) -> Json {
+pub(super) fn object(definitions: &mut SchemaDefinitions) -> Json {
     let operand = operand(definitions);
     definition("object", definitions, |_| {
         let needs_none = |kind: &&ObjectKind| !kind.record.fields.iter().any(is_own_material);
@@ -128,10 +128,10 @@ pub(super) fn object(definitions: &mut Definitions) -> Json {
 
 /// Whether this is the required material of an object, or the object itself.
 fn is_own_material(field: &FieldDeclaration) -> bool {
-    field.name == MATERIAL && matches!(field.requirement, Requirement::Required)
+    field.name == MATERIAL && matches!(field.requirement, FieldRequirement::Required)
 }
 
-fn record_schema(record: &Record, definitions: &mut Definitions) -> Json {
+fn record_schema(record: &Record, definitions: &mut SchemaDefinitions) -> Json {
     // The properties.
     let mut properties = Map::new();
     for field in record.fields {
@@ -152,15 +152,15 @@ fn record_schema(record: &Record, definitions: &mut Definitions) -> Json {
             continue;
         }
         match (&field.requirement, field.spellings) {
-            (Requirement::Required, [[key]]) => required.push(*key),
-            (Requirement::Required, _) => rules.push(one_row(field)),
-            (Requirement::Unless(other), _) => {
+            (FieldRequirement::Required, [[key]]) => required.push(*key),
+            (FieldRequirement::Required, _) => rules.push(one_row(field)),
+            (FieldRequirement::Unless(other), _) => {
                 let other = record.fields.iter().find(|field| field.name == *other);
                 let either = [Some(field), other].into_iter().flatten().map(one_row);
                 rules.push(json!({ "anyOf": either.collect::<Vec<_>>() }));
             }
-            (Requirement::Optional | Requirement::Default(_), [[_]]) => {}
-            (Requirement::Optional | Requirement::Default(_), _) => {
+            (FieldRequirement::Optional | FieldRequirement::Default(_), [[_]]) => {}
+            (FieldRequirement::Optional | FieldRequirement::Default(_), _) => {
                 rules.push(json!({ "anyOf": [one_row(field), absent(field)] }))
             }
         }
@@ -199,7 +199,7 @@ fn record_schema(record: &Record, definitions: &mut Definitions) -> Json {
 /// Adds one property for each key. The description of other spellings names the canonical one.
 fn field_properties(
     field: &FieldDeclaration,
-    definitions: &mut Definitions,
+    definitions: &mut SchemaDefinitions,
     properties: &mut Map<String, Json>,
 ) {
     let value = (field.schema)(definitions);
@@ -224,13 +224,13 @@ fn field_properties(
             // Editors insert keys with a default when they complete an object, so only one key of
             // each field has it.
             match field.requirement {
-                Requirement::Default(default) if is_canonical => {
+                FieldRequirement::Default(default) if is_canonical => {
                     drop(property.insert("default".to_owned(), default()))
                 }
-                Requirement::Required
-                | Requirement::Optional
-                | Requirement::Unless(_)
-                | Requirement::Default(_) => {}
+                FieldRequirement::Required
+                | FieldRequirement::Optional
+                | FieldRequirement::Unless(_)
+                | FieldRequirement::Default(_) => {}
             }
             if !is_canonical {
                 property.insert("deprecated".to_owned(), json!(true));

@@ -1,7 +1,7 @@
 //! The top-level map of the file, and the settings in it.
 
 use super::camera::Camera;
-use super::decode::{Context, Decode, LazyList, Spanned};
+use super::decode::{Decode, DecodeContext, LazyList, Spanned};
 use super::environment::Environment;
 use super::keyword::{KeywordTable, keyword, keyword_schema};
 use super::light::Light;
@@ -9,14 +9,14 @@ use super::lower::Lowering;
 use super::number::{Count, Natural, NonNegative, Real, Stops, plain_number};
 use super::object::Object;
 use super::path_settings::PathParameters;
-use super::record::{FieldOutcome, keys, record};
+use super::record::{FieldResult, keys, record};
 use super::sampling::SuperSampling;
-use super::schema::Definitions;
+use super::schema::SchemaDefinitions;
 use super::value::{AnyScalar, Color, Point, Switch};
 use super::view_size::ViewSize;
 use rtc_color::Tone;
 use rtc_diag::{Severity, codes};
-use rtc_ir::{self as ir, EntityKind, Field};
+use rtc_ir::{self as ir, EntityField, EntityKind};
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
@@ -166,7 +166,7 @@ const NUMBERED: &[(u8, Mode)] = &[
 ];
 
 impl Decode for Mode {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         let parameters = plain_number(node, context);
         let numbered = NUMBERED
             .iter()
@@ -176,7 +176,7 @@ impl Decode for Mode {
             .or_else(|| keyword(node, MODES, context))
     }
 
-    fn schema(_: &mut Definitions) -> Json {
+    fn schema(_: &mut SchemaDefinitions) -> Json {
         let numbers: Vec<_> = NUMBERED
             .iter()
             .map(|(number, _)| json!({ "const": number, "deprecated": true }))
@@ -205,7 +205,7 @@ const SOFT_LIGHT_SAMPLES: u32 = 16;
 
 impl Lowering {
     /// Lowers the settings of the file.
-    pub(super) fn settings(&mut self, scene: &Scene, context: &mut Context<'_>) {
+    pub(super) fn settings(&mut self, scene: &Scene, context: &mut DecodeContext<'_>) {
         let Scene {
             mode,
             shadows,
@@ -239,27 +239,27 @@ impl Lowering {
             ..ir::Settings::default()
         };
         // Record the origin of each value.
-        self.record_span(EntityKind::Settings, 0, Field::Mode, mode.span);
-        self.record_span(EntityKind::Settings, 0, Field::Stereo, stereo.span);
+        self.record_span(EntityKind::Settings, 0, EntityField::Mode, mode.span);
+        self.record_span(EntityKind::Settings, 0, EntityField::Stereo, stereo.span);
         let background = scene.background.read().and_then(|color| color.span);
-        self.record_span(EntityKind::Settings, 0, Field::Background, background);
-        self.record_span(EntityKind::Settings, 0, Field::MaxDepth, depth.span);
+        self.record_span(EntityKind::Settings, 0, EntityField::Background, background);
+        self.record_span(EntityKind::Settings, 0, EntityField::MaxDepth, depth.span);
         let factor = sampling.value.factor_span.or(sampling.span);
-        self.record_span(EntityKind::Settings, 0, Field::Supersampling, factor);
+        self.record_span(EntityKind::Settings, 0, EntityField::Supersampling, factor);
         self.record_span(
             EntityKind::Settings,
             0,
-            Field::LightSamples,
+            EntityField::LightSamples,
             light_samples.span,
         );
     }
 
     /// Applies `SoftShadows`, and sets the default number of light samples if there are soft
     /// lights. Call it after the lights are lowered.
-    pub(super) fn resolve_soft_lights(&mut self, scene: &Scene, context: &mut Context<'_>) {
+    pub(super) fn resolve_soft_lights(&mut self, scene: &Scene, context: &mut DecodeContext<'_>) {
         let points = || self.scene.lights.iter().filter_map(ir::Light::point);
         let soft = points().any(|light| light.radius > 0.0);
-        if let FieldOutcome::Read(switch) = &scene.soft_shadows {
+        if let FieldResult::Read(switch) = &scene.soft_shadows {
             report_missing_shadows(switch, &scene.shadows, context);
             if !switch.value.0 {
                 self.remove_light_radii();
@@ -309,10 +309,10 @@ impl Lowering {
     fn mode(
         &mut self,
         mode: Mode,
-        gooch: &FieldOutcome<Spanned<Gooch>>,
-        context: &mut Context<'_>,
+        gooch: &FieldResult<Spanned<Gooch>>,
+        context: &mut DecodeContext<'_>,
     ) -> ir::Mode {
-        let parameters = if let FieldOutcome::Read(gooch) = gooch {
+        let parameters = if let FieldResult::Read(gooch) = gooch {
             Some(gooch)
         } else {
             None
@@ -336,10 +336,10 @@ impl Lowering {
 
     fn gooch(&mut self, gooch: &Gooch) -> ir::Gooch {
         let Gooch { b, y, alpha, beta } = gooch;
-        self.record_span(EntityKind::Settings, 0, Field::GoochB, b.span);
-        self.record_span(EntityKind::Settings, 0, Field::GoochY, y.span);
-        self.record_span(EntityKind::Settings, 0, Field::GoochAlpha, alpha.span);
-        self.record_span(EntityKind::Settings, 0, Field::GoochBeta, beta.span);
+        self.record_span(EntityKind::Settings, 0, EntityField::GoochB, b.span);
+        self.record_span(EntityKind::Settings, 0, EntityField::GoochY, y.span);
+        self.record_span(EntityKind::Settings, 0, EntityField::GoochAlpha, alpha.span);
+        self.record_span(EntityKind::Settings, 0, EntityField::GoochBeta, beta.span);
         ir::Gooch {
             b: b.value.0,
             y: y.value.0,
@@ -350,7 +350,7 @@ impl Lowering {
 }
 
 /// Reports settings without effect in render modes that show only the first hit.
-fn report_unused(scene: &Scene, context: &mut Context<'_>) {
+fn report_unused(scene: &Scene, context: &mut DecodeContext<'_>) {
     let Scene {
         mode,
         shadows,
@@ -407,7 +407,7 @@ fn report_unused(scene: &Scene, context: &mut Context<'_>) {
 fn report_missing_shadows(
     switch: &Spanned<Switch>,
     shadows: &Spanned<bool>,
-    context: &mut Context<'_>,
+    context: &mut DecodeContext<'_>,
 ) {
     if let (Some(span), None) = (switch.span, shadows.span) {
         let message = || "`SoftShadows` without `Shadows` casts no shadows".to_owned();
@@ -420,11 +420,11 @@ fn report_missing_shadows(
 }
 
 /// The maximal recursion depth, which some files only switch on or off.
-fn max_depth(scene: &Scene, context: &mut Context<'_>) -> u32 {
+fn max_depth(scene: &Scene, context: &mut DecodeContext<'_>) -> u32 {
     let Scene {
         depth, reflections, ..
     } = scene;
-    let FieldOutcome::Read(Spanned {
+    let FieldResult::Read(Spanned {
         value: reflect,
         span: Some(span),
     }) = reflections

@@ -3,8 +3,8 @@
 
 use super::object::KINDS;
 use super::reader::MATERIAL;
-use super::record::{FieldDeclaration, Record, Requirement};
-use super::schema::Definitions;
+use super::record::{FieldDeclaration, FieldRequirement, Record};
+use super::schema::SchemaDefinitions;
 use super::standard;
 use serde_json::{Map, Value as Json, json};
 
@@ -36,7 +36,7 @@ const CORNERS: &[[[i8; 3]; 6]] = &[
 ];
 
 /// The example of a record.
-pub(super) fn example(record: &Record, definitions: &mut Definitions) -> Json {
+pub(super) fn example(record: &Record, definitions: &mut SchemaDefinitions) -> Json {
     let variant = record.variants.first().copied().unwrap_or_default();
     let in_variant = |field: &FieldDeclaration| {
         let mut variants = record.variants.iter();
@@ -44,10 +44,10 @@ pub(super) fn example(record: &Record, definitions: &mut Definitions) -> Json {
     };
     let is_wanted = |field: &&FieldDeclaration| match field.requirement {
         _ if in_variant(field) => variant.contains(&field.name),
-        Requirement::Required | Requirement::Unless(_) => true,
+        FieldRequirement::Required | FieldRequirement::Unless(_) => true,
         // Without one a mesh is grey, with a warning.
-        Requirement::Optional => record.name == "mesh" && field.name == MATERIAL,
-        Requirement::Default(_) => false,
+        FieldRequirement::Optional => record.name == "mesh" && field.name == MATERIAL,
+        FieldRequirement::Default(_) => false,
     };
     let mut example = Map::new();
     for field in record.fields.iter().filter(is_wanted) {
@@ -65,7 +65,7 @@ fn value(
     record: &Record,
     field: &FieldDeclaration,
     [at, count]: [usize; 2],
-    definitions: &mut Definitions,
+    definitions: &mut SchemaDefinitions,
 ) -> Json {
     let mut examples = EXAMPLES.iter();
     let own = examples.find(|(name, key, _)| *name == record.name && *key == field.name);
@@ -92,7 +92,7 @@ fn value(
 }
 
 /// The word of a key `type`.
-fn kind(record: &Record, field: &FieldDeclaration, definitions: &mut Definitions) -> Json {
+fn kind(record: &Record, field: &FieldDeclaration, definitions: &mut SchemaDefinitions) -> Json {
     let mut kinds = KINDS.iter();
     if let Some(kind) = kinds.find(|kind| kind.record.name == record.name) {
         return json!(kind.names[0]);
@@ -104,7 +104,7 @@ fn kind(record: &Record, field: &FieldDeclaration, definitions: &mut Definitions
 }
 
 /// A value of a schema.
-fn of_schema(schema: &Json, definitions: &mut Definitions) -> Json {
+fn of_schema(schema: &Json, definitions: &mut SchemaDefinitions) -> Json {
     if let Some(target) = schema["$ref"].as_str() {
         let name = target.rsplit('/').next().unwrap_or_default();
         return match name {

@@ -2,45 +2,45 @@
 
 use rtc_diag::{Code, Diagnostic, Severity, clip, codes};
 use rtc_source::Span;
-use rtc_source::tree::yaml::{MAX_DEPTH, Mistake, Separator};
+use rtc_source::tree::yaml::{MAX_DEPTH, MissingSeparator, YamlError};
 
 /// The diagnostic for a syntax error.
-pub(super) fn diagnostic(mistake: Mistake<'_>) -> Diagnostic {
+pub(super) fn diagnostic(mistake: YamlError<'_>) -> Diagnostic {
     // Each kind of syntax error has its code and its hint.
     match mistake {
-        Mistake::Utf16 { span } => utf16(span),
-        Mistake::NotUtf8 { byte, span } => not_utf8(byte, span),
-        Mistake::Control { character, span } => control(character, span),
-        Mistake::TooLong { span } => {
+        YamlError::Utf16 { span } => utf16(span),
+        YamlError::NotUtf8 { byte, span } => not_utf8(byte, span),
+        YamlError::Control { character, span } => control(character, span),
+        YamlError::TooLong { span } => {
             let message = "a scalar is longer than 1 MiB";
             at_span(&codes::TOO_LONG, message, span, "starts here").hint("is this a scene file?")
         }
-        Mistake::Empty { span } => empty(span),
-        Mistake::TwoDocuments { span } => {
+        YamlError::Empty { span } => empty(span),
+        YamlError::TwoDocuments { span } => {
             let message = "a second document starts in this file";
             at_span(&codes::TWO_DOCUMENTS, message, span, "the second document")
                 .hint("keep one scene per file, or remove the `---`")
         }
-        Mistake::Tag { span } => {
+        YamlError::Tag { span } => {
             let message = "a tag has no meaning in a scene";
             at_span(&codes::TAG, message, span, "read as if it had no tag")
         }
-        Mistake::SelfAlias { span, anchor } => {
+        YamlError::SelfAlias { span, anchor } => {
             let message = "an alias refers to a node that contains it";
             at_span(&codes::SELF_ALIAS, message, span, "expands without end")
                 .also(anchor, "the anchor of that node")
         }
-        Mistake::TooDeep { span } => {
+        YamlError::TooDeep { span } => {
             let message = format!("lists and maps are nested more than {MAX_DEPTH} deep");
             at_span(&codes::NESTED_TOO_DEEP, message, span, "too deep here")
                 .hint("a scene needs at most 6 levels")
         }
-        Mistake::Unclosed {
+        YamlError::Unclosed {
             bracket,
             runs_into,
             comment,
         } => unclosed(bracket, runs_into, comment),
-        Mistake::DuplicateKey {
+        YamlError::DuplicateKey {
             key,
             first,
             second,
@@ -50,7 +50,7 @@ pub(super) fn diagnostic(mistake: Mistake<'_>) -> Diagnostic {
             Some(separator) => new_item(key, first, second, separator),
             None => duplicate_key(key, first, second, is_same),
         },
-        Mistake::Syntax {
+        YamlError::Syntax {
             message,
             label,
             hint,
@@ -119,10 +119,10 @@ fn not_utf8(byte: u8, span: Span) -> Diagnostic {
 }
 
 /// The diagnostic for a key that repeats because the separator between two list items is missing.
-fn new_item(key: &str, first: Span, second: Span, separator: Separator) -> Diagnostic {
+fn new_item(key: &str, first: Span, second: Span, separator: MissingSeparator) -> Diagnostic {
     let what = match separator {
-        Separator::Dash(_) => "a dash",
-        Separator::Braces => "`}, {`",
+        MissingSeparator::Dash(_) => "a dash",
+        MissingSeparator::Braces => "`}, {`",
     };
     let message = format!(
         "the key `{}` occurs twice: {what} is missing before the second",
@@ -136,10 +136,10 @@ fn new_item(key: &str, first: Span, second: Span, separator: Separator) -> Diagn
     )
     .also(first, "the item before it");
     match separator {
-        Separator::Dash(blanks) => {
+        MissingSeparator::Dash(blanks) => {
             diagnostic.guess("each item of a list begins with a dash", blanks, "- ")
         }
-        Separator::Braces => diagnostic.hint("each item of a list has its own braces"),
+        MissingSeparator::Braces => diagnostic.hint("each item of a list has its own braces"),
     }
 }
 

@@ -1,9 +1,9 @@
 //! The other value types of the format: vectors, colours, booleans, switches and strings.
 
-use super::decode::{Context, Decode, describe};
+use super::decode::{Decode, DecodeContext, describe};
 use super::keyword::{KeywordTable, keyword_schema};
 use super::number::{is_number, json_number, number, plain_number, radians};
-use super::schema::Definitions;
+use super::schema::SchemaDefinitions;
 use super::suggestion::{as_list, decimal_commas};
 use rtc_diag::clip;
 use rtc_diag::codes;
@@ -15,8 +15,8 @@ use serde_json::{Value as Json, json};
 pub(super) fn tuple<T, const N: usize>(
     node: NodeId,
     what: &str,
-    context: &mut Context<'_>,
-    mut item: impl FnMut(NodeId, &mut Context<'_>) -> Option<T>,
+    context: &mut DecodeContext<'_>,
+    mut item: impl FnMut(NodeId, &mut DecodeContext<'_>) -> Option<T>,
 ) -> Option<[T; N]> {
     let tree = context.tree;
     if !tree.is_list(node) {
@@ -38,7 +38,7 @@ pub(super) fn tuple<T, const N: usize>(
 }
 
 /// Reports a list that has `count` items instead of `expected`.
-fn wrong_length(node: NodeId, count: usize, expected: usize, context: &mut Context<'_>) {
+fn wrong_length(node: NodeId, count: usize, expected: usize, context: &mut DecodeContext<'_>) {
     let (tree, key) = (context.tree, context.key);
     let span = tree.span(node);
     let found = if count > expected {
@@ -76,11 +76,11 @@ macro_rules! triple {
         impl Decode for $name {
             const IS_LIST: bool = true;
 
-            fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+            fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
                 tuple(node, "a list of three numbers", context, $decode).map(Self)
             }
 
-            fn schema(_: &mut Definitions) -> Json {
+            fn schema(_: &mut SchemaDefinitions) -> Json {
                 json!({ "type": "array", "items": $item, "minItems": 3, "maxItems": 3 })
             }
 
@@ -127,7 +127,7 @@ macro_rules! spread {
         impl Decode for $name {
             const IS_LIST: bool = true;
 
-            fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+            fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
                 const WHAT: &str = "a number or a list of three numbers";
                 match context.tree.shape(node) {
                     NodeContent::List => {
@@ -140,7 +140,7 @@ macro_rules! spread {
                 }
             }
 
-            fn schema(_: &mut Definitions) -> Json {
+            fn schema(_: &mut SchemaDefinitions) -> Json {
                 let number = json!($item);
                 let mut list = json!({ "type": "array", "items": number });
                 (list["minItems"], list["maxItems"]) = (json!(3), json!(3));
@@ -171,7 +171,7 @@ pub(super) struct Uv(pub(super) [f64; 2]);
 impl Decode for Uv {
     const IS_LIST: bool = true;
 
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         const WHAT: &str = "a list of two numbers";
         tuple(node, WHAT, context, |node, context| {
             number(node, WHAT, context)
@@ -179,7 +179,7 @@ impl Decode for Uv {
         .map(Self)
     }
 
-    fn schema(_: &mut Definitions) -> Json {
+    fn schema(_: &mut SchemaDefinitions) -> Json {
         json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 })
     }
 }
@@ -188,7 +188,7 @@ impl Decode for Uv {
 const NUMBERED: &[(u8, &str, bool)] = &[(0, "false", false), (1, "true", true)];
 
 impl Decode for bool {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         // A number instead of a boolean.
         let value = plain_number(node, context);
         if let Some((_, scalar, boolean)) = NUMBERED
@@ -237,7 +237,7 @@ impl Decode for bool {
         None
     }
 
-    fn schema(_: &mut Definitions) -> Json {
+    fn schema(_: &mut SchemaDefinitions) -> Json {
         let numbers: Vec<_> = NUMBERED
             .iter()
             .map(|(number, ..)| json!({ "const": number, "deprecated": true }))
@@ -263,7 +263,7 @@ pub(super) struct Switch(pub(super) bool);
 const SWITCH_KEYWORDS: KeywordTable<bool> = &[("on", true, "Yes."), ("off", false, "No.")];
 
 impl Decode for Switch {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         let written = context.tree.text(node).unwrap_or_default();
         let known = SWITCH_KEYWORDS
             .iter()
@@ -274,7 +274,7 @@ impl Decode for Switch {
         }
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         let mut schema = keyword_schema(SWITCH_KEYWORDS);
         let variants = schema["anyOf"].as_array_mut();
         variants
@@ -289,14 +289,14 @@ impl Decode for Switch {
 pub(super) struct AnyScalar;
 
 impl Decode for AnyScalar {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         match context.tree.shape(node) {
             NodeContent::Word(_) | NodeContent::Text(_) => Some(Self),
             NodeContent::List | NodeContent::Map => context.expected(node, "text"),
         }
     }
 
-    fn schema(_: &mut Definitions) -> Json {
+    fn schema(_: &mut SchemaDefinitions) -> Json {
         json!({ "type": ["string", "number", "boolean", "null"] })
     }
 }
@@ -306,14 +306,14 @@ impl Decode for AnyScalar {
 pub(super) struct DisplayName(pub(super) String);
 
 impl Decode for DisplayName {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         match context.tree.shape(node) {
             NodeContent::Word(text) | NodeContent::Text(text) => Some(Self(text.to_owned())),
             NodeContent::List | NodeContent::Map => context.expected(node, "text"),
         }
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         AnyScalar::schema(definitions)
     }
 }
@@ -323,7 +323,7 @@ impl Decode for DisplayName {
 pub(super) struct FileName(pub(super) String);
 
 impl Decode for FileName {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         match context.tree.shape(node) {
             NodeContent::Word(scalar) if is_string(scalar) => Some(Self(scalar.to_owned())),
             NodeContent::Text(text) if !text.is_empty() => Some(Self(text.to_owned())),
@@ -333,7 +333,7 @@ impl Decode for FileName {
         }
     }
 
-    fn schema(_: &mut Definitions) -> Json {
+    fn schema(_: &mut SchemaDefinitions) -> Json {
         json!({ "title": FILE, "type": "string", "minLength": 1 })
     }
 }

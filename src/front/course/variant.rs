@@ -1,7 +1,7 @@
 //! The variants of a record: sets of fields, of which exactly one must be present.
 
-use super::decode::Context;
-use super::record::{FieldDeclaration, Record, Requirement};
+use super::decode::DecodeContext;
+use super::record::{FieldDeclaration, FieldRequirement, Record};
 use super::spelling::quoted_list;
 use rtc_diag::{Severity, codes};
 use rtc_source::Span;
@@ -16,7 +16,7 @@ pub(super) fn check(
     head: Span,
     is_there: impl Fn(usize) -> bool,
     first_typo: usize,
-    context: &mut Context<'_>,
+    context: &mut DecodeContext<'_>,
 ) -> bool {
     let Record {
         name,
@@ -31,9 +31,9 @@ pub(super) fn check(
     // A required field counts as present: if it is missing, that was reported. A field with a
     // default belongs to no variant.
     let present = |at: usize, field: &FieldDeclaration| match field.requirement {
-        Requirement::Required => true,
-        Requirement::Optional | Requirement::Unless(_) => is_there(at),
-        Requirement::Default(_) => false,
+        FieldRequirement::Required => true,
+        FieldRequirement::Optional | FieldRequirement::Unless(_) => is_there(at),
+        FieldRequirement::Default(_) => false,
     };
     let in_variants =
         |field: &FieldDeclaration| variants.iter().any(|variant| variant.contains(&field.name));
@@ -79,7 +79,7 @@ fn report(
     head: Span,
     present: &[&str],
     first_typo: usize,
-    context: &mut Context<'_>,
+    context: &mut DecodeContext<'_>,
 ) {
     let Record { name, variants, .. } = record;
     // The variants are in conflict, or none is complete.

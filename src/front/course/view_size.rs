@@ -1,10 +1,10 @@
 //! The size of the image in pixels, in all notations.
 
-use super::decode::{Context, Decode, Spanned};
+use super::decode::{Decode, DecodeContext, Spanned};
 use super::lower::Lowering;
 use super::number::{PixelCount, json_number, plain_number};
-use super::record::{FieldOutcome, record};
-use super::schema::Definitions;
+use super::record::{FieldResult, record};
+use super::schema::SchemaDefinitions;
 use super::settings::Scene;
 use super::value::tuple;
 use rtc_diag::{Severity, codes};
@@ -44,7 +44,7 @@ pub(super) struct ViewSize(pub(super) [u32; 2]);
 impl Decode for ViewSize {
     const IS_LIST: bool = true;
 
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         let tree = context.tree;
         if plain_number(node, context).is_some() {
             return square_size(node, context);
@@ -74,7 +74,7 @@ impl Decode for ViewSize {
         }
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         let side = PixelCount::schema(definitions);
         let one = [SizeMap::schema(definitions)];
         let two = [Width::schema(definitions), Height::schema(definitions)];
@@ -94,7 +94,7 @@ impl Decode for ViewSize {
 }
 
 /// One number for both sides.
-fn square_size(node: NodeId, context: &mut Context<'_>) -> Option<ViewSize> {
+fn square_size(node: NodeId, context: &mut DecodeContext<'_>) -> Option<ViewSize> {
     PixelCount::decode(node, context).map(|side| ViewSize([side.0; 2]))
 }
 
@@ -108,7 +108,7 @@ fn size_of_map(
 
 impl Lowering {
     /// Reports sizes without effect. Call it after the camera is lowered.
-    pub(super) fn report_unused_sizes(&self, scene: &Scene, context: &mut Context<'_>) {
+    pub(super) fn report_unused_sizes(&self, scene: &Scene, context: &mut DecodeContext<'_>) {
         let Scene {
             camera,
             image_size,
@@ -118,8 +118,8 @@ impl Lowering {
         // A size beside a `Camera`.
         let [width, height] = self.scene.camera.size;
         if let (
-            FieldOutcome::Read(_),
-            FieldOutcome::Read(Spanned {
+            FieldResult::Read(_),
+            FieldResult::Read(Spanned {
                 value,
                 span: Some(span),
             }),
@@ -138,7 +138,7 @@ impl Lowering {
                 d.at(*span, "no effect").severity(severity(is_same))
             });
         }
-        if let FieldOutcome::Read(Spanned {
+        if let FieldResult::Read(Spanned {
             value,
             span: Some(span),
         }) = aspect_ratio

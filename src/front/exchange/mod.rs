@@ -17,7 +17,7 @@ use rtc_source::Span;
 
 /// A string of a text and its span.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Text {
+pub(crate) struct SpannedText {
     pub(crate) text: String,
     pub(crate) span: Span,
 }

@@ -1,6 +1,6 @@
 //! Covers for the backs of flat shapes that have one side only.
 
-use super::transform::Transform;
+use super::transform::AffineTransform;
 use rtc_ir::Mesh;
 use rtc_math::{Vec3, unit};
 use std::collections::BTreeMap;
@@ -10,8 +10,8 @@ const DISTANCE: f64 = 1e-5;
 
 /// The vector from a flat shape to the cover of its back: the unit normal and the extent of the
 /// shape are in its own coordinates. `None` if the map flattens it.
-pub(crate) fn behind(normal: Vec3, extent: f64, to_world: &Transform) -> Option<Vec3> {
-    let Transform([x, y, z, _]) = to_world;
+pub(crate) fn behind(normal: Vec3, extent: f64, to_world: &AffineTransform) -> Option<Vec3> {
+    let AffineTransform([x, y, z, _]) = to_world;
     // The inverse transpose of the transform, up to a factor above 0.
     let rows = [y.cross(*z), z.cross(*x), x.cross(*y)];
     let turned = rows[0] * normal.x + rows[1] * normal.y + rows[2] * normal.z;
@@ -79,8 +79,8 @@ mod tests {
     #[test]
     fn a_cover_is_behind_a_mirrored_shape_too() {
         let (normal, extent) = flat_mesh(&tessellate::rectangle()).unwrap();
-        let mirror = Transform::scale([-1.0, 1.0, 1.0]);
-        for map in [Transform::IDENTITY, mirror] {
+        let mirror = AffineTransform::scale([-1.0, 1.0, 1.0]);
+        for map in [AffineTransform::IDENTITY, mirror] {
             let back = behind(normal, extent, &map).unwrap();
             assert!(back.z < 0.0 && back.z > -1e-4, "{back:?}");
         }

@@ -1,12 +1,12 @@
 //! Spheres and discs under affine maps.
 
-use super::transform::Transform;
+use super::transform::AffineTransform;
 use rtc_ir::{Disc, Ellipsoid, Shape, Sphere};
 use rtc_math::{Vec3, unit};
 
 /// A sphere, or the ellipsoid that it becomes.
-pub(crate) fn sphere(radius: f64, to_world: &Transform) -> Shape {
-    let Transform([x, y, z, center]) = to_world;
+pub(crate) fn sphere(radius: f64, to_world: &AffineTransform) -> Shape {
+    let AffineTransform([x, y, z, center]) = to_world;
     match to_world.similarity() {
         Some(scale) => {
             // The rows of a turn are the axes; of a mirrored one the texture is mirrored.
@@ -30,8 +30,8 @@ pub(crate) fn sphere(radius: f64, to_world: &Transform) -> Shape {
 }
 
 /// The disc that a transform makes; `None` if it is an ellipse.
-pub(crate) fn disc(height: f64, radius: f64, to_world: &Transform) -> Option<Disc> {
-    let Transform([x, y, ..]) = to_world;
+pub(crate) fn disc(height: f64, radius: f64, to_world: &AffineTransform) -> Option<Disc> {
+    let AffineTransform([x, y, ..]) = to_world;
     let (a, b) = (x.length(), y.length());
     let is_round = (a - b).abs() <= 1e-6 * a.max(b) && x.dot(*y).abs() <= 1e-6 * a * b;
     let normal = unit(x.cross(*y)).filter(|_| is_round)?;

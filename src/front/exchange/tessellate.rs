@@ -1,8 +1,8 @@
 //! Tessellations of shapes of other renderers, in their own coordinates.
 
-use super::transform::Transform;
-use rtc_ir::{Column, Mesh};
-use rtc_math::{Basis, Vec3, cos, sin, unit};
+use super::transform::AffineTransform;
+use rtc_ir::{Mesh, VertexColumn};
+use rtc_math::{OrthonormalBasis, Vec3, cos, sin, unit};
 use std::f64::consts::{PI, TAU};
 
 /// The sides of round meshes.
@@ -39,9 +39,9 @@ impl TriangleBuilder {
 
     fn mesh(self) -> Mesh {
         Mesh {
-            positions: Column::rounded(self.positions),
-            normals: Column::rounded(self.normals),
-            uvs: Column::rounded(self.uvs),
+            positions: VertexColumn::rounded(self.positions),
+            normals: VertexColumn::rounded(self.normals),
+            uvs: VertexColumn::rounded(self.uvs),
             triangles: self.triangles.into(),
             ..Mesh::default()
         }
@@ -167,14 +167,14 @@ pub(crate) fn revolved(profile: &[(Vec3, Vec3)], angle: f64) -> Mesh {
 }
 
 /// The map that takes [`cylinder`] to the one from `p0` to `p1`; `None` if they coincide.
-pub(crate) fn along(p0: Vec3, p1: Vec3, radius: f64) -> Option<Transform> {
+pub(crate) fn along(p0: Vec3, p1: Vec3, radius: f64) -> Option<AffineTransform> {
     let axis = unit(p1 - p0)?;
-    let Basis {
+    let OrthonormalBasis {
         tangent,
         bitangent,
         normal: _,
-    } = Basis::around(axis);
-    Some(Transform([
+    } = OrthonormalBasis::around(axis);
+    Some(AffineTransform([
         tangent * radius,
         bitangent * radius,
         p1 - p0,

@@ -1,6 +1,6 @@
 //! The textures of images: one for each way in which an image is sampled.
 
-use rtc_ir::{EntityKind, Field, ValuePath};
+use rtc_ir::{EntityField, EntityKind, ValuePath};
 use rtc_ir::{Sampled, Scene, SourceSpans, Texture, TextureId};
 use rtc_source::Span;
 use std::collections::BTreeMap;
@@ -26,7 +26,7 @@ impl SampledTextures {
         known.push((sampled.clone(), id));
         scene.textures.push(Texture::Sampled(sampled));
         spans.record(
-            ValuePath::new(EntityKind::Texture, index, Field::Whole),
+            ValuePath::new(EntityKind::Texture, index, EntityField::Whole),
             span,
         );
         id

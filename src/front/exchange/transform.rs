@@ -5,15 +5,15 @@ use rtc_math::{Vec3, cos, rotated_about, sin, unit};
 
 /// An affine map by its columns: the images of the three axes, and the image of the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Transform(pub(crate) [Vec3; 4]);
+pub(crate) struct AffineTransform(pub(crate) [Vec3; 4]);
 
-impl Default for Transform {
+impl Default for AffineTransform {
     fn default() -> Self {
         Self::IDENTITY
     }
 }
 
-impl Transform {
+impl AffineTransform {
     pub(crate) const IDENTITY: Self = Self([Vec3::X, Vec3::Y, Vec3::Z, Vec3::ZERO]);
 
     pub(crate) fn translation(by: [f64; 3]) -> Self {
@@ -143,32 +143,33 @@ mod tests {
 
     #[test]
     fn transforms_compose_from_the_first_to_the_last() {
-        let first = Transform::translation([1.0, 0.0, 0.0]);
-        let second = Transform::rotation([0.0, 0.0, 1.0], 90.0).unwrap();
+        let first = AffineTransform::translation([1.0, 0.0, 0.0]);
+        let second = AffineTransform::rotation([0.0, 0.0, 1.0], 90.0).unwrap();
         let both = second.after(&first);
         assert!(both.point(Vec3::ZERO).distance(Vec3::Y) < 1e-15);
-        assert_eq!(Transform::scale([2.0; 3]).similarity(), Some(2.0));
-        assert_eq!(Transform::scale([2.0, 1.0, 1.0]).similarity(), None);
+        assert_eq!(AffineTransform::scale([2.0; 3]).similarity(), Some(2.0));
+        assert_eq!(AffineTransform::scale([2.0, 1.0, 1.0]).similarity(), None);
     }
 
     #[test]
     fn an_inverse_undoes_its_map() {
-        let turned = Transform::rotation([1.0, 2.0, 3.0], 40.0).unwrap();
-        let map = Transform::translation([1.0, 2.0, 3.0])
+        let turned = AffineTransform::rotation([1.0, 2.0, 3.0], 40.0).unwrap();
+        let map = AffineTransform::translation([1.0, 2.0, 3.0])
             .after(&turned)
-            .after(&Transform::scale([-1.0, 2.0, 0.5]));
+            .after(&AffineTransform::scale([-1.0, 2.0, 0.5]));
         let point = Vec3::new(0.3, -4.0, 7.0);
         let back = map.inverse().unwrap().point(map.point(point));
         assert!(back.distance(point) < 1e-12, "{back}");
         assert!((map.determinant() + 1.0).abs() < 1e-12);
-        assert!(Transform::scale([1.0, 0.0, 1.0]).inverse().is_none());
+        assert!(AffineTransform::scale([1.0, 0.0, 1.0]).inverse().is_none());
     }
 
     #[test]
     fn a_sensor_looks_along_z_with_x_to_the_left() {
-        let camera = Transform::look_at([0.0, 0.0, 5.0], [0.0; 3], Some([0.0, 1.0, 0.0])).unwrap();
+        let camera =
+            AffineTransform::look_at([0.0, 0.0, 5.0], [0.0; 3], Some([0.0, 1.0, 0.0])).unwrap();
         assert_eq!(camera.vector(Vec3::Z), Vec3::NEG_Z);
         assert_eq!(camera.vector(Vec3::X), Vec3::NEG_X);
-        assert!(Transform::look_at([0.0; 3], [0.0; 3], None).is_none());
+        assert!(AffineTransform::look_at([0.0; 3], [0.0; 3], None).is_none());
     }
 }

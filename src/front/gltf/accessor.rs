@@ -1,9 +1,9 @@
 //! Accessors: typed elements of buffer views, and whether they are within them.
 
-use super::buffer::{Purpose, Purposes};
+use super::buffer::{BufferViewUsage, BufferViewUsages};
 use super::document::Document;
-use super::field::Fields;
-use super::layout::{Component, ElementLayout};
+use super::field::ObjectFields;
+use super::layout::{ComponentType, ElementLayout};
 use super::report::AssetReport;
 use rtc_diag::codes;
 use rtc_source::tree::{NodeId, NodeKind};
@@ -24,22 +24,22 @@ pub(super) struct Accessor {
     pub(super) layout: Option<ElementLayout>,
     pub(super) min: Option<Vec<f64>>,
     pub(super) max: Option<Vec<f64>>,
-    pub(super) sparse: Option<Sparse>,
+    pub(super) sparse: Option<SparseAccessor>,
 }
 
 /// Elements that replace some of an accessor's.
 #[derive(Debug)]
-pub(super) struct Sparse {
+pub(super) struct SparseAccessor {
     pub(super) at: NodeId,
     pub(super) count: usize,
     /// The view of the indices, the offset in it, and their type.
-    pub(super) indices: (usize, usize, Component),
+    pub(super) indices: (usize, usize, ComponentType),
     /// The view of the elements and the offset in it.
     pub(super) values: (usize, usize),
 }
 
 impl Accessor {
-    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+    pub(super) fn read(fields: ObjectFields<'_, '_>) -> Self {
         let layout = layout(fields);
         let bound = |key| {
             fields
@@ -64,8 +64,8 @@ impl Accessor {
     }
 }
 
-fn layout(fields: Fields<'_, '_>) -> Option<ElementLayout> {
-    let component = Component::from_code(fields.integer("componentType")?)?;
+fn layout(fields: ObjectFields<'_, '_>) -> Option<ElementLayout> {
+    let component = ComponentType::from_code(fields.integer("componentType")?)?;
     let (columns, rows) = match fields.text("type")?.as_str() {
         "SCALAR" => (1, 1),
         "VEC2" => (1, 2),
@@ -84,11 +84,11 @@ fn layout(fields: Fields<'_, '_>) -> Option<ElementLayout> {
     })
 }
 
-fn sparse(fields: Fields<'_, '_>) -> Option<Sparse> {
+fn sparse(fields: ObjectFields<'_, '_>) -> Option<SparseAccessor> {
     let (indices, values) = (fields.object("indices")?, fields.object("values")?);
-    let component = Component::from_code(indices.integer("componentType")?)
+    let component = ComponentType::from_code(indices.integer("componentType")?)
         .filter(|component| component.is_index())?;
-    Some(Sparse {
+    Some(SparseAccessor {
         at: fields.at,
         count: fields.index("count").filter(|count| *count > 0)?,
         indices: (
@@ -117,7 +117,11 @@ pub(super) fn find<'d>(
 }
 
 /// Checks each accessor for itself and against its views.
-pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut AssetReport<'_, '_>) {
+pub(super) fn check(
+    doc: &Document<'_>,
+    purposes: &mut BufferViewUsages,
+    report: &mut AssetReport<'_, '_>,
+) {
     for accessor in &doc.accessors {
         depends(accessor, report);
         let Some(layout) = accessor.layout else {
@@ -176,7 +180,7 @@ fn depends(accessor: &Accessor, report: &mut AssetReport<'_, '_>) {
 
 /// The checks that need no buffer view.
 fn alone(accessor: &Accessor, layout: ElementLayout, report: &mut AssetReport<'_, '_>) {
-    let fields = Fields::new(report.json, accessor.at);
+    let fields = ObjectFields::new(report.json, accessor.at);
     if layout.columns > 1 && accessor.view.is_some() && !accessor.offset.is_multiple_of(4) {
         let at = report.json.at_or(accessor.at, "byteOffset");
         let message = format!(
@@ -186,7 +190,7 @@ fn alone(accessor: &Accessor, layout: ElementLayout, report: &mut AssetReport<'_
         let alias = "ACCESSOR_MATRIX_ALIGNMENT";
         report.repair(&codes::GLTF_ACCESSOR, alias, at, &message, UNALIGNED);
     }
-    if layout.normalized && matches!(layout.component, Component::F32 | Component::U32) {
+    if layout.normalized && matches!(layout.component, ComponentType::F32 | ComponentType::U32) {
         let at = report.json.at_or(accessor.at, "normalized");
         let message = format!(
             "{} cannot be normalised; only bytes and shorts can",
@@ -219,7 +223,7 @@ fn bound(list: NodeId, key: &str, layout: ElementLayout, report: &mut AssetRepor
     }
     // A bound has one number per component.
     let items: Vec<NodeId> = report.json.items(list).collect();
-    if items.is_empty() && layout.component == Component::F32 {
+    if items.is_empty() && layout.component == ComponentType::F32 {
         return report.repair(
             &codes::GLTF_EMPTY,
             "EMPTY_ENTITY",
@@ -324,9 +328,9 @@ fn fits(
 
 fn check_sparse(
     doc: &Document<'_>,
-    sparse: &Sparse,
+    sparse: &SparseAccessor,
     (layout, count): (ElementLayout, usize),
-    purposes: &mut Purposes,
+    purposes: &mut BufferViewUsages,
     report: &mut AssetReport<'_, '_>,
 ) {
     // No more elements are replaced than there are.
@@ -350,7 +354,7 @@ fn check_sparse(
     );
     for (part, view) in [(indices, sparse.indices.0), (values, sparse.values.0)] {
         let at = report.json.at_or(part, "bufferView");
-        purposes.set(Some(view), Purpose::Other, at, report);
+        purposes.set(Some(view), BufferViewUsage::Other, at, report);
         if doc
             .views
             .get(view)

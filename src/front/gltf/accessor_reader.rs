@@ -3,11 +3,11 @@
 
 use super::accessor::Accessor;
 use super::document::Document;
-use super::layout::{Component, ElementLayout};
-use rtc_ir::Column;
+use super::layout::{ComponentType, ElementLayout};
+use rtc_ir::VertexColumn;
 
 /// The components of an element; a matrix has the most.
-pub(super) type Element = [f64; 16];
+pub(super) type AccessorElement = [f64; 16];
 
 /// The data of an accessor. All elements are within their buffer views.
 pub(super) struct AccessorReader<'d> {
@@ -16,17 +16,17 @@ pub(super) struct AccessorReader<'d> {
     /// The first element and the bytes from one to the next; none for zeros.
     base: Option<(&'d [u8], usize)>,
     /// The indices of a sparse accessor, and their elements.
-    sparse: Option<(Integers<'d>, &'d [u8])>,
+    sparse: Option<(IntegerArray<'d>, &'d [u8])>,
 }
 
 /// An array of integers.
 #[derive(Clone, Copy)]
-pub(super) struct Integers<'d> {
+pub(super) struct IntegerArray<'d> {
     bytes: &'d [u8],
-    component: Component,
+    component: ComponentType,
 }
 
-impl Integers<'_> {
+impl IntegerArray<'_> {
     pub(super) fn len(&self) -> usize {
         self.bytes.len() / self.component.size()
     }
@@ -86,7 +86,7 @@ impl<'d> AccessorReader<'d> {
                         .get(offset..offset.checked_add(sparse.count.checked_mul(size)?)?)
                 };
                 let (view, offset, component) = sparse.indices;
-                let indices = Integers {
+                let indices = IntegerArray {
                     bytes: part(view, offset, component.size())?,
                     component,
                 };
@@ -103,13 +103,13 @@ impl<'d> AccessorReader<'d> {
     }
 
     /// The indices of the elements that are replaced.
-    pub(super) fn replaced(&self) -> Option<Integers<'d>> {
+    pub(super) fn replaced(&self) -> Option<IntegerArray<'d>> {
         self.sparse.as_ref().map(|(indices, _)| *indices)
     }
 
     /// The element at `at`, which is below the count; normalised components are fractions.
     pub(super) fn at<const N: usize>(&self, at: usize) -> [f64; N] {
-        let (layout, mut element) = (self.layout, Element::default());
+        let (layout, mut element) = (self.layout, AccessorElement::default());
         let replaced = self
             .sparse
             .as_ref()
@@ -152,19 +152,19 @@ impl<'d> AccessorReader<'d> {
         // Common component types are specialised, so that large meshes are read without a branch
         // per element.
         match (component, rows, self.plain()) {
-            (Component::F32, 2, Some(all)) => {
+            (ComponentType::F32, 2, Some(all)) => {
                 records::<2, _, _>(all, float, |at, element| see(at, element))
             }
-            (Component::F32, 3, Some(all)) => {
+            (ComponentType::F32, 3, Some(all)) => {
                 records::<3, _, _>(all, float, |at, element| see(at, element))
             }
-            (Component::F32, 4, Some(all)) => {
+            (ComponentType::F32, 4, Some(all)) => {
                 records::<4, _, _>(all, float, |at, element| see(at, element))
             }
-            (Component::U16, 1, Some(all)) => {
+            (ComponentType::U16, 1, Some(all)) => {
                 records::<1, _, _>(all, short, |at, element| see(at, element))
             }
-            (Component::U32, 1, Some(all)) => {
+            (ComponentType::U32, 1, Some(all)) => {
                 records::<1, _, _>(all, long, |at, element| see(at, element))
             }
             _ => self.each_by_layout(see),
@@ -173,7 +173,7 @@ impl<'d> AccessorReader<'d> {
 
     /// As [`Self::each`], for elements of any layout.
     fn each_by_layout(&self, mut see: impl FnMut(usize, &[f64])) {
-        let (layout, mut element) = (self.layout, Element::default());
+        let (layout, mut element) = (self.layout, AccessorElement::default());
         let components = layout.components();
         let mut next = self.replaced().and_then(|indices| indices.get(0));
         let mut place = 0;
@@ -190,7 +190,7 @@ impl<'d> AccessorReader<'d> {
             } else if let Some((bytes, stride)) = self.base {
                 read(&bytes[at * stride..], layout, &mut element);
             } else {
-                element = Element::default();
+                element = AccessorElement::default();
             }
             see(at, &element[..components]);
         }
@@ -211,12 +211,12 @@ impl<'d> AccessorReader<'d> {
     }
 
     /// The same as a column of 32-bit floats, which represent floats and short integers exactly.
-    pub(super) fn column<const N: usize>(&self) -> Column<N> {
+    pub(super) fn column<const N: usize>(&self) -> VertexColumn<N> {
         let mut vectors = Vec::with_capacity(self.count);
         let ElementLayout {
             component, rows, ..
         } = self.layout;
-        if let (Component::F32, Some(all)) = (component, self.plain().filter(|_| rows == N)) {
+        if let (ComponentType::F32, Some(all)) = (component, self.plain().filter(|_| rows == N)) {
             records::<N, _, _>(all, f32::from_le_bytes, |_, vector| vectors.push(*vector));
             return vectors.into();
         }
@@ -252,7 +252,7 @@ impl<'d> AccessorReader<'d> {
         let ElementLayout {
             component, rows, ..
         } = self.layout;
-        if let (Component::U32, 1, Some((bytes, 4))) = (component, rows, self.plain()) {
+        if let (ComponentType::U32, 1, Some((bytes, 4))) = (component, rows, self.plain()) {
             let groups = bytes.as_chunks::<4>().0.as_chunks::<N>().0.iter();
             return groups.map(|group| group.map(u32::from_le_bytes)).collect();
         }
@@ -291,7 +291,7 @@ fn extent(layout: ElementLayout) -> usize {
 }
 
 /// Reads one element that `bytes` start with.
-fn read(bytes: &[u8], layout: ElementLayout, element: &mut Element) {
+fn read(bytes: &[u8], layout: ElementLayout, element: &mut AccessorElement) {
     let size = layout.component.size();
     for column in 0..layout.columns {
         let bytes = &bytes[column * layout.column()..];
@@ -301,14 +301,14 @@ fn read(bytes: &[u8], layout: ElementLayout, element: &mut Element) {
     }
 }
 
-fn number(component: Component, bytes: &[u8]) -> f64 {
+fn number(component: ComponentType, bytes: &[u8]) -> f64 {
     let four = || [bytes[0], bytes[1], bytes[2], bytes[3]];
     match component {
-        Component::I8 => f64::from(bytes[0].cast_signed()),
-        Component::U8 => f64::from(bytes[0]),
-        Component::I16 => f64::from(i16::from_le_bytes([bytes[0], bytes[1]])),
-        Component::U16 => f64::from(u16::from_le_bytes([bytes[0], bytes[1]])),
-        Component::U32 => f64::from(u32::from_le_bytes(four())),
-        Component::F32 => f64::from(f32::from_le_bytes(four())),
+        ComponentType::I8 => f64::from(bytes[0].cast_signed()),
+        ComponentType::U8 => f64::from(bytes[0]),
+        ComponentType::I16 => f64::from(i16::from_le_bytes([bytes[0], bytes[1]])),
+        ComponentType::U16 => f64::from(u16::from_le_bytes([bytes[0], bytes[1]])),
+        ComponentType::U32 => f64::from(u32::from_le_bytes(four())),
+        ComponentType::F32 => f64::from(f32::from_le_bytes(four())),
     }
 }

@@ -1,14 +1,14 @@
 //! Animations: channels, samplers and their keyframes.
 
 use super::accessor::{self, Accessor};
-use super::buffer::{Purpose, Purposes};
-use super::channel::{self, Channel, Path};
+use super::buffer::{BufferViewUsage, BufferViewUsages};
+use super::channel::{self, AnimatedPath, AnimationChannel};
 use super::constraint::{AccessorConstraint, AccessorConstraints};
 use super::document::Document;
-use super::field::Fields;
-use super::layout::{Component, ElementLayout};
+use super::field::ObjectFields;
+use super::layout::{ComponentType, ElementLayout};
 use super::report::AssetReport;
-use super::usage::{Usage, Usages};
+use super::usage::{AccessorUsage, AccessorUsages};
 use rtc_diag::codes;
 use rtc_source::tree::NodeId;
 use std::collections::BTreeMap;
@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 #[derive(Debug)]
 pub(super) struct Animation {
     pub(super) name: String,
-    pub(super) channels: Vec<Channel>,
+    pub(super) channels: Vec<AnimationChannel>,
     pub(super) samplers: Vec<Keyframes>,
 }
 
@@ -39,17 +39,20 @@ pub(super) enum Interpolation {
 }
 
 impl Animation {
-    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+    pub(super) fn read(fields: ObjectFields<'_, '_>) -> Self {
         Self {
             name: fields.name(),
-            channels: fields.objects("channels").map(Channel::read).collect(),
+            channels: fields
+                .objects("channels")
+                .map(AnimationChannel::read)
+                .collect(),
             samplers: fields.objects("samplers").map(Keyframes::read).collect(),
         }
     }
 }
 
 impl Keyframes {
-    fn read(fields: Fields<'_, '_>) -> Self {
+    fn read(fields: ObjectFields<'_, '_>) -> Self {
         let interpolation = match fields.text("interpolation").as_deref() {
             Some("STEP") => Interpolation::Step,
             Some("CUBICSPLINE") => Interpolation::Cubic,
@@ -65,23 +68,23 @@ impl Keyframes {
 }
 
 /// The results of the checks of animations.
-pub(super) type AnimationLinks<'l> = (
-    &'l mut Purposes,
-    &'l mut Usages,
+pub(super) type CheckedAnimations<'l> = (
+    &'l mut BufferViewUsages,
+    &'l mut AccessorUsages,
     &'l mut AccessorConstraints,
 );
 
 /// Checks all animations.
 pub(super) fn check(
     doc: &Document<'_>,
-    links: &mut AnimationLinks<'_>,
+    links: &mut CheckedAnimations<'_>,
     report: &mut AssetReport<'_, '_>,
 ) {
     for animation in &doc.animations {
         for sampler in &animation.samplers {
             check_sampler(doc, sampler, links, report);
         }
-        let mut targets: BTreeMap<(usize, Path), usize> = BTreeMap::new();
+        let mut targets: BTreeMap<(usize, AnimatedPath), usize> = BTreeMap::new();
         for (index, channel) in animation.channels.iter().enumerate() {
             channel::check(doc, animation, channel, links, report);
             let (Some(node), Some(path)) = (channel.node, channel.path) else {
@@ -134,13 +137,13 @@ fn check_used(animation: &Animation, report: &mut AssetReport<'_, '_>) {
 fn check_sampler(
     doc: &Document<'_>,
     sampler: &Keyframes,
-    links: &mut AnimationLinks<'_>,
+    links: &mut CheckedAnimations<'_>,
     report: &mut AssetReport<'_, '_>,
 ) {
     let (purposes, usages, constraints) = links;
     for (key, index, usage) in [
-        ("input", sampler.input, Usage::Times),
-        ("output", sampler.output, Usage::Keyframes),
+        ("input", sampler.input, AccessorUsage::Times),
+        ("output", sampler.output, AccessorUsage::Keyframes),
     ] {
         let Some((index, accessor)) = accessor::find(doc, index, report) else {
             continue;
@@ -148,7 +151,7 @@ fn check_sampler(
         // Record how the sampler uses each accessor and its view.
         let at = report.json.at_or(sampler.at, key);
         usages.set(index, usage, at, report);
-        purposes.set(accessor.view, Purpose::Other, at, report);
+        purposes.set(accessor.view, BufferViewUsage::Other, at, report);
         // Keyframes are tightly packed.
         if accessor
             .view
@@ -164,7 +167,7 @@ fn check_sampler(
             );
         }
         // The input holds times, which must increase.
-        if usage == Usage::Times {
+        if usage == AccessorUsage::Times {
             check_times(accessor, sampler, at, report);
             if accessor.layout.is_some_and(is_time) {
                 constraints.add(index, AccessorConstraint::Times, at);
@@ -174,7 +177,7 @@ fn check_sampler(
 }
 
 fn is_time(layout: ElementLayout) -> bool {
-    layout.components() == 1 && layout.component == Component::F32 && !layout.normalized
+    layout.components() == 1 && layout.component == ComponentType::F32 && !layout.normalized
 }
 
 fn check_times(

@@ -3,8 +3,8 @@
 use super::accessor::{Accessor, UNALIGNED};
 use super::constraint::{AccessorConstraint, AccessorConstraints};
 use super::document::Document;
-use super::field::Fields;
-use super::layout::{Component, ElementLayout};
+use super::field::ObjectFields;
+use super::layout::{ComponentType, ElementLayout};
 use super::primitive::Primitive;
 use super::report::{AssetReport, shown};
 use rtc_diag::codes;
@@ -13,17 +13,17 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The role of an accessor for the vertices.
 #[derive(Debug)]
-pub(super) struct Attribute {
+pub(super) struct VertexAttribute {
     pub(super) at: NodeId,
     pub(super) name: String,
     pub(super) accessor: usize,
 }
 
 /// Reads a map of attributes and their accessors.
-pub(super) fn read(fields: Fields<'_, '_>) -> Vec<Attribute> {
+pub(super) fn read(fields: ObjectFields<'_, '_>) -> Vec<VertexAttribute> {
     let attribute = |(key, at): (NodeId, NodeId)| {
         let accessor = usize::try_from(fields.json.integer(at)?).ok()?;
-        Some(Attribute {
+        Some(VertexAttribute {
             at,
             name: fields.json.text(key)?.to_owned(),
             accessor,
@@ -34,7 +34,7 @@ pub(super) fn read(fields: Fields<'_, '_>) -> Vec<Attribute> {
 
 /// The semantic of an attribute, with the number of its set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Semantic {
+pub(super) enum AttributeSemantic {
     Position,
     Normal,
     Tangent,
@@ -48,7 +48,7 @@ pub(super) enum Semantic {
     None,
 }
 
-impl Semantic {
+impl AttributeSemantic {
     pub(super) fn of(name: &str) -> Self {
         match name {
             "POSITION" => return Self::Position,
@@ -78,15 +78,15 @@ impl Semantic {
 /// Checks the names of the attributes of a primitive, and that none is missing.
 pub(super) fn check_names(primitive: &Primitive, report: &mut AssetReport<'_, '_>) {
     // Each name is that of a semantic, or starts with an underscore.
-    let semantics: Vec<Semantic> = primitive
+    let semantics: Vec<AttributeSemantic> = primitive
         .attributes
         .iter()
-        .map(|attribute| Semantic::of(&attribute.name))
+        .map(|attribute| AttributeSemantic::of(&attribute.name))
         .collect();
     for attribute in primitive
         .attributes
         .iter()
-        .filter(|attribute| Semantic::of(&attribute.name) == Semantic::None)
+        .filter(|attribute| AttributeSemantic::of(&attribute.name) == AttributeSemantic::None)
     {
         let message = format!(
             "`{}` is not a valid name of an attribute",
@@ -102,7 +102,7 @@ pub(super) fn check_names(primitive: &Primitive, report: &mut AssetReport<'_, '_
     // Positions are needed, and tangents need normals.
     let has = |semantic| semantics.contains(&semantic);
     let at = report.json.at_or(primitive.at, "attributes");
-    if !primitive.attributes.is_empty() && !has(Semantic::Position) {
+    if !primitive.attributes.is_empty() && !has(AttributeSemantic::Position) {
         let message = "the primitive has no `POSITION`, so it is invisible".to_owned();
         report.add(
             &codes::GLTF_PRIMITIVE_ODD,
@@ -111,7 +111,7 @@ pub(super) fn check_names(primitive: &Primitive, report: &mut AssetReport<'_, '_
             message,
         );
     }
-    if has(Semantic::Tangent) && !has(Semantic::Normal) {
+    if has(AttributeSemantic::Tangent) && !has(AttributeSemantic::Normal) {
         let at = report.json.at_or(at, "TANGENT");
         let message = "the primitive has `TANGENT` but no `NORMAL`".to_owned();
         report.add(
@@ -125,16 +125,16 @@ pub(super) fn check_names(primitive: &Primitive, report: &mut AssetReport<'_, '_
     check_sets(&semantics, at, report);
 }
 
-fn check_sets(semantics: &[Semantic], at: NodeId, report: &mut AssetReport<'_, '_>) {
-    type Kind = fn(u64) -> Semantic;
+fn check_sets(semantics: &[AttributeSemantic], at: NodeId, report: &mut AssetReport<'_, '_>) {
+    type Kind = fn(u64) -> AttributeSemantic;
     let kinds: [(&str, Kind); 4] = [
-        ("TEXCOORD", Semantic::Uv),
-        ("COLOR", Semantic::Color),
-        ("JOINTS", Semantic::Joints),
-        ("WEIGHTS", Semantic::Weights),
+        ("TEXCOORD", AttributeSemantic::Uv),
+        ("COLOR", AttributeSemantic::Color),
+        ("JOINTS", AttributeSemantic::Joints),
+        ("WEIGHTS", AttributeSemantic::Weights),
     ];
     let mut counts = [0; 4];
-    let present: BTreeSet<Semantic> = semantics.iter().copied().collect();
+    let present: BTreeSet<AttributeSemantic> = semantics.iter().copied().collect();
     for ((name, kind), count) in kinds.into_iter().zip(&mut counts) {
         // The first missing set number ends the sets; higher ones are unused.
         *count = semantics
@@ -171,14 +171,14 @@ fn check_sets(semantics: &[Semantic], at: NodeId, report: &mut AssetReport<'_, '
 /// allows.
 pub(super) fn check_format(
     doc: &Document<'_>,
-    attribute: &Attribute,
+    attribute: &VertexAttribute,
     accessor: &Accessor,
     in_target: bool,
     report: &mut AssetReport<'_, '_>,
 ) {
-    let semantic = Semantic::of(&attribute.name);
+    let semantic = AttributeSemantic::of(&attribute.name);
     // Bounds of positions are required by the specification.
-    if semantic == Semantic::Position && !accessor.has_bounds() {
+    if semantic == AttributeSemantic::Position && !accessor.has_bounds() {
         report.repair(
             &codes::GLTF_FORMAT,
             "MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS",
@@ -189,7 +189,10 @@ pub(super) fn check_format(
     }
     // The element type must be known.
     let Some(layout) = accessor.layout else {
-        if !matches!(semantic, Semantic::Custom | Semantic::None) {
+        if !matches!(
+            semantic,
+            AttributeSemantic::Custom | AttributeSemantic::None
+        ) {
             let message = format!(
                 "`{}` has no element type or no component type",
                 attribute.name
@@ -214,7 +217,7 @@ pub(super) fn check_format(
             attribute.at,
             message,
         );
-    } else if semantic == Semantic::Custom && layout.component == Component::U32 {
+    } else if semantic == AttributeSemantic::Custom && layout.component == ComponentType::U32 {
         let message = "a vertex attribute must not be u32".to_owned();
         report.add(
             &codes::GLTF_FORMAT,
@@ -226,8 +229,13 @@ pub(super) fn check_format(
 }
 
 /// True if the specification, or `KHR_mesh_quantization`, has the format for the attribute.
-fn allows(semantic: Semantic, layout: ElementLayout, quantized: bool, in_target: bool) -> bool {
-    use Component::{F32, I8, I16, U8, U16, U32};
+fn allows(
+    semantic: AttributeSemantic,
+    layout: ElementLayout,
+    quantized: bool,
+    in_target: bool,
+) -> bool {
+    use ComponentType::{F32, I8, I16, U8, U16, U32};
     let ElementLayout {
         component,
         columns,
@@ -241,21 +249,23 @@ fn allows(semantic: Semantic, layout: ElementLayout, quantized: bool, in_target:
     let small = matches!(component, I8 | U8 | I16 | U16);
     let signed = matches!(component, I8 | I16);
     match semantic {
-        Semantic::Position => {
+        AttributeSemantic::Position => {
             is(&[3]) && (float || quantized && if in_target { signed } else { small })
         }
-        Semantic::Normal => is(&[3]) && (float || quantized && signed_fraction),
-        Semantic::Tangent => {
+        AttributeSemantic::Normal => is(&[3]) && (float || quantized && signed_fraction),
+        AttributeSemantic::Tangent => {
             let rows: &[usize] = if in_target { &[3] } else { &[4] };
             is(rows) && (float || quantized && signed_fraction)
         }
-        Semantic::Uv(_) => is(&[2]) && (float || unsigned_fraction || quantized && small),
-        Semantic::Color(_) => {
+        AttributeSemantic::Uv(_) => is(&[2]) && (float || unsigned_fraction || quantized && small),
+        AttributeSemantic::Color(_) => {
             is(&[3, 4]) && (float || unsigned_fraction || in_target && signed_fraction)
         }
-        Semantic::Joints(_) => is(&[4]) && !normalized && matches!(component, U8 | U16),
-        Semantic::Weights(_) => is(&[4]) && (float || unsigned_fraction),
-        Semantic::Custom | Semantic::None => component != U32 || semantic == Semantic::Custom,
+        AttributeSemantic::Joints(_) => is(&[4]) && !normalized && matches!(component, U8 | U16),
+        AttributeSemantic::Weights(_) => is(&[4]) && (float || unsigned_fraction),
+        AttributeSemantic::Custom | AttributeSemantic::None => {
+            component != U32 || semantic == AttributeSemantic::Custom
+        }
     }
 }
 
@@ -263,7 +273,7 @@ fn allows(semantic: Semantic, layout: ElementLayout, quantized: bool, in_target:
 /// those seen before.
 pub(super) fn check_place(
     doc: &Document<'_>,
-    attribute: &Attribute,
+    attribute: &VertexAttribute,
     accessor: &Accessor,
     streams: &mut BTreeMap<usize, usize>,
     report: &mut AssetReport<'_, '_>,
@@ -305,14 +315,14 @@ pub(super) fn check_place(
 
 /// The constraints on the elements of an attribute.
 pub(super) fn add_constraints(
-    attribute: &Attribute,
+    attribute: &VertexAttribute,
     accessor: &Accessor,
     constraints: &mut AccessorConstraints,
 ) {
     let mut add = |constraint| constraints.add(attribute.accessor, constraint, attribute.at);
-    match Semantic::of(&attribute.name) {
-        Semantic::Normal => add(AccessorConstraint::Unit),
-        Semantic::Tangent
+    match AttributeSemantic::of(&attribute.name) {
+        AttributeSemantic::Normal => add(AccessorConstraint::Unit),
+        AttributeSemantic::Tangent
             if accessor
                 .layout
                 .is_some_and(|layout| layout.components() == 4) =>
@@ -320,14 +330,14 @@ pub(super) fn add_constraints(
             add(AccessorConstraint::Unit);
             add(AccessorConstraint::Sign);
         }
-        Semantic::Color(_) => add(AccessorConstraint::Clamped),
-        Semantic::Position
-        | Semantic::Tangent
-        | Semantic::Uv(_)
-        | Semantic::Joints(_)
-        | Semantic::Weights(_)
-        | Semantic::Custom
-        | Semantic::None => {}
+        AttributeSemantic::Color(_) => add(AccessorConstraint::Clamped),
+        AttributeSemantic::Position
+        | AttributeSemantic::Tangent
+        | AttributeSemantic::Uv(_)
+        | AttributeSemantic::Joints(_)
+        | AttributeSemantic::Weights(_)
+        | AttributeSemantic::Custom
+        | AttributeSemantic::None => {}
     }
 }
 

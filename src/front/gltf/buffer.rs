@@ -2,7 +2,7 @@
 //! used for one purpose.
 
 use super::document::Document;
-use super::field::Fields;
+use super::field::ObjectFields;
 use super::report::AssetReport;
 use rtc_diag::codes;
 use rtc_source::tree::NodeId;
@@ -34,7 +34,7 @@ pub(super) fn byte_range(bytes: &[u8]) -> ByteRange {
 }
 
 impl Buffer<'_> {
-    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+    pub(super) fn read(fields: ObjectFields<'_, '_>) -> Self {
         let compressed = |name| {
             fields
                 .extension(name)
@@ -59,14 +59,14 @@ pub(super) struct BufferView {
     pub(super) length: Option<usize>,
     pub(super) stride: Option<usize>,
     /// Its `target`.
-    target: Option<Purpose>,
+    target: Option<BufferViewUsage>,
     /// Decompressed bytes.
     pub(super) decoded: Option<Bytes<'static>>,
 }
 
 /// The usage of a buffer view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Purpose {
+pub(super) enum BufferViewUsage {
     Vertices,
     Indices,
     InverseBindMatrices,
@@ -75,7 +75,7 @@ pub(super) enum Purpose {
     Other,
 }
 
-impl Purpose {
+impl BufferViewUsage {
     fn name(self) -> &'static str {
         match self {
             Self::Vertices => "vertices",
@@ -88,7 +88,7 @@ impl Purpose {
 }
 
 impl BufferView {
-    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+    pub(super) fn read(fields: ObjectFields<'_, '_>) -> Self {
         Self {
             at: fields.at,
             buffer: fields.index("buffer"),
@@ -98,8 +98,8 @@ impl BufferView {
                 .index("byteStride")
                 .filter(|stride| (4..=252).contains(stride)),
             target: match fields.integer("target") {
-                Some(34962) => Some(Purpose::Vertices),
-                Some(34963) => Some(Purpose::Indices),
+                Some(34962) => Some(BufferViewUsage::Vertices),
+                Some(34963) => Some(BufferViewUsage::Indices),
                 _ => None,
             },
             decoded: None,
@@ -180,7 +180,7 @@ fn stride(view: &BufferView, report: &mut AssetReport<'_, '_>) {
             message,
         );
     }
-    if view.target == Some(Purpose::Indices) {
+    if view.target == Some(BufferViewUsage::Indices) {
         let message = "a buffer view of indices must not have a `byteStride`";
         let (alias, repair) = (
             "BUFFER_VIEW_INVALID_BYTE_STRIDE",
@@ -191,9 +191,9 @@ fn stride(view: &BufferView, report: &mut AssetReport<'_, '_>) {
 }
 
 /// The usage found for each view.
-pub(super) struct Purposes(Vec<Option<Purpose>>);
+pub(super) struct BufferViewUsages(Vec<Option<BufferViewUsage>>);
 
-impl Purposes {
+impl BufferViewUsages {
     pub(super) fn new(doc: &Document<'_>) -> Self {
         Self(doc.views.iter().map(|view| view.target).collect())
     }
@@ -202,7 +202,7 @@ impl Purposes {
     pub(super) fn set(
         &mut self,
         view: Option<usize>,
-        purpose: Purpose,
+        purpose: BufferViewUsage,
         at: NodeId,
         report: &mut AssetReport<'_, '_>,
     ) {

@@ -1,7 +1,7 @@
 //! Cameras: perspective or orthographic.
 
 use super::document::Document;
-use super::field::Fields;
+use super::field::ObjectFields;
 use super::report::AssetReport;
 use rtc_diag::codes;
 use rtc_math::shortest;
@@ -16,7 +16,7 @@ pub(super) enum Projection {
 }
 
 /// The projection of a camera.
-pub(super) fn projection(fields: Fields<'_, '_>) -> Option<Projection> {
+pub(super) fn projection(fields: ObjectFields<'_, '_>) -> Option<Projection> {
     let projection = |kind| fields.object(kind).filter(|_| fields.is("type", kind));
     if let Some(projection) = projection("perspective") {
         return Some(Projection::Perspective {
@@ -36,7 +36,7 @@ pub(super) fn projection(fields: Fields<'_, '_>) -> Option<Projection> {
 /// Checks all cameras.
 pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     for camera in &doc.cameras {
-        let fields = Fields::new(report.json, *camera);
+        let fields = ObjectFields::new(report.json, *camera);
         let (perspective, orthographic) =
             (fields.object("perspective"), fields.object("orthographic"));
         // A camera has exactly one projection, which its type names.
@@ -75,7 +75,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     }
 }
 
-fn check_perspective(part: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
+fn check_perspective(part: ObjectFields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     if part.number_or("yfov", 0.0) >= std::f64::consts::PI {
         let message = "the field of view is 180° or more";
         let alias = "CAMERA_YFOV_GEQUAL_PI";
@@ -83,7 +83,7 @@ fn check_perspective(part: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     }
 }
 
-fn check_orthographic(part: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
+fn check_orthographic(part: ObjectFields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     let mags = [part.number_or("xmag", 1.0), part.number_or("ymag", 1.0)];
     if mags.contains(&0.0) {
         let message = "the width or the height of the view is 0";

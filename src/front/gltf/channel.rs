@@ -1,13 +1,13 @@
 //! Animation channels: the animated property, and whether the keyframes fit it.
 
 use super::accessor;
-use super::animation::{Animation, AnimationLinks, Interpolation};
+use super::animation::{Animation, CheckedAnimations, Interpolation};
 use super::constraint::AccessorConstraint;
 use super::document::Document;
-use super::field::Fields;
-use super::layout::{Component, ElementLayout};
+use super::field::ObjectFields;
+use super::layout::{ComponentType, ElementLayout};
 use super::mesh::Mesh;
-use super::node::Transform;
+use super::node::NodeTransform;
 use super::pointer;
 use super::report::AssetReport;
 use rtc_diag::codes;
@@ -18,25 +18,25 @@ const POINTER: &str = "KHR_animation_pointer";
 
 /// What moves, and how.
 #[derive(Debug)]
-pub(super) struct Channel {
+pub(super) struct AnimationChannel {
     pub(super) at: NodeId,
     pub(super) sampler: Option<usize>,
     pub(super) node: Option<usize>,
-    pub(super) path: Option<Path>,
+    pub(super) path: Option<AnimatedPath>,
     /// What names the property that moves, if it is no property of a node.
     pub(super) pointer: Option<String>,
 }
 
 /// The property that a channel moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Path {
+pub(super) enum AnimatedPath {
     Translation,
     Rotation,
     Scale,
     Weights,
 }
 
-impl Path {
+impl AnimatedPath {
     /// The path of a name.
     pub(super) fn of(name: &str) -> Option<Self> {
         Some(match name {
@@ -49,12 +49,12 @@ impl Path {
     }
 }
 
-impl Channel {
-    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+impl AnimationChannel {
+    pub(super) fn read(fields: ObjectFields<'_, '_>) -> Self {
         let target = fields.object("target");
         let pointer = target.filter(|target| target.is("path", "pointer"));
         let pointer = pointer.and_then(|target| target.extension(POINTER)?.text("pointer"));
-        let path_of_target = || target.and_then(|target| Path::of(&target.text("path")?));
+        let path_of_target = || target.and_then(|target| AnimatedPath::of(&target.text("path")?));
         let node = || target.and_then(|target| target.index("node"));
         let (node, path) = match pointer.as_deref().and_then(pointer::of_node) {
             Some((node, path)) => (Some(node), Some(path)),
@@ -78,7 +78,7 @@ pub(super) fn check_pointers(
 ) {
     let is_used = doc.uses(POINTER);
     for channel in &animation.channels {
-        let Some(target) = Fields::new(report.json, channel.at).object("target") else {
+        let Some(target) = ObjectFields::new(report.json, channel.at).object("target") else {
             continue;
         };
         // The path `pointer` needs its extension.
@@ -124,8 +124,8 @@ pub(super) fn check_pointers(
 pub(super) fn check(
     doc: &Document<'_>,
     animation: &Animation,
-    channel: &Channel,
-    links: &mut AnimationLinks<'_>,
+    channel: &AnimationChannel,
+    links: &mut CheckedAnimations<'_>,
     report: &mut AssetReport<'_, '_>,
 ) {
     // Check what the channel animates.
@@ -145,7 +145,7 @@ pub(super) fn check(
         return;
     };
     // Rotations are unit quaternions; the tangents of a cubic spline are not.
-    if path == Path::Rotation {
+    if path == AnimatedPath::Rotation {
         let constraint = match sampler.interpolation {
             Interpolation::Cubic => AccessorConstraint::CubicRotations,
             Interpolation::Linear | Interpolation::Step => AccessorConstraint::Rotations,
@@ -177,11 +177,11 @@ pub(super) fn check(
 /// The number of elements of a channel's keyframes, for the given number of times.
 fn expected(
     doc: &Document<'_>,
-    channel: &Channel,
-    (path, interpolation): (Path, Interpolation),
+    channel: &AnimationChannel,
+    (path, interpolation): (AnimatedPath, Interpolation),
     times: usize,
 ) -> usize {
-    let targets = if path == Path::Weights {
+    let targets = if path == AnimatedPath::Weights {
         mesh(doc, channel).map_or(0, Mesh::targets)
     } else {
         1
@@ -209,29 +209,29 @@ fn check_count(
     }
 }
 
-fn mesh<'d>(doc: &'d Document<'_>, channel: &Channel) -> Option<&'d Mesh> {
+fn mesh<'d>(doc: &'d Document<'_>, channel: &AnimationChannel) -> Option<&'d Mesh> {
     doc.meshes.get(doc.nodes.get(channel.node?)?.mesh?)
 }
 
 /// True if the keyframes of a path may have this format (glTF 2.0, section 3.11).
-fn allows(path: Path, layout: ElementLayout) -> bool {
+fn allows(path: AnimatedPath, layout: ElementLayout) -> bool {
     let ElementLayout {
         component,
         columns,
         rows,
         normalized,
     } = layout;
-    let is_float = component == Component::F32 && !normalized;
+    let is_float = component == ComponentType::F32 && !normalized;
     let is_fraction = normalized && component.size() < 4;
     let is = |wanted| columns == 1 && rows == wanted;
     match path {
-        Path::Translation | Path::Scale => is(3) && is_float,
-        Path::Rotation => is(4) && (is_float || is_fraction),
-        Path::Weights => is(1) && (is_float || is_fraction),
+        AnimatedPath::Translation | AnimatedPath::Scale => is(3) && is_float,
+        AnimatedPath::Rotation => is(4) && (is_float || is_fraction),
+        AnimatedPath::Weights => is(1) && (is_float || is_fraction),
     }
 }
 
-fn check_target(doc: &Document<'_>, channel: &Channel, report: &mut AssetReport<'_, '_>) {
+fn check_target(doc: &Document<'_>, channel: &AnimationChannel, report: &mut AssetReport<'_, '_>) {
     // Find the animated node.
     let node = channel
         .node
@@ -241,8 +241,8 @@ fn check_target(doc: &Document<'_>, channel: &Channel, report: &mut AssetReport<
     let at = report.json.at_or(channel.at, "target");
     // The node must have the animated property, and the animation an effect.
     match channel.path {
-        Some(Path::Translation | Path::Rotation | Path::Scale) => {
-            if matches!(node.transform, Transform::Matrix(_)) {
+        Some(AnimatedPath::Translation | AnimatedPath::Rotation | AnimatedPath::Scale) => {
+            if matches!(node.transform, NodeTransform::Matrix(_)) {
                 let message = "the node has a `matrix`, so it cannot be animated".to_owned();
                 report.add(
                     &codes::GLTF_ANIMATION,
@@ -262,7 +262,7 @@ fn check_target(doc: &Document<'_>, channel: &Channel, report: &mut AssetReport<
                 );
             }
         }
-        Some(Path::Weights) if mesh(doc, channel).map_or(0, Mesh::targets) == 0 => {
+        Some(AnimatedPath::Weights) if mesh(doc, channel).map_or(0, Mesh::targets) == 0 => {
             let message = "the node has no morph targets, so it cannot have weights".to_owned();
             report.add(
                 &codes::GLTF_ANIMATION,
@@ -271,6 +271,6 @@ fn check_target(doc: &Document<'_>, channel: &Channel, report: &mut AssetReport<
                 message,
             );
         }
-        Some(Path::Weights) | None => {}
+        Some(AnimatedPath::Weights) | None => {}
     }
 }

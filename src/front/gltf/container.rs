@@ -3,7 +3,7 @@
 
 use super::advice::advice;
 use super::header::CONVERT;
-use rtc_diag::{Code, Diagnostic, Sink, codes};
+use rtc_diag::{Code, Diagnostic, DiagnosticSink, codes};
 use rtc_source::{FileId, Span};
 use std::ops::Range;
 
@@ -18,7 +18,7 @@ const CHUNK_HEADER: usize = 8;
 
 /// The parts of an asset, as ranges of its file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Parts {
+pub(super) struct AssetParts {
     /// The text.
     pub(super) json: Range<usize>,
     /// The binary chunk, if there is one.
@@ -42,8 +42,13 @@ pub(super) fn text_end(bytes: &[u8]) -> usize {
 }
 
 /// Finds the parts of a `.glb`. `None`, with an error, if there is no text.
-pub(super) fn open(file: FileId, bytes: &[u8], is_lenient: bool, sink: &mut Sink) -> Option<Parts> {
-    let mut scan = Scan {
+pub(super) fn open(
+    file: FileId,
+    bytes: &[u8],
+    is_lenient: bool,
+    sink: &mut DiagnosticSink,
+) -> Option<AssetParts> {
+    let mut scan = ContainerScan {
         file,
         bytes,
         is_lenient,
@@ -54,8 +59,8 @@ pub(super) fn open(file: FileId, bytes: &[u8], is_lenient: bool, sink: &mut Sink
     };
     scan.header()?;
     let is_whole = scan.chunks();
-    let Scan { json, bin, .. } = scan;
-    json.filter(|json| !json.is_empty()).map(|json| Parts {
+    let ContainerScan { json, bin, .. } = scan;
+    json.filter(|json| !json.is_empty()).map(|json| AssetParts {
         json,
         bin,
         is_glb: true,
@@ -63,19 +68,19 @@ pub(super) fn open(file: FileId, bytes: &[u8], is_lenient: bool, sink: &mut Sink
     })
 }
 
-struct Scan<'a> {
+struct ContainerScan<'a> {
     file: FileId,
     bytes: &'a [u8],
     /// Chunks of odd lengths are repaired.
     is_lenient: bool,
-    sink: &'a mut Sink,
+    sink: &'a mut DiagnosticSink,
     json: Option<Range<usize>>,
     bin: Option<Range<usize>>,
     /// The number of chunks before.
     chunks: usize,
 }
 
-impl Scan<'_> {
+impl ContainerScan<'_> {
     fn add(&mut self, code: &'static Code, alias: &'static str, at: Range<usize>, message: String) {
         let span = self.span(at);
         self.sink.push(fault(code, alias, message).at(span, ""));
@@ -317,10 +322,10 @@ mod tests {
     use super::*;
     use rtc_source::SourceMap;
 
-    fn open_bytes(bytes: &[u8]) -> (Option<Parts>, Vec<&'static str>) {
+    fn open_bytes(bytes: &[u8]) -> (Option<AssetParts>, Vec<&'static str>) {
         let mut map = SourceMap::default();
         let file = map.add("x.glb", bytes.to_vec());
-        let mut sink = Sink::default();
+        let mut sink = DiagnosticSink::default();
         let parts = open(file, map.bytes(file), false, &mut sink);
         (
             parts,
@@ -359,7 +364,7 @@ mod tests {
         let (parts, faults) = open_bytes(&bytes);
         assert_eq!(
             parts,
-            Some(Parts {
+            Some(AssetParts {
                 json: 20..24,
                 bin: Some(32..40),
                 is_glb: true,

@@ -6,7 +6,7 @@ use super::accessor_reader::AccessorReader;
 use super::constraint::{AccessorConstraint, AccessorConstraints, check_constraint};
 use super::document::Document;
 use super::report::AssetReport;
-use super::unused::VertexUses;
+use super::unused::AccessorIndexUses;
 use rtc_diag::codes;
 use rtc_math::shortest;
 
@@ -34,7 +34,7 @@ pub(super) fn check(
         .sum();
     let mut looks = held.saturating_mul(LOOKS).saturating_add(FREE_LOOKS);
     let mut rest = &constraints[..];
-    let mut readers: Option<VertexUses> = None;
+    let mut readers: Option<AccessorIndexUses> = None;
     for (index, accessor) in doc.accessors.iter().enumerate() {
         // Take the constraints of this accessor.
         let current = rest.partition_point(|(of, _, _)| *of <= index);
@@ -64,7 +64,7 @@ pub(super) fn check(
         // Check for numbers that are not finite, and the declared bounds.
         let bad = values(&elements, accessor, is_exact, report);
         if let Some(first) = bad.first() {
-            let readers = readers.get_or_insert_with(|| VertexUses::new(doc));
+            let readers = readers.get_or_insert_with(|| AccessorIndexUses::new(doc));
             let is_unused = match looks.checked_sub(readers.cost(doc, index)) {
                 Some(left) => {
                     looks = left;

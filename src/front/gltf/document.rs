@@ -4,8 +4,8 @@
 use super::accessor::Accessor;
 use super::animation::{Animation, Keyframes};
 use super::buffer::{Buffer, BufferView};
-use super::channel::Channel;
-use super::field::Fields;
+use super::channel::AnimationChannel;
+use super::field::ObjectFields;
 use super::image::Image;
 use super::mesh::Mesh;
 use super::node::Node;
@@ -74,7 +74,10 @@ pub(super) fn cost(json: &SyntaxTree<'_>) -> u64 {
         (count(json.root(), "nodes"), size_of::<Node>() + PLACED),
         (count(json.root(), "skins"), size_of::<Skin>()),
         (count(json.root(), "animations"), size_of::<Animation>()),
-        (inner("animations", "channels"), size_of::<Channel>()),
+        (
+            inner("animations", "channels"),
+            size_of::<AnimationChannel>(),
+        ),
         (inner("animations", "samplers"), size_of::<Keyframes>()),
     ];
     let parts: u64 = parts
@@ -88,13 +91,13 @@ impl Document<'_> {
     /// Reads the parts; buffers are still empty.
     pub(super) fn read(json: &SyntaxTree<'_>, is_glb: bool) -> Self {
         fn each<'t, 's: 't, T>(
-            root: Fields<'t, 's>,
+            root: ObjectFields<'t, 's>,
             key: &str,
-            read: impl Fn(Fields<'t, 's>) -> T,
+            read: impl Fn(ObjectFields<'t, 's>) -> T,
         ) -> Vec<T> {
             root.objects(key).map(read).collect()
         }
-        let root = Fields::new(json, json.root());
+        let root = ObjectFields::new(json, json.root());
         // Lights exist only if the asset declares their extension.
         let texts = json
             .list(json.root(), "extensionsUsed")

@@ -3,8 +3,8 @@
 
 use super::buffer::{BufferView, ByteRange, Bytes, byte_range};
 use super::document::Document;
-use super::field::Fields;
-use super::layout::{Component, ElementLayout};
+use super::field::ObjectFields;
+use super::layout::{ComponentType, ElementLayout};
 use super::report::AssetReport;
 use draco_core::{DecodeLimits, DecoderBuffer, Mesh, MeshDecoder};
 use rtc_diag::codes;
@@ -34,16 +34,16 @@ struct CompressedPrimitive {
 /// The decoded primitives, each once.
 #[derive(Default)]
 struct DecodedData {
-    meshes: BTreeMap<(ByteRange, Size), Result<Rc<Mesh>, String>>,
+    meshes: BTreeMap<(ByteRange, DracoMeshSize), Result<Rc<Mesh>, String>>,
     /// Attributes by their numbers, and the corners.
-    columns: BTreeMap<(ByteRange, Option<u32>, Component), Bytes<'static>>,
+    columns: BTreeMap<(ByteRange, Option<u32>, ComponentType), Bytes<'static>>,
     /// The data and the number that each accessor has now.
     filled: BTreeMap<usize, (ByteRange, Option<u32>)>,
 }
 
 /// Points and triangles.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Size {
+struct DracoMeshSize {
     points: u64,
     faces: u64,
 }
@@ -67,7 +67,7 @@ pub(super) fn expand(doc: &mut Document<'_>, report: &mut AssetReport<'_, '_>) {
 fn find(doc: &Document<'_>, report: &AssetReport<'_, '_>) -> Vec<CompressedPrimitive> {
     let primitives = doc.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let packed = primitives.filter_map(|primitive| {
-        let fields = Fields::new(report.json, primitive.draco?);
+        let fields = ObjectFields::new(report.json, primitive.draco?);
         let numbers = fields.object("attributes")?;
         let number = |name: &str| u32::try_from(numbers.integer(name)?).ok();
         let attributes = primitive.attributes.iter();
@@ -105,7 +105,7 @@ fn unpack(
         .map_or(Ok(corners), |(accessor, _)| {
             layout_of(doc, *accessor).map(|layout| layout.1)
         })?;
-    let size = Size {
+    let size = DracoMeshSize {
         points: points as u64,
         faces: corners as u64 / 3,
     };
@@ -152,11 +152,11 @@ fn unpack(
 }
 
 fn charge(
-    size: Size,
+    size: DracoMeshSize,
     packed: &CompressedPrimitive,
     report: &mut AssetReport<'_, '_>,
 ) -> Result<(), String> {
-    let Size { points, faces } = size;
+    let DracoMeshSize { points, faces } = size;
     let memory = points
         .saturating_mul(POINT)
         .saturating_add(faces.saturating_mul(FACE));
@@ -179,7 +179,7 @@ fn charge(
 }
 
 /// The mesh of compressed bytes, if it has the size that its accessors claim.
-fn decode(bytes: &[u8], size: Size) -> Result<Rc<Mesh>, String> {
+fn decode(bytes: &[u8], size: DracoMeshSize) -> Result<Rc<Mesh>, String> {
     let limit = (bytes.len() as u64)
         .saturating_mul(MAX_RATIO)
         .saturating_add(FREE);
@@ -253,7 +253,7 @@ fn layout_of(doc: &Document<'_>, accessor: usize) -> Result<(ElementLayout, usiz
 }
 
 /// Numbers as the components of an accessor; those out of range are cut off.
-fn to_bytes(numbers: impl Iterator<Item = f64>, component: Component) -> Vec<u8> {
+fn to_bytes(numbers: impl Iterator<Item = f64>, component: ComponentType) -> Vec<u8> {
     let mut bytes = Vec::new();
     #[expect(
         clippy::cast_possible_truncation,
@@ -262,12 +262,12 @@ fn to_bytes(numbers: impl Iterator<Item = f64>, component: Component) -> Vec<u8>
     )]
     for number in numbers {
         match component {
-            Component::I8 => bytes.extend((number as i8).to_le_bytes()),
-            Component::U8 => bytes.push(number as u8),
-            Component::I16 => bytes.extend((number as i16).to_le_bytes()),
-            Component::U16 => bytes.extend((number as u16).to_le_bytes()),
-            Component::U32 => bytes.extend((number as u32).to_le_bytes()),
-            Component::F32 => bytes.extend((number as f32).to_le_bytes()),
+            ComponentType::I8 => bytes.extend((number as i8).to_le_bytes()),
+            ComponentType::U8 => bytes.push(number as u8),
+            ComponentType::I16 => bytes.extend((number as i16).to_le_bytes()),
+            ComponentType::U16 => bytes.extend((number as u16).to_le_bytes()),
+            ComponentType::U32 => bytes.extend((number as u32).to_le_bytes()),
+            ComponentType::F32 => bytes.extend((number as f32).to_le_bytes()),
         }
     }
     bytes

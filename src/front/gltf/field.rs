@@ -6,14 +6,14 @@ use rtc_source::tree::{NodeId, NodeKind, SyntaxTree};
 
 /// The object at a node.
 #[derive(Clone, Copy)]
-pub(super) struct Fields<'t, 's> {
+pub(super) struct ObjectFields<'t, 's> {
     pub(super) json: &'t SyntaxTree<'s>,
     pub(super) at: NodeId,
     /// Animated values, which replace the numbers of the file.
     animated: Option<&'t AnimatedValues>,
 }
 
-impl<'t, 's> Fields<'t, 's> {
+impl<'t, 's> ObjectFields<'t, 's> {
     pub(super) fn new(json: &'t SyntaxTree<'s>, at: NodeId) -> Self {
         let animated = None;
         Self { json, at, animated }

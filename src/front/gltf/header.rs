@@ -1,6 +1,6 @@
 //! The version and the extensions of an asset.
 
-use super::field::Fields;
+use super::field::ObjectFields;
 use super::report::{AssetReport, shown};
 use super::schema;
 use rtc_diag::codes;
@@ -111,7 +111,7 @@ pub(super) fn is_refused(report: &mut AssetReport<'_, '_>) -> bool {
 
 /// Checks the version. True if it is 2, whatever comes after the point.
 pub(super) fn check_version(report: &mut AssetReport<'_, '_>) -> bool {
-    let Some(asset) = Fields::new(report.json, report.json.root()).object("asset") else {
+    let Some(asset) = ObjectFields::new(report.json, report.json.root()).object("asset") else {
         return false;
     };
     let Some((at, (major, minor))) = version(asset, "version") else {
@@ -160,7 +160,10 @@ pub(super) fn check_version(report: &mut AssetReport<'_, '_>) -> bool {
     major == 2
 }
 
-fn version(asset: Fields<'_, '_>, key: &str) -> Option<(rtc_source::tree::NodeId, (u64, u64))> {
+fn version(
+    asset: ObjectFields<'_, '_>,
+    key: &str,
+) -> Option<(rtc_source::tree::NodeId, (u64, u64))> {
     let text = asset.text(key)?;
     let (major, minor) = text.split_once('.')?;
     let number = |digits: &str| {

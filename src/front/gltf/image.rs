@@ -1,16 +1,16 @@
 //! Images: their bytes, their media types, and their decoding.
 
-use super::buffer::{ByteRange, Bytes, Purpose, Purposes, byte_range};
+use super::buffer::{BufferViewUsage, BufferViewUsages, ByteRange, Bytes, byte_range};
 use super::document::Document;
 use super::features;
-use super::field::Fields;
+use super::field::ObjectFields;
 use super::report::AssetReport;
-use crate::pixels::{self, ChargedFile, PixelFault};
+use crate::pixels::{self, ChargedFile, PixelDecodeError};
 use rtc_diag::{Code, codes};
-use rtc_image::{DecodeError, Opacity, Pixels};
+use rtc_image::{DecodeError, OpacityUse, Pixels};
 use rtc_ir as ir;
 use rtc_source::tree::{NodeId, NodeKind};
-use rtc_source::{Budget, Exceeded};
+use rtc_source::{Budget, LimitExceeded};
 use std::collections::BTreeMap;
 
 /// An image.
@@ -100,7 +100,7 @@ fn jpeg_ends_early(bytes: &[u8]) -> bool {
 }
 
 impl Image {
-    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+    pub(super) fn read(fields: ObjectFields<'_, '_>) -> Self {
         Self {
             at: fields.at,
             name: fields.name(),
@@ -125,13 +125,17 @@ impl Document<'_> {
 }
 
 /// Checks the properties of each image.
-pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut AssetReport<'_, '_>) {
+pub(super) fn check(
+    doc: &Document<'_>,
+    purposes: &mut BufferViewUsages,
+    report: &mut AssetReport<'_, '_>,
+) {
     for image in doc
         .images
         .iter()
         .filter(|image| report.json.kind(image.at) == NodeKind::Map)
     {
-        let fields = Fields::new(report.json, image.at);
+        let fields = ObjectFields::new(report.json, image.at);
         if fields.text("uri").is_some() == fields.index("bufferView").is_some() {
             let message = "an image needs either a `uri` or a `bufferView`".to_owned();
             report.add(&codes::GLTF_TOGETHER, "ONE_OF_MISMATCH", image.at, message);
@@ -143,7 +147,7 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut As
             let message = "an image in a buffer view needs a `mimeType`".to_owned();
             report.add(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
         }
-        purposes.set(image.view, Purpose::Image, at, report);
+        purposes.set(image.view, BufferViewUsage::Image, at, report);
         if image
             .view
             .and_then(|view| doc.views.get(view))
@@ -161,13 +165,13 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut As
 }
 
 /// The reason for rejecting an image: a code, the validator's name for it, and a message.
-type ImageFault = (&'static Code, &'static str, String);
+type ImageError = (&'static Code, &'static str, String);
 
 /// Checks the bytes of each image, and decodes them on the given number of threads, 0 for one per
 /// core; identical bytes are decoded once.
 pub(super) fn inspect(doc: &mut Document<'_>, threads: usize, report: &mut AssetReport<'_, '_>) {
     let mut decoded = decoded(doc, threads, report.budget);
-    let mut known: BTreeMap<ByteRange, Result<usize, ImageFault>> = BTreeMap::new();
+    let mut known: BTreeMap<ByteRange, Result<usize, ImageError>> = BTreeMap::new();
     for index in 0..doc.images.len() {
         let image = &doc.images[index];
         let Some(bytes) = doc.image_bytes(image) else {
@@ -202,10 +206,10 @@ pub(super) fn inspect(doc: &mut Document<'_>, threads: usize, report: &mut Asset
                     doc.pictures.push(picture);
                     Ok(doc.pictures.len() - 1)
                 }
-                Some(Err(Rejection::Limit(fault))) => {
+                Some(Err(ImageRejection::Limit(fault))) => {
                     return report.exceeded(at, "the image", &fault);
                 }
-                Some(Err(Rejection::Fault(fault))) => Err(fault),
+                Some(Err(ImageRejection::Fault(fault))) => Err(fault),
                 // One of them exceeds the budget, which was reported.
                 None => continue,
             },
@@ -256,9 +260,9 @@ fn remark_size(picture: &ir::Image, at: NodeId, report: &mut AssetReport<'_, '_>
     }
 }
 
-enum Rejection {
-    Fault(ImageFault),
-    Limit(Exceeded),
+enum ImageRejection {
+    Fault(ImageError),
+    Limit(LimitExceeded),
 }
 
 /// The decoded images, up to the first that exceeds the budget: all are charged, in order, before
@@ -267,7 +271,7 @@ fn decoded(
     doc: &Document<'_>,
     threads: usize,
     budget: &Budget,
-) -> BTreeMap<ByteRange, Result<ir::Image, Rejection>> {
+) -> BTreeMap<ByteRange, Result<ir::Image, ImageRejection>> {
     let (mut pictures, mut admitted) = (BTreeMap::new(), BTreeMap::new());
     let images = doc.images.iter().filter_map(|image| doc.image_bytes(image));
     for (bytes, format) in images.filter_map(|bytes| Some((bytes, ImageCoding::of(bytes)?))) {
@@ -280,7 +284,7 @@ fn decoded(
                 admitted.insert(range, file);
             }
             Err(refusal) => {
-                let is_over = matches!(refusal, Rejection::Limit(_));
+                let is_over = matches!(refusal, ImageRejection::Limit(_));
                 pictures.insert(range, Err(refusal));
                 if is_over {
                     break;
@@ -291,13 +295,17 @@ fn decoded(
     // After an image is rejected for its size, the rest is not decoded.
     if pictures
         .values()
-        .any(|range| matches!(range, Err(Rejection::Limit(_))))
+        .any(|range| matches!(range, Err(ImageRejection::Limit(_))))
     {
         return pictures;
     }
     let (places, files): (Vec<_>, Vec<_>) = admitted.into_iter().unzip();
     let made = pixels::decode_all(&files, threads, budget).into_iter();
-    let made = made.map(|pixels| pixels.map(picture).map_err(|fault| Rejection::of(&fault)));
+    let made = made.map(|pixels| {
+        pixels
+            .map(picture)
+            .map_err(|fault| ImageRejection::of(&fault))
+    });
     pictures.extend(places.into_iter().zip(made));
     pictures
 }
@@ -307,22 +315,22 @@ fn admit<'a>(
     format: ImageCoding,
     bytes: &'a [u8],
     budget: &Budget,
-) -> Result<ChargedFile<'a>, Rejection> {
+) -> Result<ChargedFile<'a>, ImageRejection> {
     if format.ends_early(bytes) {
         let message = "the image ends before its size".to_owned();
-        return Err(Rejection::Fault((
+        return Err(ImageRejection::Fault((
             &codes::GLTF_IMAGE,
             "IMAGE_UNEXPECTED_EOS",
             message,
         )));
     }
-    pixels::charge_file(bytes, Opacity::Kept, budget).map_err(|refused| match refused {
-        PixelFault::Limit(fault) => Rejection::Limit(fault),
-        PixelFault::File(fault) => Rejection::of(&fault),
+    pixels::charge_file(bytes, OpacityUse::Kept, budget).map_err(|refused| match refused {
+        PixelDecodeError::Limit(fault) => ImageRejection::Limit(fault),
+        PixelDecodeError::File(fault) => ImageRejection::of(&fault),
     })
 }
 
-impl Rejection {
+impl ImageRejection {
     /// That an image can't be decoded.
     fn of(fault: &DecodeError) -> Self {
         let (code, alias) = match fault {

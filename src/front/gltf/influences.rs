@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 
 /// The errors in the joints of vertices, and the first vertex of each.
 #[derive(Default)]
-struct Influences {
+struct JointErrors {
     out: Option<usize>,
     twice: Option<usize>,
     negative: Option<usize>,
@@ -52,7 +52,7 @@ pub(super) fn check(
         return;
     }
     // Collect the influences of each vertex over all sets.
-    let mut found = Influences::default();
+    let mut found = JointErrors::default();
     #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
     let joints = joints as f64;
     let mut vertex = Vec::new();
@@ -71,7 +71,7 @@ pub(super) fn check(
     found.report(at, report);
 }
 
-impl Influences {
+impl JointErrors {
     fn look(&mut self, at: usize, vertex: &[(f64, f64)], joints: f64) {
         /// The tolerance of the sum of weights, per weight.
         const ROUNDING: f64 = 2e-7;
@@ -104,7 +104,7 @@ impl Influences {
 
     /// Reports the errors of the primitive at a node.
     fn report(self, at: NodeId, report: &mut AssetReport<'_, '_>) {
-        let Influences {
+        let JointErrors {
             out,
             twice,
             negative,

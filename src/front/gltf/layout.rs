@@ -2,7 +2,7 @@
 
 /// The type of a component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Component {
+pub(super) enum ComponentType {
     I8,
     U8,
     I16,
@@ -11,7 +11,7 @@ pub(super) enum Component {
     F32,
 }
 
-impl Component {
+impl ComponentType {
     pub(super) fn from_code(code: u64) -> Option<Self> {
         Some(match code {
             5120 => Self::I8,
@@ -66,7 +66,7 @@ impl Component {
 /// of four bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ElementLayout {
-    pub(super) component: Component,
+    pub(super) component: ComponentType,
     pub(super) columns: usize,
     pub(super) rows: usize,
     /// Integers are fractions of the largest value.
@@ -105,7 +105,7 @@ impl ElementLayout {
             .component
             .range()
             .unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
-        let is_whole = |number: f64| self.component == Component::F32 || number.fract() == 0.0;
+        let is_whole = |number: f64| self.component == ComponentType::F32 || number.fract() == 0.0;
         bound.len() == self.components()
             && bound
                 .iter()
@@ -143,11 +143,11 @@ mod tests {
             let layout = layout(component, columns, rows);
             (layout.size(), layout.packed())
         };
-        assert_eq!(sizes(Component::U8, 2, 2), (6, 8));
-        assert_eq!(sizes(Component::I8, 3, 3), (11, 12));
-        assert_eq!(sizes(Component::U16, 3, 3), (22, 24));
-        assert_eq!(sizes(Component::U16, 2, 2), (8, 8));
-        assert_eq!(sizes(Component::F32, 4, 4), (64, 64));
-        assert_eq!(sizes(Component::U8, 1, 3), (3, 3));
+        assert_eq!(sizes(ComponentType::U8, 2, 2), (6, 8));
+        assert_eq!(sizes(ComponentType::I8, 3, 3), (11, 12));
+        assert_eq!(sizes(ComponentType::U16, 3, 3), (22, 24));
+        assert_eq!(sizes(ComponentType::U16, 2, 2), (8, 8));
+        assert_eq!(sizes(ComponentType::F32, 4, 4), (64, 64));
+        assert_eq!(sizes(ComponentType::U8, 1, 3), (3, 3));
     }
 }

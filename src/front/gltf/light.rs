@@ -1,7 +1,7 @@
 //! Punctual lights: rules between their properties.
 
 use super::document::Document;
-use super::field::Fields;
+use super::field::ObjectFields;
 use super::report::AssetReport;
 use rtc_diag::codes;
 use rtc_math::shortest;
@@ -9,7 +9,7 @@ use rtc_math::shortest;
 /// Checks all lights.
 pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     for light in &doc.lights {
-        let fields = Fields::new(report.json, *light);
+        let fields = ObjectFields::new(report.json, *light);
         // A spot light needs its cone angles.
         if fields.is("type", "spot") && !fields.has("spot") {
             let message = "the light has no `spot`".to_owned();

@@ -1,7 +1,7 @@
 //! Materials: rules between their properties, without their textures.
 
 use super::document::Document;
-use super::field::Fields;
+use super::field::ObjectFields;
 use super::report::AssetReport;
 use rtc_diag::codes;
 use rtc_math::shortest;
@@ -31,7 +31,7 @@ pub(super) fn texture_coordinates(
         if !is_texture {
             continue;
         }
-        let fields = Fields::new(json, at);
+        let fields = ObjectFields::new(json, at);
         // `KHR_texture_transform` may override the set of a texture.
         let transform = fields
             .extension("KHR_texture_transform")
@@ -53,7 +53,7 @@ pub(super) fn texture_coordinates(
 }
 
 /// True if a texture of the material follows tangents.
-pub(super) fn needs_tangents(doc: &Document<'_>, material: Fields<'_, '_>) -> bool {
+pub(super) fn needs_tangents(doc: &Document<'_>, material: ObjectFields<'_, '_>) -> bool {
     let textures = [
         ("KHR_materials_clearcoat", "clearcoatNormalTexture"),
         ("KHR_materials_anisotropy", "anisotropyTexture"),
@@ -70,7 +70,7 @@ pub(super) fn needs_tangents(doc: &Document<'_>, material: Fields<'_, '_>) -> bo
 /// Checks all materials.
 pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     for material in &doc.materials {
-        let fields = Fields::new(report.json, *material);
+        let fields = ObjectFields::new(report.json, *material);
         if let Some(at) = fields
             .node("alphaCutoff")
             .filter(|_| !fields.is("alphaMode", "MASK"))
@@ -115,7 +115,7 @@ fn report_occlusion(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
 }
 
 /// Unlit and specular-glossiness replace the model that other extensions extend.
-fn check_models(fields: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
+fn check_models(fields: ObjectFields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     let Some(extensions) = fields.node("extensions") else {
         return;
     };
@@ -136,13 +136,13 @@ fn check_models(fields: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
 /// The object of an extension that the asset uses.
 fn extension<'t, 's>(
     doc: &Document<'_>,
-    fields: Fields<'t, 's>,
+    fields: ObjectFields<'t, 's>,
     name: &str,
-) -> Option<Fields<'t, 's>> {
+) -> Option<ObjectFields<'t, 's>> {
     fields.extension(name).filter(|_| doc.uses(name))
 }
 
-fn check_ior(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
+fn check_ior(doc: &Document<'_>, fields: ObjectFields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     let Some(ior) = extension(doc, fields, "KHR_materials_ior") else {
         return;
     };
@@ -155,7 +155,11 @@ fn check_ior(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetRepor
     }
 }
 
-fn check_iridescence(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
+fn check_iridescence(
+    doc: &Document<'_>,
+    fields: ObjectFields<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
+) {
     let Some(film) = extension(doc, fields, "KHR_materials_iridescence") else {
         return;
     };
@@ -198,7 +202,11 @@ fn check_iridescence(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut As
     }
 }
 
-fn check_volume(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
+fn check_volume(
+    doc: &Document<'_>,
+    fields: ObjectFields<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
+) {
     let Some(volume) = extension(doc, fields, "KHR_materials_volume") else {
         return;
     };
@@ -231,7 +239,11 @@ fn check_volume(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetRe
     }
 }
 
-fn check_dispersion(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
+fn check_dispersion(
+    doc: &Document<'_>,
+    fields: ObjectFields<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
+) {
     let volume = extension(doc, fields, "KHR_materials_volume");
     if let Some(dispersion) =
         extension(doc, fields, "KHR_materials_dispersion").filter(|_| volume.is_none())
@@ -247,8 +259,8 @@ fn check_dispersion(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Ass
 }
 
 /// Textures that share tangents use the texture coordinates of the normal map.
-fn check_coats(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
-    let set = |texture: Fields<'_, '_>| texture.integer("texCoord").unwrap_or(0);
+fn check_coats(doc: &Document<'_>, fields: ObjectFields<'_, '_>, report: &mut AssetReport<'_, '_>) {
+    let set = |texture: ObjectFields<'_, '_>| texture.integer("texCoord").unwrap_or(0);
     let Some(normal) = fields.object("normalTexture").map(set) else {
         return;
     };
@@ -273,7 +285,11 @@ fn check_coats(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetRep
     }
 }
 
-fn check_emission(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
+fn check_emission(
+    doc: &Document<'_>,
+    fields: ObjectFields<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
+) {
     let Some(strength) = extension(doc, fields, "KHR_materials_emissive_strength") else {
         return;
     };
@@ -301,7 +317,7 @@ pub(super) fn check_variants(doc: &Document<'_>, report: &mut AssetReport<'_, '_
     }
     for primitive in doc.meshes.iter().flat_map(|mesh| &mesh.primitives) {
         let Some(variants) =
-            Fields::new(report.json, primitive.at).extension("KHR_materials_variants")
+            ObjectFields::new(report.json, primitive.at).extension("KHR_materials_variants")
         else {
             continue;
         };

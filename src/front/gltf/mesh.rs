@@ -1,12 +1,12 @@
 //! Meshes: primitives and morph target weights, and whether they are consistent.
 
-use super::buffer::Purposes;
+use super::buffer::BufferViewUsages;
 use super::constraint::AccessorConstraints;
 use super::document::Document;
-use super::field::Fields;
+use super::field::ObjectFields;
 use super::primitive::{self, Primitive};
 use super::report::AssetReport;
-use super::usage::Usages;
+use super::usage::AccessorUsages;
 use rtc_diag::codes;
 use rtc_source::tree::NodeId;
 use std::collections::BTreeMap;
@@ -22,7 +22,7 @@ pub(super) struct Mesh {
 }
 
 impl Mesh {
-    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+    pub(super) fn read(fields: ObjectFields<'_, '_>) -> Self {
         let primitives: Vec<Primitive> =
             fields.objects("primitives").map(Primitive::read).collect();
         Self {
@@ -50,9 +50,9 @@ impl Mesh {
 }
 
 /// The results of the checks of meshes.
-pub(super) struct MeshLinks<'l> {
-    pub(super) purposes: &'l mut Purposes,
-    pub(super) usages: &'l mut Usages,
+pub(super) struct CheckedMeshes<'l> {
+    pub(super) purposes: &'l mut BufferViewUsages,
+    pub(super) usages: &'l mut AccessorUsages,
     pub(super) constraints: &'l mut AccessorConstraints,
     /// The accessor that was first seen in each view without a stride.
     pub(super) streams: &'l mut BTreeMap<usize, usize>,
@@ -63,7 +63,7 @@ pub(super) struct MeshLinks<'l> {
 /// Checks all meshes.
 pub(super) fn check(
     doc: &Document<'_>,
-    links: &mut MeshLinks<'_>,
+    links: &mut CheckedMeshes<'_>,
     report: &mut AssetReport<'_, '_>,
 ) {
     for mesh in &doc.meshes {

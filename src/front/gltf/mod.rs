@@ -71,17 +71,17 @@ pub(super) use lower::{SURFACE, empty, looking_at, pixel};
 pub use summary::{AnimationSummary, AssetSummary, summary};
 
 use super::FrontOptions;
-use buffer::Purposes;
+use buffer::BufferViewUsages;
 use constraint::AccessorConstraints;
-use container::Parts;
+use container::AssetParts;
 use document::Document;
 use report::AssetReport;
-use resource::Resources;
-use rtc_diag::{Diagnostic, Severity, Sink, codes};
-use rtc_ir::Lowered;
+use resource::ResourceReader;
+use rtc_diag::{Diagnostic, DiagnosticSink, Severity, codes};
+use rtc_ir::LoweredScene;
 use rtc_source::tree::{SyntaxTree, json};
-use rtc_source::{FileId, Resource, Search, SourceMap, Span};
-use usage::Usages;
+use rtc_source::{FileId, FileSearch, Resource, SourceMap, Span};
+use usage::AccessorUsages;
 
 /// `schema/gltf-extensions.md`: the extensions that are read and drawn.
 #[must_use]
@@ -143,8 +143,8 @@ pub fn lower(
     file: FileId,
     map: &SourceMap,
     options: &FrontOptions,
-    sink: &mut Sink,
-) -> Option<Lowered> {
+    sink: &mut DiagnosticSink,
+) -> Option<LoweredScene> {
     let bytes = map.bytes(file);
     // Find the JSON text in the file and parse it.
     let parts = parts(file, map, options.lenient, sink)?;
@@ -173,17 +173,22 @@ pub fn lower(
     let doc = shape(&tree, parts.is_glb, &mut report).filter(|_| parts.is_whole)?;
     let folder = map.folder(file);
     // Load images and buffers, and check the accessors by their contents.
-    let search = Search::new(folder, options.asset_root.as_deref())
+    let search = FileSearch::new(folder, options.asset_root.as_deref())
         .with_parent(folder, options.home.as_deref());
     let chunk = parts.bin.map(|range| &bytes[range]);
-    let resources = Resources::new(search, map);
+    let resources = ResourceReader::new(search, map);
     let doc = fill(doc, chunk, resources, options.threads, &mut report);
     // Lower only an asset without errors.
     let lowered = (!report.has_errors()).then(|| lower::lower(&doc, options, &mut report));
     lowered.filter(|_| !report.has_errors())
 }
 
-fn parts(file: FileId, map: &SourceMap, is_lenient: bool, sink: &mut Sink) -> Option<Parts> {
+fn parts(
+    file: FileId,
+    map: &SourceMap,
+    is_lenient: bool,
+    sink: &mut DiagnosticSink,
+) -> Option<AssetParts> {
     let bytes = map.bytes(file);
     let is_glb = container::is_glb(map.name(file), bytes);
     let is_misnamed = is_glb && opens_object(bytes);
@@ -196,7 +201,7 @@ fn parts(file: FileId, map: &SourceMap, is_lenient: bool, sink: &mut Sink) -> Op
     match (is_glb, is_misnamed) {
         (true, false) => container::open(file, bytes, is_lenient, sink),
         (true, true) if !is_lenient => None,
-        _ => Some(Parts {
+        _ => Some(AssetParts {
             json: 0..bytes.len(),
             bin: None,
             is_glb: false,
@@ -209,9 +214,9 @@ fn parts(file: FileId, map: &SourceMap, is_lenient: bool, sink: &mut Sink) -> Op
 fn text<'s>(
     file: FileId,
     bytes: &'s [u8],
-    parts: &Parts,
+    parts: &AssetParts,
     is_lenient: bool,
-    sink: &mut Sink,
+    sink: &mut DiagnosticSink,
 ) -> Option<(u32, &'s str)> {
     let offset = |at: usize| u32::try_from(parts.json.start + at).unwrap_or(u32::MAX);
     let text = match std::str::from_utf8(&bytes[parts.json.clone()]) {
@@ -249,7 +254,7 @@ fn not_json(span: Span, message: &str) -> Diagnostic {
     container::fault(&codes::GLTF_NOT_JSON, "INVALID_JSON", message).at(span, "here")
 }
 
-fn check_keys(tree: &SyntaxTree<'_>, is_lenient: bool, sink: &mut Sink) {
+fn check_keys(tree: &SyntaxTree<'_>, is_lenient: bool, sink: &mut DiagnosticSink) {
     for (first, second) in tree.duplicate_keys() {
         let code = &codes::GLTF_KEY_TWICE;
         let are_equal = tree.are_alike(*first, *second);
@@ -295,7 +300,7 @@ fn shape<'s>(
 fn fill<'s>(
     mut doc: Document<'s>,
     chunk: Option<&'s [u8]>,
-    mut resources: Resources<'_>,
+    mut resources: ResourceReader<'_>,
     threads: usize,
     report: &mut AssetReport<'_, 's>,
 ) -> Document<'s> {
@@ -313,8 +318,8 @@ fn fill<'s>(
 
 /// Checks references; returns the resulting constraints on accessors.
 fn check_links(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> AccessorConstraints {
-    let mut purposes = Purposes::new(doc);
-    let mut usages = Usages::new(doc.accessors.len());
+    let mut purposes = BufferViewUsages::new(doc);
+    let mut usages = AccessorUsages::new(doc.accessors.len());
     let mut constraints = AccessorConstraints::default();
     buffer::check(doc, report);
     accessor::check(doc, &mut purposes, report);
@@ -324,7 +329,7 @@ fn check_links(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> Accessor
     material::check(doc, report);
     material::check_variants(doc, report);
     let mut streams = std::collections::BTreeMap::new();
-    let mut links = mesh::MeshLinks {
+    let mut links = mesh::CheckedMeshes {
         purposes: &mut purposes,
         usages: &mut usages,
         constraints: &mut constraints,

@@ -1,7 +1,7 @@
 //! Nodes: transforms, and the node hierarchy, which is traversed without recursion.
 
 use super::document::Document;
-use super::field::Fields;
+use super::field::ObjectFields;
 use super::report::AssetReport;
 use rtc_diag::codes;
 use rtc_math::unit;
@@ -25,7 +25,7 @@ pub(super) const LAST_ROW: &str = "the last row is read as 0, 0, 0, 1";
 pub(super) struct Node {
     pub(super) at: NodeId,
     pub(super) name: String,
-    pub(super) transform: Transform,
+    pub(super) transform: NodeTransform,
     pub(super) children: Vec<usize>,
     pub(super) mesh: Option<usize>,
     pub(super) skin: Option<usize>,
@@ -38,12 +38,12 @@ pub(super) struct Node {
     /// The nodes that show the same in less detail (`MSFT_lod`).
     pub(super) coarser: Vec<usize>,
     /// The instances of its mesh.
-    pub(super) instances: Option<Instancing>,
+    pub(super) instances: Option<GpuInstancing>,
 }
 
 /// The accessors of `EXT_mesh_gpu_instancing`.
 #[derive(Clone, Debug)]
-pub(super) struct Instancing {
+pub(super) struct GpuInstancing {
     /// Translation, rotation, scale.
     pub(super) parts: [Option<usize>; 3],
     /// The accessors of all attributes, application-specific ones too; each gives the number of
@@ -51,8 +51,8 @@ pub(super) struct Instancing {
     pub(super) all: Vec<usize>,
 }
 
-impl Instancing {
-    fn read(attributes: Fields<'_, '_>) -> Self {
+impl GpuInstancing {
+    fn read(attributes: ObjectFields<'_, '_>) -> Self {
         let pairs = attributes.json.pairs(attributes.at);
         let accessors = pairs.filter_map(|(_, at)| attributes.json.integer(at));
         Self {
@@ -66,7 +66,7 @@ impl Instancing {
 
 /// The transform of a node in its parent.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Transform {
+pub(super) enum NodeTransform {
     /// Column by column.
     Matrix([f64; 16]),
     /// Scale first, then rotation, then translation.
@@ -78,8 +78,8 @@ pub(super) enum Transform {
 }
 
 impl Node {
-    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
-        let parts = Transform::Parts {
+    pub(super) fn read(fields: ObjectFields<'_, '_>) -> Self {
+        let parts = NodeTransform::Parts {
             translation: fields.vector_or("translation", [0.0; 3]),
             rotation: fields.vector_or("rotation", [0.0, 0.0, 0.0, 1.0]),
             scale: fields.vector_or("scale", [1.0; 3]),
@@ -90,7 +90,7 @@ impl Node {
         Self {
             at: fields.at,
             name: fields.name(),
-            transform: fields.vector("matrix").map_or(parts, Transform::Matrix),
+            transform: fields.vector("matrix").map_or(parts, NodeTransform::Matrix),
             children: fields.indices("children"),
             mesh: fields.index("mesh"),
             skin: fields.index("skin"),
@@ -105,7 +105,7 @@ impl Node {
             coarser: fields
                 .extension(LEVELS)
                 .map_or_else(Vec::new, |fields| fields.indices("ids")),
-            instances: instancing.map(Instancing::read),
+            instances: instancing.map(GpuInstancing::read),
         }
     }
 }
@@ -234,9 +234,9 @@ fn roots(
 
 fn check_transform(node: &Node, report: &mut AssetReport<'_, '_>) {
     match node.transform {
-        Transform::Matrix(matrix) => {
+        NodeTransform::Matrix(matrix) => {
             let at = report.json.at_or(node.at, "matrix");
-            let fields = Fields::new(report.json, node.at);
+            let fields = ObjectFields::new(report.json, node.at);
             // A matrix excludes the separate transforms.
             if ["translation", "rotation", "scale"]
                 .iter()
@@ -268,7 +268,7 @@ fn check_transform(node: &Node, report: &mut AssetReport<'_, '_>) {
                 report.add_with_hint(&codes::GLTF_REMARK, "", at, message, hint);
             }
         }
-        Transform::Parts {
+        NodeTransform::Parts {
             translation: _,
             rotation,
             scale: _,
@@ -287,7 +287,7 @@ fn check_transform(node: &Node, report: &mut AssetReport<'_, '_>) {
 
 /// Notes that of the levels of detail at a node or a material the finest is shown.
 pub(super) fn report_levels(at: NodeId, report: &mut AssetReport<'_, '_>) {
-    let levels = Fields::new(report.json, at).extension(LEVELS);
+    let levels = ObjectFields::new(report.json, at).extension(LEVELS);
     if let Some(levels) = levels {
         let count = 1 + levels.indices("ids").len();
         let message = format!("the finest of {count} levels of detail is used");
@@ -317,7 +317,7 @@ fn is_sheared(matrix: &[f64; 16]) -> bool {
 
 fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut AssetReport<'_, '_>) {
     let mesh = node.mesh.and_then(|mesh| doc.meshes.get(mesh));
-    let fields = Fields::new(report.json, node.at);
+    let fields = ObjectFields::new(report.json, node.at);
     // Weights need a mesh with as many morph targets.
     if let Some(at) = fields.node("weights").filter(|_| !node.weights.is_empty()) {
         if node.mesh.is_none() {
@@ -367,7 +367,7 @@ fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut AssetReport<'_, '_>)
 }
 
 fn check_empty(node: &Node, report: &mut AssetReport<'_, '_>) {
-    let fields = Fields::new(report.json, node.at);
+    let fields = ObjectFields::new(report.json, node.at);
     let declares = ["children", "mesh", "camera", "extensions", "extras"];
     if !declares.iter().any(|key| fields.has(key)) {
         report.add(

@@ -1,7 +1,7 @@
 //! Animation pointers (`KHR_animation_pointer`): the property that a pointer names, and its
 //! animated value.
 
-use super::channel::Path;
+use super::channel::AnimatedPath;
 use super::document::Document;
 use rtc_source::tree::{NodeId, NodeKind, SyntaxTree};
 use std::collections::BTreeMap;
@@ -137,9 +137,9 @@ macro_rules! of_extensions {
 rtc_tables::extensions!(of_extensions);
 
 /// The node and the path that a pointer names, as channels without pointers do.
-pub(super) fn of_node(pointer: &str) -> Option<(usize, Path)> {
+pub(super) fn of_node(pointer: &str) -> Option<(usize, AnimatedPath)> {
     let (node, key) = pointer.strip_prefix("/nodes/")?.split_once('/')?;
-    Some((node.parse().ok()?, Path::of(key)?))
+    Some((node.parse().ok()?, AnimatedPath::of(key)?))
 }
 
 /// The property of a material, a camera or a light that a pointer names; none if it names another

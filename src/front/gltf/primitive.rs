@@ -1,16 +1,16 @@
 //! Primitives: whether attributes, indices, morph targets and material are consistent.
 
 use super::accessor;
-use super::attribute::{self, Attribute};
-use super::buffer::Purpose;
+use super::attribute::{self, VertexAttribute};
+use super::buffer::BufferViewUsage;
 use super::constraint::AccessorConstraint;
 use super::document::Document;
-use super::field::Fields;
+use super::field::ObjectFields;
 use super::layout::ElementLayout;
 use super::material;
-use super::mesh::MeshLinks;
+use super::mesh::CheckedMeshes;
 use super::report::AssetReport;
-use super::usage::Usage;
+use super::usage::AccessorUsage;
 use rtc_diag::codes;
 use rtc_source::tree::NodeId;
 
@@ -21,7 +21,7 @@ pub(super) const TRIANGLES: u64 = 4;
 #[derive(Debug)]
 pub(super) struct Primitive {
     pub(super) at: NodeId,
-    pub(super) attributes: Vec<Attribute>,
+    pub(super) attributes: Vec<VertexAttribute>,
     /// The positions of the attributes in the order of their names.
     sorted: Vec<usize>,
     pub(super) indices: Option<usize>,
@@ -29,13 +29,13 @@ pub(super) struct Primitive {
     /// 0 are points, 1 lines, 2 a loop, 3 a strip of them; 4 triangles, 5 a strip, 6 a fan.
     pub(super) mode: u64,
     /// The attributes that each morph target displaces.
-    pub(super) targets: Vec<Vec<Attribute>>,
+    pub(super) targets: Vec<Vec<VertexAttribute>>,
     /// Compressed by Draco.
     pub(super) draco: Option<NodeId>,
 }
 
 impl Primitive {
-    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+    pub(super) fn read(fields: ObjectFields<'_, '_>) -> Self {
         let attributes = fields
             .object("attributes")
             .map(attribute::read)
@@ -81,7 +81,7 @@ pub(super) fn check(
     doc: &Document<'_>,
     primitive: &Primitive,
     // Record how each attribute uses its accessor and its view.
-    links: &mut MeshLinks<'_>,
+    links: &mut CheckedMeshes<'_>,
     report: &mut AssetReport<'_, '_>,
 ) {
     attribute::check_names(primitive, report);
@@ -90,12 +90,18 @@ pub(super) fn check(
         let Some((_, accessor)) = accessor::find(doc, Some(attribute.accessor), report) else {
             continue;
         };
-        links
-            .usages
-            .set(attribute.accessor, Usage::Vertices, attribute.at, report);
-        links
-            .purposes
-            .set(accessor.view, Purpose::Vertices, attribute.at, report);
+        links.usages.set(
+            attribute.accessor,
+            AccessorUsage::Vertices,
+            attribute.at,
+            report,
+        );
+        links.purposes.set(
+            accessor.view,
+            BufferViewUsage::Vertices,
+            attribute.at,
+            report,
+        );
         // Check the format and layout of its elements.
         attribute::check_format(doc, attribute, accessor, false, report);
         attribute::check_place(doc, attribute, accessor, links.streams, report);
@@ -129,17 +135,17 @@ pub(super) fn check(
 fn check_indices(
     doc: &Document<'_>,
     (primitive, vertices): (&Primitive, Option<usize>),
-    links: &mut MeshLinks<'_>,
+    links: &mut CheckedMeshes<'_>,
     report: &mut AssetReport<'_, '_>,
 ) {
     let indices = accessor::find(doc, primitive.indices, report);
     if let Some((index, accessor)) = indices {
         // Record how the indices use their accessor and their view.
         let at = report.json.at_or(primitive.at, "indices");
-        links.usages.set(index, Usage::Indices, at, report);
+        links.usages.set(index, AccessorUsage::Indices, at, report);
         links
             .purposes
-            .set(accessor.view, Purpose::Indices, at, report);
+            .set(accessor.view, BufferViewUsage::Indices, at, report);
         if accessor
             .view
             .and_then(|view| doc.views.get(view))
@@ -212,19 +218,25 @@ fn check_targets(
     doc: &Document<'_>,
     primitive: &Primitive,
     // Record how each displacement uses its accessor and its view.
-    links: &mut MeshLinks<'_>,
+    links: &mut CheckedMeshes<'_>,
     report: &mut AssetReport<'_, '_>,
 ) {
     for attribute in primitive.targets.iter().flatten() {
         let Some((_, accessor)) = accessor::find(doc, Some(attribute.accessor), report) else {
             continue;
         };
-        links
-            .usages
-            .set(attribute.accessor, Usage::Vertices, attribute.at, report);
-        links
-            .purposes
-            .set(accessor.view, Purpose::Vertices, attribute.at, report);
+        links.usages.set(
+            attribute.accessor,
+            AccessorUsage::Vertices,
+            attribute.at,
+            report,
+        );
+        links.purposes.set(
+            accessor.view,
+            BufferViewUsage::Vertices,
+            attribute.at,
+            report,
+        );
         // Check the format and layout of its elements.
         attribute::check_format(doc, attribute, accessor, true, report);
         attribute::check_place(doc, attribute, accessor, links.streams, report);
@@ -257,7 +269,7 @@ fn check_targets(
 fn check_material(
     doc: &Document<'_>,
     primitive: &Primitive,
-    links: &mut MeshLinks<'_>,
+    links: &mut CheckedMeshes<'_>,
     report: &mut AssetReport<'_, '_>,
 ) {
     let Some(material) = primitive
@@ -290,7 +302,7 @@ fn check_tangents(doc: &Document<'_>, primitive: &Primitive, report: &mut AssetR
     let material = primitive
         .material
         .and_then(|material| doc.materials.get(material));
-    let material = material.map(|material| Fields::new(report.json, *material));
+    let material = material.map(|material| ObjectFields::new(report.json, *material));
     let is_needed = material.is_some_and(|material| material::needs_tangents(doc, material));
     let find = |name| {
         primitive

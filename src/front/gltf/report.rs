@@ -3,15 +3,15 @@
 
 use super::advice::advice;
 use crate::FrontOptions;
-use rtc_diag::{Code, Diagnostic, Severity, Sink, codes};
+use rtc_diag::{Code, Diagnostic, DiagnosticSink, Severity, codes};
 use rtc_source::tree::{NodeId, NodeKind, SyntaxTree};
-use rtc_source::{Budget, Exceeded, Resource};
+use rtc_source::{Budget, LimitExceeded, Resource};
 
 /// Collects the diagnostics of one asset.
 pub(super) struct AssetReport<'r, 's> {
     /// The text that they are about.
     pub(super) json: &'r SyntaxTree<'s>,
-    sink: &'r mut Sink,
+    sink: &'r mut DiagnosticSink,
     options: &'r FrontOptions,
     /// The remaining budget of the run.
     pub(super) budget: &'r Budget,
@@ -22,7 +22,7 @@ pub(super) struct AssetReport<'r, 's> {
 impl<'r, 's> AssetReport<'r, 's> {
     pub(super) fn new(
         json: &'r SyntaxTree<'s>,
-        sink: &'r mut Sink,
+        sink: &'r mut DiagnosticSink,
         options: &'r FrontOptions,
         budget: &'r Budget,
     ) -> Self {
@@ -54,7 +54,7 @@ impl<'r, 's> AssetReport<'r, 's> {
     }
 
     /// Adds the diagnostic that an object exceeds a limit. `what` names it, as `the image`.
-    pub(super) fn exceeded(&mut self, at: NodeId, what: &str, fault: &Exceeded) {
+    pub(super) fn exceeded(&mut self, at: NodeId, what: &str, fault: &LimitExceeded) {
         if !std::mem::replace(&mut self.is_over, true) {
             self.add_with_hint(
                 &codes::OVER_LIMIT,

@@ -3,14 +3,14 @@
 
 use super::buffer::Bytes;
 use super::document::Document;
-use super::field::Fields;
+use super::field::ObjectFields;
 use super::image::ImageCoding;
 use super::report::{AssetReport, shown};
-use super::uri::{self, Uri, UriFault};
+use super::uri::{self, Uri, UriError};
 use crate::pixels::PICTURES;
 use rtc_diag::codes;
 use rtc_source::tree::NodeId;
-use rtc_source::{FileKind, Found as FoundFile, Identity, Loader, Missing, Search, SourceMap};
+use rtc_source::{FileIdentity, FileKind, FileSearch, FoundFile, Loader, MissingFile, SourceMap};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -19,10 +19,10 @@ use std::rc::Rc;
 const MAX_BYTES: u64 = 1 << 30;
 
 /// Reads files, and remembers them.
-pub(super) struct Resources<'m> {
-    search: Search,
+pub(super) struct ResourceReader<'m> {
+    search: FileSearch,
     map: &'m SourceMap,
-    files: BTreeMap<Identity, Bytes<'static>>,
+    files: BTreeMap<FileIdentity, Bytes<'static>>,
     /// Data that are embedded.
     data: BTreeSet<Bytes<'static>>,
 }
@@ -30,8 +30,8 @@ pub(super) struct Resources<'m> {
 /// The resource of a URI: bytes, and the media type of a data URI.
 type FoundResource = (Bytes<'static>, Option<String>);
 
-impl<'m> Resources<'m> {
-    pub(super) fn new(search: Search, map: &'m SourceMap) -> Self {
+impl<'m> ResourceReader<'m> {
+    pub(super) fn new(search: FileSearch, map: &'m SourceMap) -> Self {
         Self {
             search,
             map,
@@ -49,7 +49,7 @@ impl<'m> Resources<'m> {
     ) {
         let is_glb = doc.is_glb;
         for (index, buffer) in doc.buffers.iter_mut().enumerate() {
-            let fields = Fields::new(report.json, buffer.at);
+            let fields = ObjectFields::new(report.json, buffer.at);
             // Load the file or data URI, or take the binary chunk.
             let bytes: Option<Bytes<'s>> = if let Some(at) = fields.node("uri") {
                 remark_uri(is_glb, at, report);
@@ -147,7 +147,7 @@ impl<'m> Resources<'m> {
             // An error that is not repaired is reported, and no file is read for it.
             match report.is_lenient() {
                 true => Ok(uri),
-                false => Err(UriFault::Reported),
+                false => Err(UriError::Reported),
             }
         });
         match parsed {
@@ -175,13 +175,13 @@ impl<'m> Resources<'m> {
                 self.file(&path, found, at, report)
                     .map(|bytes| (bytes, None))
             }
-            Err(UriFault::Malformed(why)) => {
+            Err(UriError::Malformed(why)) => {
                 let message = format!("`{}` is not a valid URI: {why}", shown(text));
                 report.add(&codes::GLTF_URI, "INVALID_URI", at, message);
                 None
             }
-            Err(UriFault::Reported) => None,
-            Err(UriFault::Outside(how)) => {
+            Err(UriError::Reported) => None,
+            Err(UriError::Outside(how)) => {
                 outside(text, how, at, report);
                 None
             }
@@ -191,14 +191,14 @@ impl<'m> Resources<'m> {
     fn file(
         &mut self,
         path: &str,
-        found: Result<FoundFile, Missing>,
+        found: Result<FoundFile, MissingFile>,
         at: NodeId,
         report: &mut AssetReport<'_, '_>,
     ) -> Option<Bytes<'static>> {
         // Report a file that is absent or outside the permitted folders.
         let found = match found {
             Ok(found) => found,
-            Err(Missing::Outside(_)) => {
+            Err(MissingFile::Outside(_)) => {
                 let climbs = path.split('/').any(|part| part == "..");
                 let how = match climbs {
                     true => "it contains `..`",
@@ -207,7 +207,7 @@ impl<'m> Resources<'m> {
                 outside(path, how, at, report);
                 return None;
             }
-            Err(Missing::NoFolder) => {
+            Err(MissingFile::NoFolder) => {
                 let message = format!(
                     "`{}` cannot be found: an asset from standard input has no folder",
                     shown(path)
@@ -216,7 +216,7 @@ impl<'m> Resources<'m> {
                 report.add_with_hint(&codes::GLTF_NO_FILE, "IO_ERROR", at, message, hint);
                 return None;
             }
-            Err(Missing::Absent(places)) => {
+            Err(MissingFile::Absent(places)) => {
                 let message = format!("there is no file `{}`", shown(path));
                 let places: Vec<String> = places
                     .iter()

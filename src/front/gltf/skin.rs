@@ -1,15 +1,15 @@
 //! Skins: joints in one tree, their matrices, and the nodes that have one.
 
 use super::accessor;
-use super::buffer::{Purpose, Purposes};
+use super::buffer::{BufferViewUsage, BufferViewUsages};
 use super::constraint::{AccessorConstraint, AccessorConstraints};
 use super::document::Document;
-use super::field::Fields;
+use super::field::ObjectFields;
 use super::influences;
-use super::layout::{Component, ElementLayout};
-use super::node::{Node, NodeHierarchy, Transform};
+use super::layout::{ComponentType, ElementLayout};
+use super::node::{Node, NodeHierarchy, NodeTransform};
 use super::report::AssetReport;
-use super::usage::{Usage, Usages};
+use super::usage::{AccessorUsage, AccessorUsages};
 use rtc_diag::codes;
 use rtc_source::tree::NodeId;
 use std::collections::{BTreeMap, BTreeSet};
@@ -24,7 +24,7 @@ pub(super) struct Skin {
 }
 
 impl Skin {
-    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+    pub(super) fn read(fields: ObjectFields<'_, '_>) -> Self {
         Self {
             at: fields.at,
             joints: fields.indices("joints"),
@@ -38,7 +38,11 @@ impl Skin {
 pub(super) fn check(
     doc: &Document<'_>,
     hierarchy: &NodeHierarchy,
-    (purposes, usages, constraints): (&mut Purposes, &mut Usages, &mut AccessorConstraints),
+    (purposes, usages, constraints): (
+        &mut BufferViewUsages,
+        &mut AccessorUsages,
+        &mut AccessorConstraints,
+    ),
     report: &mut AssetReport<'_, '_>,
 ) {
     // Check each skin by itself.
@@ -48,7 +52,7 @@ pub(super) fn check(
         check_matrices(doc, skin, (purposes, usages, constraints), report);
     }
     // Check each node with a mesh and a skin.
-    let mut scene_trees = SceneTrees::new(doc, hierarchy);
+    let mut scene_trees = ScenesOfTrees::new(doc, hierarchy);
     let mut done = CheckedSkins::default();
     for (index, node) in doc.nodes.iter().enumerate() {
         let skin = node
@@ -86,7 +90,7 @@ pub(super) fn check(
 }
 
 /// Which scenes show which trees.
-struct SceneTrees {
+struct ScenesOfTrees {
     /// The scenes that show the tree of each root.
     scenes: BTreeMap<usize, BTreeSet<usize>>,
     /// The root above the joints of each skin.
@@ -95,7 +99,7 @@ struct SceneTrees {
     known: BTreeMap<(usize, usize), bool>,
 }
 
-impl SceneTrees {
+impl ScenesOfTrees {
     fn new(doc: &Document<'_>, hierarchy: &NodeHierarchy) -> Self {
         let mut scenes: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
         for (index, scene) in doc.scenes.iter().enumerate() {
@@ -220,7 +224,11 @@ fn check_tree(
 fn check_matrices(
     doc: &Document<'_>,
     skin: &Skin,
-    (purposes, usages, constraints): (&mut Purposes, &mut Usages, &mut AccessorConstraints),
+    (purposes, usages, constraints): (
+        &mut BufferViewUsages,
+        &mut AccessorUsages,
+        &mut AccessorConstraints,
+    ),
     report: &mut AssetReport<'_, '_>,
 ) {
     let Some((index, accessor)) = accessor::find(doc, skin.matrices, report) else {
@@ -228,8 +236,13 @@ fn check_matrices(
     };
     // Record how the skin uses the accessor and its view.
     let at = report.json.at_or(skin.at, "inverseBindMatrices");
-    usages.set(index, Usage::InverseBindMatrices, at, report);
-    purposes.set(accessor.view, Purpose::InverseBindMatrices, at, report);
+    usages.set(index, AccessorUsage::InverseBindMatrices, at, report);
+    purposes.set(
+        accessor.view,
+        BufferViewUsage::InverseBindMatrices,
+        at,
+        report,
+    );
     if accessor
         .view
         .and_then(|view| doc.views.get(view))
@@ -246,7 +259,7 @@ fn check_matrices(
     }
     // The elements are affine matrices in f32.
     let is_matrix = |layout: ElementLayout| {
-        layout.columns == 4 && layout.component == Component::F32 && !layout.normalized
+        layout.columns == 4 && layout.component == ComponentType::F32 && !layout.normalized
     };
     if accessor.layout.is_some_and(is_matrix) {
         constraints.add(index, AccessorConstraint::Affine, at);
@@ -280,7 +293,7 @@ fn check_node(
     report: &mut AssetReport<'_, '_>,
 ) {
     let code = &codes::GLTF_SKIN_ODD;
-    let unmoved = Transform::Parts {
+    let unmoved = NodeTransform::Parts {
         translation: [0.0; 3],
         rotation: [0.0, 0.0, 0.0, 1.0],
         scale: [1.0; 3],

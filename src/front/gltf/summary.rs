@@ -1,8 +1,8 @@
 //! The summary of an asset for `rtc info`: what its JSON lists, without validation.
 
-use super::field::Fields;
+use super::field::ObjectFields;
 use super::{parts, text};
-use rtc_diag::Sink;
+use rtc_diag::DiagnosticSink;
 use rtc_source::tree::json;
 use rtc_source::{FileId, SourceMap};
 
@@ -57,11 +57,11 @@ const COUNTED: [&str; 11] = [
 #[must_use]
 pub fn summary(file: FileId, map: &SourceMap) -> Option<AssetSummary> {
     // Its errors are reported when it is lowered.
-    let mut sink = Sink::default();
+    let mut sink = DiagnosticSink::default();
     let parts = parts(file, map, true, &mut sink)?;
     let (base, text) = text(file, map.bytes(file), &parts, true, &mut sink)?;
     let tree = json::parse(file, base, text).ok()?;
-    let root = Fields::new(&tree, tree.root());
+    let root = ObjectFields::new(&tree, tree.root());
     let words = |key| -> Vec<String> {
         let items = tree.list(tree.root(), key);
         items
@@ -71,7 +71,7 @@ pub fn summary(file: FileId, map: &SourceMap) -> Option<AssetSummary> {
     let asset = root.object("asset");
     let text = |key: &str| asset.and_then(|asset| asset.text(key)).unwrap_or_default();
     let variants = root.extension("KHR_materials_variants");
-    let names = |fields: Fields<'_, '_>| fields.text("name").unwrap_or_default();
+    let names = |fields: ObjectFields<'_, '_>| fields.text("name").unwrap_or_default();
     Some(AssetSummary {
         version: text("version"),
         generator: text("generator"),
@@ -89,13 +89,13 @@ pub fn summary(file: FileId, map: &SourceMap) -> Option<AssetSummary> {
     })
 }
 
-fn animations(root: Fields<'_, '_>) -> Vec<AnimationSummary> {
+fn animations(root: ObjectFields<'_, '_>) -> Vec<AnimationSummary> {
     let ends: Vec<f64> = root
         .objects("accessors")
         .map(|accessor| accessor.numbers("max").and_then(|max| max.first().copied()))
         .map(Option::unwrap_or_default)
         .collect();
-    let animation = |animation: Fields<'_, '_>| AnimationSummary {
+    let animation = |animation: ObjectFields<'_, '_>| AnimationSummary {
         name: animation.text("name").unwrap_or_default(),
         channels: animation.objects("channels").count(),
         seconds: animation

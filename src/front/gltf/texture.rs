@@ -1,7 +1,7 @@
 //! Textures: the image, and the sampler.
 
 use super::document::Document;
-use super::field::Fields;
+use super::field::ObjectFields;
 use super::image::ImageCoding;
 use super::report::{AssetReport, shown};
 use rtc_diag::codes;
@@ -31,8 +31,8 @@ pub(super) struct TextureSampler {
 pub(super) const REPEAT: u64 = 10497;
 
 impl Texture {
-    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
-        let source = |fields: Fields<'_, '_>| fields.index("source");
+    pub(super) fn read(fields: ObjectFields<'_, '_>) -> Self {
+        let source = |fields: ObjectFields<'_, '_>| fields.index("source");
         Self {
             at: fields.at,
             source: source(fields),
@@ -44,7 +44,7 @@ impl Texture {
 }
 
 impl TextureSampler {
-    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+    pub(super) fn read(fields: ObjectFields<'_, '_>) -> Self {
         let wrap = |key| fields.integer(key).unwrap_or(REPEAT);
         Self {
             mag_filter: fields.integer("magFilter"),

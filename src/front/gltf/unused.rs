@@ -8,9 +8,9 @@ use super::primitive::Primitive;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The index lists that name elements of each accessor; none where a use takes all of them.
-pub(super) struct VertexUses(BTreeMap<usize, Option<BTreeSet<usize>>>);
+pub(super) struct AccessorIndexUses(BTreeMap<usize, Option<BTreeSet<usize>>>);
 
-impl VertexUses {
+impl AccessorIndexUses {
     pub(super) fn new(doc: &Document<'_>) -> Self {
         let mut readers = Self(BTreeMap::new());
         let primitives = || doc.meshes.iter().flat_map(|mesh| &mesh.primitives);

@@ -31,7 +31,7 @@ pub(super) enum Uri {
 
 /// The reason why a URI is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum UriFault {
+pub(super) enum UriError {
     /// It is invalid, for this reason.
     Malformed(&'static str),
     /// It leads out of the folder, in this way.
@@ -44,7 +44,7 @@ pub(super) enum UriFault {
 ///
 /// # Errors
 /// If it is invalid, or leaves the folder of the asset.
-pub(super) fn parse(uri: &str) -> Result<Uri, UriFault> {
+pub(super) fn parse(uri: &str) -> Result<Uri, UriError> {
     if let Some(rest) = strip_scheme(uri, "data") {
         return data(rest);
     }
@@ -56,22 +56,22 @@ pub(super) fn parse(uri: &str) -> Result<Uri, UriFault> {
             [first, rest @ ..]
                 if first.is_ascii_alphabetic() && rest.iter().all(|byte| in_scheme(*byte)) =>
             {
-                UriFault::Outside("it names a scheme or a drive")
+                UriError::Outside("it names a scheme or a drive")
             }
-            _ => UriFault::Malformed("the text before the colon is not a scheme"),
+            _ => UriError::Malformed("the text before the colon is not a scheme"),
         });
     }
     let path = unescape(uri.split(['?', '#']).next().unwrap_or_default())?;
     if path.starts_with(['/', '\\']) {
-        return Err(UriFault::Outside("it is an absolute path"));
+        return Err(UriError::Outside("it is an absolute path"));
     }
     if path.contains(['\\', ':', '\0']) {
-        return Err(UriFault::Outside(
+        return Err(UriError::Outside(
             "it contains a backslash, a colon or a NUL",
         ));
     }
     if path.is_empty() {
-        Err(UriFault::Malformed("it is empty"))
+        Err(UriError::Malformed("it is empty"))
     } else if path.split('/').any(|part| part == "..") {
         Ok(Uri::Above(path))
     } else {
@@ -105,8 +105,8 @@ fn strip_scheme<'a>(uri: &'a str, scheme: &str) -> Option<&'a str> {
 }
 
 /// A data URI without its scheme (RFC 2397).
-fn data(rest: &str) -> Result<Uri, UriFault> {
-    let (head, body) = rest.split_once(',').ok_or(UriFault::Malformed(
+fn data(rest: &str) -> Result<Uri, UriError> {
+    let (head, body) = rest.split_once(',').ok_or(UriError::Malformed(
         "a data URI needs a comma before its data",
     ))?;
     // The head is a media type with parameters.
@@ -120,7 +120,7 @@ fn data(rest: &str) -> Result<Uri, UriFault> {
         .split_once('/')
         .is_some_and(|(kind, name)| !kind.is_empty() && !name.is_empty());
     if !media.is_empty() && !is_media {
-        return Err(UriFault::Malformed("its media type has no slash"));
+        return Err(UriError::Malformed("its media type has no slash"));
     }
     // The last parameter tells the encoding.
     let mut parameters: Vec<&str> = parameters.collect();
@@ -129,7 +129,7 @@ fn data(rest: &str) -> Result<Uri, UriFault> {
         .is_some_and(|last| last.eq_ignore_ascii_case("base64"));
     parameters.truncate(parameters.len() - usize::from(is_base64));
     if !parameters.iter().all(|parameter| parameter.contains('=')) {
-        return Err(UriFault::Malformed(
+        return Err(UriError::Malformed(
             "a parameter of its media type has no value",
         ));
     }
@@ -144,20 +144,20 @@ fn data(rest: &str) -> Result<Uri, UriFault> {
         let text = if escaped { text.as_str() } else { body };
         BASE64
             .decode(text)
-            .map_err(|_| UriFault::Malformed("its data is not Base64"))?
+            .map_err(|_| UriError::Malformed("its data is not Base64"))?
     } else {
         unescape_bytes(body)?
     };
     Ok(Uri::Data { media, bytes })
 }
 
-fn unescape(text: &str) -> Result<String, UriFault> {
+fn unescape(text: &str) -> Result<String, UriError> {
     String::from_utf8(unescape_bytes(text)?)
-        .map_err(|_| UriFault::Malformed("its escapes are not UTF-8"))
+        .map_err(|_| UriError::Malformed("its escapes are not UTF-8"))
 }
 
 /// Resolves escapes such as `%41` (RFC 3986, section 2.1); an incomplete one is an error.
-fn unescape_bytes(text: &str) -> Result<Vec<u8>, UriFault> {
+fn unescape_bytes(text: &str) -> Result<Vec<u8>, UriError> {
     let is_escape = |after: &[u8]| {
         let digits = after.get(..2);
         digits.is_some_and(|digits| digits.iter().all(u8::is_ascii_hexdigit))
@@ -168,7 +168,7 @@ fn unescape_bytes(text: &str) -> Result<Vec<u8>, UriFault> {
         .skip(1)
         .all(is_escape)
     {
-        return Err(UriFault::Malformed(
+        return Err(UriError::Malformed(
             "a `%` must be followed by two hexadecimal digits",
         ));
     }
@@ -202,7 +202,7 @@ mod tests {
             "a/b:c",
         ] {
             assert!(
-                matches!(parse(uri), Err(UriFault::Outside(_))),
+                matches!(parse(uri), Err(UriError::Outside(_))),
                 "{uri}: {:?}",
                 parse(uri)
             );
@@ -262,7 +262,7 @@ mod tests {
             "%4",
         ] {
             assert!(
-                matches!(parse(uri), Err(UriFault::Malformed(_))),
+                matches!(parse(uri), Err(UriError::Malformed(_))),
                 "{uri}: {:?}",
                 parse(uri)
             );

@@ -6,7 +6,7 @@ use rtc_source::tree::NodeId;
 
 /// The usage of an accessor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Usage {
+pub(super) enum AccessorUsage {
     Vertices,
     Indices,
     InverseBindMatrices,
@@ -14,7 +14,7 @@ pub(super) enum Usage {
     Keyframes,
 }
 
-impl Usage {
+impl AccessorUsage {
     fn name(self) -> &'static str {
         match self {
             Self::Vertices => "vertices",
@@ -27,9 +27,9 @@ impl Usage {
 }
 
 /// The usages found for each accessor.
-pub(super) struct Usages(Vec<Option<Usage>>);
+pub(super) struct AccessorUsages(Vec<Option<AccessorUsage>>);
 
-impl Usages {
+impl AccessorUsages {
     pub(super) fn new(count: usize) -> Self {
         Self(vec![None; count])
     }
@@ -38,7 +38,7 @@ impl Usages {
     pub(super) fn set(
         &mut self,
         accessor: usize,
-        usage: Usage,
+        usage: AccessorUsage,
         at: NodeId,
         report: &mut AssetReport<'_, '_>,
     ) {

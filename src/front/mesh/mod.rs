@@ -1,7 +1,7 @@
 //! Readers of mesh files: OBJ with MTL, OFF, STL, PLY, and XYZ point lists.
 //!
 //! The content decides the format, not the name of the file. Each reader turns bytes into a
-//! [`Parsed`]: an IR mesh, the materials that the file names, and the errors of the file. The
+//! [`ParsedMesh`]: an IR mesh, the materials that the file names, and the errors of the file. The
 //! caller (`front/course/assets`) locates the file and turns errors into diagnostics.
 //!
 //! - `obj` and `mtl`: Wavefront OBJ and its material libraries. `material_use` records which
@@ -31,12 +31,12 @@ mod stroke;
 mod tint;
 mod xyz;
 
-pub use crate::words::{ParseFault, WordFault, WordSpan};
+pub use crate::words::{TextParseError, WordError, WordSpan};
 pub use material_use::{MaterialUse, SpannedName};
 
-use crate::words::{Lines, Word};
+use crate::words::{Word, WordLines};
 use rtc_ir::Mesh;
-use rtc_source::{Budget, Exceeded, Resource};
+use rtc_source::{Budget, LimitExceeded, Resource};
 use stroke::{Segments, StrokeMesher, join};
 
 /// The maximum number of errors reported for one file.
@@ -44,21 +44,21 @@ pub const MAX_FAULTS: usize = 10;
 
 /// A mesh file as read.
 #[derive(Debug, Default)]
-pub struct Parsed {
+pub struct ParsedMesh {
     /// The mesh, without a name, in the precision of the file: normals, texture coordinates,
     /// tangents and colours only where the file has some, colours at least 0, indices in range.
     pub mesh: Mesh,
     /// Elements that don't show: the first, and how many.
-    pub not_drawn: Option<(WordFault, usize)>,
+    pub not_drawn: Option<(WordError, usize)>,
     /// Its materials.
     pub material_use: MaterialUse,
     /// The picture of all its faces, where it names one itself.
     pub texture: Option<SpannedName>,
 }
 
-impl Parsed {
+impl ParsedMesh {
     /// Reports an element that is not rendered; only the first error is kept.
-    fn skip(&mut self, fault: impl FnOnce() -> WordFault) {
+    fn skip(&mut self, fault: impl FnOnce() -> WordError) {
         self.not_drawn.get_or_insert_with(|| (fault(), 0)).1 += 1;
     }
 
@@ -66,7 +66,7 @@ impl Parsed {
     ///
     /// # Errors
     /// If that would take more memory than there is.
-    fn draw(&mut self, segments: Segments, budget: &Budget) -> Result<(), Exceeded> {
+    fn draw(&mut self, segments: Segments, budget: &Budget) -> Result<(), LimitExceeded> {
         if segments.ends.is_empty() {
             return Ok(());
         }
@@ -88,7 +88,7 @@ fn columns(mesh: &Mesh) -> u64 {
 }
 
 /// Charges a mesh, and frees its spare capacity.
-fn charge(mesh: &mut Mesh, budget: &Budget) -> Result<(), Exceeded> {
+fn charge(mesh: &mut Mesh, budget: &Budget) -> Result<(), LimitExceeded> {
     let Mesh {
         name: _,
         part: _,
@@ -127,8 +127,8 @@ pub fn is_mesh_file(name: &str, bytes: &[u8]) -> bool {
 const LOOKED_AT: usize = 1 << 18;
 
 /// The lines of a file for detecting its format.
-fn first_lines(bytes: &[u8]) -> Lines<'_> {
-    Lines::new(&bytes[..bytes.len().min(LOOKED_AT)])
+fn first_lines(bytes: &[u8]) -> WordLines<'_> {
+    WordLines::new(&bytes[..bytes.len().min(LOOKED_AT)])
 }
 
 /// Whether a file that begins so is a mesh: it starts as PLY, STL or OFF, or as OBJ and has a
@@ -159,7 +159,7 @@ pub fn is_mesh(head: &[u8]) -> bool {
 ///
 /// # Errors
 /// If it has errors, or exceeds the budget.
-pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
+pub fn parse(bytes: &[u8], budget: &Budget) -> Result<ParsedMesh, TextParseError> {
     let mut words = Vec::new();
     first_lines(bytes).next(&mut words);
     let mut parsed = match words.first() {
@@ -183,7 +183,7 @@ pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
                 .fault("the mesh has no faces, lines or points", "nothing is drawn")
         };
         let fault = parsed.not_drawn.map_or_else(none, |(fault, _)| fault);
-        return Err(ParseFault::Faults(vec![fault]));
+        return Err(TextParseError::Faults(vec![fault]));
     }
     Ok(parsed)
 }

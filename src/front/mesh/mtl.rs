@@ -8,20 +8,20 @@ mod map;
 pub use map::MtlMap;
 
 use super::material_use::name;
-use super::{MAX_FAULTS, ParseFault, WordSpan, first_lines};
-use crate::words::{Lines, Word, WordFault};
+use super::{MAX_FAULTS, TextParseError, WordSpan, first_lines};
+use crate::words::{Word, WordError, WordLines};
 use rtc_source::{Budget, Resource};
 use std::collections::BTreeMap;
 
 /// The materials of a file, and its errors.
 #[derive(Debug, Default)]
-pub struct Library {
+pub struct MtlLibrary {
     /// The materials by name; of two of one name the later.
     pub materials: BTreeMap<String, MtlMaterial>,
     /// Statements that can't be read, the first ones.
-    pub faults: Vec<WordFault>,
+    pub faults: Vec<WordError>,
     /// Statements for unsupported features: the first, and how many.
-    pub not_shown: Option<(WordFault, usize)>,
+    pub not_shown: Option<(WordError, usize)>,
 }
 
 /// A value of a statement, and the location of the statement.
@@ -102,15 +102,15 @@ pub fn is_mtl(head: &[u8]) -> bool {
 ///
 /// # Errors
 /// If they exceed the budget.
-pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Library, ParseFault> {
+pub fn parse(bytes: &[u8], budget: &Budget) -> Result<MtlLibrary, TextParseError> {
     // A word of two bytes takes 24 while its line is read, in a list that grows by doubling.
     budget.has(Resource::Memory, 24 * bytes.len() as u64)?;
     let mut reader = MtlReader {
         file: bytes,
-        library: Library::default(),
+        library: MtlLibrary::default(),
         current: None,
     };
-    let (mut lines, mut words) = (Lines::new(bytes), Vec::new());
+    let (mut lines, mut words) = (WordLines::new(bytes), Vec::new());
     while lines.next(&mut words) {
         if words[0].bytes.eq_ignore_ascii_case(b"newmtl") {
             let longest = size_of::<MtlMaterial>()
@@ -130,14 +130,14 @@ pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Library, ParseFault> {
 
 struct MtlReader<'a> {
     file: &'a [u8],
-    library: Library,
+    library: MtlLibrary,
     /// The material that statements are of.
     current: Option<(String, MtlMaterial)>,
 }
 
 /// The effect of a statement.
 #[derive(Clone, Copy)]
-enum Statement {
+enum MtlStatement {
     Color(fn(&mut MtlMaterial) -> &mut Option<MtlValue<[f64; 3]>>),
     Number(fn(&mut MtlMaterial) -> &mut Option<MtlValue<f64>>),
     /// A number from 0 to 1.
@@ -153,42 +153,45 @@ enum Statement {
 }
 
 /// The statements, in lower case.
-const STATEMENTS: &[(&str, Statement)] = &[
-    ("ka", Statement::Color(|m| &mut m.ambient)),
-    ("kd", Statement::Color(|m| &mut m.diffuse)),
-    ("ks", Statement::Color(|m| &mut m.specular)),
-    ("ns", Statement::Number(|m| &mut m.exponent)),
-    ("ni", Statement::Number(|m| &mut m.index)),
-    ("d", Statement::Opacity),
-    ("tr", Statement::Transparency),
-    ("illum", Statement::Model),
-    ("map_kd", Statement::Map(|m| &mut m.color_map)),
-    ("map_ks", Statement::Map(|m| &mut m.specular_map)),
-    ("norm", Statement::Map(|m| &mut m.normal_map)),
-    ("map_bump", Statement::Map(|m| &mut m.bump)),
-    ("bump", Statement::Map(|m| &mut m.bump)),
-    ("map_ka", Statement::AmbientMap),
-    ("ke", Statement::Color(|m| &mut m.emissive)),
-    ("tf", Statement::Color(|m| &mut m.filter)),
-    ("pr", Statement::Fraction(|m| &mut m.roughness)),
-    ("pm", Statement::Fraction(|m| &mut m.metallic)),
-    ("ps", Statement::Fraction(|m| &mut m.sheen)),
-    ("pc", Statement::Fraction(|m| &mut m.clearcoat)),
-    ("pcr", Statement::Fraction(|m| &mut m.clearcoat_roughness)),
-    ("aniso", Statement::Fraction(|m| &mut m.anisotropy)),
+const STATEMENTS: &[(&str, MtlStatement)] = &[
+    ("ka", MtlStatement::Color(|m| &mut m.ambient)),
+    ("kd", MtlStatement::Color(|m| &mut m.diffuse)),
+    ("ks", MtlStatement::Color(|m| &mut m.specular)),
+    ("ns", MtlStatement::Number(|m| &mut m.exponent)),
+    ("ni", MtlStatement::Number(|m| &mut m.index)),
+    ("d", MtlStatement::Opacity),
+    ("tr", MtlStatement::Transparency),
+    ("illum", MtlStatement::Model),
+    ("map_kd", MtlStatement::Map(|m| &mut m.color_map)),
+    ("map_ks", MtlStatement::Map(|m| &mut m.specular_map)),
+    ("norm", MtlStatement::Map(|m| &mut m.normal_map)),
+    ("map_bump", MtlStatement::Map(|m| &mut m.bump)),
+    ("bump", MtlStatement::Map(|m| &mut m.bump)),
+    ("map_ka", MtlStatement::AmbientMap),
+    ("ke", MtlStatement::Color(|m| &mut m.emissive)),
+    ("tf", MtlStatement::Color(|m| &mut m.filter)),
+    ("pr", MtlStatement::Fraction(|m| &mut m.roughness)),
+    ("pm", MtlStatement::Fraction(|m| &mut m.metallic)),
+    ("ps", MtlStatement::Fraction(|m| &mut m.sheen)),
+    ("pc", MtlStatement::Fraction(|m| &mut m.clearcoat)),
+    (
+        "pcr",
+        MtlStatement::Fraction(|m| &mut m.clearcoat_roughness),
+    ),
+    ("aniso", MtlStatement::Fraction(|m| &mut m.anisotropy)),
     (
         "anisor",
-        Statement::Fraction(|m| &mut m.anisotropy_rotation),
+        MtlStatement::Fraction(|m| &mut m.anisotropy_rotation),
     ),
-    ("map_d", Statement::Map(|m| &mut m.opacity_map)),
-    ("map_ke", Statement::Map(|m| &mut m.emissive_map)),
-    ("map_emissive", Statement::Map(|m| &mut m.emissive_map)),
-    ("map_pr", Statement::Map(|m| &mut m.roughness_map)),
-    ("map_pm", Statement::Map(|m| &mut m.metallic_map)),
-    ("map_norm", Statement::Map(|m| &mut m.normal_map)),
-    ("map_kn", Statement::Map(|m| &mut m.normal_map)),
-    ("sharpness", Statement::Silent),
-    ("map_aat", Statement::Silent),
+    ("map_d", MtlStatement::Map(|m| &mut m.opacity_map)),
+    ("map_ke", MtlStatement::Map(|m| &mut m.emissive_map)),
+    ("map_emissive", MtlStatement::Map(|m| &mut m.emissive_map)),
+    ("map_pr", MtlStatement::Map(|m| &mut m.roughness_map)),
+    ("map_pm", MtlStatement::Map(|m| &mut m.metallic_map)),
+    ("map_norm", MtlStatement::Map(|m| &mut m.normal_map)),
+    ("map_kn", MtlStatement::Map(|m| &mut m.normal_map)),
+    ("sharpness", MtlStatement::Silent),
+    ("map_aat", MtlStatement::Silent),
 ];
 
 /// The largest number that is read; exponents end at 1000 in the files of programs.
@@ -213,7 +216,7 @@ impl MtlReader<'_> {
         self.library.materials.extend(self.current.take());
     }
 
-    fn fault(&mut self, fault: WordFault) {
+    fn fault(&mut self, fault: WordError) {
         if self.library.faults.len() < MAX_FAULTS {
             self.library.faults.push(fault);
         }
@@ -230,7 +233,7 @@ impl MtlReader<'_> {
         }
     }
 
-    fn statement(&mut self, words: &[Word<'_>]) -> Result<(), WordFault> {
+    fn statement(&mut self, words: &[Word<'_>]) -> Result<(), WordError> {
         let (head, rest) = (words[0], &words[1..]);
         let Some(statement) = known(&head) else {
             self.skip(&head, format!("`{}` is not read", head.text()));
@@ -244,26 +247,26 @@ impl MtlReader<'_> {
             return Ok(());
         };
         match statement {
-            Statement::Color(slot) => {
+            MtlStatement::Color(slot) => {
                 *slot(material) = Some(MtlValue {
                     value: color(&head, rest)?,
                     at,
                 })
             }
-            Statement::Number(slot) => {
+            MtlStatement::Number(slot) => {
                 let value = number(&head, rest.first(), LARGEST)?;
                 *slot(material) = Some(MtlValue { value, at });
             }
-            Statement::Fraction(slot) => {
+            MtlStatement::Fraction(slot) => {
                 let value = number(&head, rest.first(), 1.0)?;
                 *slot(material) = Some(MtlValue { value, at });
             }
-            Statement::Opacity => {
+            MtlStatement::Opacity => {
                 let value = number(&head, after_halo(rest).first(), 1.0)?;
                 material.opacity = Some(MtlValue { value, at });
                 material.is_transparency_1 = false;
             }
-            Statement::Transparency => {
+            MtlStatement::Transparency => {
                 let value = 1.0 - number(&head, rest.first(), 1.0)?;
                 // If both are given, the opacity wins.
                 if material.opacity.is_none() {
@@ -271,14 +274,16 @@ impl MtlReader<'_> {
                     material.is_transparency_1 = value == 0.0;
                 }
             }
-            Statement::Model => {
+            MtlStatement::Model => {
                 material.model = Some(MtlValue {
                     value: model(&head, rest.first())?,
                     at,
                 });
             }
-            Statement::Map(_) | Statement::AmbientMap => return self.map(statement, head, rest),
-            Statement::Silent => {}
+            MtlStatement::Map(_) | MtlStatement::AmbientMap => {
+                return self.map(statement, head, rest);
+            }
+            MtlStatement::Silent => {}
         }
         Ok(())
     }
@@ -286,10 +291,10 @@ impl MtlReader<'_> {
     /// A statement of a map.
     fn map(
         &mut self,
-        statement: Statement,
+        statement: MtlStatement,
         head: Word<'_>,
         rest: &[Word<'_>],
-    ) -> Result<(), WordFault> {
+    ) -> Result<(), WordError> {
         let at = rest
             .last()
             .map_or(head, |last| head.through(last, self.file));
@@ -297,7 +302,7 @@ impl MtlReader<'_> {
         let Some((_, material)) = &mut self.current else {
             return Ok(());
         };
-        if let Statement::Map(slot) = statement {
+        if let MtlStatement::Map(slot) = statement {
             let at = at.place();
             *slot(material) = Some(MtlValue { value, at });
             if let Some(option) = unread {
@@ -314,14 +319,14 @@ impl MtlReader<'_> {
 }
 
 /// The effect of a statement with this keyword.
-fn known(head: &Word<'_>) -> Option<Statement> {
+fn known(head: &Word<'_>) -> Option<MtlStatement> {
     let is_meant =
-        |(word, _): &&(&str, Statement)| head.bytes.eq_ignore_ascii_case(word.as_bytes());
+        |(word, _): &&(&str, MtlStatement)| head.bytes.eq_ignore_ascii_case(word.as_bytes());
     Some(STATEMENTS.iter().find(is_meant)?.1)
 }
 
 /// Three numbers, or one for all three.
-fn color(head: &Word<'_>, rest: &[Word<'_>]) -> Result<[f64; 3], WordFault> {
+fn color(head: &Word<'_>, rest: &[Word<'_>]) -> Result<[f64; 3], WordError> {
     let first = rest.first();
     if let Some(kind) = first.filter(|word| matches!(word.bytes, b"spectral" | b"xyz")) {
         let message = format!("colours by `{}` are not read", kind.text());
@@ -339,7 +344,7 @@ fn color(head: &Word<'_>, rest: &[Word<'_>]) -> Result<[f64; 3], WordFault> {
 }
 
 /// A number from 0 to `most`.
-fn number(head: &Word<'_>, word: Option<&Word<'_>>, most: f64) -> Result<f64, WordFault> {
+fn number(head: &Word<'_>, word: Option<&Word<'_>>, most: f64) -> Result<f64, WordError> {
     let missing = || head.fault(format!("`{}` has too few numbers", head.text()), "left out");
     let word = word.ok_or_else(missing)?;
     let number = word.number()?;
@@ -355,7 +360,7 @@ fn number(head: &Word<'_>, word: Option<&Word<'_>>, most: f64) -> Result<f64, Wo
 }
 
 /// The number of an illumination model.
-fn model(head: &Word<'_>, word: Option<&Word<'_>>) -> Result<u8, WordFault> {
+fn model(head: &Word<'_>, word: Option<&Word<'_>>) -> Result<u8, WordError> {
     let number = number(head, word, 10.0)?;
     let model = (0..=10).find(|model| f64::from(*model) == number);
     model.ok_or_else(|| head.fault("`illum` is a whole number from 0 to 10", "left out"))

@@ -9,9 +9,9 @@ mod corner;
 mod smooth;
 
 use super::stroke::Segments;
-use super::tint::Tints;
-use super::{MAX_FAULTS, MaterialUse, ParseFault, Parsed, SpannedName};
-use crate::words::{Lines, Word, WordFault, numbers};
+use super::tint::VertexColors;
+use super::{MAX_FAULTS, MaterialUse, ParsedMesh, SpannedName, TextParseError};
+use crate::words::{Word, WordError, WordLines, numbers};
 use corner::{CornerCounts, indices};
 use rtc_source::{Budget, Resource};
 
@@ -25,8 +25,8 @@ pub(super) fn is_keyword(word: &Word<'_>) -> bool {
 }
 
 /// Reads an OBJ.
-pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
-    let mut check = Check::default();
+pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<ParsedMesh, TextParseError> {
+    let mut check = ObjCheck::default();
     check.vertices(bytes);
     let at_most = MaterialUse::at_most(check.switches) + STROKE * check.ends as u64;
     budget.has(Resource::Memory, at_most)?;
@@ -34,11 +34,11 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault>
         check.faces(bytes);
     }
     if !check.faults.is_empty() {
-        return Err(ParseFault::Faults(check.faults));
+        return Err(TextParseError::Faults(check.faults));
     }
     budget.charge(Resource::Memory, MaterialUse::at_most(check.switches))?;
     let mesh = check.mesh(bytes, budget)?;
-    Ok(Parsed {
+    Ok(ParsedMesh {
         mesh,
         not_drawn: check.not_drawn,
         material_use: check.material_use,
@@ -51,8 +51,8 @@ const STROKE: u64 = 32;
 
 /// The results of the check.
 #[derive(Default)]
-struct Check {
-    vertices: Vertices,
+struct ObjCheck {
+    vertices: ObjVertices,
     /// The corners of all faces.
     corners: usize,
     /// The number of triangles of the faces.
@@ -68,26 +68,26 @@ struct Check {
     /// The number of `usemtl` lines.
     switches: usize,
     material_use: MaterialUse,
-    faults: Vec<WordFault>,
-    not_drawn: Option<(WordFault, usize)>,
+    faults: Vec<WordError>,
+    not_drawn: Option<(WordError, usize)>,
 }
 
 /// What corners refer to.
 #[derive(Default)]
-struct Vertices {
+struct ObjVertices {
     positions: Vec<[f64; 3]>,
     uvs: Vec<[f64; 2]>,
     normals: Vec<[f64; 3]>,
     /// The colours of positions.
-    tints: Tints,
+    tints: VertexColors,
 }
 
-impl Vertices {
+impl ObjVertices {
     fn counts(&self) -> CornerCounts {
         [self.positions.len(), self.uvs.len(), self.normals.len()]
     }
 
-    fn read(&mut self, part: usize, head: &Word<'_>, rest: &[Word<'_>]) -> Result<(), WordFault> {
+    fn read(&mut self, part: usize, head: &Word<'_>, rest: &[Word<'_>]) -> Result<(), WordError> {
         match part {
             0 => {
                 self.positions.push(numbers(head, rest)?);
@@ -121,9 +121,9 @@ impl Vertices {
     }
 }
 
-impl Check {
+impl ObjCheck {
     fn vertices(&mut self, bytes: &[u8]) {
-        let (mut lines, mut words) = (Lines::new(bytes), Vec::new());
+        let (mut lines, mut words) = (WordLines::new(bytes), Vec::new());
         while lines.next(&mut words) && self.faults.len() < MAX_FAULTS {
             let (head, rest) = (&words[0], &words[1..]);
             if let Some(part) = part_of(head) {
@@ -140,7 +140,7 @@ impl Check {
     /// Checks the faces; they may refer to later vertices.
     fn faces(&mut self, bytes: &[u8]) {
         let (mut lines, mut words, mut so_far) =
-            (Lines::new(bytes), Vec::new(), CornerCounts::default());
+            (WordLines::new(bytes), Vec::new(), CornerCounts::default());
         let mut group = 0;
         while lines.next(&mut words) {
             // Count the corner data so far: negative indices refer to them.
@@ -184,7 +184,7 @@ impl Check {
         corners: &[Word<'_>],
         so_far: CornerCounts,
         group: u32,
-    ) -> Result<(), WordFault> {
+    ) -> Result<(), WordError> {
         let (mut used, mut without_normal) = ([false; 2], 0);
         for corner in corners {
             let [_, uv, normal] = indices(corner, so_far, self.vertices.counts())?;
@@ -203,7 +203,7 @@ impl Check {
     }
 
     /// The positions of the words of a line or point statement.
-    fn ends(&self, words: &[Word<'_>], so_far: CornerCounts) -> Result<Vec<u32>, WordFault> {
+    fn ends(&self, words: &[Word<'_>], so_far: CornerCounts) -> Result<Vec<u32>, WordError> {
         let corners = words.iter();
         let corners = corners.map(|corner| indices(corner, so_far, self.vertices.counts()));
         corners
@@ -225,13 +225,13 @@ impl Check {
         &mut self.strokes[last].1
     }
 
-    fn line(&mut self, words: &[Word<'_>], so_far: CornerCounts) -> Result<(), WordFault> {
+    fn line(&mut self, words: &[Word<'_>], so_far: CornerCounts) -> Result<(), WordError> {
         let ends = self.ends(words, so_far)?;
         self.strokes().row(&ends);
         Ok(())
     }
 
-    fn points(&mut self, words: &[Word<'_>], so_far: CornerCounts) -> Result<(), WordFault> {
+    fn points(&mut self, words: &[Word<'_>], so_far: CornerCounts) -> Result<(), WordError> {
         let ends = self.ends(words, so_far)?;
         let points = ends.iter().map(|end| [*end; 2]);
         self.strokes().ends.extend(points);

@@ -4,10 +4,10 @@
 
 use super::polygons::{CORNER, Polygons};
 use super::stroke::Segments;
-use super::tint::Tints;
-use super::{MAX_FAULTS, ParseFault, Parsed};
-use crate::words::{Lines, Word, WordFault, numbers};
-use rtc_source::{Budget, Exceeded, Resource};
+use super::tint::VertexColors;
+use super::{MAX_FAULTS, ParsedMesh, TextParseError};
+use crate::words::{Word, WordError, WordLines, numbers};
+use rtc_source::{Budget, LimitExceeded, Resource};
 
 /// True if the word begins an OFF file of any variant.
 pub(super) fn is_head(word: &Word<'_>) -> bool {
@@ -15,36 +15,36 @@ pub(super) fn is_head(word: &Word<'_>) -> bool {
 }
 
 /// Reads an OFF. Normals and colours of vertices are kept, of faces colours.
-pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
+pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<ParsedMesh, TextParseError> {
     // A corner takes two bytes.
     budget.has(Resource::Memory, (CORNER / 2 * bytes.len()) as u64)?;
     let mut reader = OffReader {
-        lines: Lines::new(bytes),
+        lines: WordLines::new(bytes),
         words: Vec::new(),
     };
-    let (mut faults, mut content) = (Vec::new(), Content::default());
+    let (mut faults, mut content) = (Vec::new(), OffContent::default());
     match head(&mut reader) {
         Ok(head) => body(&mut reader, &head, &mut content, &mut faults),
         Err(fault) => faults.push(fault),
     }
     if !faults.is_empty() {
-        return Err(ParseFault::Faults(faults));
+        return Err(TextParseError::Faults(faults));
     }
     Ok(content.finish(budget)?)
 }
 
 struct OffReader<'a> {
-    lines: Lines<'a>,
+    lines: WordLines<'a>,
     words: Vec<Word<'a>>,
 }
 
 impl<'a> OffReader<'a> {
     /// The words of the next line; `count` names the count that announced it.
-    fn line(&mut self, count: &Count<'a>) -> Result<&[Word<'a>], WordFault> {
+    fn line(&mut self, count: &OffCount<'a>) -> Result<&[Word<'a>], WordError> {
         if self.lines.next(&mut self.words) {
             return Ok(&self.words);
         }
-        let Count {
+        let OffCount {
             word,
             value,
             entity,
@@ -57,19 +57,19 @@ impl<'a> OffReader<'a> {
 }
 
 /// A count of the head.
-struct Count<'a> {
+struct OffCount<'a> {
     word: Word<'a>,
     value: usize,
     entity: &'static str,
 }
 
-struct Head<'a> {
+struct OffHeader<'a> {
     has_normals: bool,
-    vertices: Count<'a>,
-    faces: Count<'a>,
+    vertices: OffCount<'a>,
+    faces: OffCount<'a>,
 }
 
-fn head<'a>(reader: &mut OffReader<'a>) -> Result<Head<'a>, WordFault> {
+fn head<'a>(reader: &mut OffReader<'a>) -> Result<OffHeader<'a>, WordError> {
     reader.lines.next(&mut reader.words);
     let head = reader.words[0];
     let has_normals = match head.bytes {
@@ -99,13 +99,13 @@ fn head<'a>(reader: &mut OffReader<'a>) -> Result<Head<'a>, WordFault> {
                 "negative",
             )
         })?;
-        Ok(Count {
+        Ok(OffCount {
             word,
             value,
             entity,
         })
     };
-    Ok(Head {
+    Ok(OffHeader {
         has_normals,
         vertices: count(0, "vertices")?,
         faces: count(1, "faces")?,
@@ -114,16 +114,16 @@ fn head<'a>(reader: &mut OffReader<'a>) -> Result<Head<'a>, WordFault> {
 
 /// The contents of an OFF file.
 #[derive(Default)]
-struct Content {
-    parsed: Parsed,
+struct OffContent {
+    parsed: ParsedMesh,
     polygons: Polygons,
     /// The colour of each polygon.
-    tints: Tints,
+    tints: VertexColors,
     strokes: Segments,
 }
 
-impl Content {
-    fn finish(mut self, budget: &Budget) -> Result<Parsed, Exceeded> {
+impl OffContent {
+    fn finish(mut self, budget: &Budget) -> Result<ParsedMesh, LimitExceeded> {
         let mut parsed = self.parsed;
         if parsed.mesh.colors.is_empty() {
             self.polygons.colors = self.tints.linear();
@@ -139,11 +139,11 @@ impl Content {
 
 fn body<'a>(
     reader: &mut OffReader<'a>,
-    head: &Head<'a>,
-    content: &mut Content,
-    faults: &mut Vec<WordFault>,
+    head: &OffHeader<'a>,
+    content: &mut OffContent,
+    faults: &mut Vec<WordError>,
 ) {
-    let (mut positions, mut normals, mut tints) = (Vec::new(), Vec::new(), Tints::default());
+    let (mut positions, mut normals, mut tints) = (Vec::new(), Vec::new(), VertexColors::default());
     // Read a position per line, with a normal and a colour if declared.
     for _ in 0..head.vertices.value {
         let words = match reader.line(&head.vertices) {
@@ -179,7 +179,7 @@ fn body<'a>(
 }
 
 /// Adds the colour of some words, if they are one.
-fn tint(words: &[Word<'_>], tints: &mut Tints) {
+fn tint(words: &[Word<'_>], tints: &mut VertexColors) {
     let channels: Vec<f64> = words
         .iter()
         .take(4)
@@ -195,7 +195,7 @@ fn tint(words: &[Word<'_>], tints: &mut Tints) {
 fn vertex(
     words: &[Word<'_>],
     has_normals: bool,
-) -> Result<([f64; 3], Option<[f64; 3]>), WordFault> {
+) -> Result<([f64; 3], Option<[f64; 3]>), WordError> {
     let position = numbers(&words[0], words)?;
     let normal = || numbers(&words[0], words.get(3..).unwrap_or_default());
     Ok((position, has_normals.then(normal).transpose()?))
@@ -203,7 +203,11 @@ fn vertex(
 
 /// A polygon; after its corners follows its colour. With two corners it is a line, with one a
 /// point.
-fn face(words: &[Word<'_>], vertices: &Count<'_>, content: &mut Content) -> Result<(), WordFault> {
+fn face(
+    words: &[Word<'_>],
+    vertices: &OffCount<'_>,
+    content: &mut OffContent,
+) -> Result<(), WordError> {
     let (head, rest) = (&words[0], &words[1..]);
     let arity = head.integer()?;
     let corners = usize::try_from(arity)
@@ -234,7 +238,7 @@ fn face(words: &[Word<'_>], vertices: &Count<'_>, content: &mut Content) -> Resu
 }
 
 /// The vertex of a corner; an error inside if there is none.
-fn index(corner: &Word<'_>, vertices: &Count<'_>) -> Result<Result<u32, WordFault>, WordFault> {
+fn index(corner: &Word<'_>, vertices: &OffCount<'_>) -> Result<Result<u32, WordError>, WordError> {
     let number = corner.integer()?;
     let index = u32::try_from(number)
         .ok()

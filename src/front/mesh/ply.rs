@@ -9,11 +9,11 @@ mod vertex;
 use super::polygons::{CORNER, Polygons};
 use super::stroke::Segments;
 use super::tint::decoded;
-use super::{ParseFault, Parsed};
-use crate::words::{Word, WordFault};
+use super::{ParsedMesh, TextParseError};
+use crate::words::{Word, WordError};
 use body::PlyBody;
 use head::{PlyElement, PlyProperty};
-use rtc_source::{Budget, Exceeded, Resource};
+use rtc_source::{Budget, LimitExceeded, Resource};
 
 /// True if a file that begins so is a PLY.
 pub(super) fn is_head(head: &[u8]) -> bool {
@@ -22,13 +22,13 @@ pub(super) fn is_head(head: &[u8]) -> bool {
 
 /// Reads a PLY. Of vertices it keeps positions, normals, texture coordinates, tangents and colours,
 /// of faces and strips their corners, of faces colours and texture coordinates, and edges.
-pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
-    let one = |fault| ParseFault::Faults(vec![fault]);
+pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<ParsedMesh, TextParseError> {
+    let one = |fault| TextParseError::Faults(vec![fault]);
     let mut head = head::read(bytes).map_err(one)?;
     let mut reader = PlyReader {
         body: PlyBody::new(bytes, &head),
         vertices: head.vertices(),
-        parsed: Parsed::default(),
+        parsed: ParsedMesh::default(),
         polygons: Polygons::default(),
         strokes: Segments::default(),
         long: 0,
@@ -52,7 +52,7 @@ struct PlyReader<'a> {
     body: PlyBody<'a>,
     /// The declared number of vertices.
     vertices: usize,
-    parsed: Parsed,
+    parsed: ParsedMesh,
     polygons: Polygons,
     strokes: Segments,
     /// The number of face rows with too many values.
@@ -60,8 +60,8 @@ struct PlyReader<'a> {
 }
 
 impl<'a> PlyReader<'a> {
-    fn element(&mut self, element: &PlyElement<'a>, budget: &Budget) -> Result<(), ParseFault> {
-        let one = |fault| ParseFault::Faults(vec![fault]);
+    fn element(&mut self, element: &PlyElement<'a>, budget: &Budget) -> Result<(), TextParseError> {
+        let one = |fault| TextParseError::Faults(vec![fault]);
         if !self.body.has_room(element) {
             return Err(one(element.is_cut_off()));
         }
@@ -90,7 +90,7 @@ impl<'a> PlyReader<'a> {
         Ok(())
     }
 
-    fn finish(self, budget: &Budget) -> Result<Parsed, Exceeded> {
+    fn finish(self, budget: &Budget) -> Result<ParsedMesh, LimitExceeded> {
         let Self {
             mut parsed,
             mut polygons,
@@ -121,7 +121,7 @@ impl<'a> PlyReader<'a> {
         &mut self,
         property: &PlyProperty<'_>,
         element: &PlyElement<'_>,
-    ) -> Result<Option<u32>, WordFault> {
+    ) -> Result<Option<u32>, WordError> {
         let number = self.body.number(property.kind, element)?;
         Ok(whole(number).filter(|vertex| (*vertex as usize) < self.vertices))
     }
@@ -140,7 +140,7 @@ impl<'a> PlyReader<'a> {
         });
     }
 
-    fn faces(&mut self, element: &PlyElement<'_>) -> Result<(), WordFault> {
+    fn faces(&mut self, element: &PlyElement<'_>) -> Result<(), WordError> {
         // Find the properties that are colour channels.
         let channels: Vec<_> = element.properties.iter().map(vertex::channel).collect();
         for _ in 0..element.count {
@@ -206,7 +206,7 @@ impl<'a> PlyReader<'a> {
         count: u32,
         property: &PlyProperty<'_>,
         element: &PlyElement<'_>,
-    ) -> Result<bool, WordFault> {
+    ) -> Result<bool, WordError> {
         let mut is_sound = true;
         for _ in 0..count {
             match self.vertex(property, element)? {
@@ -222,7 +222,7 @@ impl<'a> PlyReader<'a> {
     }
 
     /// Strips of triangles, each next one turned over; −1 begins another.
-    fn strips(&mut self, element: &PlyElement<'_>) -> Result<(), WordFault> {
+    fn strips(&mut self, element: &PlyElement<'_>) -> Result<(), WordError> {
         for _ in 0..element.count {
             for property in &element.properties {
                 let Some(length) = property.length.filter(|_| property.is_corners()) else {
@@ -264,7 +264,7 @@ impl<'a> PlyReader<'a> {
     }
 
     /// Lines from a vertex to another.
-    fn edges(&mut self, element: &PlyElement<'_>) -> Result<(), WordFault> {
+    fn edges(&mut self, element: &PlyElement<'_>) -> Result<(), WordError> {
         let is_end =
             |property: &&PlyProperty<'_>| matches!(property.name.bytes, b"vertex1" | b"vertex2");
         if element.properties.iter().filter(is_end).count() != 2 {
@@ -290,7 +290,7 @@ impl<'a> PlyReader<'a> {
         Ok(())
     }
 
-    fn skip(&mut self, element: &PlyElement<'_>) -> Result<(), WordFault> {
+    fn skip(&mut self, element: &PlyElement<'_>) -> Result<(), WordError> {
         for _ in 0..element.count {
             for property in &element.properties {
                 self.body.skip(property, element)?;

@@ -1,11 +1,11 @@
 //! Holds the polygons of a file until all its vertices are read, then cuts them into triangles.
 
-use super::Parsed;
+use super::ParsedMesh;
 use super::polygon::EarClipper;
-use crate::words::WordFault;
+use crate::words::WordError;
 use rtc_ir::Mesh;
 use rtc_math::to_u32;
-use rtc_source::{Budget, Exceeded, Resource};
+use rtc_source::{Budget, LimitExceeded, Resource};
 
 /// Polygons, each a run of corners, some with a colour of their own or texture coordinates of their
 /// corners.
@@ -63,10 +63,10 @@ impl Polygons {
     /// If it exceeds the available memory.
     pub(super) fn cut(
         self,
-        parsed: &mut Parsed,
-        missing: impl Fn() -> WordFault,
+        parsed: &mut ParsedMesh,
+        missing: impl Fn() -> WordError,
         budget: &Budget,
-    ) -> Result<(), Exceeded> {
+    ) -> Result<(), LimitExceeded> {
         let Self {
             corners,
             ends,

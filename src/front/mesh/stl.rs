@@ -4,8 +4,8 @@
 //! The normals of the file are not read: the order of the corners determines them.
 
 use super::tint::decoded;
-use super::{MAX_FAULTS, ParseFault, Parsed, first_lines};
-use crate::words::{Lines, Word, WordFault, numbers};
+use super::{MAX_FAULTS, ParsedMesh, TextParseError, first_lines};
+use crate::words::{Word, WordError, WordLines, numbers};
 use rtc_ir::Mesh;
 use rtc_math::to_u32;
 use rtc_source::{Budget, Resource};
@@ -125,19 +125,19 @@ fn opaque([r, g, b]: [f32; 3]) -> [f32; 4] {
 }
 
 /// Reads an STL.
-pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
+pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<ParsedMesh, TextParseError> {
     // A binary triangle becomes three positions, three colours and three numbers; a line of text
     // one position, in a list that grows by doubling.
     budget.has(Resource::Memory, 5 * bytes.len() as u64)?;
     let binary_triangles = count(bytes).filter(|_| is_binary(bytes));
     let binary_triangles = binary_triangles.map(|count| triangles(bytes, count));
-    let mut parsed = Parsed::default();
+    let mut parsed = ParsedMesh::default();
     let (positions, faults) = match binary_triangles {
         Some(triangles) => binary(triangles),
         None => text(bytes, &mut parsed),
     };
     if !faults.is_empty() {
-        return Err(ParseFault::Faults(faults));
+        return Err(TextParseError::Faults(faults));
     }
     let count = to_u32(positions.len() / 3);
     let colors = binary_triangles.map_or_else(Vec::new, |triangles| colors(bytes, triangles));
@@ -153,7 +153,7 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault>
     Ok(parsed)
 }
 
-fn binary(triangles: &[[u8; TRIANGLE]]) -> (Vec<[f64; 3]>, Vec<WordFault>) {
+fn binary(triangles: &[[u8; TRIANGLE]]) -> (Vec<[f64; 3]>, Vec<WordError>) {
     let mut positions = Vec::with_capacity(3 * triangles.len());
     let mut faults = Vec::new();
     for (at, triangle) in triangles.iter().enumerate() {
@@ -161,7 +161,7 @@ fn binary(triangles: &[[u8; TRIANGLE]]) -> (Vec<[f64; 3]>, Vec<WordFault>) {
         if !corners.iter().flatten().all(|number| number.is_finite()) {
             let start = HEAD + TRIANGLE * at;
             let message = "a corner of a triangle is not finite";
-            faults.push(WordFault::new(
+            faults.push(WordError::new(
                 start..start + TRIANGLE,
                 message,
                 "this triangle",
@@ -175,8 +175,8 @@ fn binary(triangles: &[[u8; TRIANGLE]]) -> (Vec<[f64; 3]>, Vec<WordFault>) {
     (positions, faults)
 }
 
-fn text(bytes: &[u8], parsed: &mut Parsed) -> (Vec<[f64; 3]>, Vec<WordFault>) {
-    let (mut lines, mut words) = (Lines::new(bytes), Vec::new());
+fn text(bytes: &[u8], parsed: &mut ParsedMesh) -> (Vec<[f64; 3]>, Vec<WordError>) {
+    let (mut lines, mut words) = (WordLines::new(bytes), Vec::new());
     let (mut positions, mut faults) = (Vec::new(), Vec::new());
     while lines.next(&mut words) && faults.len() < MAX_FAULTS {
         if words[0].bytes.eq_ignore_ascii_case(b"color") {
@@ -186,7 +186,7 @@ fn text(bytes: &[u8], parsed: &mut Parsed) -> (Vec<[f64; 3]>, Vec<WordFault>) {
     }
     if !positions.len().is_multiple_of(3) && faults.is_empty() {
         let end = bytes.len();
-        faults.push(WordFault::new(
+        faults.push(WordError::new(
             end..end,
             "the file ends within a facet",
             "here",
@@ -195,7 +195,7 @@ fn text(bytes: &[u8], parsed: &mut Parsed) -> (Vec<[f64; 3]>, Vec<WordFault>) {
     (positions, faults)
 }
 
-fn statement(words: &[Word<'_>], positions: &mut Vec<[f64; 3]>) -> Result<(), WordFault> {
+fn statement(words: &[Word<'_>], positions: &mut Vec<[f64; 3]>) -> Result<(), WordError> {
     let head = &words[0];
     match &*head.bytes.to_ascii_lowercase() {
         b"vertex" => positions.push(numbers(head, &words[1..])?),

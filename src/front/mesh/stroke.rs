@@ -1,11 +1,11 @@
 //! The points and lines of mesh files, drawn as those of glTF are.
 
 use super::columns;
-use crate::glyph::{Glyph, radius, thin_glyphs};
+use crate::glyph::{StrokeShape, radius, thin_glyphs};
 use glam::DAffine3;
-use rtc_ir::{BoundingSphere, Column, Mesh};
+use rtc_ir::{BoundingSphere, Mesh, VertexColumn};
 use rtc_math::{Vec3, to_u32};
-use rtc_source::{Budget, Exceeded, Resource};
+use rtc_source::{Budget, LimitExceeded, Resource};
 
 /// The bytes of the offset of a corner and its position, beside its columns, and of a triangle
 /// until it is rendered.
@@ -59,14 +59,14 @@ impl<'run> StrokeMesher<'run> {
     ///
     /// # Errors
     /// If they exceed the available memory.
-    pub(super) fn draw(&self, strokes: Segments) -> Result<Vec<Mesh>, Exceeded> {
+    pub(super) fn draw(&self, strokes: Segments) -> Result<Vec<Mesh>, LimitExceeded> {
         let (points, lines): (Vec<_>, Vec<_>) =
             strokes.ends.into_iter().partition(|[from, to]| from == to);
         let has_normals = !self.source.normals.is_empty();
         let mut drawn_meshes = Vec::new();
         for (ends, are_points) in [(points, true), (lines, false)] {
             let count = ends.len() as u64;
-            let solid = Glyph::of(are_points, has_normals, count);
+            let solid = StrokeShape::of(are_points, has_normals, count);
             let vertices = count * solid.corners.len() as u64;
             let triangles = count * solid.triangles.len() as u64;
             let vertex = OFFSET + columns(self.source);
@@ -132,11 +132,11 @@ pub(super) fn join(mesh: &mut Mesh, more: Vec<Mesh>) {
 /// A column of several meshes.
 fn column<const N: usize>(
     meshes: &[Mesh],
-    of: impl Fn(&Mesh) -> &Column<N>,
+    of: impl Fn(&Mesh) -> &VertexColumn<N>,
     none: f64,
-) -> Column<N> {
+) -> VertexColumn<N> {
     if meshes.iter().all(|mesh| of(mesh).is_empty()) {
-        return Column::default();
+        return VertexColumn::default();
     }
     let mut all = Vec::with_capacity(meshes.iter().map(|mesh| mesh.positions.len()).sum());
     for mesh in meshes {

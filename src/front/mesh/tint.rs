@@ -1,12 +1,12 @@
 //! Colours of files that do not say from where to where their numbers go.
 
 use rtc_color::srgb_decoded;
-use rtc_ir::Column;
+use rtc_ir::VertexColumn;
 
 /// Colours as files write them, coded as sRGB codes them, with alpha: each channel from 0 to 1, or,
 /// if any is above 1, to 255.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Tints {
+pub(super) struct VertexColors {
     colors: Vec<[f32; 4]>,
     most: f32,
 }
@@ -14,7 +14,7 @@ pub(super) struct Tints {
 /// The default colour of elements without one.
 pub(super) const WHITE: [f32; 4] = [1.0; 4];
 
-impl Tints {
+impl VertexColors {
     /// Adds the colour of the next element, three or four channels.
     #[expect(
         clippy::cast_possible_truncation,
@@ -60,7 +60,7 @@ impl Tints {
     }
 
     /// The linear colours of vertices; empty if there are none.
-    pub(super) fn column(self) -> Column<4> {
+    pub(super) fn column(self) -> VertexColumn<4> {
         self.linear().into()
     }
 }

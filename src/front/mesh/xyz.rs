@@ -1,9 +1,9 @@
 //! XYZ: one point per line, its position, then its colour, its normal or both, as scanners write
 //! them.
 
-use super::tint::Tints;
-use super::{MAX_FAULTS, ParseFault, Parsed, first_lines};
-use crate::words::{Lines, Word, WordFault, numbers};
+use super::tint::VertexColors;
+use super::{MAX_FAULTS, ParsedMesh, TextParseError, first_lines};
+use crate::words::{Word, WordError, WordLines, numbers};
 use rtc_source::{Budget, Resource};
 
 /// The maximum number of lines inspected to detect the format and the meaning of its numbers.
@@ -33,13 +33,13 @@ pub(super) fn is_head(head: &[u8]) -> bool {
 
 /// The meaning of the numbers after the position of a point.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Meaning {
+enum XyzColumns {
     Color,
     Normal,
 }
 
 /// The meaning of the numbers of a line, with their first index.
-fn columns(bytes: &[u8]) -> Vec<(usize, Meaning)> {
+fn columns(bytes: &[u8]) -> Vec<(usize, XyzColumns)> {
     let (mut lines, mut words) = (first_lines(bytes), Vec::new());
     let mut rows: Vec<Vec<f64>> = Vec::new();
     while rows.len() < LOOKED_AT && lines.next(&mut words) {
@@ -61,9 +61,9 @@ fn columns(bytes: &[u8]) -> Vec<(usize, Meaning)> {
             (square - 1.0).abs() < 0.02
         };
         if row.clone().all(is_unit) || row.flatten().any(|number| *number < 0.0) {
-            Meaning::Normal
+            XyzColumns::Normal
         } else {
-            Meaning::Color
+            XyzColumns::Color
         }
     };
     let triples = triples.iter().filter(|first| **first + 3 <= count);
@@ -71,13 +71,13 @@ fn columns(bytes: &[u8]) -> Vec<(usize, Meaning)> {
 }
 
 /// Reads an XYZ.
-pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
+pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<ParsedMesh, TextParseError> {
     // A line of six bytes becomes a position, a normal and a colour, in lists that grow by
     // doubling.
     budget.has(Resource::Memory, 24 * bytes.len() as u64)?;
     let columns = columns(bytes);
-    let (mut lines, mut words) = (Lines::new(bytes), Vec::new());
-    let (mut positions, mut normals, mut tints) = (Vec::new(), Vec::new(), Tints::default());
+    let (mut lines, mut words) = (WordLines::new(bytes), Vec::new());
+    let (mut positions, mut normals, mut tints) = (Vec::new(), Vec::new(), VertexColors::default());
     let mut faults = Vec::new();
     while lines.next(&mut words) && faults.len() < MAX_FAULTS {
         let outcome = point(&words, &columns, &mut normals, &mut tints);
@@ -87,9 +87,9 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault>
         }
     }
     if !faults.is_empty() {
-        return Err(ParseFault::Faults(faults));
+        return Err(TextParseError::Faults(faults));
     }
-    let mut parsed = Parsed::default();
+    let mut parsed = ParsedMesh::default();
     parsed.mesh.positions = positions.into();
     parsed.mesh.normals = normals.into();
     parsed.mesh.colors = tints.column();
@@ -99,18 +99,18 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault>
 /// The position of a point; its colour and its normal are added.
 fn point(
     words: &[Word<'_>],
-    columns: &[(usize, Meaning)],
+    columns: &[(usize, XyzColumns)],
     normals: &mut Vec<[f64; 3]>,
-    tints: &mut Tints,
-) -> Result<[f64; 3], WordFault> {
+    tints: &mut VertexColors,
+) -> Result<[f64; 3], WordError> {
     let position = numbers(&words[0], words)?;
     let (mut normal, mut color) = (None, None);
     for (first, meaning) in columns {
         let row: [f64; 3] = numbers(&words[0], words.get(*first..).unwrap_or_default())?;
         match meaning {
-            Meaning::Normal if normal.is_none() => normal = Some(row),
-            Meaning::Color if color.is_none() => color = Some(row),
-            Meaning::Normal | Meaning::Color => {}
+            XyzColumns::Normal if normal.is_none() => normal = Some(row),
+            XyzColumns::Color if color.is_none() => color = Some(row),
+            XyzColumns::Normal | XyzColumns::Color => {}
         }
     }
     normals.extend(normal);

@@ -4,13 +4,13 @@
 //! the closest standard material is used, with a warning that describes the difference: Schlick's
 //! approximation replaces the Fresnel equations of metals, and GGX replaces Beckmann.
 
-use super::xml::{Node, Value};
+use super::xml::{PluginNode, Value};
 use super::{AssetTarget, Lowering};
-use crate::exchange::Text;
+use crate::exchange::SpannedText;
 use crate::exchange::checkerboard::checkerboard;
 use crate::exchange::color::{metal, named_ior, normal_reflectance};
 use crate::exchange::material::{matte, opaque};
-use crate::exchange::transform::Transform;
+use crate::exchange::transform::AffineTransform;
 use rtc_ir::{
     Alpha, EntityKind, Filter, Map, Material, MaterialId, Sampled, Standard, Texture, TextureId,
     Wrap,
@@ -24,7 +24,7 @@ pub(super) type MaterialKey = (Option<Span>, [u64; 3], bool);
 const MAX_DEPTH: usize = 16;
 
 /// A colour that is a constant, or a map.
-struct Channel {
+struct ColorOrMap {
     color: [f64; 3],
     map: Option<Map>,
 }
@@ -33,12 +33,12 @@ impl<'run> Lowering<'run> {
     /// The material of a shape with its emission; `None` if light passes through the shape.
     pub(super) fn material(
         &mut self,
-        shape: &'run Node,
+        shape: &'run PluginNode,
         radiance: [f64; 3],
         flip: bool,
     ) -> Option<MaterialId> {
         // Find the BSDF of the shape.
-        let is_bsdf = |node: &&'run Node| match node.tag.as_str() {
+        let is_bsdf = |node: &&'run PluginNode| match node.tag.as_str() {
             "bsdf" => true,
             "ref" => self.refers_to(node, "bsdf"),
             _ => false,
@@ -73,7 +73,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// A BSDF as a standard material; `None` for `null`.
-    fn standard(&mut self, node: &'run Node, flip: bool, depth: usize) -> Option<Standard> {
+    fn standard(&mut self, node: &'run PluginNode, flip: bool, depth: usize) -> Option<Standard> {
         // Nesting is bounded.
         if depth >= MAX_DEPTH {
             self.unsupported(node, "it is nested too deep, and grey replaces it");
@@ -154,14 +154,14 @@ impl<'run> Lowering<'run> {
         })
     }
 
-    fn bsdf_children(&mut self, node: &'run Node) -> Vec<&'run Node> {
+    fn bsdf_children(&mut self, node: &'run PluginNode) -> Vec<&'run PluginNode> {
         let children = node.children.iter();
         let resolved = children.filter_map(|child| self.resolve(child));
         resolved.filter(|child| child.tag == "bsdf").collect()
     }
 
     /// The BSDF inside another one.
-    fn inner(&mut self, node: &'run Node, flip: bool, depth: usize) -> Option<Standard> {
+    fn inner(&mut self, node: &'run PluginNode, flip: bool, depth: usize) -> Option<Standard> {
         let children = self.bsdf_children(node);
         if children.len() > 1 {
             self.approximate(node.plugin.span, "the back has the BSDF of the front");
@@ -173,7 +173,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// The roughness of the standard material, √α.
-    fn roughness(&mut self, node: &'run Node, flip: bool) -> f64 {
+    fn roughness(&mut self, node: &'run PluginNode, flip: bool) -> f64 {
         let distribution = node.string("distribution");
         if distribution.is_none_or(|name| name.text != "ggx") {
             let span = distribution.map_or(node.plugin.span, |name| name.span);
@@ -194,7 +194,7 @@ impl<'run> Lowering<'run> {
         alpha.clamp(0.0, 1.0).sqrt()
     }
 
-    fn conductor(&mut self, node: &'run Node, roughness: f64, flip: bool) -> Standard {
+    fn conductor(&mut self, node: &'run PluginNode, roughness: f64, flip: bool) -> Standard {
         let complex = node.color("eta").zip(node.color("k"));
         let name = node
             .string("material")
@@ -227,7 +227,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// An index of refraction: a number or the name of a material.
-    fn ior(&mut self, node: &Node, name: &str, default: f64) -> f64 {
+    fn ior(&mut self, node: &PluginNode, name: &str, default: f64) -> f64 {
         match node.get(name) {
             Some(Value::Number(number)) => *number,
             Some(Value::String(material)) => named_ior(&material.text).unwrap_or_else(|| {
@@ -240,7 +240,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// The index of the inside over that of the outside, at least 1.
-    fn relative_ior(&mut self, node: &Node, default: f64) -> f64 {
+    fn relative_ior(&mut self, node: &PluginNode, default: f64) -> f64 {
         let inside = self.ior(node, "int_ior", default);
         let outside = self.ior(node, "ext_ior", 1.000_277);
         let ratio = inside / outside;
@@ -255,7 +255,7 @@ impl<'run> Lowering<'run> {
 
     fn dielectric(
         &mut self,
-        node: &'run Node,
+        node: &'run PluginNode,
         roughness: f64,
         is_solid: bool,
         flip: bool,
@@ -281,7 +281,7 @@ impl<'run> Lowering<'run> {
         }
     }
 
-    fn plastic(&mut self, node: &'run Node, roughness: f64, flip: bool) -> Standard {
+    fn plastic(&mut self, node: &'run PluginNode, roughness: f64, flip: bool) -> Standard {
         let message = "the standard material replaces the layered plastic";
         self.approximate(node.plugin.span, message);
         let diffuse = self.channel(node, "diffuse_reflectance", [0.5; 3], flip);
@@ -294,7 +294,7 @@ impl<'run> Lowering<'run> {
         }
     }
 
-    fn principled(&mut self, node: &'run Node, flip: bool) -> Standard {
+    fn principled(&mut self, node: &'run PluginNode, flip: bool) -> Standard {
         let message = "the standard material replaces the principled BSDF";
         self.approximate(node.plugin.span, message);
         let base = self.channel(node, "base_color", [0.5; 3], flip);
@@ -325,7 +325,7 @@ impl<'run> Lowering<'run> {
         }
     }
 
-    fn mask(&mut self, node: &'run Node, inner: Standard, flip: bool) -> Standard {
+    fn mask(&mut self, node: &'run PluginNode, inner: Standard, flip: bool) -> Standard {
         let opacity = node.number("opacity");
         if let Some(map) = self.map(node, "opacity", flip) {
             let _ = map;
@@ -343,29 +343,35 @@ impl<'run> Lowering<'run> {
     }
 
     /// A colour of a BSDF: a property or a texture.
-    fn channel(&mut self, node: &'run Node, name: &str, default: [f64; 3], flip: bool) -> Channel {
+    fn channel(
+        &mut self,
+        node: &'run PluginNode,
+        name: &str,
+        default: [f64; 3],
+        flip: bool,
+    ) -> ColorOrMap {
         if let Some(color) = node.color(name) {
-            return Channel { color, map: None };
+            return ColorOrMap { color, map: None };
         }
         let Some(texture) = node.child(name).and_then(|child| self.resolve(child)) else {
-            return Channel {
+            return ColorOrMap {
                 color: default,
                 map: None,
             };
         };
         match texture.plugin.text.as_str() {
-            "mesh_attribute" => Channel {
+            "mesh_attribute" => ColorOrMap {
                 color: [1.0; 3],
                 map: None,
             },
-            "uniform" | "srgb" => Channel {
+            "uniform" | "srgb" => ColorOrMap {
                 color: texture
                     .color("value")
                     .or_else(|| texture.color("color"))
                     .unwrap_or(default),
                 map: None,
             },
-            _ => Channel {
+            _ => ColorOrMap {
                 color: [1.0; 3],
                 map: self.texture(texture, flip),
             },
@@ -373,7 +379,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// The map of a texture child.
-    fn map(&mut self, node: &'run Node, name: &str, flip: bool) -> Option<Map> {
+    fn map(&mut self, node: &'run PluginNode, name: &str, flip: bool) -> Option<Map> {
         let texture = node.child(name).and_then(|child| self.resolve(child));
         let texture =
             texture.or_else(|| node.children.iter().find(|child| child.tag == "texture"))?;
@@ -381,7 +387,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// A texture as a map; `None` for one that is not supported.
-    fn texture(&mut self, node: &'run Node, flip: bool) -> Option<Map> {
+    fn texture(&mut self, node: &'run PluginNode, flip: bool) -> Option<Map> {
         // Find the image and the filter.
         let (image, filter) = match node.plugin.text.as_str() {
             "bitmap" => {
@@ -397,7 +403,7 @@ impl<'run> Lowering<'run> {
                         "vscale",
                     ],
                 );
-                let path: &Text = node.string("filename")?;
+                let path: &SpannedText = node.string("filename")?;
                 let filter = match node.string("filter_type") {
                     Some(name) if name.text == "nearest" => Filter::Nearest,
                     _ => Filter::Linear,
@@ -433,7 +439,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// A checkerboard, of two squares along u and v: the diagonal has `color0`.
-    fn checkerboard(&mut self, node: &Node, flip: bool) -> Map {
+    fn checkerboard(&mut self, node: &PluginNode, flip: bool) -> Map {
         let colors = [("color0", 0.4), ("color1", 0.2)];
         let colors = colors.map(|(name, grey)| node.color(name).unwrap_or([grey; 3]));
         let squares = rows(node, flip).map(|row| row.map(|number| 2.0 * number));
@@ -444,10 +450,10 @@ impl<'run> Lowering<'run> {
 
 /// The rows of the map from the texture coordinates of a surface to those of a texture; with `flip`
 /// v points the other way on the surface.
-fn rows(node: &Node, flip: bool) -> [[f64; 3]; 2] {
+fn rows(node: &PluginNode, flip: bool) -> [[f64; 3]; 2] {
     let scale = |name| node.number(name).unwrap_or(1.0);
-    let scaled = Transform::scale([scale("uscale"), scale("vscale"), 1.0]);
-    let Transform([x, y, _, origin]) = node.transform("to_uv").after(&scaled);
+    let scaled = AffineTransform::scale([scale("uscale"), scale("vscale"), 1.0]);
+    let AffineTransform([x, y, _, origin]) = node.transform("to_uv").after(&scaled);
     let row = |k: usize| match flip {
         false => [x[k], y[k], origin[k]],
         true => [x[k], -y[k], origin[k] + y[k]],

@@ -1,15 +1,15 @@
 //! Emitters: environment maps, points, spots, suns; area lights are part of their shapes.
 
-use super::xml::Node;
+use super::xml::PluginNode;
 use super::{AssetTarget, Lowering};
 use crate::exchange::spot::falling;
-use crate::exchange::transform::Transform;
-use rtc_ir::{Emitter, EntityKind, Environment, Light, Punctual};
+use crate::exchange::transform::AffineTransform;
+use rtc_ir::{EntityKind, Environment, Light, Punctual, PunctualKind};
 use rtc_math::{Vec3, unit};
 
 impl<'run> Lowering<'run> {
     /// An emitter of the scene.
-    pub(super) fn emitter(&mut self, node: &'run Node) {
+    pub(super) fn emitter(&mut self, node: &'run PluginNode) {
         let to_world = node.transform("to_world");
         let color = |name: &str| node.color(name).unwrap_or([1.0; 3]);
         match node.plugin.text.as_str() {
@@ -23,7 +23,7 @@ impl<'run> Lowering<'run> {
                     (None, Some(_)) => to_world.point(Vec3::ZERO).to_array(),
                     _ => node.vector("position").unwrap_or([0.0; 3]),
                 };
-                let emitter = Emitter::Point {
+                let emitter = PunctualKind::Point {
                     position,
                     range: None,
                 };
@@ -33,7 +33,7 @@ impl<'run> Lowering<'run> {
             "directional" => {
                 let direction = node.vector("direction").map(Vec3::from_array);
                 let direction = direction.unwrap_or_else(|| to_world.vector(Vec3::Z));
-                let emitter = Emitter::Sun {
+                let emitter = PunctualKind::Sun {
                     direction: (-direction).to_array(),
                 };
                 self.light(node, emitter, color("irradiance"));
@@ -46,7 +46,7 @@ impl<'run> Lowering<'run> {
 
     /// A spot. Its intensity falls linearly in the angle, from 1 at the width of the beam to 0 at
     /// the cutoff.
-    fn spot(&mut self, node: &Node, to_world: &Transform) {
+    fn spot(&mut self, node: &PluginNode, to_world: &AffineTransform) {
         if node.child("texture").is_some() {
             self.approximate(node.span, "the texture of a spot is left out");
         }
@@ -67,7 +67,7 @@ impl<'run> Lowering<'run> {
         );
     }
 
-    fn light(&mut self, node: &Node, emitter: Emitter, intensity: [f64; 3]) {
+    fn light(&mut self, node: &PluginNode, emitter: PunctualKind, intensity: [f64; 3]) {
         self.record(EntityKind::Light, self.scene.lights.len(), node.span);
         self.scene
             .lights
@@ -75,7 +75,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// The environment. The middle of Mitsuba's picture is +z, that of the IR is −z.
-    fn environment(&mut self, node: &'run Node, radiance: [f64; 3], has_image: bool) {
+    fn environment(&mut self, node: &'run PluginNode, radiance: [f64; 3], has_image: bool) {
         if self.scene.environment.is_some() {
             return self.unsupported(node, "a scene has one environment: the first one");
         }
@@ -101,8 +101,8 @@ impl<'run> Lowering<'run> {
     }
 
     /// The radiance that a shape emits.
-    pub(super) fn radiance(&mut self, shape: &'run Node) -> [f64; 3] {
-        let is_emitter = |child: &&'run Node| match child.tag.as_str() {
+    pub(super) fn radiance(&mut self, shape: &'run PluginNode) -> [f64; 3] {
+        let is_emitter = |child: &&'run PluginNode| match child.tag.as_str() {
             "emitter" => true,
             "ref" => self.refers_to(child, "emitter"),
             _ => false,

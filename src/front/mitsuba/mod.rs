@@ -1,12 +1,12 @@
 //! The scene format of Mitsuba (XML, versions 0.5 to 3) lowered to the IR.
 //!
 //! ```text
-//! bytes ─ xml ─▶ Node tree ─ sensor, bsdf, emitter, shape ─▶ UnfinishedScene ─ assets ─▶ Lowered
+//! bytes ─ xml ─▶ PluginNode tree ─ sensor, bsdf, emitter, shape ─▶ UnfinishedScene ─ assets ─▶ LoweredScene
 //! ```
 //!
 //! - [`xml`] reads the text. It resolves `<default>`, `<include>` and `<ref>`, converts the names
 //!   of older versions (`toWorld`) to those of version 3 (`to_world`), and collects all mistakes.
-//!   Each [`Node`] keeps the spans of its element and of its properties.
+//!   Each [`PluginNode`] keeps the spans of its element and of its properties.
 //! - [`value`] parses numbers, vectors, matrices, colours and spectra.
 //! - [`sensor`], [`bsdf`], [`emitter`] and [`shape`] lower one kind of plugin each; [`one_sided`]
 //!   covers the backs of lights. A plugin that
@@ -35,17 +35,17 @@ mod xml;
 
 use crate::course::UnfinishedScene;
 use crate::course::assets::{self, AssetTarget, PendingAsset};
-use crate::exchange::{Text, transform::Transform};
+use crate::exchange::{SpannedText, transform::AffineTransform};
 use crate::foreign::xml_root;
 use crate::{FrontOptions, over_limit};
-use rtc_diag::{Diagnostic, Sink, clip, clip_path, codes};
+use rtc_diag::{Diagnostic, DiagnosticSink, clip, clip_path, codes};
 use rtc_ir::{
-    EntityKind, Field, Image, ImageId, Lowered, MaterialId, Mesh, MeshId, Pixels, Scene, Settings,
-    SourceSpans, ValuePath,
+    EntityField, EntityKind, Image, ImageId, LoweredScene, MaterialId, Mesh, MeshId, Pixels, Scene,
+    Settings, SourceSpans, ValuePath,
 };
-use rtc_source::{FileId, Loader, Search, SourceMap, Span};
+use rtc_source::{FileId, FileSearch, Loader, SourceMap, Span};
 use std::collections::{BTreeMap, BTreeSet};
-use xml::Node;
+use xml::PluginNode;
 
 /// The name of the root element.
 pub(crate) const ROOT: &str = "scene";
@@ -64,18 +64,18 @@ pub fn lower(
     file: FileId,
     map: &mut SourceMap,
     options: &FrontOptions,
-    sink: &mut Sink,
-) -> Option<Lowered> {
+    sink: &mut DiagnosticSink,
+) -> Option<LoweredScene> {
     let root = xml::read(file, map, options, sink)?;
     let folder = map.folder(file);
-    let search = Search::new(folder, options.asset_root.as_deref())
+    let search = FileSearch::new(folder, options.asset_root.as_deref())
         .with_parent(folder, options.home.as_deref());
     let mut lowering = Lowering::new(&root, search, map, sink);
     lowering.scene(&root);
     let flat = std::mem::take(&mut lowering.flat);
     let one_sided = std::mem::take(&mut lowering.one_sided);
     let draft = UnfinishedScene::new(
-        Lowered {
+        LoweredScene {
             scene: lowering.scene,
             source_spans: lowering.source_spans,
         },
@@ -93,11 +93,11 @@ struct Lowering<'run> {
     scene: Scene,
     source_spans: SourceSpans,
     pending: Vec<PendingAsset>,
-    search: Search,
+    search: FileSearch,
     map: &'run mut SourceMap,
-    sink: &'run mut Sink,
+    sink: &'run mut DiagnosticSink,
     /// The shared elements, such as `<bsdf id="…">`, by id.
-    shared: BTreeMap<&'run str, &'run Node>,
+    shared: BTreeMap<&'run str, &'run PluginNode>,
     /// Materials that were lowered, by the span of their element and what else distinguishes them.
     materials: BTreeMap<bsdf::MaterialKey, Option<MaterialId>>,
     /// Images and meshes that are pending, by path.
@@ -118,10 +118,10 @@ struct Lowering<'run> {
 
 impl<'run> Lowering<'run> {
     fn new(
-        root: &'run Node,
-        search: Search,
+        root: &'run PluginNode,
+        search: FileSearch,
         map: &'run mut SourceMap,
-        sink: &'run mut Sink,
+        sink: &'run mut DiagnosticSink,
     ) -> Self {
         let mut shared = BTreeMap::new();
         root.visit(&mut |node| {
@@ -150,7 +150,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// Lowers the children of the root. The integrator comes first, as sensors hold samples.
-    fn scene(&mut self, root: &'run Node) {
+    fn scene(&mut self, root: &'run PluginNode) {
         self.record(EntityKind::Settings, 0, root.span);
         for node in root.children.iter().filter(|node| node.tag == "integrator") {
             self.integrator(node);
@@ -162,7 +162,7 @@ impl<'run> Lowering<'run> {
                 "emitter" if node.plugin.text == "area" => {}
                 "sensor" => self.sensor(node),
                 "emitter" => self.emitter(node),
-                "shape" => self.shape(node, Transform::IDENTITY),
+                "shape" => self.shape(node, AffineTransform::IDENTITY),
                 "medium" | "phase" | "volume" => {
                     self.unsupported(node, "participating media are left out");
                 }
@@ -176,18 +176,18 @@ impl<'run> Lowering<'run> {
     }
 
     fn record(&mut self, entity: EntityKind, index: usize, span: Span) {
-        let path = ValuePath::new(entity, index, Field::Whole);
+        let path = ValuePath::new(entity, index, EntityField::Whole);
         self.source_spans.record(path, span);
     }
 
     /// Whether a reference leads to an element of this kind.
-    fn refers_to(&self, reference: &Node, tag: &str) -> bool {
+    fn refers_to(&self, reference: &PluginNode, tag: &str) -> bool {
         let target = self.shared.get(reference.plugin.text.as_str());
         target.is_some_and(|target| target.tag == tag)
     }
 
     /// Follows a reference to the shared element.
-    fn resolve(&mut self, node: &'run Node) -> Option<&'run Node> {
+    fn resolve(&mut self, node: &'run PluginNode) -> Option<&'run PluginNode> {
         if node.tag != "ref" {
             return Some(node);
         }
@@ -203,7 +203,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// Warns of a plugin that is left out or replaced.
-    fn unsupported(&mut self, node: &Node, consequence: &str) {
+    fn unsupported(&mut self, node: &PluginNode, consequence: &str) {
         let message = match node.plugin.text.as_str() {
             "" => format!("`<{}>` is not supported: {consequence}", clip(&node.tag)),
             plugin => format!(
@@ -222,14 +222,14 @@ impl<'run> Lowering<'run> {
         self.sink.push(diagnostic.at(span, ""));
     }
 
-    fn ignored_element(&mut self, node: &Node) {
+    fn ignored_element(&mut self, node: &PluginNode) {
         let message = format!("`<{}>` has no effect here", clip(&node.tag));
         let diagnostic = Diagnostic::new(&codes::MITSUBA_IGNORED, message);
         self.sink.push(diagnostic.at(node.span, ""));
     }
 
     /// Warns of properties of a plugin that were not read.
-    fn ignored(&mut self, node: &Node, used: &[&str]) {
+    fn ignored(&mut self, node: &PluginNode, used: &[&str]) {
         for property in &node.properties {
             if !used.contains(&property.name.text.as_str()) {
                 let message = format!(
@@ -245,7 +245,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// An image of one pixel that waits for its file.
-    fn image(&mut self, path: &Text, target: fn(ImageId) -> AssetTarget) -> ImageId {
+    fn image(&mut self, path: &SpannedText, target: fn(ImageId) -> AssetTarget) -> ImageId {
         if let Some(id) = self.images.get(&path.text) {
             return *id;
         }
@@ -267,7 +267,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// An empty mesh that waits for its file.
-    fn mesh_file(&mut self, path: &Text) -> MeshId {
+    fn mesh_file(&mut self, path: &SpannedText) -> MeshId {
         if let Some(id) = self.meshes.get(&path.text) {
             return *id;
         }
@@ -286,7 +286,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// A mesh of a `.serialized` file.
-    fn serialized_mesh(&mut self, path: &Text, index: u32) -> Option<MeshId> {
+    fn serialized_mesh(&mut self, path: &SpannedText, index: u32) -> Option<MeshId> {
         let key = (path.text.clone(), index);
         if let Some(known) = self.serialized.get(&key) {
             return *known;
@@ -300,7 +300,7 @@ impl<'run> Lowering<'run> {
         id
     }
 
-    fn read_serialized(&mut self, path: &Text, index: u32) -> Option<Mesh> {
+    fn read_serialized(&mut self, path: &SpannedText, index: u32) -> Option<Mesh> {
         let name = clip_path(&path.text);
         let diagnostic = match self.search.find(&path.text, &serialized::KIND) {
             Err(_) => {
@@ -316,8 +316,10 @@ impl<'run> Lowering<'run> {
                     self.map.budget().read(bytes.len());
                     match serialized::read(&bytes, index, self.map.budget()) {
                         Ok(mesh) => return Some(mesh),
-                        Err(serialized::Fault::Limit(fault)) => over_limit("the mesh", &fault),
-                        Err(serialized::Fault::Damaged(fault)) => {
+                        Err(serialized::SerializedError::Limit(fault)) => {
+                            over_limit("the mesh", &fault)
+                        }
+                        Err(serialized::SerializedError::Damaged(fault)) => {
                             let message = format!("the mesh `{name}` cannot be read: {fault}");
                             Diagnostic::new(&codes::BAD_MESH_FILE, message)
                         }

@@ -1,13 +1,14 @@
 //! Area lights of flat shapes emit on the side of the normal: a cover hides the other side.
 
 use super::Lowering;
-use super::xml::Node;
+use super::xml::PluginNode;
 use crate::exchange::material::matte;
 use crate::exchange::one_sided::{behind, flat_mesh, is_closed};
-use crate::exchange::transform::Transform;
-use rtc_diag::{Diagnostic, Sink, codes};
+use crate::exchange::transform::AffineTransform;
+use rtc_diag::{Diagnostic, DiagnosticSink, codes};
 use rtc_ir::{
-    Disc, EntityKind, Field, Lowered, Material, MaterialId, Mesh, Shape, Surface, ValuePath,
+    Disc, EntityField, EntityKind, LoweredScene, Material, MaterialId, Mesh, Shape, Surface,
+    ValuePath,
 };
 use rtc_math::Vec3;
 use rtc_source::Span;
@@ -18,7 +19,7 @@ pub(super) struct OneSided {
     pub(super) surface: usize,
     /// The material of its back.
     pub(super) back: MaterialId,
-    pub(super) to_world: Transform,
+    pub(super) to_world: AffineTransform,
     /// Whether its normal is reversed.
     pub(super) is_flipped: bool,
     pub(super) span: Span,
@@ -27,8 +28,8 @@ pub(super) struct OneSided {
 impl<'run> Lowering<'run> {
     /// The material of the back of a light: that of its shape without the emission, or black if
     /// its BSDF has one side.
-    pub(super) fn back_material(&mut self, shape: &'run Node, flip: bool) -> MaterialId {
-        let is_bsdf = |node: &&'run Node| node.tag == "bsdf" || self.refers_to(node, "bsdf");
+    pub(super) fn back_material(&mut self, shape: &'run PluginNode, flip: bool) -> MaterialId {
+        let is_bsdf = |node: &&'run PluginNode| node.tag == "bsdf" || self.refers_to(node, "bsdf");
         let bsdf = shape.children.iter().find(is_bsdf);
         let bsdf = bsdf.and_then(|node| self.resolve(node));
         let same = bsdf.filter(|node| self.has_two_sides(node, 0));
@@ -46,7 +47,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// Whether a BSDF scatters light that comes from behind.
-    fn has_two_sides(&self, node: &'run Node, depth: usize) -> bool {
+    fn has_two_sides(&self, node: &'run PluginNode, depth: usize) -> bool {
         /// The deepest nesting of BSDFs.
         const MAX_DEPTH: usize = 16;
         match node.plugin.text.as_str() {
@@ -54,7 +55,7 @@ impl<'run> Lowering<'run> {
             "principled" => node.number("spec_trans").is_some_and(|share| share > 0.0),
             _ if depth >= MAX_DEPTH => false,
             _ => {
-                let shared = |child: &'run Node| match child.tag.as_str() {
+                let shared = |child: &'run PluginNode| match child.tag.as_str() {
                     "ref" => self.shared.get(child.plugin.text.as_str()).copied(),
                     _ => Some(child),
                 };
@@ -68,7 +69,11 @@ impl<'run> Lowering<'run> {
 
 /// Adds a cover behind each flat light, when the meshes are loaded. A light that is neither flat
 /// nor closed emits on both sides, with a warning.
-pub(super) fn cover_backs(lowered: &mut Lowered, lights: &[OneSided], sink: &mut Sink) {
+pub(super) fn cover_backs(
+    lowered: &mut LoweredScene,
+    lights: &[OneSided],
+    sink: &mut DiagnosticSink,
+) {
     for light in lights {
         let Some(surface) = lowered.scene.surfaces.get(light.surface) else {
             continue;
@@ -93,7 +98,7 @@ pub(super) fn cover_backs(lowered: &mut Lowered, lights: &[OneSided], sink: &mut
                 let Some(mesh) = lowered.scene.meshes.get(instance.mesh.0 as usize) else {
                     continue;
                 };
-                let placed = Transform(instance.world_from_object.map(Vec3::from_array));
+                let placed = AffineTransform(instance.world_from_object.map(Vec3::from_array));
                 let back = back_of(mesh, &placed, light.is_flipped);
                 if back.is_none() && !is_closed(mesh) {
                     let message = "the light shines from both sides of its shape";
@@ -101,7 +106,7 @@ pub(super) fn cover_backs(lowered: &mut Lowered, lights: &[OneSided], sink: &mut
                     sink.push(diagnostic.at(light.span, ""));
                 }
                 back.map(|by| {
-                    let moved = Transform::translation(by.to_array()).after(&placed);
+                    let moved = AffineTransform::translation(by.to_array()).after(&placed);
                     moved.instance(instance.mesh)
                 })
             }
@@ -110,7 +115,7 @@ pub(super) fn cover_backs(lowered: &mut Lowered, lights: &[OneSided], sink: &mut
         };
         let Some(shape) = cover else { continue };
         let index = lowered.scene.surfaces.len();
-        let path = ValuePath::new(EntityKind::Surface, index, Field::Whole);
+        let path = ValuePath::new(EntityKind::Surface, index, EntityField::Whole);
         lowered.source_spans.record(path, light.span);
         lowered.scene.surfaces.push(Surface {
             shape,
@@ -122,7 +127,7 @@ pub(super) fn cover_backs(lowered: &mut Lowered, lights: &[OneSided], sink: &mut
 
 /// The vector to the back of a flat mesh. The side of its vertex normals is the front, or without
 /// them that from which its triangles in the world run counterclockwise.
-fn back_of(mesh: &Mesh, placed: &Transform, is_flipped: bool) -> Option<Vec3> {
+fn back_of(mesh: &Mesh, placed: &AffineTransform, is_flipped: bool) -> Option<Vec3> {
     let (normal, extent) = flat_mesh(mesh)?;
     let is_against = match mesh.normals.is_empty() {
         true => placed.determinant() < 0.0,

@@ -1,9 +1,9 @@
 //! Integrators, sensors, films and samplers.
 
 use super::Lowering;
-use super::xml::Node;
+use super::xml::PluginNode;
 use crate::exchange::traced;
-use crate::exchange::transform::Transform;
+use crate::exchange::transform::AffineTransform;
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{Camera, EntityKind, Lens, Mode, Projection, Settings};
 use rtc_math::{Vec3, cos, sin};
@@ -41,7 +41,7 @@ pub(super) fn default_settings() -> Settings {
 
 impl<'run> Lowering<'run> {
     /// The depth of an integrator. A path of `max_depth` edges has `max_depth` − 1 bounces.
-    pub(super) fn integrator(&mut self, node: &'run Node) {
+    pub(super) fn integrator(&mut self, node: &'run PluginNode) {
         match node.plugin.text.as_str() {
             "path" | "volpath" | "volpathmis" | "prb" | "volpath_simple" => {
                 let depth = node.number("max_depth").unwrap_or(-1.0);
@@ -70,7 +70,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// The first sensor; further ones are other views of the same scene.
-    pub(super) fn sensor(&mut self, node: &'run Node) {
+    pub(super) fn sensor(&mut self, node: &'run PluginNode) {
         // Only the first sensor is used.
         if self.has_sensor {
             self.approximate(
@@ -138,7 +138,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// The first pixel and the size of the part of a film that is kept; `None` for all of it.
-    fn crop(&mut self, film: &Node, [width, height]: [u32; 2]) -> Option<[[u32; 2]; 2]> {
+    fn crop(&mut self, film: &PluginNode, [width, height]: [u32; 2]) -> Option<[[u32; 2]; 2]> {
         const NAMES: [&str; 4] = [
             "crop_offset_x",
             "crop_offset_y",
@@ -160,7 +160,7 @@ impl<'run> Lowering<'run> {
         Some([offset, size])
     }
 
-    fn film(&mut self, film: &Node) -> [u32; 2] {
+    fn film(&mut self, film: &PluginNode) -> [u32; 2] {
         let side = |name, default| film.count(name).unwrap_or(default).max(1);
         let filter = film.children.iter().find(|child| child.tag == "rfilter");
         let filter_name = filter.map_or("gaussian", |filter| filter.plugin.text.as_str());
@@ -172,7 +172,12 @@ impl<'run> Lowering<'run> {
     }
 
     /// A perspective camera or a thin lens. The image plane is at the focus distance.
-    fn perspective(&mut self, node: &Node, to_world: &Transform, size: [u32; 2]) -> Option<Camera> {
+    fn perspective(
+        &mut self,
+        node: &PluginNode,
+        to_world: &AffineTransform,
+        size: [u32; 2],
+    ) -> Option<Camera> {
         let eye = &to_world.0[3];
         let [left, up, forward] = to_world.orthonormal()?;
         let [width, height] = size.map(f64::from);
@@ -255,8 +260,8 @@ fn tangent(degrees: f64) -> f64 {
 }
 
 /// The picture of an orthographic sensor is 2 wide, scaled by `to_world`.
-fn orthographic(to_world: &Transform, size: [u32; 2]) -> Option<Camera> {
-    let Transform([x, _, z, eye]) = to_world;
+fn orthographic(to_world: &AffineTransform, size: [u32; 2]) -> Option<Camera> {
+    let AffineTransform([x, _, z, eye]) = to_world;
     let [left, up, forward] = to_world.orthonormal()?;
     let pixel = x.length() * 2.0 / f64::from(size[0]);
     Some(Camera {

@@ -2,8 +2,8 @@
 //! by zlib (RFC 1950), and a table of their offsets at the end.
 
 use flate2::read::ZlibDecoder;
-use rtc_ir::{Column, Mesh};
-use rtc_source::{Budget, Exceeded, FileKind, Resource};
+use rtc_ir::{Mesh, VertexColumn};
+use rtc_source::{Budget, FileKind, LimitExceeded, Resource};
 use std::io::{self, Read};
 
 /// Such files.
@@ -25,40 +25,42 @@ const HAS_COLORS: u32 = 0x8;
 const IS_DOUBLE: u32 = 0x2000;
 
 /// Why a mesh cannot be read.
-pub(super) enum Fault {
+pub(super) enum SerializedError {
     /// The file is damaged, with the error.
     Damaged(&'static str),
-    Limit(Exceeded),
+    Limit(LimitExceeded),
 }
 
-impl From<io::Error> for Fault {
+impl From<io::Error> for SerializedError {
     fn from(_: io::Error) -> Self {
         Self::Damaged("its compressed data are damaged or too short")
     }
 }
 
-impl From<Exceeded> for Fault {
-    fn from(exceeded: Exceeded) -> Self {
+impl From<LimitExceeded> for SerializedError {
+    fn from(exceeded: LimitExceeded) -> Self {
         Self::Limit(exceeded)
     }
 }
 
 /// The mesh with this index, from 0. Its memory is charged before it is taken.
-pub(super) fn read(bytes: &[u8], index: u32, budget: &Budget) -> Result<Mesh, Fault> {
+pub(super) fn read(bytes: &[u8], index: u32, budget: &Budget) -> Result<Mesh, SerializedError> {
     // Find the mesh in the file.
     let (start, end) = range(bytes, index)?;
     let bytes = bytes
         .get(start..end)
-        .ok_or(Fault::Damaged("its table of offsets is damaged"))?;
+        .ok_or(SerializedError::Damaged("its table of offsets is damaged"))?;
     if !bytes.starts_with(&MAGIC) {
-        return Err(Fault::Damaged("a mesh does not begin with the bytes 1c 04"));
+        return Err(SerializedError::Damaged(
+            "a mesh does not begin with the bytes 1c 04",
+        ));
     }
     // Read the header; the rest is compressed.
     let version = match bytes.get(2..4) {
         Some(&[version @ (3 | 4), 0]) => version,
-        _ => return Err(Fault::Damaged("its version is neither 3 nor 4")),
+        _ => return Err(SerializedError::Damaged("its version is neither 3 nor 4")),
     };
-    let mut stream = Stream(ZlibDecoder::new(&bytes[4..]));
+    let mut stream = SerializedStream(ZlibDecoder::new(&bytes[4..]));
     let flags = stream.u32()?;
     if version == 4 {
         stream.skip_name()?;
@@ -98,16 +100,16 @@ pub(super) fn read(bytes: &[u8], index: u32, budget: &Budget) -> Result<Mesh, Fa
         };
         let triangle = [corner()?, corner()?, corner()?];
         if triangle.iter().any(|index| u64::from(*index) >= vertices) {
-            return Err(Fault::Damaged(
+            return Err(SerializedError::Damaged(
                 "a triangle has a vertex that does not exist",
             ));
         }
         corners.push(triangle);
     }
     Ok(Mesh {
-        positions: Column::rounded(positions),
-        normals: Column::rounded(normals),
-        uvs: Column::rounded(uvs),
+        positions: VertexColumn::rounded(positions),
+        normals: VertexColumn::rounded(normals),
+        uvs: VertexColumn::rounded(uvs),
         triangles: corners.into(),
         ..Mesh::default()
     })
@@ -115,8 +117,8 @@ pub(super) fn read(bytes: &[u8], index: u32, budget: &Budget) -> Result<Mesh, Fa
 
 /// The bytes of a mesh, by the table at the end of the file: an offset for each mesh, of 8 bytes in
 /// version 4 and of 4 in version 3, and their count.
-fn range(bytes: &[u8], index: u32) -> Result<(usize, usize), Fault> {
-    let damaged = Fault::Damaged("its table of offsets is damaged");
+fn range(bytes: &[u8], index: u32) -> Result<(usize, usize), SerializedError> {
+    let damaged = SerializedError::Damaged("its table of offsets is damaged");
     let is_wide = bytes.get(2) == Some(&4);
     let width = if is_wide { 8 } else { 4 };
     let Some(table_end) = bytes.len().checked_sub(4) else {
@@ -124,7 +126,9 @@ fn range(bytes: &[u8], index: u32) -> Result<(usize, usize), Fault> {
     };
     let count = le(&bytes[table_end..]);
     if u64::from(index) >= count {
-        return Err(Fault::Damaged("it has no mesh with this `shape_index`"));
+        return Err(SerializedError::Damaged(
+            "it has no mesh with this `shape_index`",
+        ));
     }
     let table = usize::try_from(count)
         .ok()
@@ -153,25 +157,25 @@ fn le(bytes: &[u8]) -> u64 {
 }
 
 /// The decompressed bytes of a mesh.
-struct Stream<'a>(ZlibDecoder<&'a [u8]>);
+struct SerializedStream<'a>(ZlibDecoder<&'a [u8]>);
 
-impl Stream<'_> {
-    fn bytes<const N: usize>(&mut self) -> Result<[u8; N], Fault> {
+impl SerializedStream<'_> {
+    fn bytes<const N: usize>(&mut self) -> Result<[u8; N], SerializedError> {
         let mut bytes = [0; N];
         self.0.read_exact(&mut bytes)?;
         Ok(bytes)
     }
 
-    fn u32(&mut self) -> Result<u32, Fault> {
+    fn u32(&mut self) -> Result<u32, SerializedError> {
         self.bytes().map(u32::from_le_bytes)
     }
 
-    fn u64(&mut self) -> Result<u64, Fault> {
+    fn u64(&mut self) -> Result<u64, SerializedError> {
         self.bytes().map(u64::from_le_bytes)
     }
 
     /// A name ends with a byte 0.
-    fn skip_name(&mut self) -> Result<(), Fault> {
+    fn skip_name(&mut self) -> Result<(), SerializedError> {
         while self.bytes::<1>()? != [0] {}
         Ok(())
     }
@@ -181,7 +185,7 @@ impl Stream<'_> {
         &mut self,
         vertices: u64,
         is_double: bool,
-    ) -> Result<Vec<[f64; N]>, Fault> {
+    ) -> Result<Vec<[f64; N]>, SerializedError> {
         let mut vectors = Vec::new();
         for _ in 0..vertices {
             let mut vector = [0.0; N];

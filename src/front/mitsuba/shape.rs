@@ -2,10 +2,10 @@
 
 use super::Lowering;
 use super::one_sided::OneSided;
-use super::xml::Node;
-use crate::exchange::transform::Transform;
+use super::xml::PluginNode;
+use crate::exchange::transform::AffineTransform;
 use crate::exchange::{round, tessellate};
-use rtc_ir::{Column, EntityKind, Material, MaterialId, Mesh, MeshId, Scene, Shape, Surface};
+use rtc_ir::{EntityKind, Material, MaterialId, Mesh, MeshId, Scene, Shape, Surface, VertexColumn};
 use rtc_math::Vec3;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,11 +14,11 @@ const MAX_DEPTH: usize = 8;
 
 impl<'run> Lowering<'run> {
     /// A shape of the scene, placed by `outer`.
-    pub(super) fn shape(&mut self, node: &'run Node, outer: Transform) {
+    pub(super) fn shape(&mut self, node: &'run PluginNode, outer: AffineTransform) {
         self.shape_at(node, &outer, 0);
     }
 
-    fn shape_at(&mut self, node: &'run Node, outer: &Transform, depth: usize) {
+    fn shape_at(&mut self, node: &'run PluginNode, outer: &AffineTransform, depth: usize) {
         let to_world = outer.after(&node.transform("to_world"));
         match node.plugin.text.as_str() {
             // A group is shown where an instance refers to it.
@@ -28,7 +28,7 @@ impl<'run> Lowering<'run> {
         }
     }
 
-    fn instance(&mut self, node: &'run Node, to_world: &Transform, depth: usize) {
+    fn instance(&mut self, node: &'run PluginNode, to_world: &AffineTransform, depth: usize) {
         let group = node
             .children
             .iter()
@@ -46,7 +46,7 @@ impl<'run> Lowering<'run> {
         }
     }
 
-    fn surface(&mut self, node: &'run Node, to_world: Transform) {
+    fn surface(&mut self, node: &'run PluginNode, to_world: AffineTransform) {
         let radiance = self.radiance(node);
         let plugin = node.plugin.text.as_str();
         let is_similar = to_world.similarity().is_some();
@@ -101,7 +101,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// `face_normals` and `flip_normals` do not change two-sided surfaces.
-    fn face_forward(&mut self, node: &Node, material: MaterialId) -> MaterialId {
+    fn face_forward(&mut self, node: &PluginNode, material: MaterialId) -> MaterialId {
         let is_flipped = node.flag("flip_normals") == Some(true);
         let transmits = match self.scene.materials.get(material.0 as usize) {
             Some(Material::Standard(standard)) => standard.transmission > 0.0,
@@ -113,7 +113,7 @@ impl<'run> Lowering<'run> {
         material
     }
 
-    fn mesh(&mut self, node: &'run Node, to_world: &Transform) -> Option<Shape> {
+    fn mesh(&mut self, node: &'run PluginNode, to_world: &AffineTransform) -> Option<Shape> {
         self.ignored(
             node,
             &[
@@ -141,7 +141,7 @@ impl<'run> Lowering<'run> {
         &mut self,
         name: &'static str,
         make: fn() -> Mesh,
-        to_world: &Transform,
+        to_world: &AffineTransform,
     ) -> Option<Shape> {
         let mesh = match self.built.get(name) {
             Some(id) => *id,
@@ -155,21 +155,32 @@ impl<'run> Lowering<'run> {
     }
 
     /// A sphere, or an ellipsoid; one that is scaled unevenly and textured is a mesh.
-    fn sphere(&mut self, node: &'run Node, to_world: &Transform, has_maps: bool) -> Option<Shape> {
+    fn sphere(
+        &mut self,
+        node: &'run PluginNode,
+        to_world: &AffineTransform,
+        has_maps: bool,
+    ) -> Option<Shape> {
         self.ignored(node, &["center", "radius", "to_world", "flip_normals"]);
         let center = node.vector("center").unwrap_or([0.0; 3]);
         let radius = node.number("radius").unwrap_or(1.0);
         if has_maps && to_world.similarity().is_none() {
             self.approximate(node.span, "the sphere is shown as a mesh of 4096 triangles");
-            let local = Transform::translation(center).after(&Transform::scale([radius; 3]));
+            let local =
+                AffineTransform::translation(center).after(&AffineTransform::scale([radius; 3]));
             return self.built("sphere", tessellate::sphere, &to_world.after(&local));
         }
-        let placed = to_world.after(&Transform::translation(center));
+        let placed = to_world.after(&AffineTransform::translation(center));
         Some(round::sphere(radius, &placed))
     }
 
     /// A disc; one that becomes an ellipse, or is textured, is a mesh.
-    fn disk(&mut self, node: &'run Node, to_world: &Transform, has_maps: bool) -> Option<Shape> {
+    fn disk(
+        &mut self,
+        node: &'run PluginNode,
+        to_world: &AffineTransform,
+        has_maps: bool,
+    ) -> Option<Shape> {
         self.ignored(node, &["to_world", "flip_normals"]);
         match round::disc(0.0, 1.0, to_world).filter(|_| !has_maps) {
             Some(disc) => Some(Shape::Disc(disc)),
@@ -181,7 +192,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// A cylinder from `p0` to `p1`, open at both ends.
-    fn cylinder(&mut self, node: &'run Node, to_world: &Transform) -> Option<Shape> {
+    fn cylinder(&mut self, node: &'run PluginNode, to_world: &AffineTransform) -> Option<Shape> {
         self.ignored(node, &["p0", "p1", "radius", "to_world", "flip_normals"]);
         self.approximate(
             node.span,
@@ -224,11 +235,11 @@ pub(super) fn flatten(scene: &mut Scene, flat: &BTreeSet<usize>) {
         }
         // A mesh that is smooth elsewhere is copied first.
         if !smooth.contains(&mesh) {
-            found.normals = Column::default();
+            found.normals = VertexColumn::default();
             continue;
         }
         let copy = Mesh {
-            normals: Column::default(),
+            normals: VertexColumn::default(),
             ..found.clone()
         };
         let id = *copies.entry(mesh).or_insert_with(|| {

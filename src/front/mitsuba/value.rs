@@ -1,7 +1,7 @@
 //! Numbers, vectors, colours and matrices of a Mitsuba scene, as it writes them.
 
 use crate::exchange::color::from_spectrum;
-use crate::exchange::transform::Transform;
+use crate::exchange::transform::AffineTransform;
 use rtc_color::srgb_decoded;
 use rtc_math::Vec3;
 
@@ -29,7 +29,7 @@ pub(super) fn vector(text: &str) -> Option<[f64; 3]> {
 }
 
 /// The affine map of a matrix of 4 × 4 or 3 × 3 numbers, in rows.
-pub(super) fn matrix(text: &str) -> Option<Transform> {
+pub(super) fn matrix(text: &str) -> Option<AffineTransform> {
     let numbers = numbers(text)?;
     let side = match numbers.len() {
         16 => 4,
@@ -41,7 +41,7 @@ pub(super) fn matrix(text: &str) -> Option<Transform> {
         Vec3::new(x, y, z)
     };
     let origin = if side == 4 { column(3) } else { Vec3::ZERO };
-    Some(Transform([column(0), column(1), column(2), origin]))
+    Some(AffineTransform([column(0), column(1), column(2), origin]))
 }
 
 /// The value of an `<rgb>`: three numbers, one, or `#rrggbb` in sRGB.

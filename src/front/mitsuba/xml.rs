@@ -1,11 +1,11 @@
 //! The XML of a Mitsuba scene as a tree of plugins with their properties.
 
 use super::value;
-use crate::exchange::{Text, transform::Transform};
+use crate::exchange::{SpannedText, transform::AffineTransform};
 use crate::{FrontOptions, over_limit};
 use roxmltree::{Document, ParsingOptions};
-use rtc_diag::{Diagnostic, Sink, clip, clip_words, codes};
-use rtc_source::{FileId, FileKind, Loader, Resource, Search, SourceMap, Span};
+use rtc_diag::{Diagnostic, DiagnosticSink, clip, clip_words, codes};
+use rtc_source::{FileId, FileKind, FileSearch, Loader, Resource, SourceMap, Span};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The deepest nesting of elements and of included files.
@@ -27,24 +27,24 @@ const SCENES: FileKind = FileKind {
 
 /// An element that creates a plugin, or a reference to one (`ref`, whose plugin is the id).
 #[derive(Clone, Debug)]
-pub(super) struct Node {
+pub(super) struct PluginNode {
     /// `shape`, `bsdf`, `emitter`, …
     pub(super) tag: String,
     /// The `type`.
-    pub(super) plugin: Text,
+    pub(super) plugin: SpannedText,
     /// The `id`.
-    pub(super) id: Option<Text>,
+    pub(super) id: Option<SpannedText>,
     /// The `name`, which is the role of the element in its parent.
     pub(super) name: Option<String>,
     pub(super) properties: Vec<Property>,
-    pub(super) children: Vec<Node>,
+    pub(super) children: Vec<PluginNode>,
     pub(super) span: Span,
 }
 
 /// A property of a plugin.
 #[derive(Clone, Debug)]
 pub(super) struct Property {
-    pub(super) name: Text,
+    pub(super) name: SpannedText,
     pub(super) value: Value,
 }
 
@@ -53,13 +53,13 @@ pub(super) struct Property {
 pub(super) enum Value {
     Bool(bool),
     Number(f64),
-    String(Text),
+    String(SpannedText),
     Vector([f64; 3]),
     Color([f64; 3]),
-    Transform(Transform),
+    Transform(AffineTransform),
 }
 
-impl Node {
+impl PluginNode {
     /// Visits the node and all below it.
     pub(super) fn visit<'n>(&'n self, visit: &mut dyn FnMut(&'n Self)) {
         visit(self);
@@ -100,7 +100,7 @@ impl Node {
         }
     }
 
-    pub(super) fn string(&self, name: &str) -> Option<&Text> {
+    pub(super) fn string(&self, name: &str) -> Option<&SpannedText> {
         match self.get(name)? {
             Value::String(text) => Some(text),
             _ => None,
@@ -124,10 +124,10 @@ impl Node {
     }
 
     /// The transform `to_world`, or another one.
-    pub(super) fn transform(&self, name: &str) -> Transform {
+    pub(super) fn transform(&self, name: &str) -> AffineTransform {
         match self.get(name) {
             Some(Value::Transform(transform)) => *transform,
-            _ => Transform::IDENTITY,
+            _ => AffineTransform::IDENTITY,
         }
     }
 
@@ -143,10 +143,10 @@ pub(super) fn read(
     file: FileId,
     map: &mut SourceMap,
     options: &FrontOptions,
-    sink: &mut Sink,
-) -> Option<Node> {
+    sink: &mut DiagnosticSink,
+) -> Option<PluginNode> {
     let folder = map.folder(file);
-    let search = Search::new(folder, options.asset_root.as_deref())
+    let search = FileSearch::new(folder, options.asset_root.as_deref())
         .with_parent(folder, options.home.as_deref());
     let mut reader = XmlReader {
         map,
@@ -174,8 +174,8 @@ pub(super) fn read(
 /// The state of reading: one for a scene and the files that it includes.
 struct XmlReader<'run> {
     map: &'run mut SourceMap,
-    sink: &'run mut Sink,
-    search: Search,
+    sink: &'run mut DiagnosticSink,
+    search: FileSearch,
     /// The parameters `$name` and their values.
     defaults: BTreeMap<String, String>,
     /// The parameters that an attribute refers to.
@@ -191,10 +191,10 @@ struct XmlReader<'run> {
 }
 
 /// An element of the document in one file.
-type Element<'d, 'i> = roxmltree::Node<'d, 'i>;
+type XmlElement<'d, 'i> = roxmltree::Node<'d, 'i>;
 
 impl XmlReader<'_> {
-    fn file(&mut self, file: FileId) -> Option<Node> {
+    fn file(&mut self, file: FileId) -> Option<PluginNode> {
         // The file must be UTF-8 without a DTD.
         let Some(text) = self.map.text(file).map(str::to_owned) else {
             let message = "the scene is not UTF-8 text";
@@ -267,7 +267,7 @@ impl XmlReader<'_> {
     }
 
     /// An element and all below it.
-    fn node(&mut self, file: FileId, element: Element<'_, '_>, depth: usize) -> Node {
+    fn node(&mut self, file: FileId, element: XmlElement<'_, '_>, depth: usize) -> PluginNode {
         let tag = match element.tag_name().name() {
             // In version 0.5 every texture was a `<texture>`, and the sensor had another name.
             "camera" => "sensor",
@@ -280,9 +280,9 @@ impl XmlReader<'_> {
             "ref" => attribute(self, "id"),
             _ => attribute(self, "type"),
         };
-        let mut node = Node {
+        let mut node = PluginNode {
             tag: tag.to_owned(),
-            plugin: plugin.unwrap_or(Text {
+            plugin: plugin.unwrap_or(SpannedText {
                 text: String::new(),
                 span: element_span,
             }),
@@ -298,7 +298,7 @@ impl XmlReader<'_> {
             self.sink.push(diagnostic.at(element_span, ""));
             return node;
         }
-        for child in element.children().filter(Element::is_element) {
+        for child in element.children().filter(XmlElement::is_element) {
             match child.tag_name().name() {
                 "default" => self.default_value(file, child),
                 "include" => node.children.extend(self.include(file, child)),
@@ -319,13 +319,13 @@ impl XmlReader<'_> {
     }
 
     /// `<alias id="…" as="…">`: another id for an element.
-    fn alias(&mut self, file: FileId, element: Element<'_, '_>, parent: &mut Node) {
+    fn alias(&mut self, file: FileId, element: XmlElement<'_, '_>, parent: &mut PluginNode) {
         let id = self.attribute(file, element, "id");
         let name = self.attribute(file, element, "as");
         let (Some(id), Some(name)) = (id, name) else {
             return self.missing(file, element, "`id` and `as`");
         };
-        let known = |node: &&Node| node.id.as_ref().is_some_and(|own| own.text == id.text);
+        let known = |node: &&PluginNode| node.id.as_ref().is_some_and(|own| own.text == id.text);
         if let Some(mut copy) = parent.children.iter().find(known).cloned() {
             copy.id = Some(name);
             // A second shape would be drawn twice.
@@ -335,7 +335,7 @@ impl XmlReader<'_> {
         }
     }
 
-    fn default_value(&mut self, file: FileId, element: Element<'_, '_>) {
+    fn default_value(&mut self, file: FileId, element: XmlElement<'_, '_>) {
         let (Some(name), Some(value)) = (element.attribute("name"), element.attribute("value"))
         else {
             return self.missing(file, element, "`name` and `value`");
@@ -347,7 +347,7 @@ impl XmlReader<'_> {
     }
 
     /// The children of an included file.
-    fn include(&mut self, file: FileId, element: Element<'_, '_>) -> Vec<Node> {
+    fn include(&mut self, file: FileId, element: XmlElement<'_, '_>) -> Vec<PluginNode> {
         let Some(path) = self.attribute(file, element, "filename") else {
             self.missing(file, element, "`filename`");
             return Vec::new();
@@ -394,7 +394,12 @@ impl XmlReader<'_> {
     }
 
     /// An attribute with its parameters replaced.
-    fn attribute(&mut self, file: FileId, element: Element<'_, '_>, name: &str) -> Option<Text> {
+    fn attribute(
+        &mut self,
+        file: FileId,
+        element: XmlElement<'_, '_>,
+        name: &str,
+    ) -> Option<SpannedText> {
         // An attribute without parameters is used as it stands.
         let attribute = element.attribute_node(name)?;
         let range = attribute.range_value();
@@ -402,7 +407,7 @@ impl XmlReader<'_> {
         let text = attribute.value();
         if !text.contains('$') {
             let text = text.to_owned();
-            return Some(Text { text, span });
+            return Some(SpannedText { text, span });
         }
         // Replace each parameter by its value.
         let mut filled = String::new();
@@ -444,7 +449,7 @@ impl XmlReader<'_> {
             self.has_unset = true;
             return None;
         }
-        Some(Text { text: filled, span })
+        Some(SpannedText { text: filled, span })
     }
 
     /// A name as version 3 spells it: `toWorld` is `to_world`.
@@ -468,13 +473,13 @@ impl XmlReader<'_> {
     }
 
     /// A property such as `<float name="…" value="…"/>`.
-    fn property(&mut self, file: FileId, element: Element<'_, '_>) -> Option<Property> {
+    fn property(&mut self, file: FileId, element: XmlElement<'_, '_>) -> Option<Property> {
         let kind = element.tag_name().name();
         let Some(name) = self.attribute(file, element, "name") else {
             self.missing(file, element, "`name`");
             return None;
         };
-        let name = Text {
+        let name = SpannedText {
             text: self.property_name(&name.text),
             span: name.span,
         };
@@ -487,7 +492,7 @@ impl XmlReader<'_> {
     }
 
     /// The value of a property with one attribute.
-    fn value(&mut self, file: FileId, element: Element<'_, '_>, kind: &str) -> Option<Value> {
+    fn value(&mut self, file: FileId, element: XmlElement<'_, '_>, kind: &str) -> Option<Value> {
         // Find the text of the value.
         let attribute = match kind {
             "spectrum" if element.has_attribute("filename") => "filename",
@@ -536,7 +541,7 @@ impl XmlReader<'_> {
     }
 
     /// A point or vector: `value="x, y, z"`, or `x`, `y` and `z`.
-    fn vector(&mut self, file: FileId, element: Element<'_, '_>) -> Option<[f64; 3]> {
+    fn vector(&mut self, file: FileId, element: XmlElement<'_, '_>) -> Option<[f64; 3]> {
         self.components(file, element, 0.0)
     }
 
@@ -544,7 +549,7 @@ impl XmlReader<'_> {
     fn components(
         &mut self,
         file: FileId,
-        element: Element<'_, '_>,
+        element: XmlElement<'_, '_>,
         default: f64,
     ) -> Option<[f64; 3]> {
         if let Some(text) = self.attribute(file, element, "value") {
@@ -566,22 +571,24 @@ impl XmlReader<'_> {
         Some(vector)
     }
 
-    fn not_numbers(&mut self, text: &Text) {
+    fn not_numbers(&mut self, text: &SpannedText) {
         let message = format!("`{}` has the wrong numbers", clip(&text.text));
         let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
         self.sink.push(diagnostic.at(text.span, ""));
     }
 
     /// The product of the elements of a `<transform>`: the first one is applied first.
-    fn transform(&mut self, file: FileId, element: Element<'_, '_>) -> Transform {
-        let mut product = Transform::IDENTITY;
-        for child in element.children().filter(Element::is_element) {
+    fn transform(&mut self, file: FileId, element: XmlElement<'_, '_>) -> AffineTransform {
+        let mut product = AffineTransform::IDENTITY;
+        for child in element.children().filter(XmlElement::is_element) {
             let name = child.tag_name().name();
             let step = match name {
                 "translate" => self
                     .components(file, child, 0.0)
-                    .map(Transform::translation),
-                "scale" => self.components(file, child, 1.0).map(Transform::scale),
+                    .map(AffineTransform::translation),
+                "scale" => self
+                    .components(file, child, 1.0)
+                    .map(AffineTransform::scale),
                 "rotate" => self.rotation(file, child),
                 "lookat" | "lookAt" => self.look_at(file, child),
                 "matrix" => self.matrix(file, child),
@@ -594,7 +601,7 @@ impl XmlReader<'_> {
                     None
                 }
             };
-            product = step.unwrap_or(Transform::IDENTITY).after(&product);
+            product = step.unwrap_or(AffineTransform::IDENTITY).after(&product);
             if name == "transform" {
                 break;
             }
@@ -602,7 +609,7 @@ impl XmlReader<'_> {
         product
     }
 
-    fn rotation(&mut self, file: FileId, element: Element<'_, '_>) -> Option<Transform> {
+    fn rotation(&mut self, file: FileId, element: XmlElement<'_, '_>) -> Option<AffineTransform> {
         let axis = self.components(file, element, 0.0)?;
         let Some(angle) = self.attribute(file, element, "angle") else {
             self.missing(file, element, "`angle`");
@@ -612,7 +619,7 @@ impl XmlReader<'_> {
         if degrees.is_none() {
             self.not_numbers(&angle);
         }
-        let rotation = Transform::rotation(axis, degrees?);
+        let rotation = AffineTransform::rotation(axis, degrees?);
         if rotation.is_none() {
             let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, "the axis has no length");
             self.sink.push(diagnostic.at(span(file, &element), ""));
@@ -620,7 +627,7 @@ impl XmlReader<'_> {
         rotation
     }
 
-    fn look_at(&mut self, file: FileId, element: Element<'_, '_>) -> Option<Transform> {
+    fn look_at(&mut self, file: FileId, element: XmlElement<'_, '_>) -> Option<AffineTransform> {
         let mut point = |name: &str| -> Option<[f64; 3]> {
             let text = self.attribute(file, element, name)?;
             let vector = value::vector(&text.text);
@@ -634,7 +641,7 @@ impl XmlReader<'_> {
             self.missing(file, element, "`origin` and `target`");
             return None;
         };
-        let transform = Transform::look_at(origin, target, up);
+        let transform = AffineTransform::look_at(origin, target, up);
         if transform.is_none() {
             let message = "`origin`, `target` and `up` give no direction";
             let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
@@ -643,7 +650,7 @@ impl XmlReader<'_> {
         transform
     }
 
-    fn matrix(&mut self, file: FileId, element: Element<'_, '_>) -> Option<Transform> {
+    fn matrix(&mut self, file: FileId, element: XmlElement<'_, '_>) -> Option<AffineTransform> {
         let Some(text) = self.attribute(file, element, "value") else {
             self.missing(file, element, "`value`");
             return None;
@@ -655,7 +662,7 @@ impl XmlReader<'_> {
         matrix
     }
 
-    fn missing(&mut self, file: FileId, element: Element<'_, '_>, what: &str) {
+    fn missing(&mut self, file: FileId, element: XmlElement<'_, '_>, what: &str) {
         // The parameter without a value was reported.
         if std::mem::take(&mut self.has_unset) {
             return;
@@ -668,7 +675,7 @@ impl XmlReader<'_> {
 }
 
 /// The span of the start of an element: its tag name.
-fn span(file: FileId, element: &Element<'_, '_>) -> Span {
+fn span(file: FileId, element: &XmlElement<'_, '_>) -> Span {
     let start = element.range().start;
     let end = start + 1 + element.tag_name().name().len();
     Span::new(file, offset(start), offset(end))

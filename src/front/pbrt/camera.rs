@@ -2,9 +2,9 @@
 
 use super::Lowering;
 use super::parameter::Parameters;
-use crate::exchange::Text;
+use crate::exchange::SpannedText;
 use crate::exchange::traced;
-use crate::exchange::transform::Transform;
+use crate::exchange::transform::AffineTransform;
 use rtc_diag::{Diagnostic, clip, codes};
 use rtc_ir::{Camera, EntityKind, Lens, Mode, Projection, Settings};
 use rtc_math::{Vec3, cos, sin};
@@ -33,11 +33,11 @@ const INTEGRATORS: [&str; 3] = ["path", "volpath", "simplepath"];
 /// The directives that make the view, in any order before the world.
 #[derive(Default)]
 pub(super) struct ViewDirectives {
-    camera: Option<(Text, Parameters, Transform)>,
-    pub(super) film: Option<(Text, Parameters)>,
-    pub(super) sampler: Option<(Text, Parameters)>,
-    pub(super) integrator: Option<(Text, Parameters)>,
-    pub(super) filter: Option<(Text, Parameters)>,
+    camera: Option<(SpannedText, Parameters, AffineTransform)>,
+    pub(super) film: Option<(SpannedText, Parameters)>,
+    pub(super) sampler: Option<(SpannedText, Parameters)>,
+    pub(super) integrator: Option<(SpannedText, Parameters)>,
+    pub(super) filter: Option<(SpannedText, Parameters)>,
 }
 
 /// The film: its whole size in pixels, and the part of it that is shown.
@@ -67,7 +67,7 @@ pub(super) fn default_settings() -> Settings {
 
 impl Lowering<'_> {
     /// A camera directive: the current transform is that from the world to the camera.
-    pub(super) fn camera(&mut self, plugin: Text, parameters: Parameters, span: Span) {
+    pub(super) fn camera(&mut self, plugin: SpannedText, parameters: Parameters, span: Span) {
         let Some(from_camera) = self.state.transform.inverse() else {
             return self.mistake(span, "the transform of the camera does not span space");
         };
@@ -92,13 +92,13 @@ impl Lowering<'_> {
                 self.sink
                     .push(Diagnostic::new(&codes::PBRT_APPROXIMATE, message));
                 let parameters = Parameters::default();
-                let camera = perspective(&parameters, &Transform::IDENTITY, &film);
+                let camera = perspective(&parameters, &AffineTransform::IDENTITY, &film);
                 self.scene.camera = camera;
             }
         }
     }
 
-    fn film(&mut self, film: Option<&(Text, Parameters)>) -> CroppedFilm {
+    fn film(&mut self, film: Option<&(SpannedText, Parameters)>) -> CroppedFilm {
         let whole = |size: [u32; 2]| CroppedFilm {
             size,
             crop: [0, size[0], 0, size[1]],
@@ -154,8 +154,8 @@ impl Lowering<'_> {
 
     fn sampler(
         &mut self,
-        sampler: Option<&(Text, Parameters)>,
-        integrator: Option<&(Text, Parameters)>,
+        sampler: Option<&(SpannedText, Parameters)>,
+        integrator: Option<&(SpannedText, Parameters)>,
     ) {
         // Photon mapping and mutations count their samples themselves.
         let of_integrator = integrator.and_then(|(_, parameters)| {
@@ -183,7 +183,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn integrator(&mut self, integrator: Option<&(Text, Parameters)>) {
+    fn integrator(&mut self, integrator: Option<&(SpannedText, Parameters)>) {
         let Some((plugin, parameters)) = integrator else {
             return;
         };
@@ -217,7 +217,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn filter(&mut self, filter: Option<&(Text, Parameters)>) {
+    fn filter(&mut self, filter: Option<&(SpannedText, Parameters)>) {
         if let Some((plugin, _)) = filter
             && plugin.text != "box"
         {
@@ -228,8 +228,8 @@ impl Lowering<'_> {
 
     /// The transform with perpendicular axes of the same lengths. Those of a matrix are rounded; a
     /// skew that is seen is reported.
-    fn squared(&mut self, plugin: &Text, from_camera: &Transform) -> Transform {
-        let Transform(columns) = from_camera;
+    fn squared(&mut self, plugin: &SpannedText, from_camera: &AffineTransform) -> AffineTransform {
+        let AffineTransform(columns) = from_camera;
         let Some(axes) = from_camera.orthonormal() else {
             return *from_camera;
         };
@@ -244,14 +244,14 @@ impl Lowering<'_> {
         if moved <= ROUNDING * x.length() {
             return *from_camera;
         }
-        Transform([x, y, z, columns[3]])
+        AffineTransform([x, y, z, columns[3]])
     }
 
     fn view_of(
         &mut self,
-        plugin: &Text,
+        plugin: &SpannedText,
         parameters: &Parameters,
-        from_camera: &Transform,
+        from_camera: &AffineTransform,
         film: &CroppedFilm,
     ) {
         let from_camera = self.squared(plugin, from_camera);
@@ -292,7 +292,7 @@ fn screen(parameters: &Parameters, film: &CroppedFilm) -> [f64; 4] {
 
 /// A camera with its screen, times `scale`, at the distance `depth`.
 fn camera(
-    from_camera: &Transform,
+    from_camera: &AffineTransform,
     film: &CroppedFilm,
     [left, right, bottom, top]: [f64; 4],
     (scale, depth): (f64, f64),
@@ -325,7 +325,11 @@ fn camera(
 }
 
 /// A perspective camera, with a lens if it has a radius.
-fn perspective(parameters: &Parameters, from_camera: &Transform, film: &CroppedFilm) -> Camera {
+fn perspective(
+    parameters: &Parameters,
+    from_camera: &AffineTransform,
+    film: &CroppedFilm,
+) -> Camera {
     let half = parameters.number("halffov").map(|half| 2.0 * half);
     let fov = parameters.number("fov").or(half).unwrap_or(FIELD_OF_VIEW);
     let angle = fov.clamp(1e-3, 179.9).to_radians() / 2.0;
@@ -345,7 +349,11 @@ fn perspective(parameters: &Parameters, from_camera: &Transform, film: &CroppedF
 }
 
 /// An orthographic camera: the screen is as large as its bounds say.
-fn orthographic(parameters: &Parameters, from_camera: &Transform, film: &CroppedFilm) -> Camera {
+fn orthographic(
+    parameters: &Parameters,
+    from_camera: &AffineTransform,
+    film: &CroppedFilm,
+) -> Camera {
     Camera {
         projection: Projection::Orthographic,
         ..camera(from_camera, film, screen(parameters, film), (1.0, 1.0))

@@ -2,10 +2,10 @@
 
 use super::Lowering;
 use super::parameter::{self, Parameters};
-use super::state::{ActiveTransform, Opener};
+use super::state::{ActiveTransform, StateOpener};
 use super::token::{PbrtToken, PbrtTokenKind};
-use crate::exchange::Text;
-use crate::exchange::transform::Transform;
+use crate::exchange::SpannedText;
+use crate::exchange::transform::AffineTransform;
 use rtc_diag::{Diagnostic, clip, codes, nearest};
 use rtc_math::Vec3;
 use rtc_source::{FileId, Resource, Span};
@@ -110,7 +110,7 @@ impl Lowering<'_> {
             let Some(token) = open.reader.next() else {
                 if is_import {
                     let span = Span::new(file, 0, 0);
-                    self.close(Opener::Import, "the end of the file", span);
+                    self.close(StateOpener::Import, "the end of the file", span);
                 }
                 continue;
             };
@@ -142,7 +142,7 @@ impl Lowering<'_> {
 
     fn directive(&mut self, token: PbrtToken) {
         // A directive begins with a word.
-        let Text { text: name, span } = self.reader().text(token);
+        let SpannedText { text: name, span } = self.reader().text(token);
         if token.kind != PbrtTokenKind::Word {
             let message = match token.kind {
                 PbrtTokenKind::Unterminated => "this string is not closed on its line".to_owned(),
@@ -153,7 +153,7 @@ impl Lowering<'_> {
         }
         // Transforms, attributes and files are handled here, plugins apart.
         match name.as_str() {
-            "Identity" => self.transform_by(|_| Transform::IDENTITY),
+            "Identity" => self.transform_by(|_| AffineTransform::IDENTITY),
             "Translate" => self.translate(span),
             "Scale" => self.scale(span),
             "Rotate" => self.rotate(span),
@@ -162,10 +162,10 @@ impl Lowering<'_> {
             "CoordinateSystem" | "CoordSysTransform" => self.coordinate_system(&name, span),
             "ActiveTransform" => self.active_transform(span),
             "TransformTimes" => drop(self.numbers::<2>("TransformTimes", span)),
-            "AttributeBegin" => self.open(Opener::Attribute, span),
-            "AttributeEnd" => self.close(Opener::Attribute, &name, span),
-            "TransformBegin" => self.open(Opener::Transform, span),
-            "TransformEnd" => self.close(Opener::Transform, &name, span),
+            "AttributeBegin" => self.open(StateOpener::Attribute, span),
+            "AttributeEnd" => self.close(StateOpener::Attribute, &name, span),
+            "TransformBegin" => self.open(StateOpener::Transform, span),
+            "TransformEnd" => self.close(StateOpener::Transform, &name, span),
             "ObjectBegin" => self.object_begin(span),
             "ObjectEnd" => self.object_end(span),
             "ObjectInstance" => self.object_instance(span),
@@ -198,7 +198,7 @@ impl Lowering<'_> {
             }
             "Option" => self.skip_arguments(),
             "MediumInterface" => {
-                let media: Vec<Text> = self.arguments().collect();
+                let media: Vec<SpannedText> = self.arguments().collect();
                 self.medium_interface(&media);
             }
             "NamedMaterial" => {
@@ -226,7 +226,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn plugin(&mut self, directive: &str, plugin: Text, parameters: Parameters, span: Span) {
+    fn plugin(&mut self, directive: &str, plugin: SpannedText, parameters: Parameters, span: Span) {
         match directive {
             "Camera" => self.camera(plugin, parameters, span),
             "Film" => self.view.film = Some((plugin, parameters)),
@@ -280,8 +280,8 @@ impl Lowering<'_> {
     }
 
     fn texture_directive(&mut self, span: Span) {
-        let names: Vec<Text> = self.some_arguments(3);
-        let [name, kind, plugin] = match <[Text; 3]>::try_from(names) {
+        let names: Vec<SpannedText> = self.some_arguments(3);
+        let [name, kind, plugin] = match <[SpannedText; 3]>::try_from(names) {
             Ok(names) => names,
             Err(_) => {
                 let message =
@@ -305,7 +305,7 @@ impl Lowering<'_> {
     }
 
     /// The string that follows; without one that is reported.
-    fn argument(&mut self, directive: &str, span: Span) -> Option<Text> {
+    fn argument(&mut self, directive: &str, span: Span) -> Option<SpannedText> {
         let reader = self.reader();
         let Some(token) = reader.next_if(PbrtTokenKind::Quoted) else {
             let message = format!("`{}` needs a name between quotes", clip(directive));
@@ -316,7 +316,7 @@ impl Lowering<'_> {
     }
 
     /// The strings that follow.
-    fn arguments(&mut self) -> impl Iterator<Item = Text> {
+    fn arguments(&mut self) -> impl Iterator<Item = SpannedText> {
         let reader = self.reader();
         std::iter::from_fn(move || {
             let token = reader.next_if(PbrtTokenKind::Quoted)?;
@@ -324,7 +324,7 @@ impl Lowering<'_> {
         })
     }
 
-    fn some_arguments(&mut self, count: usize) -> Vec<Text> {
+    fn some_arguments(&mut self, count: usize) -> Vec<SpannedText> {
         self.arguments().take(count).collect()
     }
 
@@ -380,13 +380,13 @@ impl Lowering<'_> {
 
     fn translate(&mut self, span: Span) {
         if let Some(by) = self.numbers::<3>("Translate", span) {
-            self.transform_by(|current| current.after(&Transform::translation(by)));
+            self.transform_by(|current| current.after(&AffineTransform::translation(by)));
         }
     }
 
     fn scale(&mut self, span: Span) {
         if let Some(by) = self.numbers::<3>("Scale", span) {
-            self.transform_by(|current| current.after(&Transform::scale(by)));
+            self.transform_by(|current| current.after(&AffineTransform::scale(by)));
         }
     }
 
@@ -394,7 +394,7 @@ impl Lowering<'_> {
         let Some([degrees, x, y, z]) = self.numbers::<4>("Rotate", span) else {
             return;
         };
-        match Transform::rotation([x, y, z], degrees) {
+        match AffineTransform::rotation([x, y, z], degrees) {
             Some(rotation) => self.transform_by(|current| current.after(&rotation)),
             None => self.mistake(span, "the axis of `Rotate` has no length"),
         }
@@ -405,7 +405,7 @@ impl Lowering<'_> {
             return;
         };
         let point = |at: usize| [n[at], n[at + 1], n[at + 2]];
-        let from_camera = Transform::look_at(point(0), point(3), Some(point(6)));
+        let from_camera = AffineTransform::look_at(point(0), point(3), Some(point(6)));
         match from_camera.and_then(|from_camera| from_camera.inverse()) {
             Some(to_camera) => self.transform_by(|current| current.after(&to_camera)),
             None => self.mistake(span, "the points of `LookAt` give no direction"),
@@ -421,7 +421,7 @@ impl Lowering<'_> {
             return self.mistake(span, format!("the matrix of `{name}` is not affine"));
         }
         let column = |at: usize| Vec3::new(n[at], n[at + 1], n[at + 2]) / n[15];
-        let matrix = Transform([column(0), column(4), column(8), column(12)]);
+        let matrix = AffineTransform([column(0), column(4), column(8), column(12)]);
         self.transform_by(|current| match name {
             "Transform" => matrix,
             _ => current.after(&matrix),
@@ -470,7 +470,7 @@ impl Lowering<'_> {
         if self.open_object.is_some() {
             return self.mistake(span, "an object is defined inside of another one");
         }
-        self.open(Opener::Object, span);
+        self.open(StateOpener::Object, span);
         self.open_object = Some((name, Vec::new()));
     }
 
@@ -479,7 +479,7 @@ impl Lowering<'_> {
             return self.mistake(span, "`ObjectEnd` ends nothing");
         };
         self.objects.insert(name.text, Rc::new(shapes));
-        self.close(Opener::Object, "ObjectEnd", span);
+        self.close(StateOpener::Object, "ObjectEnd", span);
     }
 
     fn object_instance(&mut self, span: Span) {
@@ -507,9 +507,10 @@ impl Lowering<'_> {
         }
         self.in_world = true;
         self.finish_view();
-        self.state.transform = Transform::IDENTITY;
+        self.state.transform = AffineTransform::IDENTITY;
         self.state.active = ActiveTransform::All;
-        self.systems.insert("world".to_owned(), Transform::IDENTITY);
+        self.systems
+            .insert("world".to_owned(), AffineTransform::IDENTITY);
     }
 
     /// Ends the scene.

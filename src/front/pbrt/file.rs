@@ -2,10 +2,10 @@
 
 use super::Lowering;
 use super::token::TokenReader;
-use crate::exchange::Text;
+use crate::exchange::SpannedText;
 use flate2::read::MultiGzDecoder;
 use rtc_diag::{Code, Diagnostic, Severity, clip_path, codes};
-use rtc_source::{Budget, Exceeded, FileId, FileKind, Loader, Resource, Span};
+use rtc_source::{Budget, FileId, FileKind, LimitExceeded, Loader, Resource, Span};
 use std::io::Read;
 
 /// The deepest nesting of included files.
@@ -48,24 +48,24 @@ pub(super) fn inflated_head(bytes: &[u8]) -> Vec<u8> {
 }
 
 /// Why a compressed file is not read.
-enum GzipFault {
+enum GzipError {
     Damaged,
-    Limit(Exceeded),
+    Limit(LimitExceeded),
 }
 
 /// Unpacks a compressed file. Memory is charged before it is taken.
-fn inflate(bytes: &[u8], budget: &Budget) -> Result<Vec<u8>, GzipFault> {
+fn inflate(bytes: &[u8], budget: &Budget) -> Result<Vec<u8>, GzipError> {
     let most = UNPACKED.0 + UNPACKED.1 * bytes.len() as u64;
     let (mut decoder, mut unpacked) = (MultiGzDecoder::new(bytes), Vec::new());
     loop {
         let charged = budget.charge(Resource::Memory, STEP as u64);
-        charged.map_err(GzipFault::Limit)?;
+        charged.map_err(GzipError::Limit)?;
         let before = unpacked.len();
         let mut step = (&mut decoder).take(STEP as u64);
         step.read_to_end(&mut unpacked)
-            .map_err(|_| GzipFault::Damaged)?;
+            .map_err(|_| GzipError::Damaged)?;
         if unpacked.len() as u64 > most {
-            return Err(GzipFault::Limit(Exceeded {
+            return Err(GzipError::Limit(LimitExceeded {
                 resource: Resource::Memory,
                 total: unpacked.len() as u64,
                 limit: most,
@@ -98,7 +98,7 @@ impl Lowering<'_> {
     }
 
     /// A file that the scene includes; its parts are missing if there is none.
-    pub(super) fn open_included(&mut self, path: &Text, is_import: bool) {
+    pub(super) fn open_included(&mut self, path: &SpannedText, is_import: bool) {
         self.included += 1;
         if self.files.len() >= MAX_DEPTH || self.included > MAX_FILES {
             let message = format!(
@@ -122,13 +122,13 @@ impl Lowering<'_> {
             return self.mistake(path.span, "the file includes itself");
         }
         if is_import {
-            self.open(super::state::Opener::Import, path.span);
+            self.open(super::state::StateOpener::Import, path.span);
         }
         self.files.push(OpenFile { reader, is_import });
     }
 
     /// The text of a file from its start; one file is read once, whatever its names are.
-    fn find_included(&mut self, path: &Text) -> Option<TokenReader> {
+    fn find_included(&mut self, path: &SpannedText) -> Option<TokenReader> {
         const INSTEAD: &str = "its contents are left out";
         let found = self.find(path, &SCENES, INSTEAD)?;
         if let Some(known) = self.texts.get(&found.path) {
@@ -142,7 +142,12 @@ impl Lowering<'_> {
     }
 
     /// Finds a file of a format; if it is missing, a warning names the replacement `instead`.
-    fn find(&mut self, path: &Text, kind: &FileKind, instead: &str) -> Option<rtc_source::Found> {
+    fn find(
+        &mut self,
+        path: &SpannedText,
+        kind: &FileKind,
+        instead: &str,
+    ) -> Option<rtc_source::FoundFile> {
         self.lookups += 1;
         if self.lookups > MAX_FILES {
             let message = format!("more than {MAX_FILES} files are named");
@@ -161,7 +166,12 @@ impl Lowering<'_> {
 
     /// The bytes of a file of a format, decompressed; if it is missing, a warning names the
     /// replacement `instead`.
-    pub(super) fn file(&mut self, path: &Text, kind: &FileKind, instead: &str) -> Option<Vec<u8>> {
+    pub(super) fn file(
+        &mut self,
+        path: &SpannedText,
+        kind: &FileKind,
+        instead: &str,
+    ) -> Option<Vec<u8>> {
         let found = self.find(path, kind, instead)?;
         let bytes = self.bytes_of(path, instead, &found)?;
         Some(bytes)
@@ -169,9 +179,9 @@ impl Lowering<'_> {
 
     fn bytes_of(
         &mut self,
-        path: &Text,
+        path: &SpannedText,
         instead: &str,
-        found: &rtc_source::Found,
+        found: &rtc_source::FoundFile,
     ) -> Option<Vec<u8>> {
         let name = found.shown.display().to_string();
         let read = Loader.found(found, MAX_BYTES, self.map);
@@ -193,11 +203,11 @@ impl Lowering<'_> {
     fn unpack(&self, bytes: &[u8], name: &str) -> Result<Vec<u8>, Box<Diagnostic>> {
         let name = clip_path(name);
         inflate(bytes, self.map.budget()).map_err(|fault| match fault {
-            GzipFault::Damaged => {
+            GzipError::Damaged => {
                 let message = format!("`{name}` is compressed, and damaged");
                 Box::new(Diagnostic::new(&codes::CANNOT_READ, message))
             }
-            GzipFault::Limit(fault) => Box::new(crate::over_limit(&format!("`{name}`"), &fault)),
+            GzipError::Limit(fault) => Box::new(crate::over_limit(&format!("`{name}`"), &fault)),
         })
     }
 
@@ -209,7 +219,13 @@ impl Lowering<'_> {
     }
 
     /// Reports an invalid file; the picture is rendered without it.
-    pub(super) fn damaged(&mut self, code: &'static Code, path: &Text, why: &str, instead: &str) {
+    pub(super) fn damaged(
+        &mut self,
+        code: &'static Code,
+        path: &SpannedText,
+        why: &str,
+        instead: &str,
+    ) {
         let message = format!("`{}` cannot be read: {why}", clip_path(&path.text));
         self.without(Diagnostic::new(code, message), path.span, instead);
     }
@@ -234,7 +250,7 @@ mod tests {
         assert!(inflate(&packed, &Budget::default()).is_ok_and(|unpacked| unpacked == text));
         let bomb = gzip(&vec![b' '; 64 << 20]);
         let fault = inflate(&bomb, &Budget::default());
-        assert!(matches!(fault, Err(GzipFault::Limit(fault)) if fault.total < 20 << 20));
+        assert!(matches!(fault, Err(GzipError::Limit(fault)) if fault.total < 20 << 20));
     }
 
     #[test]

@@ -1,11 +1,11 @@
 //! The images of textures and of the environment.
 
 use super::Lowering;
-use crate::exchange::Text;
+use crate::exchange::SpannedText;
 use crate::exchange::color::encoded;
-use crate::pixels::{self, PICTURES, PixelFault};
+use crate::pixels::{self, PICTURES, PixelDecodeError};
 use rtc_color::srgb_decoded;
-use rtc_image::{Opacity, is_radiance};
+use rtc_image::{OpacityUse, is_radiance};
 use rtc_ir::{EntityKind, Filter, Image, ImageId, Pixels, Sampled, TextureId, Wrap};
 use rtc_source::{FileKind, Span};
 
@@ -26,7 +26,7 @@ pub(super) type ImageKey = (String, bool, bool);
 /// A file with its sampler.
 #[derive(Clone, Debug)]
 pub(super) struct ImageMap {
-    pub(super) path: Text,
+    pub(super) path: SpannedText,
     pub(super) wrap: Wrap,
     pub(super) filter: Filter,
     /// Whether its bytes are linear, not sRGB.
@@ -66,8 +66,8 @@ impl Lowering<'_> {
     }
 
     /// A picture of 8 bits. Its bytes become sRGB, as the IR reads them.
-    fn picture(&self, bytes: &[u8], map: &ImageMap) -> Result<Image, PixelFault> {
-        let decoded = pixels::decode(bytes, Opacity::Dropped, self.map.budget())?;
+    fn picture(&self, bytes: &[u8], map: &ImageMap) -> Result<Image, PixelDecodeError> {
+        let decoded = pixels::decode(bytes, OpacityUse::Dropped, self.map.budget())?;
         let mut pixels = decoded.bytes;
         if map.is_linear || map.is_inverted {
             let table: [u8; 256] = std::array::from_fn(|byte| {
@@ -92,7 +92,7 @@ impl Lowering<'_> {
         })
     }
 
-    pub(super) fn reject(&mut self, fault: &PixelFault, path: &Text, instead: &str) {
+    pub(super) fn reject(&mut self, fault: &PixelDecodeError, path: &SpannedText, instead: &str) {
         let what = format!("the image `{}`", rtc_diag::clip_path(&path.text));
         let formats = "textures are PNG, JPEG, WebP, EXR or HDR";
         let diagnostic = pixels::rejection(fault, &what, formats);
@@ -106,7 +106,7 @@ impl Lowering<'_> {
     }
 
     /// The map of normals of a file.
-    pub(super) fn normal_map(&mut self, path: &Text) -> Option<TextureId> {
+    pub(super) fn normal_map(&mut self, path: &SpannedText) -> Option<TextureId> {
         let image = match self.normal_images.get(&path.text) {
             Some(known) => *known,
             None => {
@@ -118,10 +118,10 @@ impl Lowering<'_> {
         Some(self.sampled(image, Wrap::Repeat, Filter::Linear, path.span))
     }
 
-    fn read_normals(&mut self, path: &Text) -> Option<ImageId> {
+    fn read_normals(&mut self, path: &SpannedText) -> Option<ImageId> {
         const INSTEAD: &str = "the surface is shown smooth";
         let bytes = self.file(path, &PICTURES, INSTEAD)?;
-        let decoded = pixels::decode(&bytes, Opacity::Dropped, self.map.budget());
+        let decoded = pixels::decode(&bytes, OpacityUse::Dropped, self.map.budget());
         let decoded = match decoded {
             Ok(decoded) => decoded,
             Err(fault) => {

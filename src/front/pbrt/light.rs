@@ -2,12 +2,12 @@
 
 use super::Lowering;
 use super::parameter::Parameters;
-use crate::exchange::Text;
+use crate::exchange::SpannedText;
 use crate::exchange::spot::falling;
 use crate::pixels;
 use rtc_diag::codes;
 use rtc_image::is_radiance;
-use rtc_ir::{Emitter, EntityKind, Environment, Image, Light, Punctual};
+use rtc_ir::{EntityKind, Environment, Image, Light, Punctual, PunctualKind};
 use rtc_math::{Vec3, cos, unit};
 use rtc_source::{FileKind, Resource};
 use std::f64::consts::PI;
@@ -30,7 +30,7 @@ pub(super) struct AreaLight {
     /// The power that all of the light emits.
     power: Option<f64>,
     is_two_sided: bool,
-    text: Text,
+    text: SpannedText,
 }
 
 impl AreaLight {
@@ -51,13 +51,13 @@ impl AreaLight {
         self.is_two_sided
     }
 
-    pub(super) fn text(&self) -> &Text {
+    pub(super) fn text(&self) -> &SpannedText {
         &self.text
     }
 }
 
 impl Lowering<'_> {
-    pub(super) fn light_source(&mut self, plugin: &Text, parameters: &Parameters) {
+    pub(super) fn light_source(&mut self, plugin: &SpannedText, parameters: &Parameters) {
         match plugin.text.as_str() {
             "point" => self.point(plugin, parameters),
             "spot" => self.spot(plugin, parameters),
@@ -92,7 +92,7 @@ impl Lowering<'_> {
         std::array::from_fn(|c| color[c] * factor[c] * power)
     }
 
-    fn punctual(&mut self, plugin: &Text, emitter: Emitter, intensity: [f64; 3]) {
+    fn punctual(&mut self, plugin: &SpannedText, emitter: PunctualKind, intensity: [f64; 3]) {
         if self.charge(Resource::Surfaces, 1, plugin.span).is_none() {
             return;
         }
@@ -103,7 +103,7 @@ impl Lowering<'_> {
             .push(Light::Punctual(Punctual { emitter, intensity }));
     }
 
-    fn point(&mut self, plugin: &Text, parameters: &Parameters) {
+    fn point(&mut self, plugin: &SpannedText, parameters: &Parameters) {
         let from = parameters.vector("from").unwrap_or([0.0; 3]);
         let position = self
             .state
@@ -111,7 +111,7 @@ impl Lowering<'_> {
             .point(Vec3::from_array(from))
             .to_array();
         let intensity = self.intensity(parameters, 4.0 * PI);
-        let emitter = Emitter::Point {
+        let emitter = PunctualKind::Point {
             position,
             range: None,
         };
@@ -119,7 +119,7 @@ impl Lowering<'_> {
     }
 
     /// A spot. Its intensity falls off by a smooth step of the cosine.
-    fn spot(&mut self, plugin: &Text, parameters: &Parameters) {
+    fn spot(&mut self, plugin: &SpannedText, parameters: &Parameters) {
         let point = |name, default| Vec3::from_array(parameters.vector(name).unwrap_or(default));
         let transform = self.state.transform;
         let from = transform.point(point("from", [0.0; 3]));
@@ -141,7 +141,7 @@ impl Lowering<'_> {
         self.punctual(plugin, emitter, intensity);
     }
 
-    fn distant(&mut self, plugin: &Text, parameters: &Parameters) {
+    fn distant(&mut self, plugin: &SpannedText, parameters: &Parameters) {
         let point = |name, default| Vec3::from_array(parameters.vector(name).unwrap_or(default));
         let along = point("from", [0.0; 3]) - point("to", [0.0, 0.0, 1.0]);
         let Some(direction) = unit(self.state.transform.vector(along)) else {
@@ -151,14 +151,14 @@ impl Lowering<'_> {
         let illuminance = parameters.number("illuminance").filter(|lux| *lux > 0.0);
         let color = self.light_color(parameters, "L");
         let irradiance = std::array::from_fn(|c| color[c] * factor[c] * illuminance.unwrap_or(1.0));
-        let emitter = Emitter::Sun {
+        let emitter = PunctualKind::Sun {
             direction: direction.to_array(),
         };
         self.punctual(plugin, emitter, irradiance);
     }
 
     /// Light from all around, constant or by a map.
-    fn infinite(&mut self, plugin: &Text, parameters: &Parameters) {
+    fn infinite(&mut self, plugin: &SpannedText, parameters: &Parameters) {
         let factor = self.factor(parameters);
         let color = self.light_color(parameters, "L");
         // Version 3 has pictures of longitude and latitude, version 4 those of equal areas.
@@ -206,7 +206,7 @@ impl Lowering<'_> {
     }
 
     /// Adds the picture of the environment; without it the environment is constant.
-    fn environment_map(&mut self, path: &Text, is_equal_area: bool) {
+    fn environment_map(&mut self, path: &SpannedText, is_equal_area: bool) {
         const INSTEAD: &str = "light of one colour replaces it";
         let Some(bytes) = self.file(path, &MAPS, INSTEAD) else {
             return;
@@ -266,7 +266,7 @@ impl Lowering<'_> {
         }
     }
 
-    pub(super) fn area_light_source(&mut self, plugin: &Text, parameters: &Parameters) {
+    pub(super) fn area_light_source(&mut self, plugin: &SpannedText, parameters: &Parameters) {
         if !["diffuse", "area"].contains(&plugin.text.as_str()) {
             let instead = "a diffuse light replaces it";
             self.unsupported("area light", plugin, &["diffuse"], instead);

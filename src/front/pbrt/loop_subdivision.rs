@@ -1,7 +1,7 @@
 //! The subdivision of Loop 1987, "Smooth subdivision surfaces based on triangles", with the rules
 //! for boundaries and the limit surface of Hoppe et al. 1994.
 
-use rtc_ir::{Column, Mesh};
+use rtc_ir::{Mesh, VertexColumn};
 use rtc_math::Vec3;
 
 /// A side of a triangle: its ends in order, the corner across, and which side of the mesh it is.
@@ -39,8 +39,8 @@ pub(super) fn subdivide(
     let limit = moved(&positions, &edges, limit_weight);
     let normals = normals(&limit, &triangles);
     Mesh {
-        positions: Column::rounded(limit.iter().map(|p| p.to_array())),
-        normals: Column::rounded(normals.iter().map(|n| n.to_array())),
+        positions: VertexColumn::rounded(limit.iter().map(|p| p.to_array())),
+        normals: VertexColumn::rounded(normals.iter().map(|n| n.to_array())),
         triangles: triangles.into(),
         ..Mesh::default()
     }

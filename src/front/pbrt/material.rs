@@ -6,8 +6,8 @@
 
 use super::Lowering;
 use super::parameter::Parameters;
-use super::texture::Channel;
-use crate::exchange::Text;
+use super::texture::ColorWithMap;
+use crate::exchange::SpannedText;
 use crate::exchange::material::{matte, opaque};
 use rtc_diag::{clip, codes};
 use rtc_ir::{Alpha, EntityKind, Map, Material, MaterialId, Standard};
@@ -61,7 +61,7 @@ impl LoweredMaterial {
 }
 
 impl Lowering<'_> {
-    pub(super) fn make_named_material(&mut self, name: Text, parameters: &Parameters) {
+    pub(super) fn make_named_material(&mut self, name: SpannedText, parameters: &Parameters) {
         let Some(plugin) = parameters.string("type").cloned() else {
             let message = format!("the material `{}` has no `type`", clip(&name.text));
             return self.mistake(name.span, message);
@@ -70,7 +70,7 @@ impl Lowering<'_> {
         self.materials.insert(name.text, material);
     }
 
-    pub(super) fn named_material(&mut self, name: &Text) {
+    pub(super) fn named_material(&mut self, name: &SpannedText) {
         match self.materials.get(&name.text) {
             Some(material) => self.state.material = Some(Rc::clone(material)),
             None => {
@@ -83,7 +83,7 @@ impl Lowering<'_> {
     /// Lowers a material directive.
     pub(super) fn material(
         &mut self,
-        plugin: &Text,
+        plugin: &SpannedText,
         parameters: &Parameters,
     ) -> Rc<LoweredMaterial> {
         let standard = self.standard(plugin, parameters);
@@ -110,7 +110,7 @@ impl Lowering<'_> {
     }
 
     /// A material as a standard material; `None` where light passes through.
-    fn standard(&mut self, plugin: &Text, parameters: &Parameters) -> Option<Standard> {
+    fn standard(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Option<Standard> {
         Some(match plugin.text.as_str() {
             "diffuse" => self.diffuse(parameters, "reflectance"),
             "matte" => {
@@ -144,7 +144,7 @@ impl Lowering<'_> {
     }
 
     /// Reports that the standard material approximates a material, or a part of it.
-    fn nearest(&mut self, plugin: &Text, part: &str) {
+    fn nearest(&mut self, plugin: &SpannedText, part: &str) {
         let name = &plugin.text;
         let message = format!("the standard material replaces {part}`{name}`");
         self.approximate(plugin.span, message);
@@ -156,8 +156,8 @@ impl Lowering<'_> {
     }
 
     /// A mirror that reflects `Kr` at all angles.
-    fn mirror(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
-        let Channel { color, map } = self.channel(parameters, "Kr", [0.9; 3]);
+    fn mirror(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Standard {
+        let ColorWithMap { color, map } = self.channel(parameters, "Kr", [0.9; 3]);
         let most = greatest(color);
         if color.iter().any(|channel| *channel != most) || map.is_some() {
             let message = "a coloured mirror is white at grazing angles";
@@ -166,10 +166,10 @@ impl Lowering<'_> {
         reflector(color, most, map)
     }
 
-    fn metal(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
+    fn metal(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Standard {
         let default = if plugin.text == "metal" { 0.01 } else { 0.0 };
         let alpha = self.alpha(plugin, parameters, ROUGHNESS, default);
-        let Channel { color, map } = self.conductor_color(plugin, parameters, ["eta", "k"]);
+        let ColorWithMap { color, map } = self.conductor_color(plugin, parameters, ["eta", "k"]);
         parameters.skip(&["Kr"]);
         rough(
             Standard {
@@ -185,22 +185,22 @@ impl Lowering<'_> {
     /// The colour of a conductor along its normal.
     fn conductor_color(
         &mut self,
-        plugin: &Text,
+        plugin: &SpannedText,
         parameters: &Parameters,
         names: [&'static str; 2],
-    ) -> Channel {
+    ) -> ColorWithMap {
         if parameters.get("reflectance").is_some() {
             return self.channel(parameters, "reflectance", [1.0; 3]);
         }
         let message = "Schlick's approximation replaces the Fresnel equations of metals";
         self.approximate(plugin.span, message);
-        Channel {
+        ColorWithMap {
             color: self.conductor(parameters, names),
             map: None,
         }
     }
 
-    fn coated_conductor(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
+    fn coated_conductor(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Standard {
         // A metal under a clear coat approximates the layered material.
         self.nearest(plugin, "the layers of ");
         // Read the roughness of both layers.
@@ -218,7 +218,7 @@ impl Lowering<'_> {
         let coat = self.alpha(plugin, parameters, names, 0.0);
         let names = ["conductor.eta", "conductor.k"];
         // The index of refraction gives the colour of the metal.
-        let Channel { color, map } = self.conductor_color(plugin, parameters, names);
+        let ColorWithMap { color, map } = self.conductor_color(plugin, parameters, names);
         parameters.skip(&[
             "interface.eta",
             "thickness",
@@ -241,7 +241,7 @@ impl Lowering<'_> {
         )
     }
 
-    fn coated_diffuse(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
+    fn coated_diffuse(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Standard {
         self.nearest(plugin, "the layers of ");
         let alpha = self.alpha(plugin, parameters, ROUGHNESS, 0.0);
         let base = self.channel(parameters, "reflectance", [0.5; 3]);
@@ -257,7 +257,7 @@ impl Lowering<'_> {
 
     /// `plastic` and `uber` of version 3: a diffuse part and a reflection by the Fresnel equations
     /// of glass, times `Ks`.
-    fn plastic(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
+    fn plastic(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Standard {
         let is_uber = plugin.text == "uber";
         self.nearest(plugin, "");
         let alpha = self.alpha(plugin, parameters, ROUGHNESS, 0.1);
@@ -282,7 +282,7 @@ impl Lowering<'_> {
     }
 
     /// What `uber` has beside `plastic`: a mirror, clear glass and opacity.
-    fn uber(&mut self, plugin: &Text, parameters: &Parameters, standard: &mut Standard) {
+    fn uber(&mut self, plugin: &SpannedText, parameters: &Parameters, standard: &mut Standard) {
         let mirror = self.channel(parameters, "Kr", [0.0; 3]).color;
         standard.clearcoat = greatest(mirror).min(1.0);
         let clear = greatest(self.channel(parameters, "Kt", [0.0; 3]).color).min(1.0);
@@ -305,7 +305,7 @@ impl Lowering<'_> {
     }
 
     /// The model of Ashikhmin and Shirley: a diffuse part under a reflection by Schlick's formula.
-    fn substrate(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
+    fn substrate(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Standard {
         self.nearest(plugin, "");
         let alpha = self.alpha(plugin, parameters, ROUGHNESS, 0.1);
         let base = self.channel(parameters, "Kd", [0.5; 3]);
@@ -320,7 +320,12 @@ impl Lowering<'_> {
         rough(standard, alpha)
     }
 
-    fn dielectric(&mut self, plugin: &Text, parameters: &Parameters, is_solid: bool) -> Standard {
+    fn dielectric(
+        &mut self,
+        plugin: &SpannedText,
+        parameters: &Parameters,
+        is_solid: bool,
+    ) -> Standard {
         let alpha = self.alpha(plugin, parameters, ROUGHNESS, 0.0);
         let (ior, dispersion) = self.refraction(parameters, ["eta", "index"]);
         let ior = match ior < 1.0 {
@@ -339,7 +344,7 @@ impl Lowering<'_> {
                 }
                 self.channel(parameters, "Kt", [1.0; 3])
             }
-            false => Channel {
+            false => ColorWithMap {
                 color: [1.0; 3],
                 map: None,
             },
@@ -356,15 +361,15 @@ impl Lowering<'_> {
     }
 
     /// A diffuse reflectance and a diffuse transmittance.
-    fn translucent(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
+    fn translucent(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Standard {
         let (reflected, transmitted) = if plugin.text == "translucent" {
             let message = "`translucent` is shown without its mirror image";
             self.approximate(plugin.span, message);
             parameters.skip(&["Ks", "roughness", "remaproughness"]);
-            let Channel { color, map } = self.channel(parameters, "Kd", [0.25; 3]);
+            let ColorWithMap { color, map } = self.channel(parameters, "Kd", [0.25; 3]);
             let reflect = self.channel(parameters, "reflect", [0.5; 3]).color;
             let transmit = self.channel(parameters, "transmit", [0.5; 3]).color;
-            let times = |by: [f64; 3]| Channel {
+            let times = |by: [f64; 3]| ColorWithMap {
                 color: std::array::from_fn(|c| color[c] * by[c]),
                 map: map.clone(),
             };
@@ -373,7 +378,7 @@ impl Lowering<'_> {
             let scale = parameters.number("scale").unwrap_or(1.0);
             let mut part = |name| {
                 let channel = self.channel(parameters, name, [0.25; 3]);
-                Channel {
+                ColorWithMap {
                     color: channel.color.map(|value| value * scale),
                     ..channel
                 }
@@ -381,7 +386,7 @@ impl Lowering<'_> {
             (part("reflectance"), part("transmittance"))
         };
         // The fraction `through` of the light is transmitted, the rest reflected.
-        let most = |channel: &Channel| greatest(channel.color);
+        let most = |channel: &ColorWithMap| greatest(channel.color);
         let (back, through) = (most(&reflected), most(&transmitted));
         let share = if through > 0.0 {
             through / (back + through)
@@ -403,7 +408,7 @@ impl Lowering<'_> {
     }
 
     /// Disney's material (Burley 2012 and 2015), as far as the standard material has its parts.
-    fn disney(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
+    fn disney(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Standard {
         self.nearest(plugin, "");
         let base = self.channel(parameters, "color", [0.5; 3]);
         let mut fraction = |name, default| self.scalar(parameters, name, default).clamp(0.0, 1.0);
@@ -429,7 +434,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn of_unknown_scattering(&mut self, plugin: &Text, parameters: &Parameters) -> Standard {
+    fn of_unknown_scattering(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Standard {
         let name = if parameters.get("Kd").is_some() {
             "Kd"
         } else {
@@ -470,8 +475,8 @@ impl Lowering<'_> {
     }
 
     /// A mix of two materials: the mean of their parameters.
-    fn mix(&mut self, plugin: &Text, parameters: &Parameters) -> Option<Standard> {
-        let names: Vec<Text> = match parameters.strings("materials") {
+    fn mix(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Option<Standard> {
+        let names: Vec<SpannedText> = match parameters.strings("materials") {
             Some(names) => names.to_vec(),
             // Version 3 has them in the other order: `amount` is the share of the first one.
             None => ["namedmaterial2", "namedmaterial1"]
@@ -479,7 +484,7 @@ impl Lowering<'_> {
                 .filter_map(|name| parameters.string(name).cloned())
                 .collect(),
         };
-        let [first, second] = match <[Text; 2]>::try_from(names) {
+        let [first, second] = match <[SpannedText; 2]>::try_from(names) {
             Ok(names) => names.map(|name| match self.materials.get(&name.text) {
                 Some(material) => Some(material.standard.clone()),
                 None => {
@@ -537,7 +542,7 @@ impl Lowering<'_> {
     /// The widths of the distribution along u and v.
     fn alpha(
         &mut self,
-        plugin: &Text,
+        plugin: &SpannedText,
         parameters: &Parameters,
         [both, u, v]: [&'static str; 3],
         default: f64,
@@ -682,7 +687,7 @@ fn mixed(first: &Standard, second: &Standard, amount: f64) -> Standard {
     }
 }
 
-fn textured(channel: Channel) -> Standard {
+fn textured(channel: ColorWithMap) -> Standard {
     Standard {
         base_color_map: channel.map,
         ..matte(channel.color)

@@ -1,7 +1,7 @@
 //! The scene format of pbrt (versions 3 and 4) lowered to the IR.
 //!
 //! ```text
-//! bytes ─ token ─▶ parameter ─▶ directive (state) ─ camera, material, light, shape ─▶ Lowered
+//! bytes ─ token ─▶ parameter ─▶ directive (state) ─ camera, material, light, shape ─▶ LoweredScene
 //! ```
 //!
 //! - [`token`] splits the text into words with their spans, [`parameter`] reads typed parameters.
@@ -39,14 +39,15 @@ mod texture;
 mod token;
 
 use crate::exchange::texture::SampledTextures;
-use crate::exchange::{Text, transform::Transform};
+use crate::exchange::{SpannedText, transform::AffineTransform};
 use crate::{FrontOptions, over_limit};
 use parameter::Parameters;
-use rtc_diag::{Code, Diagnostic, Sink, clip, codes, nearest};
+use rtc_diag::{Code, Diagnostic, DiagnosticSink, clip, codes, nearest};
 use rtc_ir::{
-    EntityKind, Field, ImageId, Lowered, MaterialId, Mesh, MeshId, Scene, SourceSpans, ValuePath,
+    EntityField, EntityKind, ImageId, LoweredScene, MaterialId, Mesh, MeshId, Scene, SourceSpans,
+    ValuePath,
 };
-use rtc_source::{Exceeded, FileId, Resource, Search, SourceMap, Span};
+use rtc_source::{FileId, FileSearch, LimitExceeded, Resource, SourceMap, Span};
 use shape::PlacedShape;
 use state::{GraphicsState, StateStack};
 use std::collections::BTreeMap;
@@ -88,15 +89,15 @@ pub fn lower(
     file: FileId,
     map: &mut SourceMap,
     options: &FrontOptions,
-    sink: &mut Sink,
-) -> Option<Lowered> {
+    sink: &mut DiagnosticSink,
+) -> Option<LoweredScene> {
     let folder = map.folder(file);
-    let search = Search::new(folder, options.asset_root.as_deref())
+    let search = FileSearch::new(folder, options.asset_root.as_deref())
         .with_parent(folder, options.home.as_deref());
     let mut lowering = Lowering::new(search, map, sink);
     lowering.read(file)?;
     lowering.finish();
-    let mut lowered = Lowered {
+    let mut lowered = LoweredScene {
         scene: lowering.scene,
         source_spans: lowering.source_spans,
     };
@@ -108,15 +109,15 @@ pub fn lower(
 struct Lowering<'run> {
     scene: Scene,
     source_spans: SourceSpans,
-    search: Search,
+    search: FileSearch,
     map: &'run mut SourceMap,
-    sink: &'run mut Sink,
+    sink: &'run mut DiagnosticSink,
     /// Whether the text is one of version 3: it has a `WorldEnd`.
     is_version_3: bool,
     state: GraphicsState,
     stack: StateStack,
     /// The coordinate systems by name: the map from each to the world.
-    systems: BTreeMap<String, Transform>,
+    systems: BTreeMap<String, AffineTransform>,
     view: camera::ViewDirectives,
     in_world: bool,
     /// The factor of all light by the film: its `scale`, or its `iso` and the exposure.
@@ -134,7 +135,7 @@ struct Lowering<'run> {
     meshes: BTreeMap<String, Option<MeshId>>,
     objects: BTreeMap<String, Rc<Vec<PlacedShape>>>,
     /// The object between `ObjectBegin` and `ObjectEnd`.
-    open_object: Option<(Text, Vec<PlacedShape>)>,
+    open_object: Option<(SpannedText, Vec<PlacedShape>)>,
     /// The files that are open, the innermost last.
     files: Vec<file::OpenFile>,
     /// The number of included files.
@@ -151,7 +152,7 @@ struct Lowering<'run> {
 }
 
 impl<'run> Lowering<'run> {
-    fn new(search: Search, map: &'run mut SourceMap, sink: &'run mut Sink) -> Self {
+    fn new(search: FileSearch, map: &'run mut SourceMap, sink: &'run mut DiagnosticSink) -> Self {
         Self {
             scene: Scene::new(camera::default_camera(), camera::default_settings()),
             source_spans: SourceSpans::default(),
@@ -187,7 +188,7 @@ impl<'run> Lowering<'run> {
     }
 
     fn record(&mut self, entity: EntityKind, index: usize, span: Span) {
-        let path = ValuePath::new(entity, index, Field::Whole);
+        let path = ValuePath::new(entity, index, EntityField::Whole);
         self.source_spans.record(path, span);
     }
 
@@ -206,7 +207,13 @@ impl<'run> Lowering<'run> {
     }
 
     /// Warns of a plugin that is left out or replaced; `known` are the names that are supported.
-    fn unsupported(&mut self, kind: &str, plugin: &Text, known: &[&'static str], instead: &str) {
+    fn unsupported(
+        &mut self,
+        kind: &str,
+        plugin: &SpannedText,
+        known: &[&'static str],
+        instead: &str,
+    ) {
         let name = clip(&plugin.text);
         let message = format!("the {kind} `{name}` is not supported: {instead}");
         let mut diagnostic = Diagnostic::new(&codes::PBRT_PLUGIN, message).at(plugin.span, "");
@@ -240,7 +247,7 @@ impl<'run> Lowering<'run> {
         charged.map_err(|fault| self.exhaust(&fault, span)).ok()
     }
 
-    fn exhaust(&mut self, fault: &Exceeded, span: Span) {
+    fn exhaust(&mut self, fault: &LimitExceeded, span: Span) {
         if !self.is_exhausted {
             self.sink.push(over_limit("the scene", fault).at(span, ""));
         }

@@ -1,7 +1,7 @@
 //! The parameters of a directive: `"type name" value` or `"type name" [ values ]`.
 
 use super::token::{PbrtToken, PbrtTokenKind, TokenReader};
-use crate::exchange::Text;
+use crate::exchange::SpannedText;
 use rtc_diag::{Diagnostic, clip, codes};
 use rtc_source::Span;
 use std::cell::RefCell;
@@ -58,14 +58,14 @@ impl ParameterType {
 #[derive(Clone, Debug)]
 pub(super) enum ParameterValues {
     Numbers(Vec<f64>),
-    Strings(Vec<Text>),
+    Strings(Vec<SpannedText>),
     Flags(Vec<bool>),
 }
 
 /// A parameter.
 #[derive(Clone, Debug)]
 pub(super) struct PluginParameter {
-    pub(super) name: Text,
+    pub(super) name: SpannedText,
     pub(super) kind: ParameterType,
     pub(super) values: ParameterValues,
 }
@@ -107,7 +107,7 @@ impl Parameters {
     }
 
     /// The parameters that were not read, and the names that were looked up.
-    pub(super) fn unused(&self) -> (Vec<&Text>, Vec<&'static str>) {
+    pub(super) fn unused(&self) -> (Vec<&SpannedText>, Vec<&'static str>) {
         let looked_up = self.looked_up.borrow().clone();
         let is_unused =
             |parameter: &&Rc<PluginParameter>| !looked_up.contains(&parameter.name.text.as_str());
@@ -143,14 +143,14 @@ impl Parameters {
         }
     }
 
-    pub(super) fn strings(&self, name: &'static str) -> Option<&[Text]> {
+    pub(super) fn strings(&self, name: &'static str) -> Option<&[SpannedText]> {
         match &self.get(name)?.values {
             ParameterValues::Strings(strings) => Some(strings),
             _ => None,
         }
     }
 
-    pub(super) fn string(&self, name: &'static str) -> Option<&Text> {
+    pub(super) fn string(&self, name: &'static str) -> Option<&SpannedText> {
         self.strings(name)?.first()
     }
 
@@ -232,7 +232,7 @@ fn parameter(
     head: PbrtToken,
 ) -> Result<PluginParameter, Box<Diagnostic>> {
     // A parameter has a type and a name in one string.
-    let Text { text, span } = reader.text(head);
+    let SpannedText { text, span } = reader.text(head);
     let mut words = text.split_ascii_whitespace();
     let (Some(kind), Some(name), None) = (words.next(), words.next(), words.next()) else {
         each_value(reader, |_, _| true);
@@ -274,7 +274,7 @@ fn parameter(
             mistake(format!("`{}` has no value", clip(&text)), span)
         }
         values => Ok(PluginParameter {
-            name: Text {
+            name: SpannedText {
                 text: name.to_owned(),
                 span,
             },

@@ -4,15 +4,15 @@ use super::Lowering;
 use super::loop_subdivision;
 use super::material::LoweredMaterial;
 use super::parameter::{ParameterType, Parameters};
-use crate::exchange::Text;
+use crate::exchange::SpannedText;
 use crate::exchange::one_sided::{behind, flat, flat_mesh};
 use crate::exchange::round::{disc, sphere};
 use crate::exchange::tessellate;
-use crate::exchange::transform::Transform;
-use crate::mesh::{self, ParseFault};
+use crate::exchange::transform::AffineTransform;
+use crate::mesh::{self, TextParseError};
 use crate::over_limit;
 use rtc_diag::{clip_words, codes};
-use rtc_ir::{Column, EntityKind, Mesh, MeshId, Quad, Shape, Surface};
+use rtc_ir::{EntityKind, Mesh, MeshId, Quad, Shape, Surface, VertexColumn};
 use rtc_math::{Vec3, acos, cos, sin, unit};
 use rtc_source::{FileKind, Resource, Span};
 use std::rc::Rc;
@@ -47,7 +47,7 @@ const SUBDIVISION_COST: u64 = 20;
 
 /// The geometry of a shape in its own coordinates.
 #[derive(Clone, Debug)]
-enum Geometry {
+enum ShapeGeometry {
     /// A whole sphere about the origin.
     Sphere(f64),
     /// A whole disc about +z.
@@ -63,8 +63,8 @@ enum Geometry {
 /// A shape with its transform.
 #[derive(Clone, Debug)]
 pub(super) struct PlacedShape {
-    geometry: Geometry,
-    to_world: Transform,
+    geometry: ShapeGeometry,
+    to_world: AffineTransform,
     material: Rc<LoweredMaterial>,
     radiance: [f64; 3],
     opacity: f64,
@@ -73,7 +73,7 @@ pub(super) struct PlacedShape {
 
 impl Lowering<'_> {
     /// A shape directive.
-    pub(super) fn shape(&mut self, plugin: &Text, parameters: &Parameters, span: Span) {
+    pub(super) fn shape(&mut self, plugin: &SpannedText, parameters: &Parameters, span: Span) {
         let material = match &self.state.material {
             Some(material) => Rc::clone(material),
             None => self.default_material(),
@@ -105,10 +105,10 @@ impl Lowering<'_> {
                 if let Some((_, shapes)) = &mut self.open_object {
                     shapes.push(shape);
                 }
-            } else if self.place(&shape, &Transform::IDENTITY).is_none() {
+            } else if self.place(&shape, &AffineTransform::IDENTITY).is_none() {
                 return;
             }
-            if back.is_some_and(|back| self.place(&back, &Transform::IDENTITY).is_none()) {
+            if back.is_some_and(|back| self.place(&back, &AffineTransform::IDENTITY).is_none()) {
                 return;
             }
         }
@@ -132,10 +132,10 @@ impl Lowering<'_> {
     /// covers its back, if any.
     fn emitted(
         &mut self,
-        geometry: &Geometry,
-        to_world: &Transform,
-    ) -> ([f64; 3], Option<Transform>) {
-        const DARK: ([f64; 3], Option<Transform>) = ([0.0; 3], None);
+        geometry: &ShapeGeometry,
+        to_world: &AffineTransform,
+    ) -> ([f64; 3], Option<AffineTransform>) {
+        const DARK: ([f64; 3], Option<AffineTransform>) = ([0.0; 3], None);
         let Some(light) = self.state.area_light.clone() else {
             return DARK;
         };
@@ -151,7 +151,7 @@ impl Lowering<'_> {
             return DARK;
         };
         // No camera is inside a sphere.
-        if light.is_two_sided() || matches!(geometry, Geometry::Sphere(_)) {
+        if light.is_two_sided() || matches!(geometry, ShapeGeometry::Sphere(_)) {
             return (radiance, None);
         }
         let back = self.behind(geometry, to_world);
@@ -162,10 +162,14 @@ impl Lowering<'_> {
     }
 
     /// A transform just behind a flat shape, relative to its normal; `None` if it is curved.
-    fn behind(&self, geometry: &Geometry, to_world: &Transform) -> Option<Transform> {
+    fn behind(
+        &self,
+        geometry: &ShapeGeometry,
+        to_world: &AffineTransform,
+    ) -> Option<AffineTransform> {
         let (normal, extent) = match geometry {
-            Geometry::Sphere(_) => return None,
-            Geometry::Disc { radius, .. } => {
+            ShapeGeometry::Sphere(_) => return None,
+            ShapeGeometry::Disc { radius, .. } => {
                 let side = if self.state.reverse_orientation {
                     -1.0
                 } else {
@@ -173,36 +177,36 @@ impl Lowering<'_> {
                 };
                 (Vec3::Z * side, radius * 2.0)
             }
-            Geometry::Mesh(id) => flat_mesh(self.scene.meshes.get(id.0 as usize)?)?,
-            Geometry::Patch(corners) => {
+            ShapeGeometry::Mesh(id) => flat_mesh(self.scene.meshes.get(id.0 as usize)?)?,
+            ShapeGeometry::Patch(corners) => {
                 let [a, b, c, d] = corners.map(Vec3::from_array);
                 flat([[a, b, c], [a, c, d]].into_iter())?
             }
         };
         let back = behind(normal, extent, to_world)?;
-        Some(Transform::translation(back.to_array()).after(to_world))
+        Some(AffineTransform::translation(back.to_array()).after(to_world))
     }
 
-    fn area(&self, geometry: &Geometry, to_world: &Transform) -> Option<f64> {
+    fn area(&self, geometry: &ShapeGeometry, to_world: &AffineTransform) -> Option<f64> {
         let point = |p: [f64; 3]| to_world.point(Vec3::from_array(p));
         let triangle = |a: Vec3, b: Vec3, c: Vec3| (b - a).cross(c - a).length() / 2.0;
         match geometry {
-            Geometry::Sphere(radius) => {
+            ShapeGeometry::Sphere(radius) => {
                 let radius = radius * to_world.similarity()?;
                 Some(4.0 * std::f64::consts::PI * radius * radius)
             }
-            Geometry::Disc { radius, .. } => {
-                let Transform([x, y, ..]) = to_world;
+            ShapeGeometry::Disc { radius, .. } => {
+                let AffineTransform([x, y, ..]) = to_world;
                 Some(std::f64::consts::PI * radius * radius * x.cross(*y).length())
             }
-            Geometry::Mesh(id) => {
+            ShapeGeometry::Mesh(id) => {
                 let mesh = self.scene.meshes.get(id.0 as usize)?;
                 let corner = |index: u32| point(mesh.positions.at(index as usize));
                 let triangles = mesh.triangles.iter();
                 let areas = triangles.map(|[a, b, c]| triangle(corner(*a), corner(*b), corner(*c)));
                 Some(areas.sum())
             }
-            Geometry::Patch(corners) => {
+            ShapeGeometry::Patch(corners) => {
                 let [a, b, c, d] = corners.map(point);
                 Some(triangle(a, b, c) + triangle(a, c, d))
             }
@@ -210,7 +214,7 @@ impl Lowering<'_> {
     }
 
     /// Adds a shape to the scene, moved by `outer`. `None` if the budget is used up.
-    pub(super) fn place(&mut self, placed: &PlacedShape, outer: &Transform) -> Option<()> {
+    pub(super) fn place(&mut self, placed: &PlacedShape, outer: &AffineTransform) -> Option<()> {
         let to_world = outer.after(&placed.to_world);
         let is_lit = placed.radiance != [0.0; 3];
         if placed.opacity == 0.0 && !is_lit {
@@ -234,10 +238,15 @@ impl Lowering<'_> {
         Some(())
     }
 
-    fn placed(&mut self, geometry: &Geometry, to_world: &Transform, span: Span) -> Option<Shape> {
+    fn placed(
+        &mut self,
+        geometry: &ShapeGeometry,
+        to_world: &AffineTransform,
+        span: Span,
+    ) -> Option<Shape> {
         Some(match geometry {
-            Geometry::Sphere(radius) => sphere(*radius, to_world),
-            Geometry::Disc { height, radius } => match disc(*height, *radius, to_world) {
+            ShapeGeometry::Sphere(radius) => sphere(*radius, to_world),
+            ShapeGeometry::Disc { height, radius } => match disc(*height, *radius, to_world) {
                 Some(disc) => Shape::Disc(disc),
                 None => {
                     let mesh = flat_disc(*height, *radius, 0.0, std::f64::consts::TAU);
@@ -245,8 +254,8 @@ impl Lowering<'_> {
                     to_world.instance(id)
                 }
             },
-            Geometry::Mesh(id) => to_world.instance(*id),
-            Geometry::Patch(corners) => Shape::Quad(Quad {
+            ShapeGeometry::Mesh(id) => to_world.instance(*id),
+            ShapeGeometry::Patch(corners) => Shape::Quad(Quad {
                 vertices: corners.map(|corner| to_world.point(Vec3::from_array(corner)).to_array()),
             }),
         })
@@ -254,10 +263,10 @@ impl Lowering<'_> {
 
     fn geometries(
         &mut self,
-        plugin: &Text,
+        plugin: &SpannedText,
         parameters: &Parameters,
         material: &LoweredMaterial,
-    ) -> Option<Vec<Geometry>> {
+    ) -> Option<Vec<ShapeGeometry>> {
         let geometry = match plugin.text.as_str() {
             "sphere" => self.sphere_shape(plugin, parameters, material),
             "disk" => self.disk_shape(plugin, parameters, material),
@@ -281,10 +290,10 @@ impl Lowering<'_> {
 
     fn sphere_shape(
         &mut self,
-        plugin: &Text,
+        plugin: &SpannedText,
         parameters: &Parameters,
         material: &LoweredMaterial,
-    ) -> Option<Geometry> {
+    ) -> Option<ShapeGeometry> {
         let number = |name, default| parameters.number(name).unwrap_or(default);
         let radius = number("radius", 1.0).abs();
         let low = number("zmin", -radius).clamp(-radius, radius);
@@ -301,7 +310,7 @@ impl Lowering<'_> {
                 let message = "a sphere of glass has its inside inside, whatever its orientation";
                 self.approximate(plugin.span, message);
             }
-            return Some(Geometry::Sphere(radius));
+            return Some(ShapeGeometry::Sphere(radius));
         }
         self.approximate(plugin.span, "the part of a sphere is shown as a mesh");
         // v runs from the lower end to the upper one.
@@ -320,10 +329,10 @@ impl Lowering<'_> {
 
     fn disk_shape(
         &mut self,
-        plugin: &Text,
+        plugin: &SpannedText,
         parameters: &Parameters,
         material: &LoweredMaterial,
-    ) -> Option<Geometry> {
+    ) -> Option<ShapeGeometry> {
         let number = |name, default| parameters.number(name).unwrap_or(default);
         let (height, radius) = (number("height", 0.0), number("radius", 1.0).abs());
         let inner = number("innerradius", 0.0).clamp(0.0, radius);
@@ -333,16 +342,20 @@ impl Lowering<'_> {
             return None;
         }
         if inner == 0.0 && phi >= 360.0 && !material.has_maps() {
-            return Some(Geometry::Disc { height, radius });
+            return Some(ShapeGeometry::Disc { height, radius });
         }
         self.approximate(plugin.span, "the disk is shown as a mesh");
         let mesh = flat_disc(height, radius, inner, phi.to_radians());
         self.charged_mesh(self.oriented(mesh), plugin.span)
-            .map(Geometry::Mesh)
+            .map(ShapeGeometry::Mesh)
     }
 
     /// A shape that a profile sweeps about +z.
-    fn round_shape(&mut self, plugin: &Text, parameters: &Parameters) -> Option<Geometry> {
+    fn round_shape(
+        &mut self,
+        plugin: &SpannedText,
+        parameters: &Parameters,
+    ) -> Option<ShapeGeometry> {
         let message = format!("the {} is shown as a mesh", plugin.text);
         self.approximate(plugin.span, message);
         let number = |name, default| parameters.number(name).unwrap_or(default);
@@ -386,7 +399,7 @@ impl Lowering<'_> {
         profile: Vec<(Vec3, Vec3)>,
         degrees: f64,
         span: Span,
-    ) -> Option<Geometry> {
+    ) -> Option<ShapeGeometry> {
         let is_finite = |(point, normal): &(Vec3, Vec3)| point.is_finite() && normal.is_finite();
         if !profile.iter().all(is_finite) {
             self.mistake(span, "the shape has no size");
@@ -394,7 +407,7 @@ impl Lowering<'_> {
         }
         let mesh = tessellate::revolved(&profile, degrees.to_radians());
         self.charged_mesh(self.oriented(mesh), span)
-            .map(Geometry::Mesh)
+            .map(ShapeGeometry::Mesh)
     }
 
     /// A mesh of a size that is known before.
@@ -413,7 +426,7 @@ impl Lowering<'_> {
             return mesh;
         }
         let (positions, normals) = (&mesh.positions, &mesh.normals);
-        let at = |column: &Column<3>, index: u32| Vec3::from_array(column.at(index as usize));
+        let at = |column: &VertexColumn<3>, index: u32| Vec3::from_array(column.at(index as usize));
         let turned = |triangle: &[u32; 3]| {
             let [a, b, c] = *triangle;
             let [p, q, r] = triangle.map(|corner| at(positions, corner));
@@ -429,7 +442,7 @@ impl Lowering<'_> {
         };
         mesh.triangles = mesh.triangles.iter().map(turned).collect();
         if is_reversed {
-            mesh.normals = Column::rounded(mesh.normals.iter().map(|n| n.map(|c| -c)));
+            mesh.normals = VertexColumn::rounded(mesh.normals.iter().map(|n| n.map(|c| -c)));
         }
         mesh
     }
@@ -437,7 +450,7 @@ impl Lowering<'_> {
     /// The indices of a mesh with corners by `size`, all in range.
     fn indices<const N: usize>(
         &mut self,
-        plugin: &Text,
+        plugin: &SpannedText,
         parameters: &Parameters,
         vertices: usize,
     ) -> Option<Vec<[u32; N]>> {
@@ -503,10 +516,10 @@ impl Lowering<'_> {
 
     fn triangle_mesh(
         &mut self,
-        plugin: &Text,
+        plugin: &SpannedText,
         parameters: &Parameters,
         material: &LoweredMaterial,
-    ) -> Option<Geometry> {
+    ) -> Option<ShapeGeometry> {
         // Read the vertices, the triangles and the attributes.
         let Some(positions) = parameters.tuples::<3>("P") else {
             self.mistake(plugin.span, "the mesh has no vertices `P`");
@@ -529,18 +542,19 @@ impl Lowering<'_> {
                 with_corner_uvs(positions, normals, &triangles)
             }
             false => Mesh {
-                positions: Column::rounded(positions.iter().copied()),
-                normals: Column::rounded(normals.iter().copied()),
-                uvs: Column::rounded(uvs.iter().copied()),
+                positions: VertexColumn::rounded(positions.iter().copied()),
+                normals: VertexColumn::rounded(normals.iter().copied()),
+                uvs: VertexColumn::rounded(uvs.iter().copied()),
                 triangles: triangles.into(),
                 ..Mesh::default()
             },
         };
         let mesh = self.oriented(mesh);
-        self.charged_mesh(mesh, plugin.span).map(Geometry::Mesh)
+        self.charged_mesh(mesh, plugin.span)
+            .map(ShapeGeometry::Mesh)
     }
 
-    fn ply_mesh(&mut self, plugin: &Text, parameters: &Parameters) -> Option<Geometry> {
+    fn ply_mesh(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Option<ShapeGeometry> {
         if let Some(parameter) = parameters.get("displacement") {
             let message = "the displacement of a mesh is not supported: it is shown smooth";
             self.report(&codes::PBRT_PLUGIN, parameter.name.span, message);
@@ -561,10 +575,10 @@ impl Lowering<'_> {
                 id
             }
         };
-        id.map(Geometry::Mesh)
+        id.map(ShapeGeometry::Mesh)
     }
 
-    fn read_ply(&mut self, path: &Text) -> Option<MeshId> {
+    fn read_ply(&mut self, path: &SpannedText) -> Option<MeshId> {
         const INSTEAD: &str = "the mesh is left out";
         let bytes = self.file(path, &PLY, INSTEAD)?;
         let is_ply = bytes.starts_with(b"ply");
@@ -577,17 +591,17 @@ impl Lowering<'_> {
                 let mesh = Mesh {
                     name: path.text.clone(),
                     // pbrt does not show the colours of vertices.
-                    colors: Column::default(),
+                    colors: VertexColumn::default(),
                     ..parsed.mesh
                 };
                 let mesh = self.oriented(mesh);
                 Some(self.add_mesh(mesh, path.span))
             }
-            Err(ParseFault::Limit(fault)) => {
+            Err(TextParseError::Limit(fault)) => {
                 self.without(over_limit("the mesh", &fault), path.span, INSTEAD);
                 None
             }
-            Err(ParseFault::Faults(faults)) => {
+            Err(TextParseError::Faults(faults)) => {
                 let why = faults.first().map_or("", |fault| fault.message.as_str());
                 let why = clip_words(why).into_owned();
                 self.damaged(&codes::BAD_MESH_FILE, path, &why, INSTEAD);
@@ -596,7 +610,11 @@ impl Lowering<'_> {
         }
     }
 
-    fn subdivided(&mut self, plugin: &Text, parameters: &Parameters) -> Option<Geometry> {
+    fn subdivided(
+        &mut self,
+        plugin: &SpannedText,
+        parameters: &Parameters,
+    ) -> Option<ShapeGeometry> {
         let Some(positions) = parameters.tuples::<3>("P") else {
             self.mistake(plugin.span, "the mesh has no vertices `P`");
             return None;
@@ -621,10 +639,14 @@ impl Lowering<'_> {
         self.charge(Resource::Memory, faces.saturating_mul(144), plugin.span)?;
         let mesh = loop_subdivision::subdivide(positions, triangles, levels);
         let mesh = self.oriented(mesh);
-        Some(Geometry::Mesh(self.add_mesh(mesh, plugin.span)))
+        Some(ShapeGeometry::Mesh(self.add_mesh(mesh, plugin.span)))
     }
 
-    fn bilinear_mesh(&mut self, plugin: &Text, parameters: &Parameters) -> Option<Vec<Geometry>> {
+    fn bilinear_mesh(
+        &mut self,
+        plugin: &SpannedText,
+        parameters: &Parameters,
+    ) -> Option<Vec<ShapeGeometry>> {
         let Some(positions) = parameters.tuples::<3>("P") else {
             self.mistake(plugin.span, "the mesh has no vertices `P`");
             return None;
@@ -646,7 +668,7 @@ impl Lowering<'_> {
                 true => [a, c, d, b],
             };
             let patch = |patch: &[u32; 4]| {
-                Geometry::Patch(corners(*patch).map(|index| positions[index as usize]))
+                ShapeGeometry::Patch(corners(*patch).map(|index| positions[index as usize]))
             };
             return Some(patches.iter().map(patch).collect());
         }
@@ -655,15 +677,15 @@ impl Lowering<'_> {
             .iter()
             .flat_map(|[a, b, c, d]| [[*a, *b, *d], [*a, *d, *c]]);
         let mesh = Mesh {
-            positions: Column::rounded(positions.iter().copied()),
-            normals: Column::rounded(normals.iter().copied()),
-            uvs: Column::rounded(uvs.iter().copied()),
+            positions: VertexColumn::rounded(positions.iter().copied()),
+            normals: VertexColumn::rounded(normals.iter().copied()),
+            uvs: VertexColumn::rounded(uvs.iter().copied()),
             triangles: triangles.collect(),
             ..Mesh::default()
         };
         let mesh = self.oriented(mesh);
         let id = self.charged_mesh(mesh, plugin.span)?;
-        Some(vec![Geometry::Mesh(id)])
+        Some(vec![ShapeGeometry::Mesh(id)])
     }
 }
 
@@ -677,9 +699,9 @@ fn with_corner_uvs(positions: &[[f64; 3]], normals: &[[f64; 3]], triangles: &[[u
         .flat_map(|_| [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]);
     let normals = corners().filter_map(|index| normals.get(index).copied());
     Mesh {
-        positions: Column::rounded(corners().map(|index| positions[index])),
-        normals: Column::rounded(normals),
-        uvs: Column::rounded(uvs),
+        positions: VertexColumn::rounded(corners().map(|index| positions[index])),
+        normals: VertexColumn::rounded(normals),
+        uvs: VertexColumn::rounded(uvs),
         triangles: vertices.as_chunks().0.iter().copied().collect(),
         ..Mesh::default()
     }

@@ -2,7 +2,7 @@
 
 use super::Lowering;
 use super::parameter::{ParameterType, ParameterValues, Parameters};
-use crate::exchange::Text;
+use crate::exchange::SpannedText;
 use crate::exchange::color::{
     ComplexIndex, emitted, emitted_spectrum, from_spectrum, from_xyz, integrated, interpolated,
     metal, normal_reflectance, of_unit_luminance, planck,
@@ -214,7 +214,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn spectrum_file(&mut self, path: &Text, instead: &str) -> SpectrumPairs {
+    fn spectrum_file(&mut self, path: &SpannedText, instead: &str) -> SpectrumPairs {
         if let Some(known) = self.spectra.get(&path.text) {
             return known.clone();
         }
@@ -223,7 +223,7 @@ impl Lowering<'_> {
         pairs
     }
 
-    fn read_spectrum(&mut self, path: &Text, instead: &str) -> Option<Vec<(f64, f64)>> {
+    fn read_spectrum(&mut self, path: &SpannedText, instead: &str) -> Option<Vec<(f64, f64)>> {
         let bytes = self.file(path, &SPECTRA, instead)?;
         let charged = self.charge(Resource::Memory, 8 * bytes.len() as u64, path.span);
         charged?;

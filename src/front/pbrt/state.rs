@@ -4,7 +4,7 @@ use super::Lowering;
 use super::light::AreaLight;
 use super::material::LoweredMaterial;
 use super::parameter::PluginParameter;
-use crate::exchange::transform::Transform;
+use crate::exchange::transform::AffineTransform;
 use rtc_diag::clip;
 use rtc_source::Span;
 use std::collections::BTreeMap;
@@ -27,25 +27,25 @@ pub(super) enum ActiveTransform {
 pub(super) struct GraphicsState {
     /// The current transformation matrix: before the world from the world to the camera, in it from
     /// the object to the world. It is that of the start of a motion.
-    pub(super) transform: Transform,
+    pub(super) transform: AffineTransform,
     pub(super) active: ActiveTransform,
     pub(super) material: Option<Rc<LoweredMaterial>>,
     pub(super) area_light: Option<Rc<AreaLight>>,
     pub(super) reverse_orientation: bool,
-    /// The parameters that `Attribute` gave to all plugins of a kind.
+    /// The parameters that `VertexAttribute` gave to all plugins of a kind.
     pub(super) attributes: Rc<BTreeMap<String, Vec<Rc<PluginParameter>>>>,
 }
 
 /// What opened a nested state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Opener {
+pub(super) enum StateOpener {
     Attribute,
     Transform,
     Object,
     Import,
 }
 
-impl Opener {
+impl StateOpener {
     fn name(self) -> &'static str {
         match self {
             Self::Attribute => "AttributeBegin",
@@ -59,7 +59,7 @@ impl Opener {
 /// The states that were saved.
 #[derive(Default)]
 pub(super) struct StateStack {
-    saved: Vec<(Opener, GraphicsState, Span)>,
+    saved: Vec<(StateOpener, GraphicsState, Span)>,
     is_reported: bool,
     /// The number of open states beyond the deepest saved one.
     beyond: usize,
@@ -67,7 +67,10 @@ pub(super) struct StateStack {
 
 impl Lowering<'_> {
     /// Changes the transform of the start of the motion.
-    pub(super) fn transform_by(&mut self, change: impl FnOnce(&Transform) -> Transform) {
+    pub(super) fn transform_by(
+        &mut self,
+        change: impl FnOnce(&AffineTransform) -> AffineTransform,
+    ) {
         if self.state.active != ActiveTransform::End {
             let changed = change(&self.state.transform);
             // Products of large matrices would be infinite.
@@ -78,7 +81,7 @@ impl Lowering<'_> {
     }
 
     /// Saves the state.
-    pub(super) fn open(&mut self, opener: Opener, span: Span) {
+    pub(super) fn open(&mut self, opener: StateOpener, span: Span) {
         if self.stack.saved.len() < MAX_DEPTH {
             return self.stack.saved.push((opener, self.state.clone(), span));
         }
@@ -93,7 +96,7 @@ impl Lowering<'_> {
     }
 
     /// Restores the state that was saved last.
-    pub(super) fn close(&mut self, opener: Opener, closer: &str, span: Span) {
+    pub(super) fn close(&mut self, opener: StateOpener, closer: &str, span: Span) {
         if self.stack.beyond > 0 {
             self.stack.beyond -= 1;
             return;
@@ -107,7 +110,7 @@ impl Lowering<'_> {
                 self.sink
                     .push(diagnostic.at(span, "").also(at, "opened here"));
                 // An end of another kind still ends something.
-                if opener == Opener::Import {
+                if opener == StateOpener::Import {
                     return;
                 }
             }
@@ -120,7 +123,7 @@ impl Lowering<'_> {
             return;
         };
         match opened {
-            Opener::Transform => {
+            StateOpener::Transform => {
                 self.state.transform = saved.transform;
                 self.state.active = saved.active;
             }

@@ -4,7 +4,7 @@
 use super::Lowering;
 use super::image::ImageMap;
 use super::parameter::{ParameterValues, Parameters};
-use crate::exchange::Text;
+use crate::exchange::SpannedText;
 use crate::exchange::checkerboard::checkerboard;
 use rtc_diag::{clip, codes};
 use rtc_ir::{Filter, Map, TextureId, Wrap};
@@ -14,7 +14,7 @@ const TEXTURES: [&str; 5] = ["constant", "scale", "mix", "imagemap", "checkerboa
 
 /// A pattern over the texture coordinates.
 #[derive(Clone, Debug)]
-pub(super) enum Pattern {
+pub(super) enum PbrtPattern {
     Image(Rc<ImageMap>),
     /// Squares of a period of two.
     Checkerboard([[f64; 3]; 2]),
@@ -31,7 +31,7 @@ pub(super) struct UvMapping {
 #[derive(Clone, Debug)]
 pub(super) struct ScaledTexture {
     pub(super) factor: [f64; 3],
-    pub(super) pattern: Option<(Pattern, UvMapping)>,
+    pub(super) pattern: Option<(PbrtPattern, UvMapping)>,
 }
 
 impl ScaledTexture {
@@ -53,17 +53,17 @@ impl ScaledTexture {
     /// is read.
     pub(super) fn mean(&self) -> [f64; 3] {
         match &self.pattern {
-            Some((Pattern::Checkerboard([a, b]), _)) => {
+            Some((PbrtPattern::Checkerboard([a, b]), _)) => {
                 std::array::from_fn(|c| self.factor[c] * (a[c] + b[c]) / 2.0)
             }
-            Some((Pattern::Image(_), _)) => self.factor.map(|channel| channel / 2.0),
+            Some((PbrtPattern::Image(_), _)) => self.factor.map(|channel| channel / 2.0),
             None => self.factor,
         }
     }
 }
 
 /// A colour with a map of the IR.
-pub(super) struct Channel {
+pub(super) struct ColorWithMap {
     pub(super) color: [f64; 3],
     pub(super) map: Option<Map>,
 }
@@ -72,9 +72,9 @@ impl Lowering<'_> {
     /// A `Texture` directive: a name for a texture.
     pub(super) fn texture(
         &mut self,
-        name: Text,
-        kind: &Text,
-        plugin: &Text,
+        name: SpannedText,
+        kind: &SpannedText,
+        plugin: &SpannedText,
         parameters: &Parameters,
     ) {
         let texture = self.texture_of(plugin, parameters);
@@ -92,7 +92,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn texture_of(&mut self, plugin: &Text, parameters: &Parameters) -> ScaledTexture {
+    fn texture_of(&mut self, plugin: &SpannedText, parameters: &Parameters) -> ScaledTexture {
         match plugin.text.as_str() {
             "constant" => self.operand(parameters, "value", [1.0; 3]),
             "scale" => self.scale_texture(plugin, parameters),
@@ -144,7 +144,7 @@ impl Lowering<'_> {
         known
     }
 
-    fn scale_texture(&mut self, plugin: &Text, parameters: &Parameters) -> ScaledTexture {
+    fn scale_texture(&mut self, plugin: &SpannedText, parameters: &Parameters) -> ScaledTexture {
         // Version 3 has `tex1` and `tex2`, version 4 `tex` and `scale`.
         let pick = |new, old| match parameters.get(new) {
             Some(_) => new,
@@ -163,7 +163,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn mix_texture(&mut self, plugin: &Text, parameters: &Parameters) -> ScaledTexture {
+    fn mix_texture(&mut self, plugin: &SpannedText, parameters: &Parameters) -> ScaledTexture {
         let a = self.operand(parameters, "tex1", [0.0; 3]);
         let b = self.operand(parameters, "tex2", [1.0; 3]);
         let amount = self.operand(parameters, "amount", [0.5; 3]);
@@ -179,7 +179,7 @@ impl Lowering<'_> {
         if weight[1] > 0.5 { b } else { a }
     }
 
-    fn image_texture(&mut self, plugin: &Text, parameters: &Parameters) -> ScaledTexture {
+    fn image_texture(&mut self, plugin: &SpannedText, parameters: &Parameters) -> ScaledTexture {
         let Some(path) = parameters.string("filename").cloned() else {
             self.mistake(plugin.span, "an image texture needs a `filename`");
             return ScaledTexture::constant([0.5; 3]);
@@ -218,12 +218,12 @@ impl Lowering<'_> {
         let scale = parameters.number("scale").unwrap_or(1.0);
         ScaledTexture {
             factor: [scale; 3],
-            pattern: mapping.map(|mapping| (Pattern::Image(Rc::new(image)), mapping)),
+            pattern: mapping.map(|mapping| (PbrtPattern::Image(Rc::new(image)), mapping)),
         }
     }
 
     /// The mapping of the texture coordinates; `None` for one by position, which is reported.
-    fn mapping(&mut self, plugin: &Text, parameters: &Parameters) -> Option<UvMapping> {
+    fn mapping(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Option<UvMapping> {
         let kind = parameters.word("mapping", "uv");
         let number = |name, default| parameters.number(name).unwrap_or(default);
         let mapping = UvMapping {
@@ -242,7 +242,7 @@ impl Lowering<'_> {
         None
     }
 
-    fn checkerboard(&mut self, plugin: &Text, parameters: &Parameters) -> ScaledTexture {
+    fn checkerboard(&mut self, plugin: &SpannedText, parameters: &Parameters) -> ScaledTexture {
         parameters.skip(&["aamode"]);
         let a = self.operand(parameters, "tex1", [1.0; 3]);
         let b = self.operand(parameters, "tex2", [0.0; 3]);
@@ -258,7 +258,7 @@ impl Lowering<'_> {
         } else {
             self.mapping(plugin, parameters)
         };
-        let pattern = mapping.map(|mapping| (Pattern::Checkerboard(colors), mapping));
+        let pattern = mapping.map(|mapping| (PbrtPattern::Checkerboard(colors), mapping));
         let factor = match pattern {
             Some(_) => [1.0; 3],
             None => std::array::from_fn(|c| (colors[0][c] + colors[1][c]) / 2.0),
@@ -272,25 +272,25 @@ impl Lowering<'_> {
         parameters: &Parameters,
         name: &'static str,
         default: [f64; 3],
-    ) -> Channel {
+    ) -> ColorWithMap {
         let texture = self.operand(parameters, name, default);
         self.lower_texture(&texture)
     }
 
-    fn lower_texture(&mut self, texture: &ScaledTexture) -> Channel {
+    fn lower_texture(&mut self, texture: &ScaledTexture) -> ColorWithMap {
         let Some((pattern, mapping)) = &texture.pattern else {
-            return Channel {
+            return ColorWithMap {
                 color: texture.factor,
                 map: None,
             };
         };
         let map = match pattern {
-            Pattern::Image(image) => self.image_map(image).map(|id| mapping.map(id)),
-            Pattern::Checkerboard(colors) => {
+            PbrtPattern::Image(image) => self.image_map(image).map(|id| mapping.map(id)),
+            PbrtPattern::Checkerboard(colors) => {
                 Some(checkerboard(*colors, mapping.rows(), &mut self.scene))
             }
         };
-        Channel {
+        ColorWithMap {
             color: match map {
                 Some(_) => texture.factor,
                 None => texture.factor.map(|channel| channel / 2.0),

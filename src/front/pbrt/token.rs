@@ -1,6 +1,6 @@
 //! The tokens of a pbrt text with their spans.
 
-use crate::exchange::Text;
+use crate::exchange::SpannedText;
 use rtc_source::{FileId, Span};
 use std::rc::Rc;
 
@@ -87,13 +87,13 @@ impl TokenReader {
     }
 
     /// A string with its escapes `\"` and `\\` replaced; invalid UTF-8 is replaced, too.
-    pub(super) fn text(&self, token: PbrtToken) -> Text {
+    pub(super) fn text(&self, token: PbrtToken) -> SpannedText {
         let text = String::from_utf8_lossy(self.bytes(token));
         let text = match text.contains('\\') {
             true => text.replace("\\\"", "\"").replace("\\\\", "\\"),
             false => text.into_owned(),
         };
-        Text {
+        SpannedText {
             text,
             span: self.span(token),
         }

@@ -1,14 +1,14 @@
 //! The values of attributes at the time of the picture: the strongest layer that has one counts.
 
 use super::Lowering;
-use super::layer::{PropertySpec, Stored, Value};
-use super::stage::{Opinion, Prim};
-use crate::exchange::Text;
+use super::layer::{PropertySpec, StoredValue, Value};
+use super::stage::{ComposedPrim, Opinion};
+use crate::exchange::SpannedText;
 use rtc_source::{Resource, Span};
 
 /// How values between two samples are found.
 #[derive(Clone, Copy, PartialEq)]
-enum Between {
+enum SampleInterpolation {
     /// The earlier one holds.
     Held,
     Linear,
@@ -25,9 +25,9 @@ pub(super) struct Primvar {
 }
 
 impl Lowering<'_> {
-    fn stored(&self, opinion: &Opinion, stored: &Stored) -> Option<Value> {
+    fn stored(&self, opinion: &Opinion, stored: &StoredValue) -> Option<Value> {
         match stored {
-            Stored::Read(value) => {
+            StoredValue::Read(value) => {
                 // The copy is charged, as values of binary files are.
                 if let Value::Numbers(numbers) = value {
                     let bytes = 8 * numbers.len() as u64;
@@ -35,7 +35,7 @@ impl Lowering<'_> {
                 }
                 Some(value.clone())
             }
-            Stored::Packed(packed) => {
+            StoredValue::Packed(packed) => {
                 let layer = &self.layers[opinion.layer];
                 let tables = layer.tables.as_ref()?;
                 tables.value(self.map.bytes(layer.file), *packed, self.map.budget())
@@ -48,7 +48,7 @@ impl Lowering<'_> {
         &self,
         opinion: &Opinion,
         property: &PropertySpec,
-        between: Between,
+        between: SampleInterpolation,
     ) -> Option<Value> {
         // Decode the time samples of a binary layer.
         let unpacked = property.packed_samples.and_then(|packed| {
@@ -60,7 +60,7 @@ impl Lowering<'_> {
                 .samples(bytes, packed, self.map.budget());
             let samples = samples
                 .into_iter()
-                .map(|(time, packed)| (time, Stored::Packed(packed)));
+                .map(|(time, packed)| (time, StoredValue::Packed(packed)));
             Some(samples.collect::<Vec<_>>())
         });
         let samples = unpacked.as_ref().unwrap_or(&property.samples);
@@ -79,7 +79,7 @@ impl Lowering<'_> {
         let Value::Numbers(mut numbers) = value else {
             return Some(value);
         };
-        if between == Between::Linear
+        if between == SampleInterpolation::Linear
             && let Some(Value::Numbers(next)) = self.stored(opinion, next)
             && next.len() == numbers.len()
         {
@@ -91,7 +91,12 @@ impl Lowering<'_> {
         Some(Value::Numbers(numbers))
     }
 
-    fn value(&self, prim: &Prim, name: &str, between: Between) -> Option<Value> {
+    fn value(
+        &self,
+        prim: &ComposedPrim,
+        name: &str,
+        between: SampleInterpolation,
+    ) -> Option<Value> {
         for opinion in &prim.opinions {
             let Some(property) = self.spec(opinion).properties.get(name) else {
                 continue;
@@ -105,7 +110,12 @@ impl Lowering<'_> {
         None
     }
 
-    fn numbers_of(&self, prim: &Prim, name: &str, between: Between) -> Option<Vec<f64>> {
+    fn numbers_of(
+        &self,
+        prim: &ComposedPrim,
+        name: &str,
+        between: SampleInterpolation,
+    ) -> Option<Vec<f64>> {
         match self.value(prim, name, between)? {
             Value::Numbers(numbers) => Some(numbers),
             Value::Blocked | Value::Texts(_) => None,
@@ -113,11 +123,11 @@ impl Lowering<'_> {
     }
 
     /// Numbers that change evenly between samples.
-    pub(super) fn numbers(&self, prim: &Prim, name: &str) -> Option<Vec<f64>> {
-        self.numbers_of(prim, name, Between::Linear)
+    pub(super) fn numbers(&self, prim: &ComposedPrim, name: &str) -> Option<Vec<f64>> {
+        self.numbers_of(prim, name, SampleInterpolation::Linear)
     }
 
-    pub(super) fn number(&self, prim: &Prim, name: &str) -> Option<f64> {
+    pub(super) fn number(&self, prim: &ComposedPrim, name: &str) -> Option<f64> {
         self.numbers(prim, name)?
             .first()
             .copied()
@@ -125,7 +135,11 @@ impl Lowering<'_> {
     }
 
     /// As many numbers as the type says; `None` for fewer.
-    pub(super) fn vector<const N: usize>(&self, prim: &Prim, name: &str) -> Option<[f64; N]> {
+    pub(super) fn vector<const N: usize>(
+        &self,
+        prim: &ComposedPrim,
+        name: &str,
+    ) -> Option<[f64; N]> {
         let numbers = self.numbers(prim, name)?;
         let vector: [f64; N] = numbers.get(..N)?.try_into().ok()?;
         vector
@@ -135,8 +149,8 @@ impl Lowering<'_> {
     }
 
     /// Counts and indices; what is none becomes one that is out of all ranges.
-    pub(super) fn indices(&self, prim: &Prim, name: &str) -> Option<Vec<usize>> {
-        let numbers = self.numbers_of(prim, name, Between::Held)?;
+    pub(super) fn indices(&self, prim: &ComposedPrim, name: &str) -> Option<Vec<usize>> {
+        let numbers = self.numbers_of(prim, name, SampleInterpolation::Held)?;
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -152,13 +166,13 @@ impl Lowering<'_> {
         Some(numbers.into_iter().map(index).collect())
     }
 
-    pub(super) fn flag(&self, prim: &Prim, name: &str) -> Option<bool> {
-        let numbers = self.numbers_of(prim, name, Between::Held)?;
+    pub(super) fn flag(&self, prim: &ComposedPrim, name: &str) -> Option<bool> {
+        let numbers = self.numbers_of(prim, name, SampleInterpolation::Held)?;
         numbers.first().map(|number| *number != 0.0)
     }
 
-    pub(super) fn texts(&self, prim: &Prim, name: &str) -> Option<Vec<String>> {
-        match self.value(prim, name, Between::Held)? {
+    pub(super) fn texts(&self, prim: &ComposedPrim, name: &str) -> Option<Vec<String>> {
+        match self.value(prim, name, SampleInterpolation::Held)? {
             Value::Texts(texts) => Some(texts),
             // A list without items could be one of numbers.
             Value::Numbers(numbers) => numbers.is_empty().then(Vec::new),
@@ -166,12 +180,12 @@ impl Lowering<'_> {
         }
     }
 
-    pub(super) fn text(&self, prim: &Prim, name: &str) -> Option<String> {
+    pub(super) fn text(&self, prim: &ComposedPrim, name: &str) -> Option<String> {
         self.texts(prim, name)?.into_iter().next()
     }
 
     /// A path of a file, and the layer that names it.
-    pub(super) fn asset(&self, prim: &Prim, name: &str) -> Option<(Text, usize)> {
+    pub(super) fn asset(&self, prim: &ComposedPrim, name: &str) -> Option<(SpannedText, usize)> {
         let text = self.text(prim, name)?;
         let opinion = prim.opinions.iter().find(|opinion| {
             let property = self.spec(opinion).properties.get(name);
@@ -180,10 +194,10 @@ impl Lowering<'_> {
             })
         })?;
         let span = self.property_span(prim, name);
-        Some((Text { text, span }, opinion.layer))
+        Some((SpannedText { text, span }, opinion.layer))
     }
 
-    pub(super) fn property_span(&self, prim: &Prim, name: &str) -> Span {
+    pub(super) fn property_span(&self, prim: &ComposedPrim, name: &str) -> Span {
         let mut spans = prim
             .opinions
             .iter()
@@ -192,21 +206,21 @@ impl Lowering<'_> {
     }
 
     /// Whether a layer gives the attribute a value or a connection.
-    pub(super) fn has(&self, prim: &Prim, name: &str) -> bool {
+    pub(super) fn has(&self, prim: &ComposedPrim, name: &str) -> bool {
         prim.opinions
             .iter()
             .any(|opinion| self.spec(opinion).properties.contains_key(name))
     }
 
     /// The prim and the output that an input is connected to.
-    pub(super) fn connection(&self, prim: &Prim, name: &str) -> Option<(String, String)> {
+    pub(super) fn connection(&self, prim: &ComposedPrim, name: &str) -> Option<(String, String)> {
         let target = self.targets(prim, name).into_iter().next()?;
         let (path, output) = target.rsplit_once('.')?;
         Some((path.to_owned(), output.to_owned()))
     }
 
     /// The values of a primvar with numbers of `width`, all of its indices in range.
-    pub(super) fn primvar(&self, prim: &Prim, name: &str, width: usize) -> Option<Primvar> {
+    pub(super) fn primvar(&self, prim: &ComposedPrim, name: &str, width: usize) -> Option<Primvar> {
         let values = self.numbers(prim, name)?;
         let count = values.len() / width;
         if count == 0 {

@@ -5,14 +5,14 @@
 //! [`super::packed`] says.
 
 use super::layer::{
-    Layer, ListOp, MAX_DEPTH, PrimSpec, PropertySpec, Specifier, Stored, SubLayer, Target, TimeMap,
-    Value,
+    ArcTarget, Layer, LayerOffset, ListOp, MAX_DEPTH, PrimSpec, PropertySpec, Specifier,
+    StoredValue, SubLayer, Value,
 };
 use super::packed::{
-    CUT, CrateTables, Cursor, PAYLOAD, PAYLOAD_ITEM, PathEntry, TOKEN, charge, kind,
+    ByteCursor, CUT, CrateTables, PAYLOAD, PAYLOAD_ITEM, PathEntry, TOKEN, charge, kind,
 };
-use super::text::LayerFault;
-use crate::exchange::Text;
+use super::text::LayerParseError;
+use crate::exchange::SpannedText;
 use rtc_source::{Budget, FileId, Resource, Span};
 use std::collections::BTreeMap;
 
@@ -24,7 +24,8 @@ const MAGIC: &[u8] = b"PXR-USDC";
 const PATH: u64 = 64;
 const PRIM: u64 = 1024;
 
-const BAD: LayerFault = LayerFault::Damaged("a table or a value has an index out of range");
+const BAD: LayerParseError =
+    LayerParseError::Damaged("a table or a value has an index out of range");
 
 pub(super) fn is_binary(bytes: &[u8]) -> bool {
     bytes.starts_with(MAGIC)
@@ -34,16 +35,18 @@ pub(super) fn is_binary(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// If it is damaged, or exceeds a limit.
-pub(super) fn read(file: FileId, bytes: &[u8], budget: &Budget) -> Result<Layer, LayerFault> {
+pub(super) fn read(file: FileId, bytes: &[u8], budget: &Budget) -> Result<Layer, LayerParseError> {
     // The header holds the version and the position of the table of contents.
     let header = bytes.get(..88).ok_or(CUT)?;
     let version = (header[8], header[9]);
     if version < (0, 4) || version.0 > 0 {
-        return Err(LayerFault::Damaged("its version is not one of 0.4 to 0.12"));
+        return Err(LayerParseError::Damaged(
+            "its version is not one of 0.4 to 0.12",
+        ));
     }
-    let mut contents = Cursor { bytes, at: 16 };
+    let mut contents = ByteCursor { bytes, at: 16 };
     let start = contents.u64().ok_or(CUT)?;
-    let mut contents = Cursor::new(bytes, start).ok_or(CUT)?;
+    let mut contents = ByteCursor::new(bytes, start).ok_or(CUT)?;
     // The table of contents lists the sections.
     let mut sections = BTreeMap::new();
     for _ in 0..contents.count(32).ok_or(CUT)? {
@@ -57,7 +60,7 @@ pub(super) fn read(file: FileId, bytes: &[u8], budget: &Budget) -> Result<Layer,
                 .is_some_and(|rest| rest.iter().all(|byte| *byte == 0))
         });
         found
-            .and_then(|(_, start)| Cursor::new(bytes, *start))
+            .and_then(|(_, start)| ByteCursor::new(bytes, *start))
             .ok_or(CUT)
     };
     // Read tokens, strings and paths.
@@ -98,7 +101,7 @@ pub(super) fn read(file: FileId, bytes: &[u8], budget: &Budget) -> Result<Layer,
     let [paths, starts, kinds] = columns;
     let (paths, starts, kinds) = (paths?, starts?, kinds?);
     // Assemble prims and properties from the specs.
-    let mut assembly = Assembly {
+    let mut assembly = LayerAssembly {
         bytes,
         budget,
         layer: Layer::new(file),
@@ -120,7 +123,7 @@ pub(super) fn read(file: FileId, bytes: &[u8], budget: &Budget) -> Result<Layer,
     Ok(layer)
 }
 
-fn tokens(mut cursor: Cursor<'_>, budget: &Budget) -> Result<Vec<String>, LayerFault> {
+fn tokens(mut cursor: ByteCursor<'_>, budget: &Budget) -> Result<Vec<String>, LayerParseError> {
     let count = cursor.count(0).ok_or(CUT)?;
     let size = usize::try_from(cursor.u64().ok_or(CUT)?).map_err(|_| CUT)?;
     let packed = cursor.count(1).ok_or(CUT)?;
@@ -138,10 +141,10 @@ fn tokens(mut cursor: Cursor<'_>, budget: &Budget) -> Result<Vec<String>, LayerF
 /// The tree of paths, in the order of its branches: a path has a child if its jump is −1 or above
 /// 0, and a sibling if it is 0, the next one, or above, so far on.
 fn paths(
-    mut cursor: Cursor<'_>,
+    mut cursor: ByteCursor<'_>,
     tokens: usize,
     budget: &Budget,
-) -> Result<Vec<PathEntry>, LayerFault> {
+) -> Result<Vec<PathEntry>, LayerParseError> {
     cursor.count(0).ok_or(CUT)?;
     let count = cursor.count(0).ok_or(CUT)?;
     let columns = [(); 3].map(|()| cursor.integers(count, 4, budget));
@@ -167,7 +170,7 @@ fn paths(
                 None => 0,
             };
             if usize::from(depth) > 2 * MAX_DEPTH {
-                return Err(LayerFault::Damaged("its prims are nested too deep"));
+                return Err(LayerParseError::Damaged("its prims are nested too deep"));
             }
             let name = u32::try_from(names[at].unsigned_abs()).map_err(|_| BAD)?;
             if parent.is_some() && name as usize >= tokens {
@@ -200,7 +203,7 @@ fn paths(
 }
 
 /// The prims and properties of a layer while they are put together.
-struct Assembly<'a> {
+struct LayerAssembly<'a> {
     bytes: &'a [u8],
     budget: &'a Budget,
     layer: Layer,
@@ -211,7 +214,7 @@ struct Assembly<'a> {
     orders: Vec<(u32, Vec<String>)>,
 }
 
-impl Assembly<'_> {
+impl LayerAssembly<'_> {
     /// The layer, its prims in their order.
     fn ordered(self) -> Layer {
         let Self {
@@ -228,7 +231,7 @@ impl Assembly<'_> {
     }
 
     /// The prim of a path, made with those above it if it is not there.
-    fn place(&mut self, path: u32) -> Result<u32, LayerFault> {
+    fn place(&mut self, path: u32) -> Result<u32, LayerParseError> {
         let mut missing = Vec::new();
         let mut at = path;
         let mut prim = loop {
@@ -247,7 +250,7 @@ impl Assembly<'_> {
             charge(self.budget, PRIM)?;
             self.budget
                 .charge(Resource::Nodes, 1)
-                .map_err(LayerFault::Limit)?;
+                .map_err(LayerParseError::Limit)?;
             let name = self.tables.name(path).ok_or(BAD)?;
             let span = Span::new(self.layer.file, 0, 0);
             let index = self.layer.add(PrimSpec::new(span));
@@ -274,7 +277,7 @@ impl Assembly<'_> {
         path: u32,
         kind: u32,
         fields: impl Iterator<Item = Option<(u32, u64)>>,
-    ) -> Result<(), LayerFault> {
+    ) -> Result<(), LayerParseError> {
         const ATTRIBUTE: u32 = 1;
         const PRIM_SPEC: u32 = 6;
         const ROOT: u32 = 7;
@@ -336,9 +339,9 @@ impl Assembly<'_> {
     fn list<T>(
         &self,
         packed: u64,
-        item: impl Fn(&mut Cursor<'_>) -> Option<T>,
+        item: impl Fn(&mut ByteCursor<'_>) -> Option<T>,
     ) -> Option<ListOp<T>> {
-        let mut cursor = Cursor::new(self.bytes, packed & PAYLOAD)?;
+        let mut cursor = ByteCursor::new(self.bytes, packed & PAYLOAD)?;
         let header = cursor.u8()?;
         let mut list = ListOp {
             is_explicit: header & 1 != 0,
@@ -362,19 +365,19 @@ impl Assembly<'_> {
         Some(list)
     }
 
-    fn path_text(&self, cursor: &mut Cursor<'_>) -> Option<Text> {
+    fn path_text(&self, cursor: &mut ByteCursor<'_>) -> Option<SpannedText> {
         let text = self.tables.path(cursor.u32()?)?;
         let span = Span::new(self.layer.file, 0, 0);
-        Some(Text { text, span })
+        Some(SpannedText { text, span })
     }
 
     /// The target of a reference or a payload.
-    fn target(&self, cursor: &mut Cursor<'_>, is_reference: bool) -> Option<Target> {
+    fn target(&self, cursor: &mut ByteCursor<'_>, is_reference: bool) -> Option<ArcTarget> {
         let asset = self.tables.string(cursor.u32()?)?.to_owned();
-        let Text { text: path, span } = self.path_text(cursor)?;
-        let mut time = TimeMap::default();
+        let SpannedText { text: path, span } = self.path_text(cursor)?;
+        let mut time = LayerOffset::default();
         if is_reference || self.tables.version >= (0, 8) {
-            time = TimeMap {
+            time = LayerOffset {
                 offset: cursor.f64()?,
                 scale: cursor.f64()?,
             };
@@ -386,7 +389,7 @@ impl Assembly<'_> {
             cursor.at = cursor.at.max(value.at.checked_add(8)?);
         }
         let path = if path == "/" { String::new() } else { path };
-        Some(Target {
+        Some(ArcTarget {
             asset,
             path,
             time,
@@ -396,7 +399,7 @@ impl Assembly<'_> {
 
     fn property_field(&self, property: &mut PropertySpec, name: u32, value: u64) {
         match self.tables.token(name).unwrap_or("") {
-            "default" => property.value = Some(Stored::Packed(value)),
+            "default" => property.value = Some(StoredValue::Packed(value)),
             "timeSamples" => property.packed_samples = Some(value),
             "connectionPaths" | "targetPaths" => {
                 property.targets = self.list(value, |cursor| self.path_text(cursor));
@@ -410,7 +413,7 @@ impl Assembly<'_> {
         // Decode the value by the name of the field.
         let paths = |assembly: &Self| {
             let list = assembly.list(value, |cursor| {
-                Some(Target::internal(assembly.path_text(cursor)?))
+                Some(ArcTarget::internal(assembly.path_text(cursor)?))
             });
             list.unwrap_or_default()
         };
@@ -435,7 +438,7 @@ impl Assembly<'_> {
             "payload" => {
                 let list = match kind(value) {
                     Some(PAYLOAD_ITEM) => {
-                        let cursor = Cursor::new(self.bytes, value & PAYLOAD);
+                        let cursor = ByteCursor::new(self.bytes, value & PAYLOAD);
                         let item = cursor.and_then(|mut cursor| self.target(&mut cursor, false));
                         let mut list = ListOp::default();
                         list.edit("", item.into_iter().collect());
@@ -464,7 +467,7 @@ impl Assembly<'_> {
     }
 
     fn selections(&self, value: u64) -> Option<BTreeMap<String, String>> {
-        let mut cursor = Cursor::new(self.bytes, value & PAYLOAD)?;
+        let mut cursor = ByteCursor::new(self.bytes, value & PAYLOAD)?;
         let count = cursor.count(8)?;
         let pair = |_| {
             self.budget.charge(Resource::Memory, 2 * TOKEN).ok()?;
@@ -481,7 +484,7 @@ impl Assembly<'_> {
             "defaultPrim" => self.layer.metadata.default_prim = self.word(value),
             "upAxis" => {
                 let text = self.word(value);
-                self.layer.metadata.up_axis = text.map(|text| Text { text, span });
+                self.layer.metadata.up_axis = text.map(|text| SpannedText { text, span });
             }
             "metersPerUnit" => self.layer.metadata.meters_per_unit = self.number(value),
             "timeCodesPerSecond" => {
@@ -493,8 +496,8 @@ impl Assembly<'_> {
                     return;
                 };
                 let layers = texts.into_iter().map(|text| SubLayer {
-                    asset: Text { text, span },
-                    time: TimeMap::default(),
+                    asset: SpannedText { text, span },
+                    time: LayerOffset::default(),
                 });
                 let mut layers: Vec<SubLayer> = layers.collect();
                 std::mem::swap(&mut layers, &mut self.layer.metadata.sub_layers);
@@ -504,7 +507,7 @@ impl Assembly<'_> {
                 }
             }
             "subLayerOffsets" => {
-                let Some(mut cursor) = Cursor::new(self.bytes, value & PAYLOAD) else {
+                let Some(mut cursor) = ByteCursor::new(self.bytes, value & PAYLOAD) else {
                     return;
                 };
                 for index in 0..cursor.count(16).unwrap_or(0) {
@@ -516,16 +519,16 @@ impl Assembly<'_> {
                         if charge(self.budget, TOKEN).is_err() {
                             return;
                         }
-                        let asset = Text {
+                        let asset = SpannedText {
                             text: String::new(),
                             span,
                         };
                         layers.push(SubLayer {
                             asset,
-                            time: TimeMap::default(),
+                            time: LayerOffset::default(),
                         });
                     }
-                    layers[index].time = TimeMap { offset, scale };
+                    layers[index].time = LayerOffset { offset, scale };
                 }
             }
             _ => {}

@@ -1,7 +1,7 @@
 //! Cameras (`UsdGeomCamera`): they look along −z, y is up. Apertures and the focal length are in
 //! tenths of a unit.
 
-use super::stage::Prim;
+use super::stage::ComposedPrim;
 use super::{Lowering, PlacedCamera};
 use rtc_diag::{Diagnostic, clip, codes};
 use rtc_ir::{BoundingSphere, Camera, EntityKind, Lens, Projection};
@@ -62,7 +62,7 @@ impl Lowering<'_> {
 
     fn view(&mut self, camera: &PlacedCamera) -> Option<Camera> {
         let PlacedCamera { prim, to_world } = camera;
-        let prim: &Prim = prim;
+        let prim: &ComposedPrim = prim;
         let number = |name: &str, default: f64| self.number(prim, name).unwrap_or(default);
         let aperture = [
             number("horizontalAperture", 20.955),

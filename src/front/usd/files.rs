@@ -1,13 +1,13 @@
 //! The files that a stage names: layers, which are read once each, and pictures.
 
 use super::layer::Layer;
-use super::package::{self, Package, PackageFault};
-use super::text::LayerFault;
+use super::package::{self, UsdzError, UsdzPackage};
+use super::text::LayerParseError;
 use super::{Lowering, binary, text};
-use crate::exchange::Text;
+use crate::exchange::SpannedText;
 use crate::over_limit;
 use rtc_diag::{Code, Diagnostic, Severity, clip_path, codes};
-use rtc_source::{FileId, FileKind, Loader, Resource, Search, Span};
+use rtc_source::{FileId, FileKind, FileSearch, Loader, Resource, Span};
 use std::rc::Rc;
 
 /// The most files that are looked for.
@@ -23,14 +23,14 @@ const LAYERS: FileKind = FileKind {
 /// Where a layer comes from, and where its files are looked for.
 #[derive(Clone, Debug)]
 pub(super) struct LayerOrigin {
-    search: Rc<Search>,
+    search: Rc<FileSearch>,
     /// The package and the path in it.
     package: Option<(FileId, String)>,
 }
 
 /// A file that was found: its bytes are in the map, or not yet.
-enum Place {
-    Found(rtc_source::Found),
+enum LayerFile {
+    Found(rtc_source::FoundFile),
     InPackage(FileId, String),
 }
 
@@ -39,7 +39,7 @@ impl Lowering<'_> {
     pub(super) fn open_root(&mut self, file: FileId) -> Option<usize> {
         let options = self.options;
         let folder = self.map.folder(file);
-        let search = Search::new(folder, options.asset_root.as_deref())
+        let search = FileSearch::new(folder, options.asset_root.as_deref())
             .with_parent(folder, options.home.as_deref());
         let origin = LayerOrigin {
             search: Rc::new(search),
@@ -60,7 +60,7 @@ impl Lowering<'_> {
     }
 
     /// The layer that another one names; `None` without it, which is reported.
-    pub(super) fn open_layer(&mut self, path: &Text, from: usize) -> Option<usize> {
+    pub(super) fn open_layer(&mut self, path: &SpannedText, from: usize) -> Option<usize> {
         let name = (from, path.text.clone());
         if let Some(known) = self.named_layers.get(&name) {
             return *known;
@@ -70,22 +70,22 @@ impl Lowering<'_> {
         layer
     }
 
-    fn find_layer(&mut self, path: &Text, from: usize) -> Option<usize> {
+    fn find_layer(&mut self, path: &SpannedText, from: usize) -> Option<usize> {
         const INSTEAD: &str = "what it holds is left out";
         // A file of a package is named by brackets: `a.usdz[b.usda]`.
         let (outer, inner) = match path.text.strip_suffix(']').and_then(|t| t.split_once('[')) {
             Some((outer, inner)) => (outer, Some(inner)),
             None => (path.text.as_str(), None),
         };
-        let text = Text {
+        let text = SpannedText {
             text: outer.to_owned(),
             span: path.span,
         };
         let origin = self.layer_origins[from].clone();
         let place = self.locate(&text, &origin, &LAYERS, INSTEAD)?;
         let mut key = match &place {
-            Place::Found(found) => found.path.display().to_string(),
-            Place::InPackage(file, path) => format!("{}[{path}]", self.map.name(*file)),
+            LayerFile::Found(found) => found.path.display().to_string(),
+            LayerFile::InPackage(file, path) => format!("{}[{path}]", self.map.name(*file)),
         };
         if let Some(inner) = inner {
             key = format!("{key}[{inner}]");
@@ -100,8 +100,8 @@ impl Lowering<'_> {
 
     fn open_place(
         &mut self,
-        place: Place,
-        text: &Text,
+        place: LayerFile,
+        text: &SpannedText,
         mut origin: LayerOrigin,
         inner: Option<&str>,
         key: &str,
@@ -109,12 +109,12 @@ impl Lowering<'_> {
         const INSTEAD: &str = "what it holds is left out";
         let bytes = self.bytes_of(&place, text, INSTEAD)?;
         let file = match &place {
-            Place::Found(found) => {
+            LayerFile::Found(found) => {
                 let file = self.map.add_found(found, bytes);
                 origin = self.origin_of(file);
                 file
             }
-            Place::InPackage(package, path) => {
+            LayerFile::InPackage(package, path) => {
                 origin.package = Some((*package, path.clone()));
                 self.map.add(key.to_owned(), bytes)
             }
@@ -137,7 +137,7 @@ impl Lowering<'_> {
             Some(folder) => Some(folder.clone()),
             None => root.map(rtc_source::Folder::path),
         };
-        let search = Search::new(self.map.folder(file), allowed.as_deref());
+        let search = FileSearch::new(self.map.folder(file), allowed.as_deref());
         LayerOrigin {
             search: Rc::new(search),
             package: None,
@@ -172,21 +172,21 @@ impl Lowering<'_> {
         self.read_layer(layer, origin, span)
     }
 
-    fn package(&mut self, file: FileId, span: Span, severity: Severity) -> Option<Rc<Package>> {
+    fn package(&mut self, file: FileId, span: Span, severity: Severity) -> Option<Rc<UsdzPackage>> {
         if let Some(known) = self.packages.get(&file) {
             return known.clone();
         }
-        let read = Package::read(self.map.bytes(file), self.map.budget());
+        let read = UsdzPackage::read(self.map.bytes(file), self.map.budget());
         let name = clip_path(self.map.name(file)).into_owned();
         let package = match read {
             Ok(package) => Some(Rc::new(package)),
-            Err(PackageFault::Damaged(why)) => {
+            Err(UsdzError::Damaged(why)) => {
                 let message = format!("the package `{name}` cannot be read: {why}");
                 let diagnostic = Diagnostic::new(&codes::USD_DAMAGED, message);
                 self.sink.push(diagnostic.severity(severity).at(span, ""));
                 None
             }
-            Err(PackageFault::Limit(fault)) => {
+            Err(UsdzError::Limit(fault)) => {
                 self.exhaust(&fault, span);
                 None
             }
@@ -214,19 +214,19 @@ impl Lowering<'_> {
         };
         match read {
             Ok(layer) => Some(self.add_layer(layer, origin)),
-            Err(LayerFault::Mistakes(mistakes)) => {
+            Err(LayerParseError::Mistakes(mistakes)) => {
                 for (span, message) in mistakes {
                     self.report(&codes::USD_SYNTAX, span, message);
                 }
                 None
             }
-            Err(LayerFault::Damaged(why)) => {
+            Err(LayerParseError::Damaged(why)) => {
                 let name = clip_path(self.map.name(file)).into_owned();
                 let message = format!("the layer `{name}` cannot be read: {why}");
                 self.report(&codes::USD_DAMAGED, span, message);
                 None
             }
-            Err(LayerFault::Limit(fault)) => {
+            Err(LayerParseError::Limit(fault)) => {
                 self.exhaust(&fault, span);
                 None
             }
@@ -242,11 +242,11 @@ impl Lowering<'_> {
     /// Finds a file of a kind; without it a warning says what is used `instead`.
     fn locate(
         &mut self,
-        path: &Text,
+        path: &SpannedText,
         origin: &LayerOrigin,
         kind: &FileKind,
         instead: &str,
-    ) -> Option<Place> {
+    ) -> Option<LayerFile> {
         if self.lookups >= MAX_FILES {
             if self.lookups == MAX_FILES {
                 let message =
@@ -261,10 +261,10 @@ impl Lowering<'_> {
             let inside = package::joined(from, &path.text);
             let package = self.packages.get(file).cloned().flatten();
             if package.is_some_and(|package| package.file(&inside).is_some()) {
-                return Some(Place::InPackage(*file, inside));
+                return Some(LayerFile::InPackage(*file, inside));
             }
         } else if let Ok(found) = origin.search.find(&path.text, kind) {
-            return Some(Place::Found(found));
+            return Some(LayerFile::Found(found));
         }
         let message = format!("there is no file `{}`", clip_path(&path.text));
         self.without(
@@ -275,13 +275,18 @@ impl Lowering<'_> {
         None
     }
 
-    fn bytes_of(&mut self, place: &Place, path: &Text, instead: &str) -> Option<Vec<u8>> {
+    fn bytes_of(
+        &mut self,
+        place: &LayerFile,
+        path: &SpannedText,
+        instead: &str,
+    ) -> Option<Vec<u8>> {
         match place {
-            Place::InPackage(file, inside) => {
+            LayerFile::InPackage(file, inside) => {
                 let package = self.packages.get(file).cloned().flatten()?;
                 self.copied(*file, package.file(inside)?, path.span)
             }
-            Place::Found(found) => {
+            LayerFile::Found(found) => {
                 let read = Loader.found(found, MAX_BYTES, self.map);
                 if let Err(error) = &read {
                     let message = format!("can't read `{}`: {error}", clip_path(&path.text));
@@ -296,7 +301,7 @@ impl Lowering<'_> {
     /// The bytes of a file of another kind that a layer names.
     pub(super) fn file(
         &mut self,
-        path: &Text,
+        path: &SpannedText,
         from: usize,
         kind: &FileKind,
         instead: &str,
@@ -304,7 +309,7 @@ impl Lowering<'_> {
         let origin = self.layer_origins[from].clone();
         let place = self.locate(path, &origin, kind, instead)?;
         let bytes = self.bytes_of(&place, path, instead)?;
-        if matches!(place, Place::Found(_)) {
+        if matches!(place, LayerFile::Found(_)) {
             self.map.budget().read(bytes.len());
         }
         Some(bytes)
@@ -331,7 +336,7 @@ impl Lowering<'_> {
         charged.map_err(|fault| self.exhaust(&fault, span)).ok()
     }
 
-    pub(super) fn exhaust(&mut self, fault: &rtc_source::Exceeded, span: Span) {
+    pub(super) fn exhaust(&mut self, fault: &rtc_source::LimitExceeded, span: Span) {
         if !self.is_exhausted {
             self.sink.push(over_limit("the stage", fault).at(span, ""));
         }

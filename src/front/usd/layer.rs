@@ -1,6 +1,6 @@
 //! One layer: the prims and properties that a file says something of, before composition.
 
-use crate::exchange::Text;
+use crate::exchange::SpannedText;
 use rtc_source::{FileId, Span};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -28,7 +28,7 @@ pub(super) enum Value {
 
 /// A value as its file stores it.
 #[derive(Clone, Debug)]
-pub(super) enum Stored {
+pub(super) enum StoredValue {
     Read(Value),
     /// Where a binary file stores it.
     Packed(u64),
@@ -56,17 +56,17 @@ impl<T> Default for ListOp<T> {
 }
 
 /// What distinguishes the items of a list.
-pub(super) trait Keyed {
+pub(super) trait ListKey {
     fn key(&self) -> (&str, &str);
 }
 
-impl Keyed for Text {
+impl ListKey for SpannedText {
     fn key(&self) -> (&str, &str) {
         (&self.text, "")
     }
 }
 
-impl<T: Keyed + Clone> ListOp<T> {
+impl<T: ListKey + Clone> ListOp<T> {
     /// Adds the items of the keyword before the statement: `prepend`, `append`, `add`, `delete`, or
     /// none.
     pub(super) fn edit(&mut self, keyword: &str, items: Vec<T>) {
@@ -92,7 +92,7 @@ impl<T: Keyed + Clone> ListOp<T> {
         if all.iter().all(|items| items.is_empty()) {
             return;
         }
-        let edited: BTreeSet<_> = all.into_iter().flatten().map(Keyed::key).collect();
+        let edited: BTreeSet<_> = all.into_iter().flatten().map(ListKey::key).collect();
         let rest = std::mem::take(list).into_iter();
         let rest = rest.filter(|item| !edited.contains(&item.key()));
         list.extend(self.prepended.iter().cloned());
@@ -103,28 +103,28 @@ impl<T: Keyed + Clone> ListOp<T> {
 
 /// The target of a reference, a payload, an inherit or a specialize.
 #[derive(Clone, Debug)]
-pub(super) struct Target {
+pub(super) struct ArcTarget {
     /// The file, empty for the same layers.
     pub(super) asset: String,
     /// The prim, empty for the default one of the file.
     pub(super) path: String,
-    pub(super) time: TimeMap,
+    pub(super) time: LayerOffset,
     pub(super) span: Span,
 }
 
-impl Target {
+impl ArcTarget {
     /// A prim of the same layers.
-    pub(super) fn internal(Text { text: path, span }: Text) -> Self {
+    pub(super) fn internal(SpannedText { text: path, span }: SpannedText) -> Self {
         Self {
             asset: String::new(),
             path,
-            time: TimeMap::default(),
+            time: LayerOffset::default(),
             span,
         }
     }
 }
 
-impl Keyed for Target {
+impl ListKey for ArcTarget {
     fn key(&self) -> (&str, &str) {
         (&self.asset, &self.path)
     }
@@ -132,12 +132,12 @@ impl Keyed for Target {
 
 /// The map from the time of a layer to that of the one that refers to it: `offset + scale·t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct TimeMap {
+pub(super) struct LayerOffset {
     pub(super) offset: f64,
     pub(super) scale: f64,
 }
 
-impl Default for TimeMap {
+impl Default for LayerOffset {
     fn default() -> Self {
         Self {
             offset: 0.0,
@@ -146,7 +146,7 @@ impl Default for TimeMap {
     }
 }
 
-impl TimeMap {
+impl LayerOffset {
     /// The map of a layer behind this one.
     pub(super) fn after(self, inner: Self) -> Self {
         Self {
@@ -176,13 +176,13 @@ pub(super) enum ArcKind {
 /// An attribute or a relationship.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PropertySpec {
-    pub(super) value: Option<Stored>,
+    pub(super) value: Option<StoredValue>,
     /// The values at times, in order.
-    pub(super) samples: Vec<(f64, Stored)>,
+    pub(super) samples: Vec<(f64, StoredValue)>,
     /// The times and values of a binary file.
     pub(super) packed_samples: Option<u64>,
     /// The targets of a relationship, or the connections of an attribute.
-    pub(super) targets: Option<ListOp<Text>>,
+    pub(super) targets: Option<ListOp<SpannedText>>,
     pub(super) interpolation: Option<String>,
     pub(super) span: Option<Span>,
 }
@@ -194,10 +194,10 @@ pub(super) struct PrimSpec {
     pub(super) type_name: String,
     pub(super) span: Span,
     pub(super) is_active: Option<bool>,
-    pub(super) inherits: ListOp<Target>,
-    pub(super) references: ListOp<Target>,
-    pub(super) payloads: ListOp<Target>,
-    pub(super) specializes: ListOp<Target>,
+    pub(super) inherits: ListOp<ArcTarget>,
+    pub(super) references: ListOp<ArcTarget>,
+    pub(super) payloads: ListOp<ArcTarget>,
+    pub(super) specializes: ListOp<ArcTarget>,
     pub(super) selections: BTreeMap<String, String>,
     pub(super) has_clips: bool,
     pub(super) properties: BTreeMap<String, Box<PropertySpec>>,
@@ -232,15 +232,15 @@ impl PrimSpec {
 /// A layer beneath another one.
 #[derive(Clone, Debug)]
 pub(super) struct SubLayer {
-    pub(super) asset: Text,
-    pub(super) time: TimeMap,
+    pub(super) asset: SpannedText,
+    pub(super) time: LayerOffset,
 }
 
 /// What a layer says of the stage.
 #[derive(Debug, Default)]
 pub(super) struct StageMetadata {
     pub(super) default_prim: Option<String>,
-    pub(super) up_axis: Option<Text>,
+    pub(super) up_axis: Option<SpannedText>,
     pub(super) meters_per_unit: Option<f64>,
     pub(super) time_codes_per_second: Option<f64>,
     pub(super) start_time_code: Option<f64>,

@@ -2,15 +2,15 @@
 //! power of its exposure; if it is normalized, over its area.
 
 use super::shape::{SolidGeometry, StageShape};
-use super::stage::Prim;
+use super::stage::ComposedPrim;
 use super::{Lowering, PrimState};
 use crate::exchange::color::{emitted, of_unit_luminance, planck};
 use crate::exchange::tessellate;
-use crate::exchange::transform::Transform;
+use crate::exchange::transform::AffineTransform;
 use crate::pixels;
 use rtc_diag::codes;
 use rtc_image::is_radiance;
-use rtc_ir::{Emitter, EntityKind, Environment, Light, Punctual, Standard};
+use rtc_ir::{EntityKind, Environment, Light, Punctual, PunctualKind, Standard};
 use rtc_math::{Vec3, pow, sin, unit};
 use rtc_source::FileKind;
 use std::f64::consts::PI;
@@ -37,7 +37,7 @@ const BEHIND: f64 = 1e-5;
 const SEEN_ANGLE: f64 = 2.0;
 
 impl Lowering<'_> {
-    pub(super) fn light(&mut self, prim: &Prim, kind: &str, state: &PrimState) {
+    pub(super) fn light(&mut self, prim: &ComposedPrim, kind: &str, state: &PrimState) {
         if !state.is_shown {
             return;
         }
@@ -57,20 +57,20 @@ impl Lowering<'_> {
     }
 
     /// A number of a light; files before 2021 have the names without `inputs:`.
-    fn light_number(&self, prim: &Prim, name: &str, default: f64) -> f64 {
+    fn light_number(&self, prim: &ComposedPrim, name: &str, default: f64) -> f64 {
         let number = self.number(prim, &format!("inputs:{name}"));
         number
             .or_else(|| self.number(prim, name))
             .unwrap_or(default)
     }
 
-    fn light_flag(&self, prim: &Prim, name: &str) -> bool {
+    fn light_flag(&self, prim: &ComposedPrim, name: &str) -> bool {
         let flag = self.flag(prim, &format!("inputs:{name}"));
         flag.or_else(|| self.flag(prim, name)).unwrap_or(false)
     }
 
     /// The colour of a light, with its intensity and exposure.
-    fn light_color(&self, prim: &Prim) -> [f64; 3] {
+    fn light_color(&self, prim: &ComposedPrim) -> [f64; 3] {
         let is_distant = self.type_name(prim) == "DistantLight";
         let intensity =
             self.light_number(prim, "intensity", if is_distant { 50_000.0 } else { 1.0 });
@@ -89,7 +89,7 @@ impl Lowering<'_> {
         color.map(|channel| (channel * intensity * pow(2.0, exposure)).max(0.0))
     }
 
-    fn punctual(&mut self, prim: &Prim, emitter: Emitter, intensity: [f64; 3]) {
+    fn punctual(&mut self, prim: &ComposedPrim, emitter: PunctualKind, intensity: [f64; 3]) {
         let span = self.span_of(prim);
         self.record(EntityKind::Light, self.scene.lights.len(), span);
         self.scene
@@ -98,7 +98,7 @@ impl Lowering<'_> {
     }
 
     /// The radiance of a distant light fills its angle.
-    fn distant(&mut self, prim: &Prim, color: [f64; 3], state: &PrimState) {
+    fn distant(&mut self, prim: &ComposedPrim, color: [f64; 3], state: &PrimState) {
         let angle = self.light_number(prim, "angle", 0.53).clamp(0.0, 180.0);
         let Some(direction) = unit(state.to_world.vector(Vec3::Z)) else {
             return;
@@ -114,19 +114,19 @@ impl Lowering<'_> {
             true => 1.0,
             false => PI * sine * sine,
         };
-        let emitter = Emitter::Sun {
+        let emitter = PunctualKind::Sun {
             direction: direction.to_array(),
         };
         self.punctual(prim, emitter, color.map(|channel| channel * factor));
     }
 
     /// A light with an area: a shape that emits, or a point or spot in its place.
-    fn area_light(&mut self, prim: &Prim, kind: &str, color: [f64; 3], state: &PrimState) {
+    fn area_light(&mut self, prim: &ComposedPrim, kind: &str, color: [f64; 3], state: &PrimState) {
         let number = |name: &str, default: f64| self.light_number(prim, name, default).abs();
         let radius = number("radius", 0.5);
         let (width, height) = (number("width", 1.0), number("height", 1.0));
         let length = number("length", 1.0);
-        let Transform([x, y, z, _]) = state.to_world;
+        let AffineTransform([x, y, z, _]) = state.to_world;
         let (sx, sy, sz) = (x.length(), y.length(), z.length());
         // The area that is seen from the front, and how many times that it all is.
         let (front, times) = match kind {
@@ -160,9 +160,12 @@ impl Lowering<'_> {
         }
         let span = self.span_of(prim);
         let (geometry, local) = match kind {
-            "SphereLight" => (SolidGeometry::Sphere(radius), Transform::IDENTITY),
-            "DiskLight" => (SolidGeometry::Disc(radius), Transform::IDENTITY),
-            "RectLight" => (SolidGeometry::Rectangle(width, height), Transform::IDENTITY),
+            "SphereLight" => (SolidGeometry::Sphere(radius), AffineTransform::IDENTITY),
+            "DiskLight" => (SolidGeometry::Disc(radius), AffineTransform::IDENTITY),
+            "RectLight" => (
+                SolidGeometry::Rectangle(width, height),
+                AffineTransform::IDENTITY,
+            ),
             _ => {
                 let half = Vec3::X * (length / 2.0);
                 let mesh = self.charged_mesh(tessellate::cylinder(), span);
@@ -179,7 +182,7 @@ impl Lowering<'_> {
             SolidGeometry::Rectangle(width, height) => Some(width.max(*height)),
             SolidGeometry::Sphere(_) | SolidGeometry::Mesh(_) => None,
         };
-        let behind = extent.map(|extent| Transform::translation([0.0, 0.0, BEHIND * extent]));
+        let behind = extent.map(|extent| AffineTransform::translation([0.0, 0.0, BEHIND * extent]));
         for (local, radiance) in [(Some(local), radiance), (behind, [0.0; 3])] {
             let Some(local) = local else { continue };
             let material = self.emitting(radiance, span);
@@ -202,7 +205,7 @@ impl Lowering<'_> {
 
     fn point_light(
         &mut self,
-        prim: &Prim,
+        prim: &ComposedPrim,
         state: &PrimState,
         cone: Option<f64>,
         intensity: [f64; 3],
@@ -212,7 +215,7 @@ impl Lowering<'_> {
         let Some(cone) = cone else {
             return self.punctual(
                 prim,
-                Emitter::Point {
+                PunctualKind::Point {
                     position,
                     range: None,
                 },
@@ -232,7 +235,7 @@ impl Lowering<'_> {
             .light_number(prim, "shaping:cone:softness", 0.0)
             .clamp(0.0, 1.0);
         let outer_angle = cone.max(1e-3).to_radians();
-        let emitter = Emitter::Spot {
+        let emitter = PunctualKind::Spot {
             position,
             direction: direction.to_array(),
             inner_angle: outer_angle * (1.0 - softness).min(0.999_999),
@@ -243,7 +246,7 @@ impl Lowering<'_> {
     }
 
     /// Light from all around, constant or by a picture of longitude and latitude.
-    fn dome(&mut self, prim: &Prim, kind: &str, radiance: [f64; 3], state: &PrimState) {
+    fn dome(&mut self, prim: &ComposedPrim, kind: &str, radiance: [f64; 3], state: &PrimState) {
         let span = self.span_of(prim);
         let file = self
             .asset(prim, "inputs:texture:file")

@@ -1,8 +1,8 @@
 //! Materials (`UsdShade`): `UsdPreviewSurface` as the standard material. Both have the distribution
 //! of Trowbridge and Reitz (GGX), and the same meaning of metal and roughness.
 
-use super::stage::Prim;
-use super::texture::{Channel, TextureLook};
+use super::stage::ComposedPrim;
+use super::texture::{SourceChannel, TextureLookup};
 use super::{Lowering, PrimState};
 use crate::exchange::material::matte;
 use rtc_diag::{clip, clip_path, codes};
@@ -35,7 +35,7 @@ pub(super) struct BoundMaterial {
 /// A colour and its picture.
 struct ColorInput {
     color: [f64; 3],
-    look: Option<TextureLook>,
+    look: Option<TextureLookup>,
 }
 
 impl Lowering<'_> {
@@ -153,12 +153,16 @@ impl Lowering<'_> {
         lowered
     }
 
-    pub(super) fn shader_id(&self, prim: &Prim) -> Option<String> {
+    pub(super) fn shader_id(&self, prim: &ComposedPrim) -> Option<String> {
         self.text(prim, "info:id")
     }
 
     /// Where the value of an input stands: there, or in the interface of the material.
-    pub(super) fn value_source(&mut self, prim: &Prim, name: &str) -> Option<(Rc<Prim>, String)> {
+    pub(super) fn value_source(
+        &mut self,
+        prim: &ComposedPrim,
+        name: &str,
+    ) -> Option<(Rc<ComposedPrim>, String)> {
         match self.source(prim, name)? {
             (prim, name) if name.starts_with("inputs:") => Some((prim, name)),
             _ => None,
@@ -166,7 +170,11 @@ impl Lowering<'_> {
     }
 
     /// The shader whose output an input is connected to.
-    pub(super) fn node(&mut self, prim: &Prim, name: &str) -> Option<(Rc<Prim>, String)> {
+    pub(super) fn node(
+        &mut self,
+        prim: &ComposedPrim,
+        name: &str,
+    ) -> Option<(Rc<ComposedPrim>, String)> {
         self.connection(prim, name)?;
         match self.source(prim, name)? {
             (node, output)
@@ -179,7 +187,7 @@ impl Lowering<'_> {
     }
 
     /// Follows connections to the last attribute.
-    fn source(&mut self, prim: &Prim, name: &str) -> Option<(Rc<Prim>, String)> {
+    fn source(&mut self, prim: &ComposedPrim, name: &str) -> Option<(Rc<ComposedPrim>, String)> {
         let mut at = (self.prim_at(&prim.path)?, name.to_owned());
         for _ in 0..MAX_CONNECTIONS {
             let Some((path, output)) = self.connection(&at.0, &at.1) else {
@@ -193,7 +201,7 @@ impl Lowering<'_> {
     /// A colour or three numbers.
     fn color_input(
         &mut self,
-        shader: &Prim,
+        shader: &ComposedPrim,
         name: &str,
         default: [f64; 3],
         lowered: &mut BoundMaterial,
@@ -258,10 +266,10 @@ impl Lowering<'_> {
     /// A number; that of a picture is one of its channels.
     fn number_input(
         &mut self,
-        shader: &Prim,
+        shader: &ComposedPrim,
         name: &str,
         default: f64,
-    ) -> (f64, Option<TextureLook>) {
+    ) -> (f64, Option<TextureLookup>) {
         let full = format!("inputs:{name}");
         let Some((node, output)) = self.node(shader, &full) else {
             let source = self.value_source(shader, &full);
@@ -289,7 +297,7 @@ impl Lowering<'_> {
     }
 
     /// `UsdPreviewSurface`.
-    fn preview(&mut self, shader: &Prim, lowered: &mut BoundMaterial) {
+    fn preview(&mut self, shader: &ComposedPrim, lowered: &mut BoundMaterial) {
         let mut uvs = PrimvarSets::default();
         let diffuse = self.color_input(shader, "diffuseColor", [0.18; 3], lowered);
         let opacity = self.number_input(shader, "opacity", 1.0);
@@ -354,7 +362,7 @@ impl Lowering<'_> {
     fn base_color(
         &mut self,
         diffuse: &ColorInput,
-        opacity: &(f64, Option<TextureLook>),
+        opacity: &(f64, Option<TextureLookup>),
         standard: &mut Standard,
         uvs: &mut PrimvarSets,
     ) {
@@ -363,10 +371,10 @@ impl Lowering<'_> {
         let alpha = opacity.0.clamp(0.0, 1.0);
         let look = diffuse.look.as_ref().or(opacity.1.as_ref());
         let map = look.and_then(|look| {
-            let mut channels: Vec<Channel> = (0..3)
+            let mut channels: Vec<SourceChannel> = (0..3)
                 .map(|at| match &diffuse.look {
                     Some(look) => look.file(look.channel.unwrap_or(at), true, 1.0, 0.0),
-                    None => Channel::Constant(255),
+                    None => SourceChannel::Constant(255),
                 })
                 .collect();
             if let Some(look) = &opacity.1 {
@@ -416,7 +424,7 @@ impl Lowering<'_> {
     /// The normals of a picture: its values, scaled, are the components.
     fn normals(
         &mut self,
-        shader: &Prim,
+        shader: &ComposedPrim,
         standard: &mut Standard,
         uvs: &mut PrimvarSets,
         lowered: &mut BoundMaterial,
@@ -441,9 +449,13 @@ impl Lowering<'_> {
     }
 
     /// A picture whose channels are numbers.
-    fn channels(&mut self, looks: [Option<&TextureLook>; 3], uvs: &mut PrimvarSets) -> Option<Map> {
+    fn channels(
+        &mut self,
+        looks: [Option<&TextureLookup>; 3],
+        uvs: &mut PrimvarSets,
+    ) -> Option<Map> {
         let look = *looks.iter().flatten().next()?;
-        let places = |look: &TextureLook| {
+        let places = |look: &TextureLookup| {
             (
                 look.primvar.clone(),
                 look.wrap,
@@ -460,7 +472,7 @@ impl Lowering<'_> {
         }
         let channels = looks.map(|look| match look {
             Some(look) => look.file(look.channel.unwrap_or(0), false, 1.0, 0.0),
-            None => Channel::Constant(u8::MAX),
+            None => SourceChannel::Constant(u8::MAX),
         });
         let set = uvs.set(&look.primvar);
         self.picture_map(look, channels.to_vec(), false, set)

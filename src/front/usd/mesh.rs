@@ -5,11 +5,11 @@
 
 use super::attribute::Primvar;
 use super::shape::{SolidGeometry, StageShape, VERTEX};
-use super::stage::Prim;
+use super::stage::ComposedPrim;
 use super::{Lowering, PrimState};
 use crate::mesh::EarClipper;
 use rtc_diag::{clip, clip_path, codes};
-use rtc_ir::{Column, Mesh, MeshId};
+use rtc_ir::{Mesh, MeshId, VertexColumn};
 use rtc_math::{Vec3, to_u32};
 use rtc_source::Resource;
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,7 +19,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(super) type PartMeshKey = (Vec<(usize, u32)>, usize, [String; 2], bool);
 
 /// The faces of a mesh, and what belongs to its points.
-struct Faces {
+struct MeshFaces {
     points: Vec<Vec3>,
     /// Where the corners of each face begin, and where the last one ends.
     starts: Vec<usize>,
@@ -29,14 +29,14 @@ struct Faces {
 }
 
 /// Some faces with one material.
-struct Part {
+struct MeshPart {
     faces: Option<Vec<usize>>,
     state: PrimState,
 }
 
 /// To which place of a primvar a corner belongs.
 #[derive(Clone, Copy, PartialEq)]
-enum Places {
+enum PrimvarIndices {
     Constant,
     Face,
     Point,
@@ -44,7 +44,7 @@ enum Places {
 }
 
 impl Lowering<'_> {
-    pub(super) fn mesh(&mut self, prim: &Prim, state: &PrimState) {
+    pub(super) fn mesh(&mut self, prim: &ComposedPrim, state: &PrimState) {
         if !state.is_shown {
             return;
         }
@@ -65,7 +65,7 @@ impl Lowering<'_> {
             false => (None, None),
         };
         let has_colors = color.is_some() || opacity.is_some();
-        let mut faces: Option<Option<Faces>> = None;
+        let mut faces: Option<Option<MeshFaces>> = None;
         for (index, part) in parts.into_iter().enumerate() {
             let lowered = self.bound_material(&part.state);
             let shows_colors = has_colors && lowered.shows_color;
@@ -113,7 +113,7 @@ impl Lowering<'_> {
     }
 
     /// The faces of each material: those of subsets, and the rest.
-    fn parts(&mut self, prim: &Prim, state: &PrimState) -> Vec<Part> {
+    fn parts(&mut self, prim: &ComposedPrim, state: &PrimState) -> Vec<MeshPart> {
         let (mut parts, mut taken) = (Vec::new(), BTreeSet::new());
         // Each face belongs to the first subset with a material that has it.
         for name in self.child_names(prim) {
@@ -136,14 +136,14 @@ impl Lowering<'_> {
                 material: Some((bound.into(), self.span_of(&subset))),
                 ..state.clone()
             };
-            parts.push(Part {
+            parts.push(MeshPart {
                 faces: Some(faces),
                 state,
             });
         }
         // The other faces have the material of the prim.
         if parts.is_empty() {
-            return vec![Part {
+            return vec![MeshPart {
                 faces: None,
                 state: state.clone(),
             }];
@@ -153,7 +153,7 @@ impl Lowering<'_> {
             .map_or(0, |counts| counts.len());
         let rest: Vec<usize> = (0..count).filter(|face| !taken.contains(face)).collect();
         if !rest.is_empty() {
-            parts.push(Part {
+            parts.push(MeshPart {
                 faces: Some(rest),
                 state: state.clone(),
             });
@@ -162,7 +162,7 @@ impl Lowering<'_> {
     }
 
     /// The faces of a mesh; `None` if they are not sound, which is reported.
-    fn faces(&mut self, prim: &Prim) -> Option<Faces> {
+    fn faces(&mut self, prim: &ComposedPrim) -> Option<MeshFaces> {
         // Read the points and the vertex lists of the faces.
         let numbers = self.numbers(prim, "points").unwrap_or_default();
         let counts = self.indices(prim, "faceVertexCounts").unwrap_or_default();
@@ -208,7 +208,7 @@ impl Lowering<'_> {
             .unwrap_or_default()
             .into_iter()
             .collect();
-        Some(Faces {
+        Some(MeshFaces {
             points,
             starts,
             corners,
@@ -220,8 +220,8 @@ impl Lowering<'_> {
     /// The mesh of a part.
     fn part_mesh(
         &mut self,
-        prim: &Prim,
-        faces: &Faces,
+        prim: &ComposedPrim,
+        faces: &MeshFaces,
         chosen: Option<&[usize]>,
         uv_names: &[String; 2],
         colors: [Option<&Primvar>; 2],
@@ -286,21 +286,21 @@ impl Lowering<'_> {
     /// Values with their places. Of another number than there are places they count for none.
     fn column<'p>(
         &mut self,
-        prim: &Prim,
-        faces: &Faces,
+        prim: &ComposedPrim,
+        faces: &MeshFaces,
         primvar: Option<&'p Primvar>,
         width: usize,
-    ) -> Option<PlacedValues<'p>> {
+    ) -> Option<IndexedValues<'p>> {
         let primvar = primvar?;
         let (places, expected) = match primvar.interpolation.as_str() {
-            "constant" => (Places::Constant, 1),
-            "uniform" => (Places::Face, faces.starts.len() - 1),
-            "vertex" | "varying" => (Places::Point, faces.points.len()),
-            _ => (Places::Corner, faces.corners.len()),
+            "constant" => (PrimvarIndices::Constant, 1),
+            "uniform" => (PrimvarIndices::Face, faces.starts.len() - 1),
+            "vertex" | "varying" => (PrimvarIndices::Point, faces.points.len()),
+            _ => (PrimvarIndices::Corner, faces.corners.len()),
         };
         let count = primvar.len(width);
         if count >= expected {
-            return Some(PlacedValues { primvar, places });
+            return Some(IndexedValues { primvar, places });
         }
         let path = clip_path(&prim.path);
         let message =
@@ -311,28 +311,28 @@ impl Lowering<'_> {
 }
 
 /// Values and the places that they belong to.
-struct PlacedValues<'p> {
+struct IndexedValues<'p> {
     primvar: &'p Primvar,
-    places: Places,
+    places: PrimvarIndices,
 }
 
-impl PlacedValues<'_> {
-    fn at<const N: usize>(&self, vertex: &CutVertex) -> [f64; N] {
+impl IndexedValues<'_> {
+    fn at<const N: usize>(&self, vertex: &SplitVertex) -> [f64; N] {
         self.primvar.at(match self.places {
-            Places::Constant => 0,
-            Places::Face => vertex.face,
-            Places::Point => vertex.point,
-            Places::Corner => vertex.corner,
+            PrimvarIndices::Constant => 0,
+            PrimvarIndices::Face => vertex.face,
+            PrimvarIndices::Point => vertex.point,
+            PrimvarIndices::Corner => vertex.corner,
         })
     }
 }
 
 /// The values of the vertices of a mesh.
 struct MeshColumns<'p> {
-    normals: Option<PlacedValues<'p>>,
-    uvs: [Option<PlacedValues<'p>>; 2],
-    color: Option<PlacedValues<'p>>,
-    opacity: Option<PlacedValues<'p>>,
+    normals: Option<IndexedValues<'p>>,
+    uvs: [Option<IndexedValues<'p>>; 2],
+    color: Option<IndexedValues<'p>>,
+    opacity: Option<IndexedValues<'p>>,
 }
 
 impl MeshColumns<'_> {
@@ -341,25 +341,25 @@ impl MeshColumns<'_> {
         let [first, second] = &self.uvs;
         let all = [&self.normals, first, second, &self.color, &self.opacity];
         let mut places = all.into_iter().flatten().map(|column| column.places);
-        places.any(|places| matches!(places, Places::Face | Places::Corner))
+        places.any(|places| matches!(places, PrimvarIndices::Face | PrimvarIndices::Corner))
     }
 
     /// The mesh of triangles with these values, and its vertices.
-    fn mesh(&self, faces: &Faces, cut: CutFaces) -> (Mesh, Vec<CutVertex>) {
-        let CutFaces {
+    fn mesh(&self, faces: &MeshFaces, cut: SplitFaces) -> (Mesh, Vec<SplitVertex>) {
+        let SplitFaces {
             vertices,
             triangles,
         } = cut;
         // v runs down.
         let uvs = self.uvs.each_ref().map(|column| match column {
-            Some(column) => Column::rounded(vertices.iter().map(|vertex| {
+            Some(column) => VertexColumn::rounded(vertices.iter().map(|vertex| {
                 let [u, v] = column.at(vertex);
                 [u, 1.0 - v]
             })),
-            None => Column::default(),
+            None => VertexColumn::default(),
         });
         let [uvs, second_uvs] = uvs;
-        let color = |vertex: &CutVertex| {
+        let color = |vertex: &SplitVertex| {
             let color = self.color.as_ref().map(|column| column.at(vertex));
             let [r, g, b] = color.unwrap_or([0.5; 3]);
             let opacity = self.opacity.as_ref().map(|column| column.at(vertex));
@@ -367,16 +367,16 @@ impl MeshColumns<'_> {
             [r, g, b, opacity].map(|channel: f64| channel.clamp(0.0, 1.0))
         };
         let colors = match self.color.is_some() || self.opacity.is_some() {
-            true => Column::rounded(vertices.iter().map(color)),
-            false => Column::default(),
+            true => VertexColumn::rounded(vertices.iter().map(color)),
+            false => VertexColumn::default(),
         };
         let normals = self
             .normals
             .as_ref()
-            .map(|column| Column::rounded(vertices.iter().map(|vertex| column.at(vertex))));
-        let position = |vertex: &CutVertex| faces.points[vertex.point].to_array();
+            .map(|column| VertexColumn::rounded(vertices.iter().map(|vertex| column.at(vertex))));
+        let position = |vertex: &SplitVertex| faces.points[vertex.point].to_array();
         let mesh = Mesh {
-            positions: Column::rounded(vertices.iter().map(position)),
+            positions: VertexColumn::rounded(vertices.iter().map(position)),
             normals: normals.unwrap_or_default(),
             uvs,
             second_uvs,
@@ -389,20 +389,20 @@ impl MeshColumns<'_> {
 }
 
 /// A vertex of the mesh that is made.
-struct CutVertex {
+struct SplitVertex {
     face: usize,
     point: usize,
     corner: usize,
 }
 
-struct CutFaces {
-    vertices: Vec<CutVertex>,
+struct SplitFaces {
+    vertices: Vec<SplitVertex>,
     triangles: Vec<[u32; 3]>,
 }
 
 /// The triangles of some faces; each corner is a vertex of its own if they are apart.
-fn cut(faces: &Faces, chosen: &[usize], are_apart: bool) -> CutFaces {
-    let mut made = CutFaces {
+fn cut(faces: &MeshFaces, chosen: &[usize], are_apart: bool) -> SplitFaces {
+    let mut made = SplitFaces {
         vertices: Vec::new(),
         triangles: Vec::new(),
     };
@@ -419,7 +419,7 @@ fn cut(faces: &Faces, chosen: &[usize], are_apart: bool) -> CutFaces {
         ring.clear();
         for corner in range {
             let point = faces.corners[corner];
-            let vertex = CutVertex {
+            let vertex = SplitVertex {
                 face: *face,
                 point,
                 corner,
@@ -450,7 +450,7 @@ fn cut(faces: &Faces, chosen: &[usize], are_apart: bool) -> CutFaces {
 }
 
 /// The sum of the normals of the faces around each vertex.
-fn smooth_normals(faces: &Faces, vertices: &[CutVertex]) -> Column<3> {
+fn smooth_normals(faces: &MeshFaces, vertices: &[SplitVertex]) -> VertexColumn<3> {
     let mut normals = vec![Vec3::ZERO; faces.points.len()];
     for face in faces.starts.windows(2) {
         let ring = &faces.corners[face[0]..face[1]];
@@ -470,7 +470,7 @@ fn smooth_normals(faces: &Faces, vertices: &[CutVertex]) -> Column<3> {
             };
         }
     }
-    Column::rounded(
+    VertexColumn::rounded(
         vertices
             .iter()
             .map(|vertex| normals[vertex.point].to_array()),

@@ -1,7 +1,7 @@
 //! Stages of USD (`.usda`, `.usdc`, `.usdz`) lowered to the IR.
 //!
 //! ```text
-//! bytes ─ text, binary, package ─▶ Layer ─ stage ─▶ Prim ─ mesh, shape, light, … ─▶ Lowered
+//! bytes ─ text, binary, package ─▶ Layer ─ stage ─▶ Prim ─ mesh, shape, light, … ─▶ LoweredScene
 //! ```
 //!
 //! - [`text`], [`binary`] (of values that are [`packed`]) and [`package`] read a layer of each form
@@ -32,16 +32,17 @@ mod texture;
 mod xform;
 
 use crate::exchange::texture::SampledTextures;
-use crate::exchange::transform::Transform;
+use crate::exchange::transform::AffineTransform;
 use crate::{FrontOptions, UpAxis};
 use layer::Layer;
-use rtc_diag::{Diagnostic, Sink, clip, clip_path, codes};
+use rtc_diag::{Diagnostic, DiagnosticSink, clip, clip_path, codes};
 use rtc_ir::{
-    EntityKind, Field, ImageId, Lowered, MaterialId, MeshId, Scene, SourceSpans, ValuePath,
+    EntityField, EntityKind, ImageId, LoweredScene, MaterialId, MeshId, Scene, SourceSpans,
+    ValuePath,
 };
 use rtc_source::{FileId, Resource, SourceMap, Span};
 use shape::StageShape;
-use stage::Prim;
+use stage::ComposedPrim;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
@@ -99,8 +100,8 @@ pub fn lower(
     file: FileId,
     map: &mut SourceMap,
     options: &FrontOptions,
-    sink: &mut Sink,
-) -> Option<Lowered> {
+    sink: &mut DiagnosticSink,
+) -> Option<LoweredScene> {
     let mut lowering = Lowering::new(file, map, options, sink);
     let root = lowering.open_root(file)?;
     let root = Rc::new(lowering.pseudo_root(root));
@@ -110,7 +111,7 @@ pub fn lower(
     if lowering.is_exhausted {
         return None;
     }
-    let mut lowered = Lowered {
+    let mut lowered = LoweredScene {
         scene: lowering.scene,
         source_spans: lowering.source_spans,
     };
@@ -121,7 +122,7 @@ pub fn lower(
 /// What a prim has from those above it.
 #[derive(Clone)]
 struct PrimState {
-    to_world: Transform,
+    to_world: AffineTransform,
     is_shown: bool,
     purpose: Rc<str>,
     /// The path of the material, and where it is bound.
@@ -132,8 +133,8 @@ struct PrimState {
 
 /// A camera of the stage.
 struct PlacedCamera {
-    prim: Rc<Prim>,
-    to_world: Transform,
+    prim: Rc<ComposedPrim>,
+    to_world: AffineTransform,
 }
 
 /// A stage while it is lowered.
@@ -142,9 +143,9 @@ struct Lowering<'run> {
     source_spans: SourceSpans,
     options: &'run FrontOptions,
     map: &'run mut SourceMap,
-    sink: &'run mut Sink,
+    sink: &'run mut DiagnosticSink,
     /// The file of the stage, and its first bytes.
-    root: Option<Rc<Prim>>,
+    root: Option<Rc<ComposedPrim>>,
     root_file: FileId,
     root_span: Span,
     layers: Vec<Rc<Layer>>,
@@ -152,7 +153,7 @@ struct Lowering<'run> {
     layer_keys: BTreeMap<String, Option<usize>>,
     /// The layers by the paths that other ones name.
     named_layers: BTreeMap<(usize, String), Option<usize>>,
-    packages: BTreeMap<FileId, Option<Rc<package::Package>>>,
+    packages: BTreeMap<FileId, Option<Rc<package::UsdzPackage>>>,
     stacks: Vec<Rc<stage::LayerStack>>,
     stack_of: BTreeMap<usize, usize>,
     /// The targets of the arcs that are followed.
@@ -161,7 +162,7 @@ struct Lowering<'run> {
     nodes: u64,
     /// The arcs that were reported.
     reported: BTreeSet<(FileId, u32, String)>,
-    prims: BTreeMap<String, Option<Rc<Prim>>>,
+    prims: BTreeMap<String, Option<Rc<ComposedPrim>>>,
     /// The time of the picture, in time codes.
     time: f64,
     /// The length of a unit in metres.
@@ -187,7 +188,7 @@ impl<'run> Lowering<'run> {
         file: FileId,
         map: &'run mut SourceMap,
         options: &'run FrontOptions,
-        sink: &'run mut Sink,
+        sink: &'run mut DiagnosticSink,
     ) -> Self {
         // All tables are empty before the root layer is read.
         Self {
@@ -228,12 +229,12 @@ impl<'run> Lowering<'run> {
     }
 
     fn record(&mut self, entity: EntityKind, index: usize, span: Span) {
-        let path = ValuePath::new(entity, index, Field::Whole);
+        let path = ValuePath::new(entity, index, EntityField::Whole);
         self.source_spans.record(path, span);
     }
 
     /// Warns of a prim that is left out or replaced.
-    fn unsupported(&mut self, prim: &Prim, what: &str, instead: &str) {
+    fn unsupported(&mut self, prim: &ComposedPrim, what: &str, instead: &str) {
         let message = format!(
             "{what} of `{}` is not supported: {instead}",
             clip_path(&prim.path)
@@ -243,14 +244,14 @@ impl<'run> Lowering<'run> {
     }
 
     /// Warns of a prim that is shown approximately.
-    fn approximate(&mut self, prim: &Prim, what: &str) {
+    fn approximate(&mut self, prim: &ComposedPrim, what: &str) {
         let message = format!("`{}`: {what}", clip_path(&prim.path));
         let span = self.span_of(prim);
         self.report(&codes::USD_APPROXIMATE, span, message);
     }
 
     /// Lowers all prims below the root.
-    fn stage(&mut self, root: &Prim) {
+    fn stage(&mut self, root: &ComposedPrim) {
         let metadata = &self.layers[0].metadata;
         let up = metadata.up_axis.clone();
         let rate = metadata
@@ -279,10 +280,10 @@ impl<'run> Lowering<'run> {
     }
 
     /// Lowers what is below a prim, one after the other.
-    fn children(&mut self, prim: &Prim, state: &PrimState) {
+    fn children(&mut self, prim: &ComposedPrim, state: &PrimState) {
         // Prims with those below them that are still to come, in reverse.
         let mut pending = vec![];
-        let above = |lowering: &Self, prim: &Prim| {
+        let above = |lowering: &Self, prim: &ComposedPrim| {
             let mut names = lowering.child_names(prim);
             names.reverse();
             names
@@ -316,7 +317,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// Lowers one prim; `None` if those below it are not drawn.
-    fn prim(&mut self, prim: &Rc<Prim>, above: &PrimState) -> Option<PrimState> {
+    fn prim(&mut self, prim: &Rc<ComposedPrim>, above: &PrimState) -> Option<PrimState> {
         let kind = self.type_name(prim).to_owned();
         if HIDDEN.contains(&kind.as_str()) {
             return None;
@@ -347,7 +348,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// What holds for a prim and those below it; `None` if they are hidden.
-    fn state(&mut self, prim: &Prim, above: &PrimState) -> Option<PrimState> {
+    fn state(&mut self, prim: &ComposedPrim, above: &PrimState) -> Option<PrimState> {
         let (local, resets) = self.local(prim);
         let mut state = above.clone();
         let base = self.base();
@@ -411,7 +412,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// The map from the stage to the scene: y up, and metres.
-    fn base(&self) -> Transform {
+    fn base(&self) -> AffineTransform {
         let metadata = &self.layers[0].metadata;
         let is_z = metadata.up_axis.as_ref().is_some_and(|up| up.text == "Z");
         let axis = self
@@ -419,7 +420,7 @@ impl<'run> Lowering<'run> {
             .up_axis
             .unwrap_or(if is_z { UpAxis::Z } else { UpAxis::Y });
         let [x, y, z] = axis.scene_from_file().map(|axis| axis * self.unit);
-        Transform([x, y, z, rtc_math::Vec3::ZERO])
+        AffineTransform([x, y, z, rtc_math::Vec3::ZERO])
     }
 
     /// Chooses the camera, and reports what was asked for and is not there.
@@ -444,7 +445,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// Places the shapes of prototypes at points (`UsdGeomPointInstancer`).
-    fn instancer(&mut self, prim: &Prim, state: &PrimState) {
+    fn instancer(&mut self, prim: &ComposedPrim, state: &PrimState) {
         let prototypes = self.targets(prim, "prototypes");
         let indices = self.indices(prim, "protoIndices").unwrap_or_default();
         let positions = self.numbers(prim, "positions").unwrap_or_default();
@@ -462,7 +463,7 @@ impl<'run> Lowering<'run> {
             .into_iter()
             .collect();
         hidden.extend(self.indices(prim, "inactiveIds").unwrap_or_default());
-        let place = |at: usize| -> Option<Transform> {
+        let place = |at: usize| -> Option<AffineTransform> {
             let position: [f64; 3] = positions.get(3 * at..3 * at + 3)?.try_into().ok()?;
             let turn: Option<[f64; 4]> = turns
                 .get(4 * at..4 * at + 4)
@@ -471,8 +472,10 @@ impl<'run> Lowering<'run> {
             let scale: Option<[f64; 3]> = scales
                 .get(3 * at..3 * at + 3)
                 .and_then(|scale| scale.try_into().ok());
-            let scale = Transform::scale(scale.unwrap_or([1.0; 3]));
-            let all = Transform::translation(position).after(&turn).after(&scale);
+            let scale = AffineTransform::scale(scale.unwrap_or([1.0; 3]));
+            let all = AffineTransform::translation(position)
+                .after(&turn)
+                .after(&scale);
             all.0.iter().all(|column| column.is_finite()).then_some(all)
         };
         // The instances of each prototype.
@@ -503,7 +506,7 @@ impl<'run> Lowering<'run> {
     fn prototype_shapes(
         &mut self,
         path: &str,
-        instancer: &Prim,
+        instancer: &ComposedPrim,
         state: &PrimState,
     ) -> Vec<StageShape> {
         if self.open_prototypes.iter().any(|open| open == path) {
@@ -536,7 +539,7 @@ impl<'run> Lowering<'run> {
         self.open_prototypes.push(path.to_owned());
         let outer = self.prototype.replace(Vec::new());
         let own = PrimState {
-            to_world: Transform::IDENTITY,
+            to_world: AffineTransform::IDENTITY,
             ..state.clone()
         };
         if let Some(state) = self.prim(&prim, &own) {

@@ -1,6 +1,6 @@
 //! Packages (`.usdz`): ZIP archives whose files are stored as they are, the first one the stage.
 
-use rtc_source::{Budget, Exceeded, Resource};
+use rtc_source::{Budget, LimitExceeded, Resource};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -9,28 +9,28 @@ const ENTRY: u64 = 256;
 
 /// The files of a package: where the bytes of each are.
 #[derive(Debug, Default)]
-pub(super) struct Package {
+pub(super) struct UsdzPackage {
     pub(super) first: String,
     files: BTreeMap<String, Range<usize>>,
 }
 
 /// Why a package is not read.
-pub(super) enum PackageFault {
+pub(super) enum UsdzError {
     Damaged(&'static str),
-    Limit(Exceeded),
+    Limit(LimitExceeded),
 }
 
 pub(super) fn is_package(bytes: &[u8]) -> bool {
     bytes.starts_with(b"PK\x03\x04")
 }
 
-impl Package {
+impl UsdzPackage {
     /// Reads the directory at the end of an archive.
     ///
     /// # Errors
     /// If it is damaged, compressed or too long.
-    pub(super) fn read(bytes: &[u8], budget: &Budget) -> Result<Self, PackageFault> {
-        const CUT: PackageFault = PackageFault::Damaged("its list of files is cut off");
+    pub(super) fn read(bytes: &[u8], budget: &Budget) -> Result<Self, UsdzError> {
+        const CUT: UsdzError = UsdzError::Damaged("its list of files is cut off");
         let number = |at: usize, size: usize| {
             let bytes = bytes.get(at..at.checked_add(size)?)?;
             Some(
@@ -49,7 +49,7 @@ impl Package {
         {
             budget
                 .charge(Resource::Memory, ENTRY)
-                .map_err(PackageFault::Limit)?;
+                .map_err(UsdzError::Limit)?;
             let field = |offset: usize, size: usize| number(at + offset, size).ok_or(CUT);
             let (method, size) = (field(10, 2)?, field(20, 4)?);
             let (name, extra, comment) = (field(28, 2)?, field(30, 2)?, field(32, 2)?);
@@ -57,7 +57,7 @@ impl Package {
             let text = bytes.get(at + 46..at + 46 + name).ok_or(CUT)?;
             let text = String::from_utf8_lossy(text).into_owned();
             if method != 0 {
-                return Err(PackageFault::Damaged("its files are compressed"));
+                return Err(UsdzError::Damaged("its files are compressed"));
             }
             // Before the bytes stands a header with a name and extra bytes of its own.
             let lengths = number(start + 26, 2)
@@ -72,7 +72,7 @@ impl Package {
             at += 46 + name + extra + comment;
         }
         match package.first.is_empty() {
-            true => Err(PackageFault::Damaged("it holds no file")),
+            true => Err(UsdzError::Damaged("it holds no file")),
             false => Ok(package),
         }
     }

@@ -3,7 +3,7 @@
 //! before it is taken.
 
 use super::layer::{MAX_DEPTH, Value};
-use super::text::LayerFault;
+use super::text::LayerParseError;
 use rtc_source::{Budget, Resource};
 
 /// The memory of a token, in bytes, rounded up.
@@ -13,7 +13,7 @@ const MIN_COMPRESSED: usize = 16;
 /// LZ4 makes at most so many bytes of one.
 const MOST_UNPACKED: usize = 256;
 
-pub(super) const CUT: LayerFault = LayerFault::Damaged("it ends before its tables do");
+pub(super) const CUT: LayerParseError = LayerParseError::Damaged("it ends before its tables do");
 
 /// The tables that values refer to.
 #[derive(Debug)]
@@ -35,12 +35,12 @@ pub(super) struct PathEntry {
 
 /// Reads from a place in the file.
 #[derive(Clone, Copy)]
-pub(super) struct Cursor<'a> {
+pub(super) struct ByteCursor<'a> {
     pub(super) bytes: &'a [u8],
     pub(super) at: usize,
 }
 
-impl<'a> Cursor<'a> {
+impl<'a> ByteCursor<'a> {
     pub(super) fn new(bytes: &'a [u8], at: u64) -> Option<Self> {
         let at = usize::try_from(at).ok().filter(|at| *at <= bytes.len())?;
         Some(Self { bytes, at })
@@ -81,7 +81,7 @@ impl<'a> Cursor<'a> {
         let start = self.at;
         let offset = self.u64()?.cast_signed();
         let at = i64::try_from(start).ok()?.checked_add(offset)?;
-        Cursor::new(self.bytes, u64::try_from(at).ok()?)
+        ByteCursor::new(self.bytes, u64::try_from(at).ok()?)
     }
 
     /// A block of LZ4, which becomes at most `most` bytes.
@@ -90,7 +90,7 @@ impl<'a> Cursor<'a> {
         packed: usize,
         most: usize,
         budget: &Budget,
-    ) -> Result<Vec<u8>, LayerFault> {
+    ) -> Result<Vec<u8>, LayerParseError> {
         // Check the declared size against the greatest ratio of LZ4.
         let mut packed = self.take(packed).ok_or(CUT)?;
         if most
@@ -99,12 +99,14 @@ impl<'a> Cursor<'a> {
                 .saturating_mul(MOST_UNPACKED)
                 .saturating_add(64)
         {
-            return Err(LayerFault::Damaged("a block is not as large as it says"));
+            return Err(LayerParseError::Damaged(
+                "a block is not as large as it says",
+            ));
         }
         charge(budget, most as u64)?;
         let mut unpacked = vec![0; most];
         // The first byte is the number of chunks; 0 means one without a length.
-        let damaged = LayerFault::Damaged("a block of it cannot be unpacked");
+        let damaged = LayerParseError::Damaged("a block of it cannot be unpacked");
         let (chunks, rest) = packed.split_first().ok_or(CUT)?;
         packed = rest;
         // Unpack chunk by chunk.
@@ -112,7 +114,7 @@ impl<'a> Cursor<'a> {
         for _ in 0..(*chunks).max(1) {
             let mut block = packed;
             if *chunks > 0 {
-                let mut cursor = Cursor {
+                let mut cursor = ByteCursor {
                     bytes: packed,
                     at: 0,
                 };
@@ -136,7 +138,7 @@ impl<'a> Cursor<'a> {
         count: usize,
         size: usize,
         budget: &Budget,
-    ) -> Result<Vec<i64>, LayerFault> {
+    ) -> Result<Vec<i64>, LayerParseError> {
         if count == 0 {
             return Ok(Vec::new());
         }
@@ -144,7 +146,7 @@ impl<'a> Cursor<'a> {
         let most = count.saturating_mul(size + 1).saturating_add(size + 8);
         charge(budget, (count as u64).saturating_mul(8))?;
         let bytes = self.unpack(packed, most, budget)?;
-        let mut codes = Cursor {
+        let mut codes = ByteCursor {
             bytes: &bytes,
             at: 0,
         };
@@ -179,7 +181,7 @@ impl<'a> Cursor<'a> {
         &mut self,
         count: usize,
         budget: &Budget,
-    ) -> Result<Vec<u32>, LayerFault> {
+    ) -> Result<Vec<u32>, LayerParseError> {
         let all = self.integers(count, 4, budget)?;
         Ok(all
             .into_iter()
@@ -196,10 +198,10 @@ fn truncated(number: i64) -> i32 {
     number as i32
 }
 
-pub(super) fn charge(budget: &Budget, bytes: u64) -> Result<(), LayerFault> {
+pub(super) fn charge(budget: &Budget, bytes: u64) -> Result<(), LayerParseError> {
     budget
         .charge(Resource::Memory, bytes)
-        .map_err(LayerFault::Limit)
+        .map_err(LayerParseError::Limit)
 }
 
 const ARRAY: u64 = 1 << 63;
@@ -335,7 +337,7 @@ impl CrateTables {
     /// The times and the values of an attribute.
     pub(super) fn samples(&self, bytes: &[u8], packed: u64, budget: &Budget) -> Vec<(f64, u64)> {
         let read = || {
-            let mut cursor = Cursor::new(bytes, packed & PAYLOAD)?;
+            let mut cursor = ByteCursor::new(bytes, packed & PAYLOAD)?;
             let mut times = cursor.jump()?;
             let Value::Numbers(numbers) = self.value(bytes, times.u64()?, budget)? else {
                 return None;
@@ -396,7 +398,7 @@ impl CrateTables {
                 | NumberFormat::Float => number.of(&inline[..number.size().min(4)]),
             }],
             (false, false) => {
-                let mut cursor = Cursor::new(bytes, payload)?;
+                let mut cursor = ByteCursor::new(bytes, payload)?;
                 let read = (0..width).map(|_| Some(number.of(cursor.take(number.size())?)));
                 read.collect::<Option<Vec<f64>>>()?
             }
@@ -468,8 +470,8 @@ impl CrateTables {
     }
 
     /// Where the items of an array begin, and how many there are.
-    fn array_start<'b>(&self, bytes: &'b [u8], packed: u64) -> Option<(Cursor<'b>, usize)> {
-        let mut cursor = Cursor::new(bytes, packed & PAYLOAD)?;
+    fn array_start<'b>(&self, bytes: &'b [u8], packed: u64) -> Option<(ByteCursor<'b>, usize)> {
+        let mut cursor = ByteCursor::new(bytes, packed & PAYLOAD)?;
         if self.version < (0, 5) && packed & ARRAY != 0 {
             cursor.u32()?;
         }
@@ -500,7 +502,7 @@ impl CrateTables {
         }
         let (mut cursor, count) = match is_array {
             true => self.array_start(bytes, packed)?,
-            false => (Cursor::new(bytes, packed & PAYLOAD)?, 1),
+            false => (ByteCursor::new(bytes, packed & PAYLOAD)?, 1),
         };
         let room = cursor.bytes.len() - cursor.at;
         if count.checked_mul(4)? > room {

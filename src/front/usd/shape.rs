@@ -1,9 +1,9 @@
 //! Shapes: spheres and discs as they are, others as meshes (`UsdGeomGprim`).
 
-use super::stage::Prim;
+use super::stage::ComposedPrim;
 use super::{Lowering, PrimState};
 use crate::exchange::tessellate;
-use crate::exchange::transform::Transform;
+use crate::exchange::transform::AffineTransform;
 use rtc_diag::codes;
 use rtc_ir::{Disc, Ellipsoid, EntityKind, MaterialId, Mesh, MeshId, Quad, Shape, Sphere, Surface};
 use rtc_math::{Vec3, cos, sin, unit};
@@ -42,7 +42,7 @@ pub(super) enum SolidGeometry {
 #[derive(Clone, Debug)]
 pub(super) struct StageShape {
     pub(super) geometry: SolidGeometry,
-    pub(super) to_world: Transform,
+    pub(super) to_world: AffineTransform,
     pub(super) material: MaterialId,
     pub(super) span: Span,
 }
@@ -57,12 +57,12 @@ impl Lowering<'_> {
                     shapes.push(shape);
                 }
             }
-            false => drop(self.place(&shape, &Transform::IDENTITY)),
+            false => drop(self.place(&shape, &AffineTransform::IDENTITY)),
         }
     }
 
     /// Adds a shape, moved by `outer`. `None` if the budget is used up.
-    pub(super) fn place(&mut self, placed: &StageShape, outer: &Transform) -> Option<()> {
+    pub(super) fn place(&mut self, placed: &StageShape, outer: &AffineTransform) -> Option<()> {
         let to_world = outer.after(&placed.to_world);
         if self.prototype.is_some() {
             self.add(StageShape {
@@ -88,11 +88,11 @@ impl Lowering<'_> {
     fn shape(
         &mut self,
         geometry: &SolidGeometry,
-        to_world: &Transform,
+        to_world: &AffineTransform,
         span: Span,
     ) -> Option<Shape> {
         // A singular transform makes solids invisible.
-        let Transform([x, y, z, origin]) = to_world;
+        let AffineTransform([x, y, z, origin]) = to_world;
         let is_flat = to_world.determinant() == 0.0 || !to_world.determinant().is_finite();
         // Shapes that a transform distorts become another shape or a mesh.
         Some(match geometry {
@@ -120,7 +120,7 @@ impl Lowering<'_> {
                     }),
                     None => {
                         let mesh = self.built("disk", span, tessellate::disk)?;
-                        let scale = Transform::scale([*radius, -radius, -1.0]);
+                        let scale = AffineTransform::scale([*radius, -radius, -1.0]);
                         to_world.after(&scale).instance(mesh)
                     }
                 }
@@ -157,7 +157,7 @@ impl Lowering<'_> {
     }
 
     /// A sphere, a cube and the like.
-    pub(super) fn solid(&mut self, prim: &Prim, kind: &str, state: &PrimState) {
+    pub(super) fn solid(&mut self, prim: &ComposedPrim, kind: &str, state: &PrimState) {
         if !state.is_shown {
             return;
         }
@@ -182,10 +182,10 @@ impl Lowering<'_> {
     /// The geometry of a solid and its place in the coordinates of the prim.
     fn solid_geometry(
         &mut self,
-        prim: &Prim,
+        prim: &ComposedPrim,
         kind: &str,
         span: Span,
-    ) -> Option<(SolidGeometry, Transform)> {
+    ) -> Option<(SolidGeometry, AffineTransform)> {
         let number = |name: &str, default: f64| self.number(prim, name).unwrap_or(default);
         let axis = self.text(prim, "axis").unwrap_or_else(|| "Z".to_owned());
         // The axes of a solid about z, turned to another one.
@@ -194,16 +194,16 @@ impl Lowering<'_> {
             "Y" => [Vec3::Z, Vec3::X, Vec3::Y],
             _ => [Vec3::X, Vec3::Y, Vec3::Z],
         };
-        let along = Transform([axes[0], axes[1], axes[2], Vec3::ZERO]);
+        let along = AffineTransform([axes[0], axes[1], axes[2], Vec3::ZERO]);
         match kind {
             "Sphere" => Some((
                 SolidGeometry::Sphere(number("radius", 1.0)),
-                Transform::IDENTITY,
+                AffineTransform::IDENTITY,
             )),
             "Cube" => {
                 let size = number("size", 2.0) / 2.0;
                 let mesh = self.built("cube", span, tessellate::cube)?;
-                Some((SolidGeometry::Mesh(mesh), Transform::scale([size; 3])))
+                Some((SolidGeometry::Mesh(mesh), AffineTransform::scale([size; 3])))
             }
             "Plane" => {
                 let (width, length) = (number("width", 2.0) / 2.0, number("length", 2.0) / 2.0);
@@ -214,7 +214,7 @@ impl Lowering<'_> {
                 } else {
                     [length, width]
                 };
-                let local = along.after(&Transform::scale([u, v, 1.0]));
+                let local = along.after(&AffineTransform::scale([u, v, 1.0]));
                 Some((SolidGeometry::Mesh(mesh), local))
             }
             _ => {

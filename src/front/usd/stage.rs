@@ -2,15 +2,17 @@
 //!
 //! The order is that of OpenUSD ("LIVRPS"): a layer stack itself, then what it inherits, its
 //! variants, references, payloads and what it specializes, each with all of its own arcs. A
-//! [`Node`] is a place in a layer stack; the child of a composed prim is the child of each of its
-//! nodes, with the arcs that it adds. Specializes are weak within their node only, and classes are
-//! not inherited across references.
+//! [`PrimNode`] is a place in a layer stack; the child of a composed prim is the child of each of
+//! its nodes, with the arcs that it adds. Specializes are weak within their node only, and classes
+//! are not inherited across references.
 
 use super::Lowering;
-use super::layer::{ArcKind, Keyed, ListOp, MAX_DEPTH, PrimSpec, Specifier, Target, TimeMap};
-use crate::exchange::Text;
+use super::layer::{
+    ArcKind, ArcTarget, LayerOffset, ListKey, ListOp, MAX_DEPTH, PrimSpec, Specifier,
+};
+use crate::exchange::SpannedText;
 use rtc_diag::{clip_path, codes};
-use rtc_source::{Exceeded, Resource, Span};
+use rtc_source::{LimitExceeded, Resource, Span};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
@@ -25,23 +27,23 @@ const MAX_NODES: u64 = 1 << 15;
 
 /// A layer with those beneath it, the strongest first.
 pub(super) struct LayerStack {
-    layers: Vec<(usize, TimeMap)>,
+    layers: Vec<(usize, LayerOffset)>,
 }
 
 /// A place in a layer stack that speaks of a prim.
-struct Node {
+struct PrimNode {
     stack: usize,
     path: Rc<str>,
     /// The layer and its prim, the strongest first.
-    specs: Vec<(usize, u32, TimeMap)>,
+    specs: Vec<(usize, u32, LayerOffset)>,
     kind: ArcKind,
     /// How deep in the tree of prims the arc stands that leads here.
     depth: usize,
     /// The target of the arc, and the prim that has it, in the paths of the node above.
     from: Rc<str>,
     to: Rc<str>,
-    time: TimeMap,
-    children: Vec<Node>,
+    time: LayerOffset,
+    children: Vec<PrimNode>,
 }
 
 /// How paths of a layer become paths of the stage.
@@ -56,25 +58,25 @@ struct PathMap {
 pub(super) struct Opinion {
     pub(super) layer: usize,
     pub(super) prim: u32,
-    pub(super) time: TimeMap,
+    pub(super) time: LayerOffset,
     /// Whether it is that of a class which the prim inherits.
     is_inherited: bool,
     paths: Option<Rc<PathMap>>,
 }
 
 /// A composed prim.
-pub(super) struct Prim {
+pub(super) struct ComposedPrim {
     pub(super) path: String,
-    node: Node,
+    node: PrimNode,
     /// The strongest first.
     pub(super) opinions: Vec<Opinion>,
 }
 
 /// The arcs of one kind of a prim.
-type ArcList = fn(&PrimSpec) -> &ListOp<Target>;
+type ArcList = fn(&PrimSpec) -> &ListOp<ArcTarget>;
 
 /// The variants that are chosen, by sets; the first choice of a set counts.
-type Selections = Vec<(String, String)>;
+type VariantSelections = Vec<(String, String)>;
 
 impl Opinion {
     /// A path of the layer as one of the stage.
@@ -93,7 +95,7 @@ impl Opinion {
     }
 }
 
-impl Prim {
+impl ComposedPrim {
     /// What distinguishes its content from that of other prims.
     pub(super) fn key(&self) -> Vec<(usize, u32)> {
         self.opinions
@@ -118,7 +120,7 @@ impl Lowering<'_> {
             return *known;
         }
         let mut layers = Vec::new();
-        self.stack_layers(layer, TimeMap::default(), &mut Vec::new(), &mut layers);
+        self.stack_layers(layer, LayerOffset::default(), &mut Vec::new(), &mut layers);
         self.stacks.push(Rc::new(LayerStack { layers }));
         self.stack_of.insert(layer, self.stacks.len() - 1);
         self.stacks.len() - 1
@@ -127,9 +129,9 @@ impl Lowering<'_> {
     fn stack_layers(
         &mut self,
         layer: usize,
-        time: TimeMap,
+        time: LayerOffset,
         open: &mut Vec<usize>,
-        found: &mut Vec<(usize, TimeMap)>,
+        found: &mut Vec<(usize, LayerOffset)>,
     ) {
         found.push((layer, time));
         open.push(layer);
@@ -149,9 +151,9 @@ impl Lowering<'_> {
     }
 
     /// The root of the prims of a layer stack.
-    fn root_node(&self, stack: usize) -> Node {
+    fn root_node(&self, stack: usize) -> PrimNode {
         let layers = self.stacks[stack].layers.iter();
-        Node {
+        PrimNode {
             stack,
             path: "".into(),
             specs: layers.map(|(layer, time)| (*layer, 0, *time)).collect(),
@@ -159,21 +161,21 @@ impl Lowering<'_> {
             depth: 0,
             from: "".into(),
             to: "".into(),
-            time: TimeMap::default(),
+            time: LayerOffset::default(),
             children: Vec::new(),
         }
     }
 
     /// The root of the stage.
-    pub(super) fn pseudo_root(&mut self, layer: usize) -> Prim {
+    pub(super) fn pseudo_root(&mut self, layer: usize) -> ComposedPrim {
         let stack = self.stack(layer);
         self.composed(String::new(), self.root_node(stack))
     }
 
-    fn composed(&self, path: String, node: Node) -> Prim {
+    fn composed(&self, path: String, node: PrimNode) -> ComposedPrim {
         let mut opinions = Vec::new();
-        flatten(&node, (None, TimeMap::default(), false), &mut opinions);
-        Prim {
+        flatten(&node, (None, LayerOffset::default(), false), &mut opinions);
+        ComposedPrim {
             path,
             node,
             opinions,
@@ -181,7 +183,7 @@ impl Lowering<'_> {
     }
 
     /// The names of the children of a prim; those of weaker layers come first.
-    pub(super) fn child_names(&self, prim: &Prim) -> Vec<String> {
+    pub(super) fn child_names(&self, prim: &ComposedPrim) -> Vec<String> {
         let (mut names, mut seen) = (Vec::new(), BTreeSet::new());
         for opinion in prim.opinions.iter().rev() {
             let mut children: Vec<_> = self.spec(opinion).children.iter().collect();
@@ -197,7 +199,7 @@ impl Lowering<'_> {
     }
 
     /// A child of a prim, composed.
-    pub(super) fn child(&mut self, prim: &Prim, name: &str) -> Option<Prim> {
+    pub(super) fn child(&mut self, prim: &ComposedPrim, name: &str) -> Option<ComposedPrim> {
         self.nodes = 0;
         let mut node = self.step(&prim.node, name)?;
         self.expand(&mut node, &[], 0);
@@ -205,7 +207,7 @@ impl Lowering<'_> {
     }
 
     /// The prim at a path of the stage.
-    pub(super) fn prim_at(&mut self, path: &str) -> Option<Rc<Prim>> {
+    pub(super) fn prim_at(&mut self, path: &str) -> Option<Rc<ComposedPrim>> {
         if let Some(known) = self.prims.get(path) {
             return known.clone();
         }
@@ -228,21 +230,21 @@ impl Lowering<'_> {
     }
 
     /// The child of each place of a node.
-    fn step(&mut self, node: &Node, name: &str) -> Option<Node> {
+    fn step(&mut self, node: &PrimNode, name: &str) -> Option<PrimNode> {
         let specs = node.specs.iter().filter_map(|(layer, prim, time)| {
             let child = self.layers[*layer].prim(*prim).children.get(name)?;
             Some((*layer, *child, *time))
         });
         let specs: Vec<_> = specs.collect();
         let children = node.children.iter();
-        let children: Vec<Node> = children
+        let children: Vec<PrimNode> = children
             .filter_map(|child| self.step(child, name))
             .collect();
         if specs.is_empty() && children.is_empty() {
             return None;
         }
         self.charge_node()?;
-        Some(Node {
+        Some(PrimNode {
             stack: node.stack,
             path: format!("{}/{name}", node.path).into(),
             specs,
@@ -259,7 +261,7 @@ impl Lowering<'_> {
     fn charge_node(&mut self) -> Option<()> {
         self.nodes += 1;
         if self.nodes > MAX_NODES {
-            let fault = Exceeded {
+            let fault = LimitExceeded {
                 resource: Resource::Nodes,
                 total: self.nodes,
                 limit: MAX_NODES,
@@ -277,7 +279,7 @@ impl Lowering<'_> {
         path: &str,
         selections: &[(String, String)],
         arcs: usize,
-    ) -> Option<Node> {
+    ) -> Option<PrimNode> {
         let mut node = self.root_node(stack);
         let names: Vec<&str> = path.split('/').filter(|name| !name.is_empty()).collect();
         if names.len() > MAX_DEPTH {
@@ -292,11 +294,11 @@ impl Lowering<'_> {
     }
 
     /// Adds the arcs that the places of a node have.
-    fn expand(&mut self, node: &mut Node, selections: &[(String, String)], arcs: usize) {
+    fn expand(&mut self, node: &mut PrimNode, selections: &[(String, String)], arcs: usize) {
         if self.is_exhausted {
             return;
         }
-        let mut known: Selections = selections.to_vec();
+        let mut known: VariantSelections = selections.to_vec();
         self.selections(node, &mut known);
         for child in &mut node.children {
             self.expand(child, &known, arcs);
@@ -322,8 +324,8 @@ impl Lowering<'_> {
     }
 
     /// The targets of a list, with the layer that names each.
-    fn arc_targets(&self, node: &Node, list: ArcList) -> Vec<(Target, usize)> {
-        let mut targets: Vec<Target> = Vec::new();
+    fn arc_targets(&self, node: &PrimNode, list: ArcList) -> Vec<(ArcTarget, usize)> {
+        let mut targets: Vec<ArcTarget> = Vec::new();
         let mut layer_origins = BTreeMap::new();
         for (layer, prim, time) in node.specs.iter().rev() {
             let list = list(self.layers[*layer].prim(*prim));
@@ -333,7 +335,7 @@ impl Lowering<'_> {
             }
             list.apply(&mut targets);
         }
-        let with_origin = |mut target: Target| {
+        let with_origin = |mut target: ArcTarget| {
             let key = (target.asset.clone(), target.path.clone());
             let (layer, time) = layer_origins.get(&key).copied()?;
             target.time = time.after(target.time);
@@ -346,16 +348,16 @@ impl Lowering<'_> {
     /// if it leads nowhere, which is reported.
     fn follow(
         &mut self,
-        node: &Node,
+        node: &PrimNode,
         kind: ArcKind,
-        target: &Target,
+        target: &ArcTarget,
         (from, arcs): (usize, usize),
         known: &[(String, String)],
-    ) -> Option<Node> {
+    ) -> Option<PrimNode> {
         let (stack, layer) = match target.asset.as_str() {
             "" => (node.stack, None),
             asset => {
-                let asset = Text {
+                let asset = SpannedText {
                     text: asset.to_owned(),
                     span: target.span,
                 };
@@ -410,7 +412,7 @@ impl Lowering<'_> {
         Some(found)
     }
 
-    fn nowhere(&mut self, node: &Node, span: Span, why: &str) -> Option<Node> {
+    fn nowhere(&mut self, node: &PrimNode, span: Span, why: &str) -> Option<PrimNode> {
         let message = format!("an arc of `{}` is left out: {why}", clip_path(&node.path));
         if self
             .reported
@@ -422,7 +424,7 @@ impl Lowering<'_> {
     }
 
     /// Adds the chosen variant of each set.
-    fn variants(&mut self, node: &mut Node, known: &mut Selections, arcs: usize) {
+    fn variants(&mut self, node: &mut PrimNode, known: &mut VariantSelections, arcs: usize) {
         // Collect the variant sets of all specs of the prim.
         let mut sets = BTreeSet::new();
         for (layer, prim, _) in &node.specs {
@@ -458,7 +460,7 @@ impl Lowering<'_> {
                 continue;
             }
             // Compose them as a child with its own arcs.
-            let mut variant = Node {
+            let mut variant = PrimNode {
                 stack: node.stack,
                 path: Rc::clone(&node.path),
                 specs,
@@ -466,7 +468,7 @@ impl Lowering<'_> {
                 depth: node.path.matches('/').count(),
                 from: "".into(),
                 to: "".into(),
-                time: TimeMap::default(),
+                time: LayerOffset::default(),
                 children: Vec::new(),
             };
             self.expand(&mut variant, known, arcs + 1);
@@ -476,7 +478,7 @@ impl Lowering<'_> {
     }
 
     /// The selections of the layers of a node.
-    fn selections(&self, node: &Node, known: &mut Selections) {
+    fn selections(&self, node: &PrimNode, known: &mut VariantSelections) {
         for (layer, prim, _) in &node.specs {
             for (set, variant) in &self.layers[*layer].prim(*prim).selections {
                 if !known.iter().any(|(of, _)| of == set) {
@@ -486,7 +488,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn all_selections(&self, node: &Node, known: &mut Selections) {
+    fn all_selections(&self, node: &PrimNode, known: &mut VariantSelections) {
         self.selections(node, known);
         for child in &node.children {
             self.all_selections(child, known);
@@ -494,7 +496,7 @@ impl Lowering<'_> {
     }
 
     /// Whether a prim is drawn at all: it is defined, active and no class.
-    pub(super) fn is_defined(&self, prim: &Prim) -> bool {
+    pub(super) fn is_defined(&self, prim: &ComposedPrim) -> bool {
         let mut specifiers = prim.opinions.iter().filter_map(|opinion| {
             match (self.spec(opinion).specifier, opinion.is_inherited) {
                 (Specifier::Over, _) | (Specifier::Class, true) => None,
@@ -508,7 +510,7 @@ impl Lowering<'_> {
         specifiers.next() == Some(Specifier::Def) && active.next().unwrap_or(true)
     }
 
-    pub(super) fn type_name(&self, prim: &Prim) -> &str {
+    pub(super) fn type_name(&self, prim: &ComposedPrim) -> &str {
         let mut names = prim
             .opinions
             .iter()
@@ -516,21 +518,21 @@ impl Lowering<'_> {
         names.find(|name| !name.is_empty()).unwrap_or("")
     }
 
-    pub(super) fn span_of(&self, prim: &Prim) -> Span {
+    pub(super) fn span_of(&self, prim: &ComposedPrim) -> Span {
         let first = prim.opinions.first().map(|opinion| self.spec(opinion).span);
         first.unwrap_or(self.root_span)
     }
 
     /// The targets of a relationship, or the connections of an attribute, as paths of the stage.
-    pub(super) fn targets(&self, prim: &Prim, name: &str) -> Vec<String> {
-        let mut targets: Vec<Text> = Vec::new();
+    pub(super) fn targets(&self, prim: &ComposedPrim, name: &str) -> Vec<String> {
+        let mut targets: Vec<SpannedText> = Vec::new();
         for opinion in prim.opinions.iter().rev() {
             let property = self.spec(opinion).properties.get(name);
             let Some(list) = property.and_then(|property| property.targets.as_ref()) else {
                 continue;
             };
-            let map = |items: &Vec<Text>| {
-                let map = |item: &Text| Text {
+            let map = |items: &Vec<SpannedText>| {
+                let map = |item: &SpannedText| SpannedText {
                     text: opinion.path(&item.text),
                     span: item.span,
                 };
@@ -550,8 +552,8 @@ impl Lowering<'_> {
 
 /// The opinions of a node and those behind its arcs, the strongest first.
 fn flatten(
-    node: &Node,
-    (above, time, is_inherited): (Option<&Rc<PathMap>>, TimeMap, bool),
+    node: &PrimNode,
+    (above, time, is_inherited): (Option<&Rc<PathMap>>, LayerOffset, bool),
     found: &mut Vec<Opinion>,
 ) {
     let time = time.after(node.time);

@@ -2,11 +2,12 @@
 //! After a mistake the next line is read, so that all are found.
 
 use super::layer::{
-    Layer, ListOp, MAX_DEPTH, PrimSpec, Specifier, Stored, SubLayer, Target, TimeMap, Value,
+    ArcTarget, Layer, LayerOffset, ListOp, MAX_DEPTH, PrimSpec, Specifier, StoredValue, SubLayer,
+    Value,
 };
-use crate::exchange::Text;
+use crate::exchange::SpannedText;
 use rtc_diag::clip;
-use rtc_source::{Budget, Exceeded, FileId, Resource, Span};
+use rtc_source::{Budget, FileId, LimitExceeded, Resource, Span};
 
 /// After so many mistakes a text is not read further.
 const MAX_MISTAKES: usize = 16;
@@ -21,19 +22,19 @@ const WORD: u64 = 128;
 const NUMBER: u64 = 16;
 
 /// Why a layer is not read.
-pub(super) enum LayerFault {
+pub(super) enum LayerParseError {
     /// Mistakes of the text, at most [`MAX_MISTAKES`].
     Mistakes(Vec<(Span, String)>),
     /// A binary file is damaged.
     Damaged(&'static str),
-    Limit(Exceeded),
+    Limit(LimitExceeded),
 }
 
 /// Reads a layer.
 ///
 /// # Errors
 /// All mistakes of the text, or the limit that it exceeds.
-pub(super) fn read(file: FileId, bytes: &[u8], budget: &Budget) -> Result<Layer, LayerFault> {
+pub(super) fn read(file: FileId, bytes: &[u8], budget: &Budget) -> Result<Layer, LayerParseError> {
     let mut reader = TextReader {
         file,
         bytes,
@@ -47,21 +48,21 @@ pub(super) fn read(file: FileId, bytes: &[u8], budget: &Budget) -> Result<Layer,
     };
     if reader.peek() == Some(b'(') {
         reader.at += 1;
-        reader.metadata(Owner::Root);
+        reader.metadata(MetadataOwner::Root);
     }
     reader.body(0, 0);
     if let Some(exceeded) = reader.exceeded {
-        return Err(LayerFault::Limit(exceeded));
+        return Err(LayerParseError::Limit(exceeded));
     }
     match reader.mistakes.is_empty() {
         true => Ok(reader.layer),
-        false => Err(LayerFault::Mistakes(reader.mistakes)),
+        false => Err(LayerParseError::Mistakes(reader.mistakes)),
     }
 }
 
 /// Of what metadata speaks.
 #[derive(Clone, Copy)]
-enum Owner<'a> {
+enum MetadataOwner<'a> {
     Root,
     Prim(u32),
     Property(u32, &'a str),
@@ -76,7 +77,7 @@ struct TextReader<'a> {
     /// The names of the prims around the place that is read.
     paths: Vec<String>,
     mistakes: Vec<(Span, String)>,
-    exceeded: Option<Exceeded>,
+    exceeded: Option<LimitExceeded>,
     /// The memory that is not charged so far.
     owed: u64,
 }
@@ -218,7 +219,7 @@ impl<'a> TextReader<'a> {
     }
 
     /// What stands between two marks, as `@file@` and `<path>`.
-    fn between(&mut self, open: u8, close: u8) -> Option<Text> {
+    fn between(&mut self, open: u8, close: u8) -> Option<SpannedText> {
         self.expect(open)?;
         let mut start = self.at;
         let is_long = open == b'@' && self.rest().starts_with(b"@@");
@@ -235,12 +236,12 @@ impl<'a> TextReader<'a> {
         let span = self.span(start);
         self.at += mark.len();
         self.spend(WORD + text.len() as u64);
-        Some(Text { text, span })
+        Some(SpannedText { text, span })
     }
 
     /// A path, absolute within the layer, without selections of variants.
-    fn path(&mut self) -> Option<Text> {
-        let Text { text, span } = self.between(b'<', b'>')?;
+    fn path(&mut self) -> Option<SpannedText> {
+        let SpannedText { text, span } = self.between(b'<', b'>')?;
         let mut plain = String::new();
         let mut depth = 0_u32;
         for character in text.chars() {
@@ -252,7 +253,7 @@ impl<'a> TextReader<'a> {
             }
         }
         if plain.starts_with('/') || plain.is_empty() {
-            return Some(Text { text: plain, span });
+            return Some(SpannedText { text: plain, span });
         }
         let mut names: Vec<&str> = self.paths.iter().map(String::as_str).collect();
         let mut rest = plain.as_str();
@@ -267,7 +268,7 @@ impl<'a> TextReader<'a> {
         let text = parts.concat();
         // A short relative path may stand in prims of long names.
         self.spend(2 * text.len() as u64);
-        Some(Text { text, span })
+        Some(SpannedText { text, span })
     }
 
     /// Items in brackets, one alone, or `None`.
@@ -398,7 +399,7 @@ impl<'a> TextReader<'a> {
     }
 
     /// The metadata behind an opening parenthesis.
-    fn metadata(&mut self, owner: Owner<'_>) {
+    fn metadata(&mut self, owner: MetadataOwner<'_>) {
         loop {
             match self.peek() {
                 None => {
@@ -420,7 +421,7 @@ impl<'a> TextReader<'a> {
     }
 
     /// One entry of metadata.
-    fn entry(&mut self, owner: Owner<'_>) -> Option<()> {
+    fn entry(&mut self, owner: MetadataOwner<'_>) -> Option<()> {
         let start = self.at;
         let mut key = self.word();
         let mut keyword = "";
@@ -433,9 +434,9 @@ impl<'a> TextReader<'a> {
         }
         self.expect(b'=')?;
         match owner {
-            Owner::Root => self.stage_entry(key),
-            Owner::Prim(index) => self.prim_entry(index, keyword, key, start),
-            Owner::Property(index, name) => {
+            MetadataOwner::Root => self.stage_entry(key),
+            MetadataOwner::Prim(index) => self.prim_entry(index, keyword, key, start),
+            MetadataOwner::Property(index, name) => {
                 if key == "interpolation" {
                     let interpolation = self.string()?;
                     if let Some(property) = self.layer.prim_mut(index).properties.get_mut(name) {
@@ -455,7 +456,7 @@ impl<'a> TextReader<'a> {
                 let start = self.at;
                 let text = self.string()?;
                 let span = self.span(start);
-                self.layer.metadata.up_axis = Some(Text { text, span });
+                self.layer.metadata.up_axis = Some(SpannedText { text, span });
             }
             "metersPerUnit" | "timeCodesPerSecond" | "startTimeCode" => {
                 let Value::Numbers(numbers) = self.value()? else {
@@ -496,7 +497,7 @@ impl<'a> TextReader<'a> {
                 list.edit(keyword, items);
             }
             "inherits" | "specializes" => {
-                let items = self.list(|reader| Some(Target::internal(reader.path()?)))?;
+                let items = self.list(|reader| Some(ArcTarget::internal(reader.path()?)))?;
                 let prim = self.layer.prim_mut(index);
                 let is_inherit = key == "inherits";
                 let list = if is_inherit {
@@ -535,7 +536,7 @@ impl<'a> TextReader<'a> {
     }
 
     /// The target of a reference: `@file@</path> (offset = 1)`.
-    fn target(&mut self) -> Option<Target> {
+    fn target(&mut self) -> Option<ArcTarget> {
         let start = self.at;
         let asset = match self.peek() {
             Some(b'@') => self.between(b'@', b'@')?.text,
@@ -548,7 +549,7 @@ impl<'a> TextReader<'a> {
         };
         let span = self.span(start);
         let time = self.time_map()?;
-        Some(Target {
+        Some(ArcTarget {
             asset,
             path,
             time,
@@ -557,8 +558,8 @@ impl<'a> TextReader<'a> {
     }
 
     /// `(offset = 1; scale = 2)`, or nothing.
-    fn time_map(&mut self) -> Option<TimeMap> {
-        let mut time = TimeMap::default();
+    fn time_map(&mut self) -> Option<LayerOffset> {
+        let mut time = LayerOffset::default();
         if !self.eat(b'(') {
             return Some(time);
         }
@@ -663,7 +664,7 @@ impl<'a> TextReader<'a> {
     /// The metadata and the body of a prim or a variant.
     fn braced(&mut self, index: u32, depth: usize) {
         if self.eat(b'(') {
-            self.metadata(Owner::Prim(index));
+            self.metadata(MetadataOwner::Prim(index));
         }
         if self.expect(b'{').is_some() {
             self.body(index, depth + 1);
@@ -728,14 +729,14 @@ impl<'a> TextReader<'a> {
                     let value = self.value()?;
                     let properties = &mut self.layer.prim_mut(index).properties;
                     if let Some(property) = properties.get_mut(name) {
-                        property.value = Some(Stored::Read(value));
+                        property.value = Some(StoredValue::Read(value));
                     }
                 }
                 _ => self.skip_value()?,
             }
         }
         if self.eat(b'(') {
-            self.metadata(Owner::Property(index, name));
+            self.metadata(MetadataOwner::Property(index, name));
         }
         Some(())
     }
@@ -751,7 +752,7 @@ impl<'a> TextReader<'a> {
 
     fn samples(&mut self, index: u32, name: &str) -> Option<()> {
         self.expect(b'{')?;
-        let mut samples: Vec<(f64, Stored)> = Vec::new();
+        let mut samples: Vec<(f64, StoredValue)> = Vec::new();
         while !self.eat(b'}') {
             let start = self.at;
             // The colon is one of the bytes of a name.
@@ -764,7 +765,7 @@ impl<'a> TextReader<'a> {
                 self.expect(b':')?;
             }
             self.spend(WORD);
-            samples.push((time, Stored::Read(self.value()?)));
+            samples.push((time, StoredValue::Read(self.value()?)));
             if !self.eat(b',') {
                 self.expect(b'}')?;
                 break;

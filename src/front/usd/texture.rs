@@ -2,13 +2,13 @@
 //! that the standard material looks up.
 
 use super::Lowering;
-use super::stage::Prim;
-use crate::exchange::Text;
+use super::stage::ComposedPrim;
+use crate::exchange::SpannedText;
 use crate::exchange::color::encoded;
 use crate::pixels;
 use rtc_color::{nearest8, srgb_decoded};
 use rtc_diag::codes;
-use rtc_image::{Opacity, is_radiance};
+use rtc_image::{OpacityUse, is_radiance};
 use rtc_ir::{EntityKind, Filter, Image, ImageId, Map, Pixels, Sampled, TextureId, Wrap};
 use rtc_source::{FileKind, Resource, Span};
 use std::collections::BTreeMap;
@@ -27,7 +27,7 @@ const TEXTURES: FileKind = FileKind {
 /// One channel of a picture that is made: a channel of a file with its scale and bias, or a
 /// constant.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Channel {
+pub(super) enum SourceChannel {
     Constant(u8),
     File {
         path: String,
@@ -40,12 +40,12 @@ pub(super) enum Channel {
 }
 
 /// What distinguishes pictures: their channels, and whether their colours are coded as sRGB.
-pub(super) type ChannelsKey = (Vec<Channel>, bool);
+pub(super) type ChannelsKey = (Vec<SourceChannel>, bool);
 
 /// How a material looks a picture up.
 #[derive(Clone, Debug)]
-pub(super) struct TextureLook {
-    pub(super) path: Text,
+pub(super) struct TextureLookup {
+    pub(super) path: SpannedText,
     pub(super) layer: usize,
     /// The channel that is used; none for all colours.
     pub(super) channel: Option<usize>,
@@ -60,16 +60,22 @@ pub(super) struct TextureLook {
     pub(super) rows: [[f64; 3]; 2],
 }
 
-impl TextureLook {
+impl TextureLookup {
     /// The value of a channel without the file.
     pub(super) fn fallback(&self, channel: usize) -> f64 {
         self.fallback[channel] * self.scale[channel] + self.bias[channel]
     }
 
     /// Channels of the file for the picture that is made: its values times `scale`, plus `bias`.
-    pub(super) fn file(&self, channel: usize, is_color: bool, scale: f64, bias: f64) -> Channel {
+    pub(super) fn file(
+        &self,
+        channel: usize,
+        is_color: bool,
+        scale: f64,
+        bias: f64,
+    ) -> SourceChannel {
         let is_srgb = self.is_srgb.unwrap_or(is_color) && channel < 3;
-        Channel::File {
+        SourceChannel::File {
             path: self.path.text.clone(),
             layer: self.layer,
             channel,
@@ -92,8 +98,8 @@ impl Lowering<'_> {
     /// without its file, which is reported once.
     pub(super) fn picture_map(
         &mut self,
-        look: &TextureLook,
-        channels: Vec<Channel>,
+        look: &TextureLookup,
+        channels: Vec<SourceChannel>,
         is_color: bool,
         set: u32,
     ) -> Option<Map> {
@@ -117,13 +123,13 @@ impl Lowering<'_> {
     /// Makes a picture of the channels of its files.
     fn read_image(
         &mut self,
-        look: &TextureLook,
+        look: &TextureLookup,
         (channels, is_color): &ChannelsKey,
     ) -> Option<ImageId> {
         let mut files = BTreeMap::new();
         let span = look.path.span;
         for channel in channels {
-            let Channel::File { path, layer, .. } = channel else {
+            let SourceChannel::File { path, layer, .. } = channel else {
                 continue;
             };
             // Layers in different folders may give different files one name.
@@ -131,7 +137,7 @@ impl Lowering<'_> {
             if files.contains_key(&key) {
                 continue;
             }
-            let text = Text {
+            let text = SpannedText {
                 text: path.clone(),
                 span,
             };
@@ -139,7 +145,7 @@ impl Lowering<'_> {
             if is_radiance(&bytes) {
                 return self.float_image(&text, &bytes);
             }
-            let decoded = pixels::decode(&bytes, Opacity::Kept, self.map.budget());
+            let decoded = pixels::decode(&bytes, OpacityUse::Kept, self.map.budget());
             match decoded {
                 Ok(decoded) => drop(files.insert(key, decoded)),
                 Err(fault) => {
@@ -160,8 +166,8 @@ impl Lowering<'_> {
         for (at, channel) in channels.iter().enumerate() {
             let targets = made.iter_mut().skip(at).step_by(channels.len());
             match channel {
-                Channel::Constant(byte) => targets.for_each(|target| *target = *byte),
-                Channel::File {
+                SourceChannel::Constant(byte) => targets.for_each(|target| *target = *byte),
+                SourceChannel::File {
                     path,
                     layer,
                     channel,
@@ -197,7 +203,7 @@ impl Lowering<'_> {
     }
 
     /// A picture of radiance as it is.
-    fn float_image(&mut self, path: &Text, bytes: &[u8]) -> Option<ImageId> {
+    fn float_image(&mut self, path: &SpannedText, bytes: &[u8]) -> Option<ImageId> {
         match pixels::environment(&path.text, bytes, self.map.budget()) {
             Ok(image) => Some(self.add_picture(image, path.span)),
             Err(fault) => {
@@ -227,7 +233,11 @@ impl Lowering<'_> {
     }
 
     /// What a `UsdUVTexture` says of its picture; `None` without a file.
-    pub(super) fn texture_look(&mut self, texture: &Prim, output: &str) -> Option<TextureLook> {
+    pub(super) fn texture_look(
+        &mut self,
+        texture: &ComposedPrim,
+        output: &str,
+    ) -> Option<TextureLookup> {
         // Find the image file.
         let (file, name) = self.value_source(texture, "inputs:file")?;
         let (path, layer) = self
@@ -274,7 +284,7 @@ impl Lowering<'_> {
                     "outputs:r" | "outputs:g" | "outputs:b" | "outputs:a"
                 )
             });
-        Some(TextureLook {
+        Some(TextureLookup {
             path,
             layer,
             channel,
@@ -289,7 +299,7 @@ impl Lowering<'_> {
     }
 
     /// The primvar of the texture coordinates, and the map from it to them.
-    fn texture_coordinates(&mut self, texture: &Prim) -> (String, [[f64; 3]; 2]) {
+    fn texture_coordinates(&mut self, texture: &ComposedPrim) -> (String, [[f64; 3]; 2]) {
         let mut rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
         let mut node = self.node(texture, "inputs:st").map(|(node, _)| node);
         for _ in 0..4 {
@@ -316,7 +326,7 @@ impl Lowering<'_> {
     }
 
     /// Scale, then turn, then move.
-    fn transform_2d(&self, prim: &Prim) -> [[f64; 3]; 2] {
+    fn transform_2d(&self, prim: &ComposedPrim) -> [[f64; 3]; 2] {
         let [sx, sy] = self.vector::<2>(prim, "inputs:scale").unwrap_or([1.0; 2]);
         let [tx, ty] = self
             .vector::<2>(prim, "inputs:translation")

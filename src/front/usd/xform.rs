@@ -1,18 +1,18 @@
 //! Transforms: the stack of operations of a prim (`UsdGeomXformable`).
 
 use super::Lowering;
-use super::stage::Prim;
-use crate::exchange::transform::Transform;
+use super::stage::ComposedPrim;
+use crate::exchange::transform::AffineTransform;
 use rtc_diag::{clip_path, codes};
 use rtc_math::Vec3;
 
 impl Lowering<'_> {
     /// The map from a prim to its parent, and whether it forgets those above.
-    pub(super) fn local(&mut self, prim: &Prim) -> (Transform, bool) {
-        let (mut all, mut resets) = (Transform::IDENTITY, false);
+    pub(super) fn local(&mut self, prim: &ComposedPrim) -> (AffineTransform, bool) {
+        let (mut all, mut resets) = (AffineTransform::IDENTITY, false);
         for name in self.texts(prim, "xformOpOrder").unwrap_or_default() {
             if name == "!resetXformStack!" {
-                (all, resets) = (Transform::IDENTITY, true);
+                (all, resets) = (AffineTransform::IDENTITY, true);
                 continue;
             }
             let inverted = name.strip_prefix("!invert!");
@@ -36,10 +36,10 @@ impl Lowering<'_> {
     }
 
     /// One operation; an attribute without a value does nothing.
-    fn operation(&self, prim: &Prim, name: &str) -> Option<Transform> {
+    fn operation(&self, prim: &ComposedPrim, name: &str) -> Option<AffineTransform> {
         let kind = name.strip_prefix("xformOp:")?.split(':').next()?;
         let Some(numbers) = self.numbers(prim, name) else {
-            return Some(Transform::IDENTITY);
+            return Some(AffineTransform::IDENTITY);
         };
         let (axes, angle) = (["X", "Y", "Z"], numbers.first().copied()?);
         let along = |axis: usize, value: f64, rest: f64| {
@@ -49,28 +49,28 @@ impl Lowering<'_> {
         };
         let three = || -> Option<[f64; 3]> { numbers.get(..3)?.try_into().ok() };
         let transform = match kind {
-            "translate" => Transform::translation(three()?),
-            "scale" => Transform::scale(three()?),
+            "translate" => AffineTransform::translation(three()?),
+            "scale" => AffineTransform::scale(three()?),
             "orient" => turned(numbers.get(..4)?.try_into().ok()?)?,
             "transform" => {
                 let row = |at: usize| Some(Vec3::from_slice(numbers.get(4 * at..4 * at + 3)?));
-                Transform([row(0)?, row(1)?, row(2)?, row(3)?])
+                AffineTransform([row(0)?, row(1)?, row(2)?, row(3)?])
             }
             _ => {
                 if let Some(rest) = kind.strip_prefix("translate") {
                     let axis = axes.iter().position(|axis| *axis == rest)?;
-                    Transform::translation(along(axis, angle, 0.0))
+                    AffineTransform::translation(along(axis, angle, 0.0))
                 } else if let Some(rest) = kind.strip_prefix("scale") {
                     let axis = axes.iter().position(|axis| *axis == rest)?;
-                    Transform::scale(along(axis, angle, 1.0))
+                    AffineTransform::scale(along(axis, angle, 1.0))
                 } else {
                     // `rotateXYZ` turns about x first.
                     let order = kind.strip_prefix("rotate")?;
-                    let mut all = Transform::IDENTITY;
+                    let mut all = AffineTransform::IDENTITY;
                     for letter in order.chars() {
                         let axis = "XYZ".find(letter)?;
                         let angle = *numbers.get(if order.len() == 1 { 0 } else { axis })?;
-                        let turn = Transform::rotation(along(axis, 1.0, 0.0), angle)?;
+                        let turn = AffineTransform::rotation(along(axis, 1.0, 0.0), angle)?;
                         all = turn.after(&all);
                     }
                     all
@@ -86,7 +86,7 @@ impl Lowering<'_> {
 }
 
 /// The turn by a quaternion, its real part first; `None` if it is zero.
-pub(super) fn turned(quaternion: [f64; 4]) -> Option<Transform> {
+pub(super) fn turned(quaternion: [f64; 4]) -> Option<AffineTransform> {
     let length = quaternion
         .iter()
         .map(|part| part * part)
@@ -97,7 +97,7 @@ pub(super) fn turned(quaternion: [f64; 4]) -> Option<Transform> {
     }
     let [w, x, y, z] = quaternion.map(|part| part / length);
     let column = |a: f64, b: f64, c: f64| Vec3::new(a, b, c);
-    Some(Transform([
+    Some(AffineTransform([
         column(
             1.0 - 2.0 * (y * y + z * z),
             2.0 * (x * y + w * z),

@@ -366,7 +366,7 @@ fn unpack(
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Opacity, PixelFile};
+    use super::super::{OpacityUse, PixelFile};
     use super::*;
 
     const ETC1S: &[u8] = include_bytes!("../../../fuzz/corpus/image/etc1s.ktx2");
@@ -374,7 +374,7 @@ mod tests {
     const UASTC: &[u8] = include_bytes!("../../../fuzz/corpus/image/uastc.ktx2");
     const UASTC_ZSTD: &[u8] = include_bytes!("../../../fuzz/corpus/image/uastc-zstd.ktx2");
 
-    fn decode(file: &[u8], opacity: Opacity) -> Result<super::super::Pixels, DecodeError> {
+    fn decode(file: &[u8], opacity: OpacityUse) -> Result<super::super::Pixels, DecodeError> {
         PixelFile::open(file, opacity, 1 << 20)?.decode()
     }
 
@@ -398,7 +398,7 @@ mod tests {
             (UASTC, Some(102), 0),
             (UASTC_ZSTD, Some(102), 0),
         ] {
-            let pixels = decode(file, Opacity::Kept).unwrap();
+            let pixels = decode(file, OpacityUse::Kept).unwrap();
             let channels = if alpha.is_some() { 4 } else { 3 };
             assert_eq!((pixels.width, pixels.height), (10, 6));
             assert_eq!(pixels.has_alpha, alpha.is_some());
@@ -411,7 +411,7 @@ mod tests {
                     "{index}: {pixel:?}"
                 );
             }
-            let opaque = decode(file, Opacity::Dropped).unwrap().bytes;
+            let opaque = decode(file, OpacityUse::Dropped).unwrap().bytes;
             let colors = pixels.bytes.chunks(channels).flat_map(|pixel| &pixel[..3]);
             assert!(opaque.iter().eq(colors));
         }
@@ -421,7 +421,7 @@ mod tests {
     fn a_file_cut_anywhere_is_rejected() {
         for file in [ETC1S, ETC1S_ALPHA, UASTC, UASTC_ZSTD] {
             for end in MAGIC.len()..file.len() {
-                assert!(decode(&file[..end], Opacity::Kept).is_err(), "{end}");
+                assert!(decode(&file[..end], OpacityUse::Kept).is_err(), "{end}");
             }
         }
     }
@@ -438,10 +438,10 @@ mod tests {
                 for word in [[0xff; 4], [0xff, 0xff, 0xff, 0x7f]] {
                     let mut forged = file.to_vec();
                     forged[*at..at + 4].copy_from_slice(&word);
-                    assert!(decode(&forged, Opacity::Kept).is_err(), "{at}");
+                    assert!(decode(&forged, OpacityUse::Kept).is_err(), "{at}");
                     if *at >= 64 {
                         forged[at + 4..at + 8].copy_from_slice(&word);
-                        assert!(decode(&forged, Opacity::Kept).is_err(), "{at}");
+                        assert!(decode(&forged, OpacityUse::Kept).is_err(), "{at}");
                     }
                 }
             }
@@ -459,7 +459,7 @@ mod tests {
         ] {
             let mut file = UASTC.to_vec();
             file[at] = value;
-            let error = decode(&file, Opacity::Kept).unwrap_err().to_string();
+            let error = decode(&file, OpacityUse::Kept).unwrap_err().to_string();
             assert!(error.contains(kind), "{error}");
         }
     }

@@ -51,7 +51,7 @@ impl CodedPixels {
 
 /// What becomes of the opacity of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Opacity {
+pub enum OpacityUse {
     /// It is dropped.
     Dropped,
     /// It is kept where there is one.
@@ -108,7 +108,7 @@ impl DecodeError {
 /// A pixel file whose header was read.
 pub struct PixelFile<'a> {
     size: ImageSize,
-    opacity: Opacity,
+    opacity: OpacityUse,
     decoder: Decoder<'a>,
 }
 
@@ -183,7 +183,11 @@ impl<'a> PixelFile<'a> {
     /// # Errors
     /// If the bytes are no such file, the header is damaged, or it declares more pixels than are
     /// allowed.
-    pub fn open(bytes: &'a [u8], opacity: Opacity, most_pixels: u64) -> Result<Self, DecodeError> {
+    pub fn open(
+        bytes: &'a [u8],
+        opacity: OpacityUse,
+        most_pixels: u64,
+    ) -> Result<Self, DecodeError> {
         let (size, decoder) = match PictureFormat::of(bytes) {
             Some(PictureFormat::Png) => png::open(bytes, most_pixels)
                 .map(|(size, png)| (size, Decoder::Png(Box::new(png))))?,
@@ -282,7 +286,7 @@ impl<'a> PixelFile<'a> {
 
     /// The number of 8-bit channels of the pixels.
     fn channels(&self) -> usize {
-        if self.opacity == Opacity::Kept && self.layout().has_alpha() {
+        if self.opacity == OpacityUse::Kept && self.layout().has_alpha() {
             4
         } else {
             3

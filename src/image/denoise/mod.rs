@@ -15,7 +15,7 @@ mod solve;
 mod tile;
 
 use super::Image;
-use planes::Planes;
+use planes::ValuePlanes;
 use rayon::prelude::*;
 use solve::TERMS;
 
@@ -23,7 +23,7 @@ use solve::TERMS;
 pub const GUIDES: usize = TERMS - 1;
 
 /// The guide of a pixel, each number about in [−1, 1].
-pub type Guide = [f64; GUIDES];
+pub type DenoisingGuide = [f64; GUIDES];
 
 /// One half of the samples of a picture.
 #[derive(Clone, Copy, Debug)]
@@ -31,16 +31,16 @@ pub struct NoisyHalf<'a> {
     /// The means of its samples, linear.
     pub image: &'a Image,
     /// The guides of the same camera rays.
-    pub guides: &'a [Guide],
+    pub guides: &'a [DenoisingGuide],
 }
 
 /// The denoised picture of two halves of as many samples. `exact` has guides of more rays than
 /// either half: models are read off there, which also takes off noise of edges that the guides
 /// know. All have the same pixels.
 #[must_use]
-pub fn denoise(halves: [NoisyHalf<'_>; 2], exact: &[Guide]) -> Image {
+pub fn denoise(halves: [NoisyHalf<'_>; 2], exact: &[DenoisingGuide]) -> Image {
     let [a, b] = halves.map(|half| half.image);
-    let models = tile::models(&Planes::new(halves, exact));
+    let models = tile::models(&ValuePlanes::new(halves, exact));
     let shares = share::shares([a, b], &models);
     let at = |index: usize| {
         let mean = |a: f64, b: f64| 0.5 * (a + b);
@@ -90,7 +90,7 @@ mod tests {
     }
 
     /// Guides of the albedo of each pixel.
-    fn guides(albedo: impl Fn(u32) -> f64) -> Vec<Guide> {
+    fn guides(albedo: impl Fn(u32) -> f64) -> Vec<DenoisingGuide> {
         let of = |index: u32| {
             let a = albedo(index % SIDE);
             [1.0, a, a, a, 0.0, 0.0, 1.0, 0.5]
@@ -103,7 +103,7 @@ mod tests {
         fraction(mix(u64::from(x) << 40 | u64::from(y) << 8 | seed)) - 0.5
     }
 
-    fn denoised(color: impl Fn(u32, u32, u64) -> f64, guides: &[Guide]) -> Image {
+    fn denoised(color: impl Fn(u32, u32, u64) -> f64, guides: &[DenoisingGuide]) -> Image {
         let [a, b] = [1, 2].map(|seed| image(|x, y| color(x, y, seed)));
         let half = |image| NoisyHalf { image, guides };
         denoise([half(&a), half(&b)], guides)

@@ -2,7 +2,7 @@
 //! neighbours. Pixels of the border count nothing.
 
 use super::curve::compress;
-use super::{GUIDES, Guide, NoisyHalf};
+use super::{DenoisingGuide, GUIDES, NoisyHalf};
 
 /// The pixels of the border.
 const BORDER: usize = 8;
@@ -11,7 +11,7 @@ const BORDER: usize = 8;
 pub(super) type PixelPlanes<const N: usize> = [Vec<f32>; N];
 
 /// One half of the samples.
-pub(super) struct Half {
+pub(super) struct SampleHalf {
     pub(super) color: PixelPlanes<3>,
     /// As colours are compared.
     pub(super) shown: PixelPlanes<3>,
@@ -19,12 +19,12 @@ pub(super) struct Half {
 }
 
 /// The numbers of a picture, row by row.
-pub(super) struct Planes {
+pub(super) struct ValuePlanes {
     /// The pixels of a row and of a column, without the border.
     pub(super) size: [usize; 2],
     /// The numbers of a row.
     pub(super) stride: usize,
-    pub(super) halves: [Half; 2],
+    pub(super) halves: [SampleHalf; 2],
     pub(super) exact: PixelPlanes<GUIDES>,
     /// The variance of the shown colours of a half.
     pub(super) variance: PixelPlanes<3>,
@@ -32,15 +32,15 @@ pub(super) struct Planes {
     pub(super) inside: Vec<f32>,
 }
 
-impl Planes {
-    pub(super) fn new(halves: [NoisyHalf<'_>; 2], exact: &[Guide]) -> Self {
+impl ValuePlanes {
+    pub(super) fn new(halves: [NoisyHalf<'_>; 2], exact: &[DenoisingGuide]) -> Self {
         // Pad each row so that filters read past its ends.
         let image = halves[0].image;
         let size = [image.width as usize, image.height as usize];
         let stride = (size[0] + 2 * BORDER).next_multiple_of(super::solve::LANES) + BORDER;
         let shape = PlaneShape { size, stride };
         // Copy each half into planes of colour and guides.
-        let [a, b] = halves.map(|NoisyHalf { image, guides }| Half {
+        let [a, b] = halves.map(|NoisyHalf { image, guides }| SampleHalf {
             color: shape.planes(|index| image.pixels[index].map(|value| value as f32)),
             shown: shape.planes(|index| image.pixels[index].map(|value| compress(value) as f32)),
             guides: shape.planes(|index| guides[index].map(|value| value as f32)),

@@ -18,13 +18,13 @@ pub(super) type Lane = [f32; LANES];
 pub(super) const TERMS: usize = 9;
 
 /// The normal equations.
-pub(super) struct Terms {
+pub(super) struct NormalEquations {
     /// The lower triangle.
     matrix: [[Lane; TERMS]; TERMS],
     right: [[Lane; 3]; TERMS],
 }
 
-impl Default for Terms {
+impl Default for NormalEquations {
     fn default() -> Self {
         Self {
             matrix: [[[0.0; LANES]; TERMS]; TERMS],
@@ -49,7 +49,7 @@ fn subtract(sum: &mut Lane, a: &Lane, b: &Lane) {
     }
 }
 
-impl Terms {
+impl NormalEquations {
     /// Adds values with weights at places.
     #[inline]
     pub(super) fn add(&mut self, weight: &Lane, place: &[Lane; TERMS - 1], value: &[Lane; 3]) {

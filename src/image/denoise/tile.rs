@@ -1,8 +1,8 @@
 //! The models of all pixels, tile by tile.
 
 use super::GUIDES;
-use super::planes::Planes;
-use super::solve::{LANES, Lane, Terms};
+use super::planes::ValuePlanes;
+use super::solve::{LANES, Lane, NormalEquations};
 use rayon::prelude::*;
 use std::array::from_fn;
 
@@ -21,10 +21,10 @@ const RIDGE: f32 = 1e-2;
 const LEAST_VARIANCE: f32 = 1e-5;
 
 /// The weights of pixels around those of a tile.
-type Weights = [[f32; WIDTH * HEIGHT]; FITTED];
+type TileWeights = [[f32; WIDTH * HEIGHT]; FITTED];
 
 /// The values of the models of each half, of all pixels; not finite where there is none.
-pub(super) fn models(planes: &Planes) -> [Vec<[f32; 3]>; 2] {
+pub(super) fn models(planes: &ValuePlanes) -> [Vec<[f32; 3]>; 2] {
     let [width, height] = planes.size;
     let [across, down] = [width.div_ceil(WIDTH), height.div_ceil(HEIGHT)];
     let tiles = (0..across * down).into_par_iter().map(|tile| {
@@ -43,7 +43,12 @@ pub(super) fn models(planes: &Planes) -> [Vec<[f32; 3]>; 2] {
 }
 
 /// The values of the models of one half in a tile, weighed by the other.
-fn model(planes: &Planes, corner: [usize; 2], fitted: usize, weighing: usize) -> Vec<[f32; 3]> {
+fn model(
+    planes: &ValuePlanes,
+    corner: [usize; 2],
+    fitted: usize,
+    weighing: usize,
+) -> Vec<[f32; 3]> {
     let weights = weights(planes, corner, weighing);
     let half = &planes.halves[fitted];
     let mut values = vec![[f32::NAN; 3]; WIDTH * HEIGHT];
@@ -54,7 +59,7 @@ fn model(planes: &Planes, corner: [usize; 2], fitted: usize, weighing: usize) ->
         }
         let here = planes.at([x, y]);
         let exact: [Lane; GUIDES] = from_fn(|k| lane(&planes.exact[k], here));
-        let mut terms = Terms::default();
+        let mut terms = NormalEquations::default();
         for (near, weights) in weights.iter().enumerate() {
             let there = beside(planes, here, near);
             let place = from_fn(|k| {
@@ -88,13 +93,13 @@ fn lane(numbers: &[f32], first: usize) -> Lane {
 
 /// The place of the k-th pixel around one.
 #[inline]
-fn beside(planes: &Planes, place: usize, k: usize) -> usize {
+fn beside(planes: &ValuePlanes, place: usize, k: usize) -> usize {
     let (x, y) = (k % (2 * REACH + 1), k / (2 * REACH + 1));
     place + y * planes.stride + x - REACH * planes.stride - REACH
 }
 
 /// How much the pixels around those of a tile count, by their guides and one half of the samples.
-fn weights(planes: &Planes, corner: [usize; 2], weighing: usize) -> Box<Weights> {
+fn weights(planes: &ValuePlanes, corner: [usize; 2], weighing: usize) -> Box<TileWeights> {
     let mut weights = vec![[0.0; WIDTH * HEIGHT]; FITTED];
     let corner = planes.at(corner);
     for (k, weights) in weights.iter_mut().enumerate() {
@@ -131,7 +136,7 @@ const SPAN: usize = WIDTH + 2;
 /// (Rousselle et al., "Adaptive rendering with non-local means filtering", 2012, equation 4): the
 /// sums over the channels.
 fn distances(
-    planes: &Planes,
+    planes: &ValuePlanes,
     corner: usize,
     k: usize,
     weighing: usize,

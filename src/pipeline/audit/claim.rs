@@ -5,14 +5,14 @@ use rtc_color::Tone;
 use rtc_image::{BackgroundFill, FileFormat};
 use rtc_ir::{Lens, Settings};
 use rtc_passes::Overrides;
-use rtc_plan::{Arithmetic, Rule, Rules};
+use rtc_plan::{Arithmetic, Rule, RuleSet};
 use rtc_render::{Aov, Crop};
 use serde::Deserialize;
 
 /// The settings in the metadata of a picture; [`PictureSetup::metadata`] writes them.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
-struct Claim {
+struct ClaimedSettings {
     size: [u32; 2],
     lens: Lens,
     settings: Settings,
@@ -49,7 +49,7 @@ enum ClaimedBackground {
     Color([f64; 3]),
 }
 
-impl Claim {
+impl ClaimedSettings {
     /// The reason why such a picture can't be rendered again in parts, if any.
     fn obstacle(&self) -> Option<&'static str> {
         let obstacles = [
@@ -83,7 +83,7 @@ pub(super) fn setup(
 ) -> Result<PictureSetup, RenderError> {
     let refused = |words: String| RenderError::Refused(words);
     // Parse the settings that the picture claims.
-    let claim: Claim = serde_json::from_str(settings)
+    let claim: ClaimedSettings = serde_json::from_str(settings)
         .map_err(|_| refused("its settings are not those of this program".to_owned()))?;
     if let Some(words) = claim.obstacle() {
         return Err(refused(words.to_owned()));
@@ -100,8 +100,8 @@ pub(super) fn setup(
     let look = OutputTransform::new(form, tone, Some(exposure), background, layers);
     // Restore the plan's rules and the sampling.
     let rules = match claim.approx {
-        true => Rules::ALL.with(Rule::Cut),
-        false => Rules::ALL,
+        true => RuleSet::ALL.with(Rule::Cut),
+        false => RuleSet::ALL,
     };
     Ok(PictureSetup {
         overrides: Overrides {

@@ -8,15 +8,17 @@
 mod claim;
 mod part;
 
-use super::output_transform::{Losses, ResolvedOutputTransform};
-use super::{Observer, PictureSetup, RayCounter, RenderError, RenderSubject, Renderer};
+use super::output_transform::{ClippedValues, ResolvedOutputTransform};
+use super::{PictureSetup, RayCounter, RenderError, RenderObserver, RenderSubject, Renderer};
 use rayon::prelude::*;
 use rtc_image::{
-    Layers, MerkleTree, Picture, PictureMetadata, TILE, TileHash, WrittenPicture, samples,
+    MerkleTree, Picture, PictureMetadata, PixelLayers, TILE, TileHash, WrittenPicture, samples,
     tile_count,
 };
 use rtc_math::{mix, to_u32};
-use rtc_render::{AnyWorld, Aov, Background, Crop, Job, PartialFilm, PixelObserver, Tiles, Values};
+use rtc_render::{
+    AnyWorld, Aov, Background, Crop, PartialFilm, PixelObserver, RenderSelection, Tiles, Values,
+};
 use rtc_study::least_faults;
 use rtc_valid::Mode;
 use std::ops::Range;
@@ -29,7 +31,7 @@ pub const ODDS: u64 = 50;
 
 /// The number of tiles to draw, and the seed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct AuditDraw {
+pub struct TileDraw {
     /// The number, or all if there are fewer.
     pub tiles: u64,
     /// The seed.
@@ -105,7 +107,7 @@ impl AuditResult {
 }
 
 /// The numbers of the drawn tiles, ascending: those of the least ranks, which the seed shuffles.
-fn drawn(all: usize, draw: AuditDraw) -> Vec<usize> {
+fn drawn(all: usize, draw: TileDraw) -> Vec<usize> {
     let mut order: Vec<usize> = (0..all).collect();
     let seed = mix(draw.seed);
     order.sort_by_cached_key(|index| mix(seed ^ *index as u64));
@@ -220,8 +222,8 @@ impl<'p> PictureAudit<'p> {
         &self,
         setup: &PictureSetup,
         subject: &mut RenderSubject,
-        (draw, rays): (AuditDraw, u64),
-        observer: &Observer<'_>,
+        (draw, rays): (TileDraw, u64),
+        observer: &RenderObserver<'_>,
     ) -> Result<AuditResult, RenderError> {
         let Self { picture, tree } = self;
         // The metadata of scene, settings and size.
@@ -245,7 +247,7 @@ impl<'p> PictureAudit<'p> {
         // The drawn tiles.
         let nodes = drawn(tree.nodes().len(), draw);
         let count = tile_count(size);
-        let anew = TileMaker::new(setup, subject, window, rays)?;
+        let anew = TileRenderer::new(setup, subject, window, rays)?;
         let made = anew.on_threads(&nodes, |node| {
             let tiles = tree.tiles(*node, count);
             self.compare(*node, tiles, &anew, observer)
@@ -270,8 +272,8 @@ impl<'p> PictureAudit<'p> {
         &self,
         node: usize,
         tiles: Range<usize>,
-        anew: &TileMaker<'_>,
-        observer: &Observer<'_>,
+        anew: &TileRenderer<'_>,
+        observer: &RenderObserver<'_>,
     ) -> Result<Option<AuditFinding>, RenderError> {
         let Self { picture, tree } = self;
         let (mut hashes, mut differing) = (Vec::new(), None);
@@ -350,18 +352,18 @@ fn stretches([width, height]: [u32; 2], tiles: Range<usize>) -> Vec<Crop> {
 }
 
 /// Renders parts of a picture again.
-struct TileMaker<'s> {
+struct TileRenderer<'s> {
     renderer: &'s Renderer,
     /// The world for the layers, if it is a different one.
     unpruned: Option<AnyWorld>,
     look: ResolvedOutputTransform,
     aovs: Vec<Aov>,
     window: Crop,
-    job: Job,
+    job: RenderSelection,
     rays: u64,
 }
 
-impl<'s> TileMaker<'s> {
+impl<'s> TileRenderer<'s> {
     fn new(
         setup: &PictureSetup,
         subject: &'s mut RenderSubject,
@@ -381,11 +383,11 @@ impl<'s> TileMaker<'s> {
             look,
             aovs,
             window,
-            job: Job {
+            job: RenderSelection {
                 values,
                 background,
                 clamp: setup.clamp,
-                ..Job::default()
+                ..RenderSelection::default()
             },
             rays,
         })
@@ -402,13 +404,13 @@ impl<'s> TileMaker<'s> {
     }
 
     /// The picture of a part of the crop, by its position in it.
-    fn picture(&self, area: Crop, observer: &Observer<'_>) -> Result<Picture, RenderError> {
+    fn picture(&self, area: Crop, observer: &RenderObserver<'_>) -> Result<Picture, RenderError> {
         let area = Crop {
             x: self.window.x + area.x,
             y: self.window.y + area.y,
             ..area
         };
-        let job = Job {
+        let job = RenderSelection {
             crop: Some(area),
             ..self.job
         };
@@ -416,7 +418,7 @@ impl<'s> TileMaker<'s> {
             self.renderer.world.render(&job, on_pixel)
         })?;
         let layers = self.layers(&job, observer)?;
-        let losses = &mut Losses::default();
+        let losses = &mut ClippedValues::default();
         Ok(self.look.show(film.image, film.coverage, layers, losses))
     }
 
@@ -425,9 +427,9 @@ impl<'s> TileMaker<'s> {
         &self,
         area: Crop,
         samples: Option<Range<u32>>,
-        observer: &Observer<'_>,
+        observer: &RenderObserver<'_>,
     ) -> Result<PartialFilm, RenderError> {
-        let job = Job {
+        let job = RenderSelection {
             crop: Some(area),
             ..self.job
         };
@@ -446,7 +448,7 @@ impl<'s> TileMaker<'s> {
     fn counted<T>(
         &self,
         area: Crop,
-        observer: &Observer<'_>,
+        observer: &RenderObserver<'_>,
         render: impl FnOnce(&PixelObserver<'_>) -> Option<T>,
     ) -> Result<T, RenderError> {
         let counter = RayCounter::new(self.rays, area);
@@ -461,9 +463,13 @@ impl<'s> TileMaker<'s> {
         made.ok_or(RenderError::Stopped)
     }
 
-    fn layers(&self, job: &Job, observer: &Observer<'_>) -> Result<Layers, RenderError> {
+    fn layers(
+        &self,
+        job: &RenderSelection,
+        observer: &RenderObserver<'_>,
+    ) -> Result<PixelLayers, RenderError> {
         if self.aovs.is_empty() {
-            return Ok(Layers::default());
+            return Ok(PixelLayers::default());
         }
         let on_pixel = |_| !(observer.is_stopped)();
         let world = self.unpruned.as_ref().unwrap_or(&self.renderer.world);
@@ -478,7 +484,7 @@ mod tests {
 
     #[test]
     fn a_draw_is_of_different_tiles_and_depends_on_the_seed() {
-        let draw = |tiles, seed| drawn(100, AuditDraw { tiles, seed });
+        let draw = |tiles, seed| drawn(100, TileDraw { tiles, seed });
         assert_eq!(draw(500, 1), (0..100).collect::<Vec<_>>());
         assert!(draw(0, 1).is_empty());
         let some = draw(30, 1);

@@ -1,12 +1,12 @@
 //! Audits a part of a picture: the sums of its samples are compared.
 
-use super::super::{Observer, PictureSetup, RenderError, RenderShard, RenderSubject};
+use super::super::{PictureSetup, RenderError, RenderObserver, RenderShard, RenderSubject};
 use super::{
-    AuditDraw, AuditFinding, AuditResult, AuditSubject, ODDS, TileMaker, check_mode,
+    AuditFinding, AuditResult, AuditSubject, ODDS, TileDraw, TileRenderer, check_mode,
     check_software, claim, differing, drawn, finding,
 };
 use rtc_image::TileHash;
-use rtc_render::{Crop, Job, PartialFilm};
+use rtc_render::{Crop, PartialFilm, RenderSelection};
 use rtc_study::least_faults;
 
 impl RenderShard {
@@ -36,8 +36,8 @@ impl RenderShard {
         &self,
         setup: &PictureSetup,
         subject: &mut RenderSubject,
-        (draw, rays): (AuditDraw, u64),
-        observer: &Observer<'_>,
+        (draw, rays): (TileDraw, u64),
+        observer: &RenderObserver<'_>,
     ) -> Result<AuditResult, RenderError> {
         // The metadata of scene, settings, output transform and crop.
         let scene = &subject.validated.lowered.scene;
@@ -64,7 +64,7 @@ impl RenderShard {
         // The drawn tiles.
         let tiles: Vec<(usize, Crop)> = self.film().held_tiles().collect();
         let draws = drawn(tiles.len(), draw);
-        let anew = TileMaker::new(setup, subject, window, rays)?;
+        let anew = TileRenderer::new(setup, subject, window, rays)?;
         let made = anew.on_threads(&draws, |index| {
             let (tile, area) = tiles[*index];
             self.compare((*index, tile), area, &anew, observer)
@@ -88,8 +88,8 @@ impl RenderShard {
         &self,
         (index, tile): (usize, usize),
         area: Crop,
-        anew: &TileMaker<'_>,
-        observer: &Observer<'_>,
+        anew: &TileRenderer<'_>,
+        observer: &RenderObserver<'_>,
     ) -> Result<Option<AuditFinding>, RenderError> {
         let mut made = None::<PartialFilm>;
         for samples in self.film().samples_of_tile(tile) {
@@ -101,7 +101,7 @@ impl RenderShard {
         }
         let mut bytes = made.map_or_else(Vec::new, |made| made.tile_bytes(0));
         if self.has_layers(tile) {
-            let job = Job {
+            let job = RenderSelection {
                 crop: Some(area),
                 ..anew.job
             };

@@ -1,11 +1,12 @@
 //! Renders shards.
 
 use super::super::{
-    Observer, PictureSetup, RayCounter, RenderError, RenderShard, RenderSubject, ShardBy, ShardPlan,
+    PictureSetup, RayCounter, RenderError, RenderObserver, RenderShard, RenderSubject,
+    ShardDivision, ShardPlan,
 };
 use super::ShardSource;
 use rtc_ir::{self as ir, Scene};
-use rtc_render::{Crop, Job};
+use rtc_render::{Crop, RenderSelection};
 use rtc_valid as valid;
 
 /// The message for a picture that can't be divided by samples.
@@ -17,10 +18,10 @@ impl PictureSetup {
     ///
     /// # Errors
     /// If it is not path-traced and is to be divided by samples.
-    pub fn separable(&self, scene: &Scene, by: ShardBy) -> Result<(), RenderError> {
+    pub fn separable(&self, scene: &Scene, by: ShardDivision) -> Result<(), RenderError> {
         match (by, &scene.settings.mode) {
-            (ShardBy::Tiles, _) | (ShardBy::Samples, ir::Mode::Path(_)) => Ok(()),
-            (ShardBy::Samples, _) => Err(RenderError::Refused(INSEPARABLE.to_owned())),
+            (ShardDivision::Tiles, _) | (ShardDivision::Samples, ir::Mode::Path(_)) => Ok(()),
+            (ShardDivision::Samples, _) => Err(RenderError::Refused(INSEPARABLE.to_owned())),
         }
     }
 
@@ -32,27 +33,29 @@ impl PictureSetup {
         &self,
         subject: &mut RenderSubject,
         (shares, window, rays): (ShardPlan, Crop, u64),
-        observer: &Observer<'_>,
+        observer: &RenderObserver<'_>,
     ) -> Result<RenderShard, RenderError> {
         // The job: tiles or samples of the shares.
         let settings = subject.validated.scene.settings();
         let look = self.look.resolve(&settings.mode);
-        let whole = Job {
+        let whole = RenderSelection {
             crop: Some(window),
             values: self.look.values(&settings.mode),
             background: self.look.background(),
-            ..Job::default()
+            ..RenderSelection::default()
         };
         let (job, samples) = match (shares.by, &settings.mode) {
-            (ShardBy::Tiles, _) => {
+            (ShardDivision::Tiles, _) => {
                 // Render the layers, always by tiles.
                 let tiles = Some(shares.tiles());
-                (Job { tiles, ..whole }, None)
+                (RenderSelection { tiles, ..whole }, None)
             }
-            (ShardBy::Samples, valid::Mode::Path(path)) => {
+            (ShardDivision::Samples, valid::Mode::Path(path)) => {
                 (whole, Some(shares.samples(path.samples.get())))
             }
-            (ShardBy::Samples, _) => return Err(RenderError::Refused(INSEPARABLE.to_owned())),
+            (ShardDivision::Samples, _) => {
+                return Err(RenderError::Refused(INSEPARABLE.to_owned()));
+            }
         };
         // Render the film.
         let counter = RayCounter::new(rays, window);
@@ -70,7 +73,11 @@ impl PictureSetup {
         let film = film.map_err(|error| RenderError::Refused(error.to_string()))?;
         let film = film.ok_or(RenderError::Stopped)?;
         let tiles = Some(shares.tiles());
-        let layers = self.layers(subject, &Job { tiles, ..job }, observer.is_stopped)?;
+        let layers = self.layers(
+            subject,
+            &RenderSelection { tiles, ..job },
+            observer.is_stopped,
+        )?;
         let metadata = self.metadata(&subject.validated.lowered.scene);
         let made = ShardSource {
             metadata,

@@ -2,7 +2,7 @@
 //! path integrator uses physical lights.
 
 use rtc_math::IdTable;
-use rtc_profile::Profile;
+use rtc_profile::LightProfile;
 use rtc_valid::{CourseLight, Falloff, Light, PointLight, Punctual};
 use std::f64::consts::PI;
 
@@ -25,7 +25,7 @@ pub fn punctual(lights: &[Light]) -> IdTable<Punctual> {
         Light::Course(light) => Punctual::Point(PointLight {
             position: light.position,
             intensity: light.color * PI,
-            profile: Profile::Uniform,
+            profile: LightProfile::Uniform,
             falloff: Falloff::None,
         }),
     };

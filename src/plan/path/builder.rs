@@ -9,7 +9,7 @@ use crate::layer::Layer;
 use crate::projection::ScreenRect;
 use crate::rules::Rule;
 use crate::surface_bounds::SurfaceBounds;
-use rtc_ir::{EntityKind, Field, ValuePath};
+use rtc_ir::{EntityField, EntityKind, ValuePath};
 use rtc_math::{IdTable, UnitInterval, Vec3};
 use rtc_valid::{
     Alpha, Map, Material, MaterialId, Mesh, PathSettings, Punctual, Shape, Standard, Surface,
@@ -37,8 +37,8 @@ pub(super) struct PathPlanBuilder<'scene> {
     /// For each texture, whether its maps are folded into factors.
     pub(super) folded: IdTable<Texture, bool>,
     /// The use of each punctual light.
-    pub(super) lights: IdTable<Punctual, LightUse>,
-    pub(super) environment: EnvironmentUse,
+    pub(super) lights: IdTable<Punctual, RemainingLight>,
+    pub(super) environment: RemainingEnvironment,
     /// For each surface, whether it is in the world.
     pub(super) surfaces: Vec<bool>,
     /// The maximum number of bounces.
@@ -53,7 +53,7 @@ pub(super) struct PathPlanBuilder<'scene> {
 
 /// The part of a light that remains in the plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LightUse {
+pub enum RemainingLight {
     /// Nothing: the light is removed.
     Nothing,
     /// Only its index in the light distribution; it illuminates no surface.
@@ -64,7 +64,7 @@ pub enum LightUse {
 
 /// The part of the environment that remains in the plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EnvironmentUse {
+pub enum RemainingEnvironment {
     /// Nothing: it emits no light.
     Nothing,
     /// The constant value of its image, and its direction sampling.
@@ -116,7 +116,7 @@ impl PathPlanBuilder<'_> {
         let changed: Vec<_> = self.used_materials().map(new).filter(is_new).collect();
         let put = |(index, new): (MaterialId, Standard)| {
             self.materials[index] = new;
-            ValuePath::new(EntityKind::Material, index.index(), Field::Whole)
+            ValuePath::new(EntityKind::Material, index.index(), EntityField::Whole)
         };
         changed.into_iter().map(put).collect()
     }
@@ -160,9 +160,9 @@ impl PathPlanBuilder<'_> {
             Effect::Surfaces => self.surfaces.contains(&true),
             Effect::Supersampling => self.path.samples.get() > 1,
             Effect::Lens => self.scene.camera().lens.radius.get() > 0.0,
-            Effect::Environment => self.environment != EnvironmentUse::Nothing,
+            Effect::Environment => self.environment != RemainingEnvironment::Nothing,
             Effect::EnvironmentMap => {
-                self.environment == EnvironmentUse::All && self.has_environment_image()
+                self.environment == RemainingEnvironment::All && self.has_environment_image()
             }
             Effect::Emission | Effect::Unlit | Effect::Alpha => self
                 .used_materials()
@@ -279,13 +279,13 @@ impl PathPlanBuilder<'_> {
 
     /// Whether the light distribution has a light that may illuminate a surface.
     fn has_sampled_light(&self) -> bool {
-        self.lights.contains(&LightUse::All) || self.has_extended_light()
+        self.lights.contains(&RemainingLight::All) || self.has_extended_light()
     }
 
     /// Whether there is a light that both light sampling and BSDF sampling can hit: an environment
     /// image or an emissive surface.
     pub(super) fn has_extended_light(&self) -> bool {
-        let shines = self.environment != EnvironmentUse::Nothing;
+        let shines = self.environment != RemainingEnvironment::Nothing;
         (shines && self.has_environment_image()) || self.has_emissive_surface()
     }
 

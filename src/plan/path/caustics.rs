@@ -1,7 +1,7 @@
 //! Caustics: light that smooth metal and glass focus onto other surfaces. Camera paths find it only
 //! by BSDF sampling, or not at all.
 
-use super::{EnvironmentUse, LightUse, PathPlan};
+use super::{PathPlan, RemainingEnvironment, RemainingLight};
 use rtc_math::{UnitInterval, Vec3};
 use rtc_valid::Standard;
 
@@ -21,7 +21,7 @@ impl PathPlan {
     pub fn caustics(&self) -> Option<Caustics> {
         let has_punctual = self.has_punctual();
         let shines = |m: &Standard| !m.unlit && m.emissive != Vec3::ZERO;
-        let has_environment = self.environment != EnvironmentUse::Nothing;
+        let has_environment = self.environment != RemainingEnvironment::Nothing;
         let has_light = has_punctual || has_environment || self.materials.iter().any(shines);
         let has_caustics = has_light && self.materials.iter().any(casts_caustics);
         let is_exact = |m: &Standard| casts_caustics(m) && m.roughness == UnitInterval::ZERO;
@@ -45,7 +45,7 @@ impl PathPlan {
     }
 
     fn has_punctual(&self) -> bool {
-        self.lights.contains(&LightUse::All)
+        self.lights.contains(&RemainingLight::All)
     }
 }
 

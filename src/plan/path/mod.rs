@@ -22,7 +22,7 @@ pub(crate) mod rules;
 mod status;
 mod texture;
 
-pub use builder::{EnvironmentUse, LightUse};
+pub use builder::{RemainingEnvironment, RemainingLight};
 pub use caustics::Caustics;
 pub(super) use texture::UvRect;
 
@@ -31,7 +31,7 @@ use super::facts as facts_seen;
 use super::features::PathFeatures;
 use super::layer::Layer;
 use super::projection::{ScreenProjection, ScreenRect};
-use super::rules::{PATH_RULES, Rules};
+use super::rules::{PATH_RULES, RuleSet};
 use super::surface_bounds::surface_bounds;
 use builder::{AppliedRule, PathPlanBuilder};
 use facts::MaterialUses;
@@ -51,9 +51,9 @@ pub struct PathPlan {
     /// For each material, the maps that are folded into constants: the texture and the set.
     folded: IdTable<Material, Vec<(TextureId, UvSet)>>,
     /// The use of each punctual light.
-    pub lights: IdTable<Punctual, LightUse>,
+    pub lights: IdTable<Punctual, RemainingLight>,
     /// The use of the environment.
-    pub environment: EnvironmentUse,
+    pub environment: RemainingEnvironment,
     /// Whether the last ray of a path may hit an emitter.
     pub last_ray: bool,
     /// The features that the integrator needs.
@@ -80,7 +80,7 @@ pub(super) struct PathPlanning {
 }
 
 /// Plans path tracing of a scene.
-pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> PathPlanning {
+pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: RuleSet) -> PathPlanning {
     // Gather the facts.
     let (uses, surface_bounds, textures) = (
         MaterialUses::of(scene),
@@ -117,11 +117,11 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Path
             .map(facts_seen::material::standard)
             .collect(),
         folded: vec![false; scene.textures().len()].into(),
-        lights: vec![LightUse::All; punctual.len()].into(),
+        lights: vec![RemainingLight::All; punctual.len()].into(),
         environment: if scene.environment().radiance == Vec3::ZERO {
-            EnvironmentUse::Nothing
+            RemainingEnvironment::Nothing
         } else {
-            EnvironmentUse::All
+            RemainingEnvironment::All
         },
         surfaces: vec![true; surface_bounds.len()],
         max_depth: scene.settings().max_depth,
@@ -156,7 +156,7 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Path
 
 /// Applies the rules until none changes anything. Every change removes something, so the loop
 /// terminates.
-fn apply(builder: &mut PathPlanBuilder<'_>, rules: Rules) -> Vec<AppliedRule> {
+fn apply(builder: &mut PathPlanBuilder<'_>, rules: RuleSet) -> Vec<AppliedRule> {
     let mut applied = Vec::new();
     loop {
         let before = applied.len();
@@ -172,8 +172,8 @@ fn apply(builder: &mut PathPlanBuilder<'_>, rules: Rules) -> Vec<AppliedRule> {
 }
 
 /// The features that the integrator needs.
-fn features(builder: &PathPlanBuilder<'_>, rules: Rules) -> PathFeatures {
-    if rules == Rules::NONE {
+fn features(builder: &PathPlanBuilder<'_>, rules: RuleSet) -> PathFeatures {
+    if rules == RuleSet::NONE {
         return PathFeatures::EVERYTHING;
     }
     let requires = |effects: &[Effect]| effects.iter().any(|effect| builder.requires(*effect));

@@ -2,7 +2,7 @@
 
 use super::builder::{AppliedRule, PathPlanBuilder, material_requires};
 use crate::effect::{Effect, EffectState, EffectStatus};
-use rtc_ir::{EntityKind, Field, ValuePath};
+use rtc_ir::{EntityField, EntityKind, ValuePath};
 use rtc_valid::{MaterialId, Standard};
 
 /// The maximum number of facts of a status.
@@ -113,7 +113,7 @@ impl PathPlanBuilder<'_> {
     /// Like [`Self::need`], for an effect that no single material requires.
     fn need_of_scene(&self, effect: Effect) -> (String, Vec<ValuePath>) {
         let at = |entity, field| vec![ValuePath::new(entity, 0, field)];
-        let reason_at = |reason: &str, entity| (reason.to_owned(), at(entity, Field::Whole));
+        let reason_at = |reason: &str, entity| (reason.to_owned(), at(entity, EntityField::Whole));
         // Tell what in the scene requires the effect.
         match effect {
             Effect::Surfaces => {
@@ -123,24 +123,27 @@ impl PathPlanBuilder<'_> {
                     .filter(|is_in_world| **is_in_world)
                     .count();
                 let reason = format!("{reduced} of {} can be hit by a ray", self.surfaces.len());
-                (reason, at(EntityKind::Surface, Field::Whole))
+                (reason, at(EntityKind::Surface, EntityField::Whole))
             }
             Effect::Supersampling => {
                 let reason = counted(self.path.samples.get() as usize, "path") + " per pixel";
-                (reason, at(EntityKind::Settings, Field::Mode))
+                (reason, at(EntityKind::Settings, EntityField::Mode))
             }
             Effect::Lens => {
                 let reason = format!("a lens of radius {}", self.scene.camera().lens.radius.get());
-                (reason, at(EntityKind::Camera, Field::LensRadius))
+                (reason, at(EntityKind::Camera, EntityField::LensRadius))
             }
             Effect::Depth => {
                 let bounces = self.max_depth - u32::from(!self.last_ray);
                 let reason = format!("at most {}", counted(bounces as usize, "bounce"));
-                (reason, at(EntityKind::Settings, Field::MaxDepth))
+                (reason, at(EntityKind::Settings, EntityField::MaxDepth))
             }
             Effect::Compensation => {
                 let reason = "there is multiple scattering between microfacets";
-                (reason.to_owned(), at(EntityKind::Settings, Field::Mode))
+                (
+                    reason.to_owned(),
+                    at(EntityKind::Settings, EntityField::Mode),
+                )
             }
             Effect::Environment => reason_at(
                 "paths that leave the scene hit the environment light",
@@ -201,7 +204,7 @@ impl PathPlanBuilder<'_> {
 }
 
 fn material(id: MaterialId) -> ValuePath {
-    ValuePath::new(EntityKind::Material, id.index(), Field::Whole)
+    ValuePath::new(EntityKind::Material, id.index(), EntityField::Whole)
 }
 
 fn counted(count: usize, entity: &str) -> String {

@@ -1,6 +1,6 @@
 //! The rules: each proves that some work contributes exactly zero.
 //!
-//! A [`Rule`] names a rule of either integrator; [`Rules`] is a set of them as bits. The names
+//! A [`Rule`] names a rule of either integrator; [`RuleSet`] is a set of them as bits. The names
 //! (`E-…` for the Whitted integrator, `P-…` for path tracing, `B-…` for bounded errors) and the
 //! texts are what `rtc explain` prints. A rule is one row of the table below; the row of a rule for
 //! path tracing is its item in [`crate::path::rules`].
@@ -145,9 +145,9 @@ impl Rule {
 
 /// A set of rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Rules(u64);
+pub struct RuleSet(u64);
 
-impl Rules {
+impl RuleSet {
     /// No rule: everything that a scene could require is simulated.
     pub const NONE: Self = Self(0);
     /// Every rule that does not change the picture.
@@ -202,21 +202,23 @@ mod tests {
         }
         assert!(Rule::find("E-NOTHING").is_none());
         assert!(
-            !Rules::ALL.contains(Rule::Cut),
+            !RuleSet::ALL.contains(Rule::Cut),
             "a rule that changes the picture is off by default"
         );
     }
 
     #[test]
     fn a_set_has_the_rules_it_was_given_and_no_more() {
-        let two = Rules::NONE.with(Rule::Mode).with(Rule::Cull);
+        let two = RuleSet::NONE.with(Rule::Mode).with(Rule::Cull);
         assert_eq!([two.with(Rule::Cull), two.without(Rule::Cut)], [two, two]);
-        assert_eq!(two.without(Rule::Cull), Rules::NONE.with(Rule::Mode));
+        assert_eq!(two.without(Rule::Cull), RuleSet::NONE.with(Rule::Mode));
         assert_eq!(
-            two.intersection(Rules::AT_HITS.with(Rule::Cull)),
-            Rules::NONE.with(Rule::Cull)
+            two.intersection(RuleSet::AT_HITS.with(Rule::Cull)),
+            RuleSet::NONE.with(Rule::Cull)
         );
-        assert!(two.contains(Rule::Cull) && two.contains_all(two) && two.contains_all(Rules::NONE));
+        assert!(
+            two.contains(Rule::Cull) && two.contains_all(two) && two.contains_all(RuleSet::NONE)
+        );
         assert!(!two.contains(Rule::Cut) && !two.contains_all(two.with(Rule::Cut)));
         let others = [
             Rule::ShadowFacing,
@@ -225,8 +227,8 @@ mod tests {
             Rule::MirrorKs,
         ];
         assert_eq!(
-            others.into_iter().fold(Rules::NONE, Rules::with),
-            Rules::AT_HITS
+            others.into_iter().fold(RuleSet::NONE, RuleSet::with),
+            RuleSet::AT_HITS
         );
     }
 }

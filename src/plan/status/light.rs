@@ -2,13 +2,13 @@
 
 use super::{MAX_DETAILS, first_n, settings};
 use crate::effect::{Effect, EffectStatus};
-use crate::light::Shadow;
+use crate::light::PossibleShadow;
 use crate::rules::Rule;
-use crate::{Findings, MaterialSummary};
-use rtc_ir::{Field, ValuePath};
+use crate::{MaterialSummary, RuleResults};
+use rtc_ir::{EntityField, ValuePath};
 use rtc_valid::{CourseLightId, Mode};
 
-pub(super) fn statuses(findings: &Findings<'_>) -> Vec<EffectStatus> {
+pub(super) fn statuses(findings: &RuleResults<'_>) -> Vec<EffectStatus> {
     let mut all = vec![direct(findings)];
     all.extend(per_light(findings).take(MAX_DETAILS));
     all.push(shadows(findings));
@@ -20,37 +20,40 @@ pub(super) fn statuses(findings: &Findings<'_>) -> Vec<EffectStatus> {
 
 /// The reason why a rule removed the direct terms of a light, and the scene values that decided.
 fn reason(
-    findings: &Findings<'_>,
+    findings: &RuleResults<'_>,
     index: CourseLightId,
     rule: Rule,
 ) -> (&'static str, Vec<ValuePath>) {
     if rule == Rule::LightBlack {
-        return ("its colour is 0", vec![findings.light(index, Field::Color)]);
+        return (
+            "its colour is 0",
+            vec![findings.light(index, EntityField::Color)],
+        );
     }
     if rule == Rule::Mode {
         return (
             "the mode renders only the first hit",
-            vec![settings(Field::Mode)],
+            vec![settings(EntityField::Mode)],
         );
     }
     if rule == Rule::LightBehind {
-        let mut facts = vec![findings.light(index, Field::Position)];
+        let mut facts = vec![findings.light(index, EntityField::Position)];
         facts.extend(first_n(
             findings
                 .visible()
-                .map(|surface| findings.surface(surface, Field::Whole)),
+                .map(|surface| findings.surface(surface, EntityField::Whole)),
         ));
         return ("it is behind all visible surfaces", facts);
     }
     let facts = first_n(
         findings
             .visible()
-            .map(|surface| findings.material(surface, Field::Kd)),
+            .map(|surface| findings.material(surface, EntityField::Kd)),
     );
     ("kd·C and ks are 0 on all visible surfaces", facts)
 }
 
-fn direct(findings: &Findings<'_>) -> EffectStatus {
+fn direct(findings: &RuleResults<'_>) -> EffectStatus {
     let effect = Effect::DirectLight;
     // Absent without lights or shading.
     let lights = &findings.facts.sources;
@@ -67,7 +70,7 @@ fn direct(findings: &Findings<'_>) -> EffectStatus {
         return EffectStatus::needed(
             effect,
             "Gooch shading depends on the light direction",
-            vec![findings.light(CourseLightId::new(0), Field::Position)],
+            vec![findings.light(CourseLightId::new(0), EntityField::Position)],
         );
     }
     // Needed if any light illuminates a visible surface, otherwise pruned.
@@ -84,8 +87,8 @@ fn direct(findings: &Findings<'_>) -> EffectStatus {
                 .filter(|light| light.direct)
                 .count();
             let facts = vec![
-                findings.light(index, Field::Position),
-                findings.surface(surface, Field::Whole),
+                findings.light(index, EntityField::Position),
+                findings.surface(surface, EntityField::Whole),
             ];
             EffectStatus::needed(
                 effect,
@@ -111,19 +114,19 @@ fn direct(findings: &Findings<'_>) -> EffectStatus {
     }
 }
 
-fn per_light(findings: &Findings<'_>) -> impl Iterator<Item = EffectStatus> {
+fn per_light(findings: &RuleResults<'_>) -> impl Iterator<Item = EffectStatus> {
     let rules = findings.lights.rules.entries();
     let shaded = findings.is_shaded();
     rules.filter(move |_| shaded).filter_map(|(index, rule)| {
         let (reason, facts) = reason(findings, index, (*rule)?);
         Some(
             EffectStatus::pruned(Effect::DirectLight, (*rule)?, reason, facts)
-                .of(findings.light(index, Field::Whole)),
+                .of(findings.light(index, EntityField::Whole)),
         )
     })
 }
 
-fn shadows(findings: &Findings<'_>) -> EffectStatus {
+fn shadows(findings: &RuleResults<'_>) -> EffectStatus {
     let effect = Effect::Shadows;
     // Absent if the mode or the scene has no shadows.
     let requested = findings.facts.scene.settings().shadows;
@@ -135,16 +138,16 @@ fn shadows(findings: &Findings<'_>) -> EffectStatus {
         return EffectStatus::absent(effect, reason, vec![]).by(Rule::ShadowOff);
     }
     // Needed if there is a possible shadow.
-    if let Some(Shadow {
+    if let Some(PossibleShadow {
         light: index,
         occluder,
         receiver,
     }) = findings.lights.shadow
     {
         let facts = vec![
-            findings.light(index, Field::Position),
-            findings.surface(occluder, Field::Whole),
-            findings.surface(receiver, Field::Whole),
+            findings.light(index, EntityField::Position),
+            findings.surface(occluder, EntityField::Whole),
+            findings.surface(receiver, EntityField::Whole),
         ];
         let reason = match (occluder == receiver, findings.lights.capped) {
             (_, true) => "too many surfaces to test all occluders",
@@ -168,8 +171,8 @@ fn shadows(findings: &Findings<'_>) -> EffectStatus {
         );
     };
     let facts = vec![
-        findings.surface(surface, Field::Whole),
-        findings.light(CourseLightId::new(0), Field::Position),
+        findings.surface(surface, EntityField::Whole),
+        findings.light(CourseLightId::new(0), EntityField::Position),
     ];
     if findings.lights.single_surface {
         return EffectStatus::pruned(
@@ -187,10 +190,10 @@ fn shadows(findings: &Findings<'_>) -> EffectStatus {
     )
 }
 
-fn soft(findings: &Findings<'_>) -> EffectStatus {
+fn soft(findings: &RuleResults<'_>) -> EffectStatus {
     let effect = Effect::SoftLight;
     // Absent if no light has a radius.
-    let (scene, samples) = (findings.facts.scene, settings(Field::LightSamples));
+    let (scene, samples) = (findings.facts.scene, settings(EntityField::LightSamples));
     let mut sources = findings.facts.sources.entries();
     let Some((first, _)) = sources.find(|(_, light)| light.radius.get() > 0.0) else {
         return EffectStatus::absent(effect, "no light has a radius", vec![]).by(Rule::SoftPoint);
@@ -199,7 +202,7 @@ fn soft(findings: &Findings<'_>) -> EffectStatus {
         return status;
     }
     // Pruned with a single sample; needed if a sampled light contributes.
-    let facts = vec![samples, findings.light(first, Field::LightRadius)];
+    let facts = vec![samples, findings.light(first, EntityField::LightRadius)];
     let count = scene.settings().light_samples.get();
     if count == 1 {
         return EffectStatus::pruned(
@@ -222,7 +225,7 @@ fn soft(findings: &Findings<'_>) -> EffectStatus {
     EffectStatus::pruned(effect, rule, format!("soft light: {reason}"), facts)
 }
 
-fn highlight(findings: &Findings<'_>) -> EffectStatus {
+fn highlight(findings: &RuleResults<'_>) -> EffectStatus {
     let effect = Effect::Highlight;
     // Decided by the mode without shading.
     let any_ks = findings
@@ -240,8 +243,8 @@ fn highlight(findings: &Findings<'_>) -> EffectStatus {
         findings.first(|summary| summary.is_specular && findings.is_illuminated(summary))
     {
         let facts = vec![
-            findings.material(surface, Field::Ks),
-            findings.surface(surface, Field::Whole),
+            findings.material(surface, EntityField::Ks),
+            findings.surface(surface, EntityField::Whole),
         ];
         return EffectStatus::needed(effect, "ks > 0 on a visible surface", facts);
     }
@@ -264,13 +267,13 @@ fn highlight(findings: &Findings<'_>) -> EffectStatus {
     }
     let unseen = findings.first_unseen(|summary| summary.is_specular);
     if let Some(surface) = unseen.filter(|_| findings.facts.rules.contains(Rule::Cull)) {
-        let facts = vec![findings.surface(surface, Field::Whole)];
+        let facts = vec![findings.surface(surface, EntityField::Whole)];
         return EffectStatus::pruned(effect, Rule::Cull, "no visible surface has ks > 0", facts);
     }
     let facts = first_n(
         findings
             .visible()
-            .map(|surface| findings.material(surface, Field::Ks)),
+            .map(|surface| findings.material(surface, EntityField::Ks)),
     );
     EffectStatus::pruned(
         effect,
@@ -281,15 +284,15 @@ fn highlight(findings: &Findings<'_>) -> EffectStatus {
 }
 
 /// The visible materials without a highlight, if others have one.
-fn materials_without_highlight(findings: &Findings<'_>) -> impl Iterator<Item = EffectStatus> {
+fn materials_without_highlight(findings: &RuleResults<'_>) -> impl Iterator<Item = EffectStatus> {
     let is_needed = findings.is_shaded() && findings.any(|summary| summary.is_specular);
     let surfaces = findings
         .materials_without(|summary| summary.is_specular)
         .filter(move |_| is_needed);
     surfaces.map(|surface| {
-        let facts = vec![findings.material(surface, Field::Ks)];
+        let facts = vec![findings.material(surface, EntityField::Ks)];
         let status =
             EffectStatus::pruned(Effect::Highlight, Rule::HighlightKs, "its ks is 0", facts);
-        status.of(findings.material(surface, Field::Whole))
+        status.of(findings.material(surface, EntityField::Whole))
     })
 }

@@ -3,12 +3,12 @@
 use super::{MAX_DETAILS, first_n, settings};
 use crate::effect::{Effect, EffectStatus};
 use crate::rules::Rule;
-use crate::{Findings, MaterialSummary};
-use rtc_ir::{Field, ValuePath};
+use crate::{MaterialSummary, RuleResults};
+use rtc_ir::{EntityField, ValuePath};
 use rtc_valid::Phong;
 use std::collections::BTreeSet;
 
-pub(super) fn statuses(findings: &Findings<'_>) -> Vec<EffectStatus> {
+pub(super) fn statuses(findings: &RuleResults<'_>) -> Vec<EffectStatus> {
     let mut all = vec![depth(findings), mirror(findings)];
     all.extend(materials_without_mirror(findings).take(MAX_DETAILS));
     all.push(glossy(findings));
@@ -19,7 +19,7 @@ pub(super) fn statuses(findings: &Findings<'_>) -> Vec<EffectStatus> {
 /// The status of an effect of bounces if no bounce contributes; `requires` is whether a material
 /// requires the effect.
 fn no_bounce(
-    findings: &Findings<'_>,
+    findings: &RuleResults<'_>,
     effect: Effect,
     requires: impl Fn(&Phong) -> bool,
 ) -> Option<EffectStatus> {
@@ -30,7 +30,7 @@ fn no_bounce(
     if findings.max_depth > 0 {
         return None;
     }
-    let facts = vec![settings(Field::MaxDepth)];
+    let facts = vec![settings(EntityField::MaxDepth)];
     if findings.facts.scene.settings().max_depth == 0 {
         let reason = "the scene allows no bounce";
         return Some(if requested {
@@ -51,11 +51,15 @@ fn no_bounce(
 }
 
 /// The status if reflections contribute nothing, although bounces are allowed.
-fn no_visible_reflection(findings: &Findings<'_>, effect: Effect, requested: bool) -> EffectStatus {
+fn no_visible_reflection(
+    findings: &RuleResults<'_>,
+    effect: Effect,
+    requested: bool,
+) -> EffectStatus {
     // Visible reflective surfaces, but their reflections are black.
     if let Some(mirror) = findings.first(MaterialSummary::has_bounce) {
         let facts = vec![
-            findings.surface(mirror, Field::Whole),
+            findings.surface(mirror, EntityField::Whole),
             mirror_weight(findings, mirror).1,
         ];
         let is_alone = findings.facts.surface_bounds.len() == 1;
@@ -71,7 +75,7 @@ fn no_visible_reflection(findings: &Findings<'_>, effect: Effect, requested: boo
     }
     // Reflective surfaces, but all invisible.
     if requested && let Some(mirror) = findings.first_unseen(MaterialSummary::has_bounce) {
-        let facts = vec![findings.surface(mirror, Field::Whole)];
+        let facts = vec![findings.surface(mirror, EntityField::Whole)];
         return EffectStatus::pruned(
             effect,
             Rule::Cull,
@@ -89,7 +93,7 @@ fn no_visible_reflection(findings: &Findings<'_>, effect: Effect, requested: boo
 }
 
 /// The status where no visible surface reflects.
-fn no_mirror(findings: &Findings<'_>, effect: Effect, facts: Vec<ValuePath>) -> EffectStatus {
+fn no_mirror(findings: &RuleResults<'_>, effect: Effect, facts: Vec<ValuePath>) -> EffectStatus {
     let keys = findings
         .visible()
         .map(|surface| mirror_weight(findings, surface).0)
@@ -102,27 +106,27 @@ fn no_mirror(findings: &Findings<'_>, effect: Effect, facts: Vec<ValuePath>) -> 
 }
 
 /// The key of the weight of the reflected ray of a surface, and its value in the scene.
-fn mirror_weight(findings: &Findings<'_>, surface: usize) -> (&'static str, ValuePath) {
+fn mirror_weight(findings: &RuleResults<'_>, surface: usize) -> (&'static str, ValuePath) {
     let (key, field) = match findings.phong(surface).kr {
-        Some(_) => ("kr", Field::Kr),
-        None => ("ks", Field::Ks),
+        Some(_) => ("kr", EntityField::Kr),
+        None => ("ks", EntityField::Ks),
     };
     (key, findings.material(surface, field))
 }
 
 /// The number of bounces after the first hit.
-fn depth(findings: &Findings<'_>) -> EffectStatus {
+fn depth(findings: &RuleResults<'_>) -> EffectStatus {
     let effect = Effect::Depth;
     if let Some(status) = no_bounce(findings, effect, |material| {
         material.most_mirror_weight() + material.kt.get() > 0.0
     }) {
         return status;
     }
-    let mut facts = vec![settings(Field::MaxDepth)];
+    let mut facts = vec![settings(EntityField::MaxDepth)];
     facts.extend(
         findings
             .first(MaterialSummary::has_bounce)
-            .map(|mirror| findings.surface(mirror, Field::Whole)),
+            .map(|mirror| findings.surface(mirror, EntityField::Whole)),
     );
     let (planned, requested) = (findings.max_depth, findings.requested);
     let rest = requested - planned.min(requested);
@@ -140,7 +144,7 @@ fn depth(findings: &Findings<'_>) -> EffectStatus {
     }
 }
 
-fn mirror(findings: &Findings<'_>) -> EffectStatus {
+fn mirror(findings: &RuleResults<'_>) -> EffectStatus {
     let effect = Effect::Mirror;
     if let Some(status) = no_bounce(findings, effect, |material| {
         material.most_mirror_weight() > 0.0
@@ -150,7 +154,7 @@ fn mirror(findings: &Findings<'_>) -> EffectStatus {
     match findings.first(MaterialSummary::has_bounce) {
         Some(surface) => {
             let (key, weight) = mirror_weight(findings, surface);
-            let facts = vec![weight, findings.surface(surface, Field::Whole)];
+            let facts = vec![weight, findings.surface(surface, EntityField::Whole)];
             let reason = if findings.facts.summaries[surface].mirrors {
                 format!("{key} > 0 on a visible surface")
             } else {
@@ -163,7 +167,7 @@ fn mirror(findings: &Findings<'_>) -> EffectStatus {
 }
 
 /// The visible materials without reflection, if others have it.
-fn materials_without_mirror(findings: &Findings<'_>) -> impl Iterator<Item = EffectStatus> {
+fn materials_without_mirror(findings: &RuleResults<'_>) -> impl Iterator<Item = EffectStatus> {
     let is_needed = findings.max_depth > 0 && findings.any(MaterialSummary::has_bounce);
     let surfaces = findings
         .materials_without(MaterialSummary::has_bounce)
@@ -172,11 +176,11 @@ fn materials_without_mirror(findings: &Findings<'_>) -> impl Iterator<Item = Eff
         let (key, weight) = mirror_weight(findings, surface);
         let reason = format!("its {key} is 0");
         let status = EffectStatus::pruned(Effect::Mirror, Rule::MirrorKs, reason, vec![weight]);
-        status.of(findings.material(surface, Field::Whole))
+        status.of(findings.material(surface, EntityField::Whole))
     })
 }
 
-fn glossy(findings: &Findings<'_>) -> EffectStatus {
+fn glossy(findings: &RuleResults<'_>) -> EffectStatus {
     let effect = Effect::GlossyReflection;
     let materials = &findings.facts.materials;
     if materials
@@ -193,8 +197,8 @@ fn glossy(findings: &Findings<'_>) -> EffectStatus {
         Some(surface) => {
             let count = materials[findings.facts.scene.surfaces()[surface].material].glossy_samples;
             let facts = vec![
-                findings.material(surface, Field::GlossySamples),
-                findings.surface(surface, Field::Whole),
+                findings.material(surface, EntityField::GlossySamples),
+                findings.surface(surface, EntityField::Whole),
             ];
             EffectStatus::needed(effect, format!("{count} rays per glossy lobe"), facts)
         }
@@ -205,7 +209,7 @@ fn glossy(findings: &Findings<'_>) -> EffectStatus {
     }
 }
 
-fn refraction(findings: &Findings<'_>) -> EffectStatus {
+fn refraction(findings: &RuleResults<'_>) -> EffectStatus {
     let effect = Effect::Refraction;
     let materials = &findings.facts.materials;
     if materials.iter().all(|material| material.kt.get() == 0.0) {
@@ -218,8 +222,8 @@ fn refraction(findings: &Findings<'_>) -> EffectStatus {
     match findings.first(|summary| summary.refracts) {
         Some(surface) => {
             let facts = vec![
-                findings.material(surface, Field::Kt),
-                findings.surface(surface, Field::Whole),
+                findings.material(surface, EntityField::Kt),
+                findings.surface(surface, EntityField::Whole),
             ];
             EffectStatus::needed(effect, "kt > 0 on a visible surface", facts)
         }
@@ -228,7 +232,7 @@ fn refraction(findings: &Findings<'_>) -> EffectStatus {
             let facts = first_n(
                 unseen
                     .iter()
-                    .map(|surface| findings.surface(*surface, Field::Whole)),
+                    .map(|surface| findings.surface(*surface, EntityField::Whole)),
             );
             EffectStatus::pruned(effect, Rule::Opaque, "no visible surface has kt > 0", facts)
         }

@@ -1,7 +1,7 @@
 //! The status of each effect of the Whitted integrator: whether the picture needs it, the reason,
 //! the scene values that decide, and the rule that removed it.
 //!
-//! Each function of the submodules decides one effect from the [`Findings`], in a fixed order:
+//! Each function of the submodules decides one effect from the [`RuleResults`], in a fixed order:
 //! needed if any visible surface requires it; absent if the scene does not have it at all;
 //! otherwise pruned, with the rule that removed it. Submodules:
 //!
@@ -19,8 +19,8 @@ mod picture;
 use super::effect::{Effect, EffectState, EffectStatus};
 use super::pixel_classes::PixelClassGrid;
 use super::rules::Rule;
-use super::{Findings, MaterialSummary};
-use rtc_ir::{EntityKind, Field, ValuePath};
+use super::{MaterialSummary, RuleResults};
+use rtc_ir::{EntityField, EntityKind, ValuePath};
 use rtc_math::IdTable;
 use rtc_valid::{CourseLightId, Light, Material, Mode};
 
@@ -29,7 +29,7 @@ const MAX_DETAILS: usize = 24;
 
 /// The status of each effect, followed by those of single entities.
 pub(super) fn statuses(
-    findings: &Findings<'_>,
+    findings: &RuleResults<'_>,
     pixel_classes: &PixelClassGrid,
 ) -> Vec<EffectStatus> {
     let mut all = picture::buffers(findings, pixel_classes);
@@ -41,11 +41,11 @@ pub(super) fn statuses(
     all
 }
 
-fn settings(field: Field) -> ValuePath {
+fn settings(field: EntityField) -> ValuePath {
     ValuePath::new(EntityKind::Settings, 0, field)
 }
 
-fn camera(field: Field) -> ValuePath {
+fn camera(field: EntityField) -> ValuePath {
     ValuePath::new(EntityKind::Camera, 0, field)
 }
 
@@ -104,9 +104,9 @@ impl EffectStatus {
     }
 }
 
-impl Findings<'_> {
+impl RuleResults<'_> {
     /// The path of a light of the course in the IR, which has lights of other kinds as well.
-    fn light(&self, id: CourseLightId, field: Field) -> ValuePath {
+    fn light(&self, id: CourseLightId, field: EntityField) -> ValuePath {
         let lights = self.facts.scene.lights().iter().enumerate();
         let mut course = lights.filter(|(_, light)| matches!(light, Light::Course(_)));
         let index = course.nth(id.index()).map_or(0, |(index, _)| index);
@@ -114,7 +114,7 @@ impl Findings<'_> {
     }
 
     /// The path of a surface in the IR.
-    fn surface(&self, surface: usize, field: Field) -> ValuePath {
+    fn surface(&self, surface: usize, field: EntityField) -> ValuePath {
         ValuePath::new(
             EntityKind::Surface,
             self.facts.scene.surfaces()[surface].index,
@@ -123,7 +123,7 @@ impl Findings<'_> {
     }
 
     /// The path of a value of a surface's material in the IR.
-    fn material(&self, surface: usize, field: Field) -> ValuePath {
+    fn material(&self, surface: usize, field: EntityField) -> ValuePath {
         ValuePath::new(
             EntityKind::Material,
             self.facts.scene.surfaces()[surface].material.index(),
@@ -168,7 +168,7 @@ impl Findings<'_> {
             Mode::Normal => "a normal buffer is a function of the first hit",
             Mode::Depth => "a depth buffer is a function of the first hit",
         };
-        let facts = vec![settings(Field::Mode)];
+        let facts = vec![settings(EntityField::Mode)];
         Some(if requested {
             EffectStatus::pruned(effect, Rule::Mode, reason, facts)
         } else {

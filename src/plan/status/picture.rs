@@ -4,17 +4,17 @@ use super::{camera, first_n, settings};
 use crate::effect::{Effect, EffectStatus};
 use crate::pixel_classes::PixelClassGrid;
 use crate::rules::Rule;
-use crate::{Findings, MaterialSummary};
-use rtc_ir::Field;
+use crate::{MaterialSummary, RuleResults};
+use rtc_ir::EntityField;
 use rtc_valid::{Mode, Pattern};
 
 /// Depth and normal buffers, and the surfaces in the world.
 pub(super) fn buffers(
-    findings: &Findings<'_>,
+    findings: &RuleResults<'_>,
     pixel_classes: &PixelClassGrid,
 ) -> Vec<EffectStatus> {
     let buffer = |effect, is_shown: bool, reason: &str| {
-        let facts = vec![settings(Field::Mode)];
+        let facts = vec![settings(EntityField::Mode)];
         if is_shown {
             EffectStatus::needed(effect, reason, facts)
         } else {
@@ -31,7 +31,7 @@ pub(super) fn buffers(
     ]
 }
 
-fn surfaces(findings: &Findings<'_>, pixel_classes: &PixelClassGrid) -> EffectStatus {
+fn surfaces(findings: &RuleResults<'_>, pixel_classes: &PixelClassGrid) -> EffectStatus {
     // List the surfaces that no ray can hit.
     let count = findings.facts.surface_bounds.len();
     let is_left_out = |surface: usize| {
@@ -42,7 +42,7 @@ fn surfaces(findings: &Findings<'_>, pixel_classes: &PixelClassGrid) -> EffectSt
         .collect::<Vec<_>>();
     let places = first_n(
         out.iter()
-            .map(|surface| findings.surface(*surface, Field::Whole)),
+            .map(|surface| findings.surface(*surface, EntityField::Whole)),
     );
     let empty = pixel_classes.empty_fraction();
     // Absent without surfaces; pruned if no ray can hit any.
@@ -61,7 +61,7 @@ fn surfaces(findings: &Findings<'_>, pixel_classes: &PixelClassGrid) -> EffectSt
     let seen = first_n(
         findings
             .visible()
-            .map(|surface| findings.surface(surface, Field::Whole)),
+            .map(|surface| findings.surface(surface, EntityField::Whole)),
     );
     let mut reason = format!("{} of {count} can be hit by a ray", count - out.len());
     if empty > 0.0 {
@@ -86,7 +86,7 @@ fn surfaces(findings: &Findings<'_>, pixel_classes: &PixelClassGrid) -> EffectSt
 }
 
 /// Textures, normals of meshes, normal maps.
-pub(super) fn maps(findings: &Findings<'_>) -> Vec<EffectStatus> {
+pub(super) fn maps(findings: &RuleResults<'_>) -> Vec<EffectStatus> {
     vec![
         textures(findings),
         interpolation(findings),
@@ -94,20 +94,20 @@ pub(super) fn maps(findings: &Findings<'_>) -> Vec<EffectStatus> {
     ]
 }
 
-fn textures(findings: &Findings<'_>) -> EffectStatus {
+fn textures(findings: &RuleResults<'_>) -> EffectStatus {
     let effect = Effect::Textures;
     // Needed if a visible surface depends on a texture.
     if let Some(surface) = findings.first(|summary| findings.shows_color_map(summary)) {
         let facts = vec![
-            findings.material(surface, Field::ColorMap),
-            findings.surface(surface, Field::Whole),
+            findings.material(surface, EntityField::ColorMap),
+            findings.surface(surface, EntityField::Whole),
         ];
         return EffectStatus::needed(effect, "a texture gives the colour of a surface", facts);
     }
     if let Some(surface) = findings.first(|summary| findings.shows_specular_map(summary)) {
         let facts = vec![
-            findings.material(surface, Field::SpecularMap),
-            findings.surface(surface, Field::Whole),
+            findings.material(surface, EntityField::SpecularMap),
+            findings.surface(surface, EntityField::Whole),
         ];
         return EffectStatus::needed(effect, "a texture scales the ks of a surface", facts);
     }
@@ -136,7 +136,7 @@ fn textures(findings: &Findings<'_>) -> EffectStatus {
         is_constant(summary.color_map) || is_constant(summary.specular_map)
     };
     if let Some(surface) = findings.first(constant) {
-        let facts = vec![findings.material(surface, Field::ColorMap)];
+        let facts = vec![findings.material(surface, EntityField::ColorMap)];
         return EffectStatus::pruned(
             effect,
             Rule::TextureConstant,
@@ -149,13 +149,13 @@ fn textures(findings: &Findings<'_>) -> EffectStatus {
     let facts = first_n(
         unseen
             .iter()
-            .map(|surface| findings.surface(*surface, Field::Whole)),
+            .map(|surface| findings.surface(*surface, EntityField::Whole)),
     );
     let reason = "all textures are on surfaces without uv, on invisible surfaces, or of weight 0";
     EffectStatus::pruned(effect, Rule::TextureUnseen, reason, facts)
 }
 
-fn interpolation(findings: &Findings<'_>) -> EffectStatus {
+fn interpolation(findings: &RuleResults<'_>) -> EffectStatus {
     let effect = Effect::NormalInterpolation;
     let is_even = |surface: usize| findings.facts.is_even(surface);
     let shows = |surface: &usize| {
@@ -164,20 +164,20 @@ fn interpolation(findings: &Findings<'_>) -> EffectStatus {
     };
     let mut has_vertex_normals = findings.visible().filter(shows);
     if let Some(surface) = has_vertex_normals.find(|surface| !is_even(*surface)) {
-        let facts = vec![findings.surface(surface, Field::Whole)];
+        let facts = vec![findings.surface(surface, EntityField::Whole)];
         return EffectStatus::needed(effect, "a mesh has vertex normals", facts);
     }
     let has_normals = |surface: &usize| findings.facts.summaries[*surface].has_vertex_normals;
     let Some(surface) = (0..findings.facts.summaries.len()).find(has_normals) else {
         return EffectStatus::absent(effect, "no mesh has normals", vec![]);
     };
-    let facts = vec![findings.surface(surface, Field::Whole)];
+    let facts = vec![findings.surface(surface, EntityField::Whole)];
     if matches!(findings.mode(), Mode::Depth) {
         return EffectStatus::pruned(
             effect,
             Rule::Mode,
             "a depth buffer has no normals",
-            vec![settings(Field::Mode)],
+            vec![settings(EntityField::Mode)],
         );
     }
     let reason = if findings.visible().any(|surface| shows(&surface)) {
@@ -188,14 +188,14 @@ fn interpolation(findings: &Findings<'_>) -> EffectStatus {
     EffectStatus::pruned(effect, Rule::NormalFlat, reason, facts)
 }
 
-fn mapping(findings: &Findings<'_>) -> EffectStatus {
+fn mapping(findings: &RuleResults<'_>) -> EffectStatus {
     let effect = Effect::NormalMapping;
     if let Some(surface) =
         findings.first(|summary| summary.has_normal_map && findings.shows_normal(summary))
     {
         let facts = vec![
-            findings.material(surface, Field::NormalMap),
-            findings.surface(surface, Field::Whole),
+            findings.material(surface, EntityField::NormalMap),
+            findings.surface(surface, EntityField::Whole),
         ];
         return EffectStatus::needed(effect, "a map changes the normals of a surface", facts);
     }
@@ -213,7 +213,7 @@ fn mapping(findings: &Findings<'_>) -> EffectStatus {
             effect,
             Rule::Mode,
             "a depth buffer has no normals",
-            vec![settings(Field::Mode)],
+            vec![settings(EntityField::Mode)],
         );
     }
     let reason = "all such maps are on surfaces that have no uv, are invisible, or are neither \
@@ -222,17 +222,20 @@ fn mapping(findings: &Findings<'_>) -> EffectStatus {
 }
 
 /// Depth of field.
-pub(super) fn lens(findings: &Findings<'_>) -> EffectStatus {
+pub(super) fn lens(findings: &RuleResults<'_>) -> EffectStatus {
     let effect = Effect::Lens;
     // Absent if no lens is set; pruned if it is a pinhole.
     let lens = &findings.facts.scene.camera().lens;
     let (radius, samples) = (lens.radius.get(), lens.samples.get());
-    let facts = vec![camera(Field::LensRadius), camera(Field::LensSamples)];
+    let facts = vec![
+        camera(EntityField::LensRadius),
+        camera(EntityField::LensSamples),
+    ];
     if radius == 0.0 && samples == 1 {
         return EffectStatus::absent(
             effect,
             "a pinhole camera: the lens is not set",
-            vec![camera(Field::LensRadius)],
+            vec![camera(EntityField::LensRadius)],
         )
         .by(Rule::Pinhole);
     }
@@ -254,7 +257,7 @@ pub(super) fn lens(findings: &Findings<'_>) -> EffectStatus {
     }
     // Pruned if the mode or the view does not need it.
     if matches!(findings.mode(), Mode::Depth) {
-        let facts = vec![settings(Field::Mode)];
+        let facts = vec![settings(EntityField::Mode)];
         return EffectStatus::pruned(
             effect,
             Rule::Mode,
@@ -275,13 +278,13 @@ pub(super) fn lens(findings: &Findings<'_>) -> EffectStatus {
 
 /// Samples per pixel.
 pub(super) fn supersampling(
-    findings: &Findings<'_>,
+    findings: &RuleResults<'_>,
     pixel_classes: &PixelClassGrid,
 ) -> EffectStatus {
     let effect = Effect::Supersampling;
     let settings_of_scene = findings.facts.scene.settings();
     let factor = settings_of_scene.supersampling.get();
-    let facts = vec![settings(Field::Supersampling)];
+    let facts = vec![settings(EntityField::Supersampling)];
     // One sample per pixel needs no supersampling.
     if factor == 1 {
         let reason = if settings_of_scene.pattern == Pattern::Grid {
@@ -292,7 +295,10 @@ pub(super) fn supersampling(
         return EffectStatus::absent(effect, reason, facts).by(Rule::OneSample);
     }
     if matches!(findings.mode(), Mode::Depth) {
-        let facts = vec![settings(Field::Mode), settings(Field::Supersampling)];
+        let facts = vec![
+            settings(EntityField::Mode),
+            settings(EntityField::Supersampling),
+        ];
         return EffectStatus::pruned(
             effect,
             Rule::Mode,

@@ -15,12 +15,12 @@ pub struct BoundingSphere {
 
 /// The data of a ray that the slab test needs.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Slabs {
+pub(crate) struct SlabTest {
     origin: Vec3,
     inverse: Vec3,
 }
 
-impl Slabs {
+impl SlabTest {
     /// The slabs of a ray.
     #[must_use]
     pub(crate) fn new(ray: &Ray) -> Self {
@@ -72,7 +72,7 @@ impl Slabs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sampler::Key;
+    use crate::sampler::PathVertexKey;
     use crate::shape::triangle::{Triangle, WatertightRay};
     use rayon::prelude::*;
 
@@ -87,7 +87,7 @@ mod tests {
 
     /// A triangle, and a ray that aims at its inside, at an edge, or at a corner in turn.
     fn aimed(family: usize, index: u64) -> (Triangle, Ray) {
-        let key = Key::new([u32::try_from(family).unwrap(), 5], index);
+        let key = PathVertexKey::new([u32::try_from(family).unwrap(), 5], index);
         let frame =
             |k: u64| Vec3::new(key.uniform(k), key.uniform(k + 1), key.uniform(k + 2)) * 2.0 - 1.0;
         let mut points = [frame(0), frame(3), frame(6), frame(9) * 4.0];
@@ -133,7 +133,7 @@ mod tests {
                 };
                 (
                     1,
-                    u64::from(!Slabs::new(&ray).meet(&Bounds::of(*triangle.vertices()), t)),
+                    u64::from(!SlabTest::new(&ray).meet(&Bounds::of(*triangle.vertices()), t)),
                 )
             };
             let (hits, missed) = (0..rays)

@@ -3,7 +3,7 @@
 //! It is built with the binned surface area heuristic (Wald, "On fast construction of SAH-based
 //! bounding volume hierarchies", 2007). A few boxes form a single leaf, which is a linear loop.
 
-use crate::accel::bounds::Slabs;
+use crate::accel::bounds::SlabTest;
 use crate::ray::Ray;
 use rtc_math::{Bounds, to_u32};
 
@@ -44,7 +44,7 @@ impl Bvh {
     pub(crate) fn build(boxes: &[Bounds]) -> Self {
         let items = (0_u32..)
             .zip(boxes)
-            .map(|(index, bounds)| Item {
+            .map(|(index, bounds)| BvhItem {
                 index,
                 bounds: *bounds,
             })
@@ -88,7 +88,7 @@ impl Bvh {
             _ => {}
         }
         // Traverse the nodes from a stack, the nearer child first.
-        let slabs = Slabs::new(ray);
+        let slabs = SlabTest::new(ray);
         let mut open = [0_u32; MAX_DEPTH];
         let mut depth = 1;
         while depth > 0 && t_max >= 0.0 {
@@ -116,13 +116,13 @@ impl Bvh {
 
 /// The input of a BVH build.
 #[derive(Clone, Copy)]
-pub(crate) struct Item {
+pub(crate) struct BvhItem {
     pub(crate) index: u32,
     pub(crate) bounds: Bounds,
 }
 
 struct BvhBuilder {
-    items: Vec<Item>,
+    items: Vec<BvhItem>,
     nodes: Vec<BvhNode>,
 }
 
@@ -157,8 +157,8 @@ impl BvhBuilder {
 /// Partitions the items, at least two, into two non-empty groups and returns the axis and the size
 /// of the first: by the heuristic where it is requested and finds a split, else at the median.
 /// Leaves test `at_once` items together.
-pub(crate) fn split(items: &mut [Item], at_once: u32, by_heuristic: bool) -> (usize, usize) {
-    let center = |bounds: Bounds, item: &Item| {
+pub(crate) fn split(items: &mut [BvhItem], at_once: u32, by_heuristic: bool) -> (usize, usize) {
+    let center = |bounds: Bounds, item: &BvhItem| {
         let center = item.bounds.center();
         Bounds {
             min: bounds.min.min(center),
@@ -169,7 +169,7 @@ pub(crate) fn split(items: &mut [Item], at_once: u32, by_heuristic: bool) -> (us
     let spread = items.iter().fold(Bounds::EMPTY, center);
     let size = spread.max - spread.min;
     let scale = size.recip() * BINS as f64;
-    let bin = |item: &Item, axis: usize| {
+    let bin = |item: &BvhItem, axis: usize| {
         let place = (item.bounds.center()[axis] - spread.min[axis]) * scale[axis];
         (place as usize).min(BINS - 1)
     };
@@ -199,7 +199,11 @@ pub(crate) fn split(items: &mut [Item], at_once: u32, by_heuristic: bool) -> (us
 
 /// The border between bins with the least expected work on both sides, and that work, if any has
 /// items on both.
-fn best_split(items: &[Item], at_once: u32, bin: impl Fn(&Item) -> usize) -> Option<(usize, f64)> {
+fn best_split(
+    items: &[BvhItem],
+    at_once: u32,
+    bin: impl Fn(&BvhItem) -> usize,
+) -> Option<(usize, f64)> {
     let mut bins = [(Bounds::EMPTY, 0_u32); BINS];
     for item in items {
         let (bounds, count) = &mut bins[bin(item)];
@@ -230,8 +234,8 @@ fn best_split(items: &[Item], at_once: u32, bin: impl Fn(&Item) -> usize) -> Opt
 }
 
 /// Moves the items that belong first to the front, keeping the order within both groups.
-fn partition(items: &mut [Item], first: impl Fn(&Item) -> bool) -> usize {
-    let (front, back): (Vec<Item>, Vec<Item>) = items.iter().partition(|item| first(item));
+fn partition(items: &mut [BvhItem], first: impl Fn(&BvhItem) -> bool) -> usize {
+    let (front, back): (Vec<BvhItem>, Vec<BvhItem>) = items.iter().partition(|item| first(item));
     items[..front.len()].copy_from_slice(&front);
     items[front.len()..].copy_from_slice(&back);
     front.len()

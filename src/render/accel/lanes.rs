@@ -181,7 +181,7 @@ fn bits(mask: u64) -> u32 {
 }
 
 /// A corner in each lane, after the shear that turns the conservative ray into its main axis.
-type Sheared<S> = [f32x4<S>; 3];
+type ShearedCorners<S> = [f32x4<S>; 3];
 
 /// The data of a conservative ray for tests of triangles.
 #[derive(Clone, Copy)]
@@ -216,7 +216,7 @@ impl<S: Simd> TriangleLanes<S> {
 
     /// A corner of each triangle, sheared.
     #[inline(always)]
-    fn sheared(&self, simd: S, leaf: WideLeaf<'_>, corner: usize) -> Sheared<S> {
+    fn sheared(&self, simd: S, leaf: WideLeaf<'_>, corner: usize) -> ShearedCorners<S> {
         let seen = |k: usize| leaf.numbers(simd, place(corner, self.axes[k])) - self.origin[k];
         let along = seen(2) * self.main;
         [
@@ -266,12 +266,12 @@ impl<S: Simd> TriangleLanes<S> {
 
 /// The larger of the sizes of both coordinates across the conservative ray.
 #[inline(always)]
-fn size_of<S: Simd>(corner: &Sheared<S>) -> f32x4<S> {
+fn size_of<S: Simd>(corner: &ShearedCorners<S>) -> f32x4<S> {
     corner[0].abs().max(corner[1].abs())
 }
 
 /// The edge function of the edge between two corners.
 #[inline(always)]
-fn edge<S: Simd>(p: &Sheared<S>, q: &Sheared<S>) -> f32x4<S> {
+fn edge<S: Simd>(p: &ShearedCorners<S>, q: &ShearedCorners<S>) -> f32x4<S> {
     p[0] * q[1] - p[1] * q[0]
 }

@@ -13,14 +13,14 @@ const RETURNED: usize = 1 << 18;
 
 /// A list of rows of numbers.
 #[derive(Debug)]
-pub(in crate::accel) enum Pages<T> {
+pub(in crate::accel) enum PagedRows<T> {
     /// A list as any other.
     List(Vec<T>),
     /// In memory mapped by the system, with huge pages requested.
     Mapped(MmapMut, PhantomData<T>),
 }
 
-impl<T: Pod> Pages<T> {
+impl<T: Pod> PagedRows<T> {
     /// `count` rows of zeros.
     pub(in crate::accel) fn zeroed(count: usize) -> Self {
         let pages = Self::mapped_from(WORTH, count);
@@ -92,10 +92,12 @@ mod tests {
                 .to_vec()
         };
         for rows in [0, 7, WORTH / 256 + 1] {
-            let aside = lists(rows).into_iter().map(|list| Pages::put_aside(&list));
-            let pages = Pages::merged(aside.collect());
+            let aside = lists(rows)
+                .into_iter()
+                .map(|list| PagedRows::put_aside(&list));
+            let pages = PagedRows::merged(aside.collect());
             assert_eq!(pages.rows(), lists(rows).concat());
-            assert_eq!(matches!(pages, Pages::Mapped(..)), rows > 7);
+            assert_eq!(matches!(pages, PagedRows::Mapped(..)), rows > 7);
         }
     }
 }

@@ -4,11 +4,11 @@ use fearless_simd::{Fallback, Level};
 
 /// The SIMD instructions that BVHs are searched with.
 #[derive(Clone, Copy, Debug)]
-pub struct SimdLevel(Tokens);
+pub struct SimdLevel(SimdTokens);
 
 /// Proofs that the machine has the instructions.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Tokens {
+pub(crate) enum SimdTokens {
     /// None: one lane after the other.
     Scalar(Fallback),
     /// SSE2 of x86.
@@ -35,35 +35,38 @@ impl SimdLevel {
         let best = ["neon", "avx512", "avx2", "sse2"].into_iter();
         best.filter_map(Self::named)
             .next()
-            .unwrap_or(Self(Tokens::Scalar(Fallback::new())))
+            .unwrap_or(Self(SimdTokens::Scalar(Fallback::new())))
     }
 
     /// The level of a name; `None` if this machine lacks it or it is no name of a level.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         if name == "scalar" {
-            return Some(Self(Tokens::Scalar(Fallback::new())));
+            return Some(Self(SimdTokens::Scalar(Fallback::new())));
         }
         Self::native(name, Level::new()).map(Self)
     }
 
     #[cfg(target_arch = "x86_64")]
-    fn native(name: &str, level: Level) -> Option<Tokens> {
+    fn native(name: &str, level: Level) -> Option<SimdTokens> {
         match name {
-            "sse2" => level.as_sse2().map(Tokens::Sse2),
-            "avx2" => level.as_avx2().map(Tokens::Avx2),
-            "avx512" => level.as_avx512().map(Tokens::Avx512),
+            "sse2" => level.as_sse2().map(SimdTokens::Sse2),
+            "avx2" => level.as_avx2().map(SimdTokens::Avx2),
+            "avx512" => level.as_avx512().map(SimdTokens::Avx512),
             _ => None,
         }
     }
 
     #[cfg(target_arch = "aarch64")]
-    fn native(name: &str, level: Level) -> Option<Tokens> {
-        level.as_neon().filter(|_| name == "neon").map(Tokens::Neon)
+    fn native(name: &str, level: Level) -> Option<SimdTokens> {
+        level
+            .as_neon()
+            .filter(|_| name == "neon")
+            .map(SimdTokens::Neon)
     }
 
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-    fn native(_: &str, _: Level) -> Option<Tokens> {
+    fn native(_: &str, _: Level) -> Option<SimdTokens> {
         None
     }
 
@@ -71,21 +74,21 @@ impl SimdLevel {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self.0 {
-            Tokens::Scalar(_) => "scalar",
+            SimdTokens::Scalar(_) => "scalar",
             #[cfg(target_arch = "x86_64")]
-            Tokens::Sse2(_) => "sse2",
+            SimdTokens::Sse2(_) => "sse2",
             #[cfg(target_arch = "x86_64")]
-            Tokens::Avx2(_) => "avx2",
+            SimdTokens::Avx2(_) => "avx2",
             #[cfg(target_arch = "x86_64")]
-            Tokens::Avx512(_) => "avx512",
+            SimdTokens::Avx512(_) => "avx512",
             #[cfg(target_arch = "aarch64")]
-            Tokens::Neon(_) => "neon",
+            SimdTokens::Neon(_) => "neon",
         }
     }
 
     /// The token that the machine has it.
     #[inline]
-    pub(crate) fn tokens(self) -> Tokens {
+    pub(crate) fn tokens(self) -> SimdTokens {
         self.0
     }
 }
@@ -116,26 +119,26 @@ macro_rules! at_level {
     ($level:expr, $simd:ident => $what:expr) => {{
         #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
         use fearless_simd::Simd;
-        use $crate::accel::simd::Tokens;
+        use $crate::accel::simd::SimdTokens;
         match $level.tokens() {
-            Tokens::Scalar($simd) => $what,
+            SimdTokens::Scalar($simd) => $what,
             #[cfg(target_arch = "x86_64")]
-            Tokens::Sse2($simd) => $simd.vectorize(
+            SimdTokens::Sse2($simd) => $simd.vectorize(
                 #[inline(always)]
                 || $what,
             ),
             #[cfg(target_arch = "x86_64")]
-            Tokens::Avx2($simd) => $simd.vectorize(
+            SimdTokens::Avx2($simd) => $simd.vectorize(
                 #[inline(always)]
                 || $what,
             ),
             #[cfg(target_arch = "x86_64")]
-            Tokens::Avx512($simd) => $simd.vectorize(
+            SimdTokens::Avx512($simd) => $simd.vectorize(
                 #[inline(always)]
                 || $what,
             ),
             #[cfg(target_arch = "aarch64")]
-            Tokens::Neon($simd) => $simd.vectorize(
+            SimdTokens::Neon($simd) => $simd.vectorize(
                 #[inline(always)]
                 || $what,
             ),

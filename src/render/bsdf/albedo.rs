@@ -36,14 +36,14 @@ pub(super) struct AlbedoTables {
 
 /// The albedo of a microfacet lobe with Schlick's reflectance: `f0·e0 + f90·e90`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Split {
+pub(super) struct SchlickAlbedo {
     /// The factor of f0.
     pub(super) e0: f64,
     /// The factor of f90.
     pub(super) e90: f64,
 }
 
-impl Split {
+impl SchlickAlbedo {
     /// The albedo by the reflectances at normal and at grazing incidence.
     #[must_use]
     pub(super) fn at(self, f0: f64, f90: f64) -> f64 {
@@ -90,17 +90,17 @@ impl AlbedoTables {
     }
 
     /// The albedo of a microfacet lobe.
-    pub(super) fn specular(&self, roughness: f64, cosine: f64) -> Split {
+    pub(super) fn specular(&self, roughness: f64, cosine: f64) -> SchlickAlbedo {
         let [e0, e90] = look_up(&self.specular, roughness, cosine);
-        Split { e0, e90 }
+        SchlickAlbedo { e0, e90 }
     }
 
     /// Its mean over the hemisphere, weighted by the cosine.
-    pub(super) fn specular_mean(&self, roughness: f64) -> Split {
+    pub(super) fn specular_mean(&self, roughness: f64) -> SchlickAlbedo {
         let (row, rest) = place(roughness, ROUGHNESSES);
         let [e0, e90] = [0, 1]
             .map(|term| self.means[row][term] * (1.0 - rest) + self.means[row + 1][term] * rest);
-        Split { e0, e90 }
+        SchlickAlbedo { e0, e90 }
     }
 
     /// The albedo of white sheen.

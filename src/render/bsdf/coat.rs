@@ -3,12 +3,12 @@
 use super::fresnel::schlick;
 use super::ggx::Ggx;
 use super::standard::Clearcoat;
-use rtc_math::{Basis, Vec3};
+use rtc_math::{OrthonormalBasis, Vec3};
 
 /// The layer as one viewer sees it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Coat {
-    basis: Basis,
+pub(super) struct CoatLayer {
+    basis: OrthonormalBasis,
     ggx: Ggx,
     wo: Vec3,
     /// The fraction of light it reflects: the cover times Schlick's reflectance at index 1.5 for
@@ -16,10 +16,10 @@ pub(super) struct Coat {
     pub(super) weight: f64,
 }
 
-impl Coat {
+impl CoatLayer {
     /// The coat for one viewer; `None` if the viewer cannot see it.
     pub(super) fn new(clearcoat: &Clearcoat, normal: Vec3, wo: Vec3) -> Option<Self> {
-        let basis = Basis::around(normal);
+        let basis = OrthonormalBasis::around(normal);
         let wo = basis.to_local(wo);
         let weight = clearcoat.factor * (0.04 + 0.96 * schlick(wo.z));
         (wo.z > 0.0 && weight > 0.0).then(|| Self {
@@ -35,7 +35,7 @@ impl Coat {
         self.ggx.is_smooth()
     }
 
-    /// The BRDF without its reflectance, and the density of [`Coat::sample`].
+    /// The BRDF without its reflectance, and the density of [`CoatLayer::sample`].
     pub(super) fn evaluate(&self, wi: Vec3) -> (f64, f64) {
         let wi = self.basis.to_local(wi);
         if self.ggx.is_smooth() || wi.z <= 0.0 {

@@ -4,7 +4,7 @@
 //! exactly the lost energy, and the diffuse base receives exactly what both lobes transmit. Both
 //! are reciprocal. A white surface in a white environment stays white.
 
-use super::albedo::{Split, anisotropic, half_way, tables};
+use super::albedo::{SchlickAlbedo, anisotropic, half_way, tables};
 use super::fresnel::Fresnel;
 use super::ggx::Ggx;
 use rtc_math::Vec3;
@@ -19,12 +19,12 @@ pub(super) struct Compensation {
     missing_mean: f64,
     /// The fraction of the missing energy that multiple bounces return.
     returned: Vec3,
-    base: Base,
+    base: DiffuseBase,
 }
 
 /// The energy that the dielectric reflection leaves to the diffuse base.
 #[derive(Clone, Copy, Debug)]
-struct Base {
+struct DiffuseBase {
     f0: f64,
     f90: f64,
     returned: f64,
@@ -32,9 +32,9 @@ struct Base {
     left_mean: f64,
 }
 
-impl Base {
+impl DiffuseBase {
     /// The albedo of the reflection above the base.
-    fn covered(&self, e: Split) -> f64 {
+    fn covered(&self, e: SchlickAlbedo) -> f64 {
         self.f0 * e.e0 + self.f90 * e.e90 + self.returned * (1.0 - e.whole())
     }
 }
@@ -56,7 +56,7 @@ fn product(here: f64, there: f64, mean: f64) -> f64 {
 }
 
 /// The albedo of white microfacets seen from a direction.
-fn albedo(surface: Ggx, w: Vec3) -> Split {
+fn albedo(surface: Ggx, w: Vec3) -> SchlickAlbedo {
     if surface.is_isotropic() {
         tables().specular(surface.mean_roughness(), w.z)
     } else {
@@ -65,7 +65,7 @@ fn albedo(surface: Ggx, w: Vec3) -> Split {
 }
 
 /// Its mean over the hemisphere, weighted by the cosine.
-fn mean_albedo(surface: Ggx) -> Split {
+fn mean_albedo(surface: Ggx) -> SchlickAlbedo {
     if surface.is_isotropic() {
         tables().specular_mean(surface.mean_roughness())
     } else {
@@ -96,7 +96,7 @@ impl Compensation {
             dielectric.at(1.0).max_element(),
             dielectric.f90.max_element(),
         );
-        let mut base = Base {
+        let mut base = DiffuseBase {
             f0,
             f90,
             returned: from_dielectric.max_element(),
@@ -127,13 +127,13 @@ impl Compensation {
     }
 
     /// The albedo of white microfacets towards a direction.
-    pub(super) fn towards(&self, wi: Vec3) -> Split {
+    pub(super) fn towards(&self, wi: Vec3) -> SchlickAlbedo {
         albedo(self.surface, wi)
     }
 
     /// The BSDF of a white base, by the albedo [`Self::towards`] the light.
     #[must_use]
-    pub(super) fn base_f(&self, e: Split) -> f64 {
+    pub(super) fn base_f(&self, e: SchlickAlbedo) -> f64 {
         product(
             self.base.left,
             1.0 - self.base.covered(e),
@@ -143,7 +143,7 @@ impl Compensation {
 
     /// The BRDF of the further bounces, by the albedo [`Self::towards`] the light.
     #[must_use]
-    pub(super) fn bounces_f(&self, e: Split) -> Vec3 {
+    pub(super) fn bounces_f(&self, e: SchlickAlbedo) -> Vec3 {
         self.returned * product(self.missing, 1.0 - e.whole(), self.missing_mean)
     }
 }

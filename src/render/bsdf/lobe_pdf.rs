@@ -1,8 +1,8 @@
 //! The probability of sampling each lobe of a material.
 
-use super::coat::Coat;
+use super::coat::CoatLayer;
 use super::microfacet::LobeWeights;
-use super::sheen::Fibres;
+use super::sheen::SheenFibres;
 use rtc_math::Vec3;
 
 /// The mean of the channels: the weight of a lobe for its probability.
@@ -27,8 +27,8 @@ impl LobePdf {
         base: Vec3,
         through: Vec3,
         weights: &LobeWeights,
-        sheen: Option<&Fibres>,
-        coat: Option<&Coat>,
+        sheen: Option<&SheenFibres>,
+        coat: Option<&CoatLayer>,
     ) -> Self {
         let (mut cosine, mut through) = (mean(base).max(0.0), mean(through));
         let mut microfacet = mean(weights.reflected + weights.through);

@@ -6,7 +6,7 @@ use super::fresnel::{Fresnel, refracted_cosine};
 use super::ggx::Ggx;
 use super::standard::StandardParameters;
 use super::thin_film::ThinFilm;
-use super::{Evaluation, LAYERS, MICROFACETS, TRANSMISSION, can};
+use super::{BsdfEvaluation, LAYERS, MICROFACETS, TRANSMISSION, can};
 use rtc_math::Vec3;
 
 /// The boundary seen from one side, with z towards that side.
@@ -25,7 +25,7 @@ pub(super) struct Microfacet<const F: u32> {
     film: Option<(ThinFilm, f64)>,
     /// The fraction of the light in the dielectric that is transmitted, by channel.
     tint: Vec3,
-    intersection: Crossing,
+    intersection: BoundaryCrossing,
     /// The index beyond divided by that on the side of the viewer.
     eta: f64,
     /// The index inside, if the material transmits: its reflectance is that of a dielectric.
@@ -36,7 +36,7 @@ pub(super) struct Microfacet<const F: u32> {
 
 /// How light continues behind the boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Crossing {
+enum BoundaryCrossing {
     /// Through a thin wall: the reflected direction, reflected to the other side.
     Wall,
     /// Into a medium of the same index.
@@ -88,7 +88,7 @@ impl<const F: u32> Microfacet<F> {
         metallic: 0.0,
         film: None,
         tint: Vec3::ZERO,
-        intersection: Crossing::Wall,
+        intersection: BoundaryCrossing::Wall,
         eta: 1.0,
         ior: None,
         gain: [1.0; 2],
@@ -128,9 +128,9 @@ impl<const F: u32> Microfacet<F> {
         let dark =
             standard.specular == 0.0 && standard.metallic == 0.0 && film.is_none() && !inside;
         let intersection = match standard.thin_walled {
-            true => Crossing::Wall,
-            false if (ior - 1.0).abs() < NEARLY_STRAIGHT => Crossing::Straight,
-            false => Crossing::Refracted,
+            true => BoundaryCrossing::Wall,
+            false if (ior - 1.0).abs() < NEARLY_STRAIGHT => BoundaryCrossing::Straight,
+            false => BoundaryCrossing::Refracted,
         };
         Self {
             ggx,
@@ -236,9 +236,9 @@ impl<const F: u32> Microfacet<F> {
         }
         let [reflected, refracted] = dielectric::outside(ior, roughness, cosine);
         let through = match self.intersection {
-            Crossing::Wall => reflected,
-            Crossing::Refracted => refracted,
-            Crossing::Straight => return,
+            BoundaryCrossing::Wall => reflected,
+            BoundaryCrossing::Refracted => refracted,
+            BoundaryCrossing::Straight => return,
         };
         let left = 1.0 - reflected.at(f0, f90) - bounces;
         let single = through.whole() - through.at(f0, f90);
@@ -263,48 +263,48 @@ impl<const F: u32> Microfacet<F> {
         wi: Vec3,
         h: Vec3,
         weights: &LobeWeights,
-    ) -> Evaluation {
+    ) -> BsdfEvaluation {
         if self.smooth {
-            return Evaluation::NONE;
+            return BsdfEvaluation::NONE;
         }
         let density = self.ggx.density(h);
         let f = weights.reflected * (density * self.ggx.visibility(wo, wi));
-        Evaluation {
+        BsdfEvaluation {
             f,
             pdf: weights.lobe_pdf() * 0.5 * density / (wo.z + self.ggx.lambda_root(wo)),
         }
     }
 
     /// The transmission lobe: `wi` is below the surface.
-    pub(super) fn through(&self, wo: Vec3, wi: Vec3) -> Evaluation {
+    pub(super) fn through(&self, wo: Vec3, wi: Vec3) -> BsdfEvaluation {
         if !can::<F>(TRANSMISSION) || self.smooth || self.tint == Vec3::ZERO {
-            return Evaluation::NONE;
+            return BsdfEvaluation::NONE;
         }
         match self.intersection {
-            Crossing::Straight => Evaluation::NONE,
-            Crossing::Wall => {
+            BoundaryCrossing::Straight => BsdfEvaluation::NONE,
+            BoundaryCrossing::Wall => {
                 let mirrored = Vec3::new(wi.x, wi.y, -wi.z);
                 let h = (wo + mirrored).normalize();
                 let weights = self.weights(wo.dot(h));
                 let f = weights.through * (self.ggx.density(h) * self.ggx.visibility(wo, mirrored));
-                Evaluation {
+                BsdfEvaluation {
                     f,
                     pdf: (1.0 - weights.lobe_pdf()) * self.ggx.vndf_pdf(wo, h) / 4.0,
                 }
             }
-            Crossing::Refracted => self.refracted(wo, wi),
+            BoundaryCrossing::Refracted => self.refracted(wo, wi),
         }
     }
 
     /// The refraction lobe (Walter et al., "Microfacet models for refraction through rough
     /// surfaces" (EGSR 2007), equation 21).
-    fn refracted(&self, wo: Vec3, wi: Vec3) -> Evaluation {
+    fn refracted(&self, wo: Vec3, wi: Vec3) -> BsdfEvaluation {
         // Find the generalized half vector.
         let half = wo + wi * self.eta;
         let h = (half * half.z.signum()).normalize_or_zero();
         let (o, i) = (wo.dot(h), wi.dot(h));
         if o <= 0.0 || i >= 0.0 {
-            return Evaluation::NONE;
+            return BsdfEvaluation::NONE;
         }
         let weights = self.weights(o);
         // Jacobian dω_h/dω_i: |ω_i·h|/(ω_i·h + ω_o·h/η)².
@@ -312,7 +312,7 @@ impl<const F: u32> Microfacet<F> {
         let turn = -i / (root * root);
         let f =
             weights.through * (4.0 * self.ggx.density(h) * self.ggx.visibility(wo, wi) * o * turn);
-        Evaluation {
+        BsdfEvaluation {
             f,
             pdf: (1.0 - weights.lobe_pdf()) * self.ggx.vndf_pdf(wo, h) * o * turn,
         }
@@ -347,16 +347,16 @@ impl<const F: u32> Microfacet<F> {
         }
         // Or transmit through it.
         let wi = match self.intersection {
-            Crossing::Straight => -wo,
-            Crossing::Wall => {
+            BoundaryCrossing::Straight => -wo,
+            BoundaryCrossing::Wall => {
                 let mirrored = h * (2.0 * cosine) - wo;
                 Vec3::new(mirrored.x, mirrored.y, -mirrored.z)
             }
-            Crossing::Refracted => {
+            BoundaryCrossing::Refracted => {
                 h * (cosine / self.eta - refracted_cosine(cosine, self.eta)?) - wo / self.eta
             }
         };
-        let single = self.smooth || self.intersection == Crossing::Straight;
+        let single = self.smooth || self.intersection == BoundaryCrossing::Straight;
         let direction = if single {
             ScatteredDirection::Single(wi, weights.through, 1.0 - lobe_pdf)
         } else {

@@ -4,9 +4,9 @@
 //! surface; z < 0 is inside a body or behind a thin wall. `f` excludes the cosine. Paths carry
 //! basic radiance L/n², so `f` has no factor n².
 //!
-//! - [`Lobes`] holds the lobes of a surface point for one direction `wo` to the viewer, with the
-//!   features
-//!   `F` compiled in. It evaluates ([`Evaluation`]) and samples ([`BsdfSample`]) the BSDF.
+//! - [`BsdfLobes`] holds the lobes of a surface point for one direction `wo` to the viewer, with
+//!   the features
+//!   `F` compiled in. It evaluates ([`BsdfEvaluation`]) and samples ([`BsdfSample`]) the BSDF.
 //! - `standard` builds the lobes from the parameters of the material; `coat`, `sheen`, `thin_film`
 //!   add
 //!   its layers.
@@ -36,13 +36,13 @@ pub(crate) mod warp;
 pub use fresnel::dispersed;
 
 use crate::sampler::remapped;
-use coat::Coat;
+use coat::CoatLayer;
 use compensation::Compensation;
 use lobe_pdf::LobePdf;
 use microfacet::{Microfacet, ScatteredDirection};
 use rtc_math::Vec3;
 use rtc_plan::PathFeatures;
-use sheen::Fibres;
+use sheen::SheenFibres;
 use side::Side;
 use standard::{DiffuseTransmission, StandardParameters};
 use std::f64::consts::FRAC_1_PI;
@@ -77,14 +77,14 @@ fn base<const F: u32>(standard: &StandardParameters) -> (Vec3, Option<Vec3>) {
 
 /// The BSDF for one pair of directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Evaluation {
+pub struct BsdfEvaluation {
     /// The BSDF without its delta lobes.
     pub f: Vec3,
     /// The density per solid angle with which [`Bsdf::sample`] takes the direction.
     pub pdf: f64,
 }
 
-impl Evaluation {
+impl BsdfEvaluation {
     const NONE: Self = Self {
         f: Vec3::ZERO,
         pdf: 0.0,
@@ -105,12 +105,12 @@ pub struct BsdfSample {
 }
 
 /// The BSDF with all lobes.
-pub type Bsdf = Lobes<{ PathFeatures::EVERYTHING.0 }>;
+pub type Bsdf = BsdfLobes<{ PathFeatures::EVERYTHING.0 }>;
 
 /// The lobes of the material at a point, for one `wo`. Compiled for the [`PathFeatures`] `F`: the
 /// material must not need any other feature.
 #[derive(Clone, Copy, Debug)]
-pub struct Lobes<const F: u32> {
+pub struct BsdfLobes<const F: u32> {
     side: Side,
     wo: Vec3,
     microfacet: Microfacet<F>,
@@ -119,12 +119,12 @@ pub struct Lobes<const F: u32> {
     /// Its diffuse transmittance.
     through: Option<Vec3>,
     compensation: Option<Compensation>,
-    sheen: Option<Fibres>,
-    coat: Option<Coat>,
+    sheen: Option<SheenFibres>,
+    coat: Option<CoatLayer>,
     lobe_pdf: LobePdf,
 }
 
-impl<const F: u32> Lobes<F> {
+impl<const F: u32> BsdfLobes<F> {
     /// The material seen from `wo`.
     #[must_use]
     #[inline]
@@ -148,7 +148,7 @@ impl<const F: u32> Lobes<F> {
         };
         let coat = clearcoat.and_then(|coat| {
             let sign = if side.below { -1.0 } else { 1.0 };
-            Coat::new(&coat, side.enter(coat.normal * sign), wo)
+            CoatLayer::new(&coat, side.enter(coat.normal * sign), wo)
         });
         let (mut diffuse, mut through) = base::<F>(standard);
         let multiple = standard.multiple_scattering;
@@ -168,7 +168,7 @@ impl<const F: u32> Lobes<F> {
         if multiple {
             microfacet.compensate(standard, wo.z, bounces.max_element());
         }
-        let sheen = sheen.and_then(|sheen| Fibres::new(&sheen, wo));
+        let sheen = sheen.and_then(|sheen| SheenFibres::new(&sheen, wo));
         let lobe_pdf = LobePdf::new(
             diffuse * entering + bounces,
             through.map_or(Vec3::ZERO, |through| through * entering),
@@ -191,13 +191,13 @@ impl<const F: u32> Lobes<F> {
 
     /// The clearcoat; `None` at compile time without the feature for layers.
     #[inline]
-    fn coat(&self) -> Option<&Coat> {
+    fn coat(&self) -> Option<&CoatLayer> {
         self.coat.as_ref().filter(|_| can::<F>(LAYERS))
     }
 
     /// The sheen, as [`Self::coat`].
     #[inline]
-    fn sheen(&self) -> Option<&Fibres> {
+    fn sheen(&self) -> Option<&SheenFibres> {
         self.sheen.as_ref().filter(|_| can::<F>(LAYERS))
     }
 
@@ -226,14 +226,14 @@ impl<const F: u32> Lobes<F> {
     /// Whether all lobes are delta lobes, so that light sampling is useless.
     #[must_use]
     pub fn is_delta(&self) -> bool {
-        let coat = self.coat().is_none_or(Coat::is_smooth);
+        let coat = self.coat().is_none_or(CoatLayer::is_smooth);
         let is_diffuse = self.lobe_pdf.cosine + self.lobe_pdf.through != 0.0;
         !is_diffuse && self.microfacet.is_smooth() && coat
     }
 
     /// The BSDF for light from `wi`, and the density with which [`Bsdf::sample`] samples `wi`.
     #[must_use]
-    pub fn evaluate(&self, wi: Vec3) -> Evaluation {
+    pub fn evaluate(&self, wi: Vec3) -> BsdfEvaluation {
         self.evaluate_entered(self.side.enter(wi))
     }
 
@@ -245,10 +245,10 @@ impl<const F: u32> Lobes<F> {
 
     /// Inlined, so that an unused density is not computed.
     #[inline(always)]
-    fn evaluate_entered(&self, wi: Vec3) -> Evaluation {
+    fn evaluate_entered(&self, wi: Vec3) -> BsdfEvaluation {
         let above = wi.z > 0.0;
         if wi.z == 0.0 || self.wo.z == 0.0 {
-            return Evaluation::NONE;
+            return BsdfEvaluation::NONE;
         }
         // Evaluate the microfacets and the base.
         let mut sum = if above {
@@ -291,10 +291,10 @@ impl<const F: u32> Lobes<F> {
 
     /// The reflection of the microfacets and of the diffuse base, with the density of the
     /// microfacets.
-    fn reflected(&self, wi: Vec3) -> Evaluation {
+    fn reflected(&self, wi: Vec3) -> BsdfEvaluation {
         if self.microfacet.is_dark() {
             // All light reaches the base.
-            return Evaluation {
+            return BsdfEvaluation {
                 f: self.diffuse * FRAC_1_PI,
                 pdf: 0.0,
             };
@@ -361,7 +361,7 @@ impl<const F: u32> Lobes<F> {
     }
 
     fn glossy_sample(&self, wi: Vec3) -> Option<BsdfSample> {
-        let Evaluation { f, pdf } = self.evaluate_entered(wi);
+        let BsdfEvaluation { f, pdf } = self.evaluate_entered(wi);
         (pdf > 0.0).then(|| BsdfSample {
             wi: self.side.leave(wi),
             f,

@@ -10,8 +10,8 @@ use std::f64::consts::TAU;
 
 /// The fibres on a surface as one viewer sees them.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Fibres {
-    charlie: Charlie,
+pub(super) struct SheenFibres {
+    charlie: CharlieSheen,
     color: Vec3,
     /// The albedo of the formula for the viewer.
     towards_viewer: f64,
@@ -21,10 +21,10 @@ pub(super) struct Fibres {
     pub(super) left: f64,
 }
 
-impl Fibres {
+impl SheenFibres {
     /// The sheen for one viewer; `None` if it is black.
     pub(super) fn new(sheen: &Sheen, wo: Vec3) -> Option<Self> {
-        let charlie = Charlie::new(sheen.roughness);
+        let charlie = CharlieSheen::new(sheen.roughness);
         let towards_viewer = charlie.albedo(wo.z);
         let albedo = sheen.color.max_element() * towards_viewer.min(1.0);
         (sheen.color != Vec3::ZERO).then_some(Self {
@@ -64,12 +64,12 @@ impl Fibres {
 
 /// Sheen of one roughness.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Charlie {
+pub(super) struct CharlieSheen {
     alpha: f64,
     roughness: f64,
 }
 
-impl Charlie {
+impl CharlieSheen {
     /// The sheen of a roughness; below 0.02 the lobe would be infinitely thin.
     #[must_use]
     pub(super) fn new(roughness: f64) -> Self {
@@ -121,7 +121,7 @@ impl Charlie {
 #[cfg(test)]
 pub(super) fn integrated_albedo(roughness: f64, cosine: f64) -> f64 {
     const STEPS: u32 = 48;
-    let charlie = Charlie::new(roughness);
+    let charlie = CharlieSheen::new(roughness);
     let wo = Vec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
     let step = |k: u32| (f64::from(k) + 0.5) / f64::from(STEPS);
     let mut sum = 0.0;

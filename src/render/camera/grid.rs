@@ -2,9 +2,9 @@
 //! each sub-sample.
 
 use super::{Camera, CranleyPatterson, image_point, lens_point, ray_through};
-use crate::film::Seeds;
+use crate::film::SamplingSeeds;
 use crate::ray::Ray;
-use crate::sampler::Key;
+use crate::sampler::PathVertexKey;
 use rtc_math::Vec3;
 
 /// The position of each sub-sample in its cell of the pixel.
@@ -20,7 +20,7 @@ pub(crate) enum Pattern {
 
 /// The arrangement of the samples of a pixel.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Grid {
+pub(crate) struct SampleGrid {
     /// Cells along each side of a pixel.
     factor: u32,
     /// Points of the lens for each cell.
@@ -30,12 +30,12 @@ pub(crate) struct Grid {
 
 /// A sub-sample: a point of the image plane, and the rotation of its lens points.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Cell {
+pub(crate) struct SubSample {
     target: Vec3,
     rotated: CranleyPatterson,
 }
 
-impl Grid {
+impl SampleGrid {
     /// One ray through the middle of a pixel.
     pub(crate) const MIDDLE: Self = Self {
         factor: 1,
@@ -88,10 +88,10 @@ impl Grid {
         camera: &Camera,
         pixel: [u32; 2],
         [column, row]: [u32; 2],
-        seeds: Seeds,
-    ) -> Cell {
+        seeds: SamplingSeeds,
+    ) -> SubSample {
         let key = || self.key(pixel, [column, row]);
-        Cell {
+        SubSample {
             target: image_point(camera, pixel, self.place_in(pixel, [column, row], seeds)),
             rotated: CranleyPatterson::new(seeds.lens, key),
         }
@@ -99,27 +99,32 @@ impl Grid {
 
     /// The key of a cell.
     #[inline(always)]
-    fn key(&self, pixel: [u32; 2], [column, row]: [u32; 2]) -> Key {
+    fn key(&self, pixel: [u32; 2], [column, row]: [u32; 2]) -> PathVertexKey {
         let number = u64::from(row) * u64::from(self.factor) + u64::from(column);
-        Key::new(pixel, number)
+        PathVertexKey::new(pixel, number)
     }
 
     /// Whether all rays start at the eye of a camera.
     #[inline(always)]
-    pub(crate) fn starts_at_eye(&self, camera: &Camera, seeds: Seeds) -> bool {
+    pub(crate) fn starts_at_eye(&self, camera: &Camera, seeds: SamplingSeeds) -> bool {
         self.points == 1 && camera.lens_samples == 1 && seeds.lens == 0
     }
 
     /// The offset of a sub-sample within its pixel, each coordinate in [0, 1], by the column and
     /// the row of its cell.
     #[inline(always)]
-    pub(crate) fn place_in(&self, pixel: [u32; 2], cell: [u32; 2], seeds: Seeds) -> [f64; 2] {
+    pub(crate) fn place_in(
+        &self,
+        pixel: [u32; 2],
+        cell: [u32; 2],
+        seeds: SamplingSeeds,
+    ) -> [f64; 2] {
         self.place(cell, || self.key(pixel, cell).seeded(seeds.pixel))
     }
 
     /// The offset of a sub-sample within its pixel, each coordinate in [0, 1].
     #[inline(always)]
-    fn place(&self, cell: [u32; 2], key: impl Fn() -> Key) -> [f64; 2] {
+    fn place(&self, cell: [u32; 2], key: impl Fn() -> PathVertexKey) -> [f64; 2] {
         let random = || {
             let key = key().child(PATTERN);
             [0, 1].map(|axis| key.uniform(axis))
@@ -135,7 +140,7 @@ impl Grid {
     }
 }
 
-impl Cell {
+impl SubSample {
     /// The ray from point k of the lens.
     #[inline]
     pub(crate) fn ray(&self, camera: &Camera, k: u32) -> Ray {
@@ -153,7 +158,7 @@ mod tests {
     #[test]
     fn the_place_after_one_is_that_of_the_next_sample() {
         for (factor, points) in [(1, 1), (3, 1), (1, 4), (3, 5)] {
-            let grid = Grid {
+            let grid = SampleGrid {
                 factor,
                 points,
                 pattern: Pattern::Grid,

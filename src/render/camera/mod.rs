@@ -7,9 +7,9 @@
 
 pub(crate) mod grid;
 
-use crate::lanes::{LANES, Ray4, Vectors};
+use crate::lanes::{FourVectors, LANES, Ray4};
 use crate::ray::Ray;
-use crate::sampler::Key;
+use crate::sampler::PathVertexKey;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4};
 use rtc_math::{Vec3, cos_sin_revolutions, golden_revolutions};
@@ -114,7 +114,7 @@ pub(crate) fn pinhole_rays<S: Simd>(
     places: [[f64; 2]; LANES],
 ) -> Ray4<S> {
     let number = |x: f64| f64x4::splat(simd, x);
-    let vector = |v: Vec3| Vectors::splat(simd, v);
+    let vector = |v: Vec3| FourVectors::splat(simd, v);
     let [left, top] = [0, 1].map(|axis| f64x4::simd_from(simd, places.map(|place| place[axis])));
     let across = number(f64::from(x)) + left - number(f64::from(camera.size[0]) / 2.0);
     let upward = number(f64::from(camera.size[1]) / 2.0) - number(f64::from(y)) - top;
@@ -160,7 +160,7 @@ impl CranleyPatterson {
     /// The rotation of a sub-sample; seed 0 gives [`Self::NONE`].
     #[must_use]
     #[inline]
-    pub(crate) fn new(seed: u64, key: impl Fn() -> Key) -> Self {
+    pub(crate) fn new(seed: u64, key: impl Fn() -> PathVertexKey) -> Self {
         if seed == 0 {
             return Self::NONE;
         }

@@ -11,7 +11,7 @@
 use super::partial::{FilmError, FilmLayout, PartialFilm, SumNode, Summation, insert, position};
 use super::pixel::PixelSum;
 use super::tiled::tiles_of;
-use super::{Counts, Crop, Values};
+use super::{Crop, RayCounts, Values};
 use rtc_math::{Vec3, to_u32};
 
 /// The magic number of the bytes of a film.
@@ -229,17 +229,17 @@ impl<'bytes> FilmBytes<'bytes> {
         })
     }
 
-    fn counts(&mut self) -> Result<Counts, FilmError> {
+    fn counts(&mut self) -> Result<RayCounts, FilmError> {
         const OTHERS: FilmError = FilmError::Corrupt("its counts are of other effects");
-        if self.number()? as usize != Counts::default().to_array().len() {
+        if self.number()? as usize != RayCounts::default().to_array().len() {
             return Err(OTHERS);
         }
         self.counts_of_effects()
     }
 
     /// The current number of counts.
-    pub(super) fn counts_of_effects(&mut self) -> Result<Counts, FilmError> {
-        let mut counts = Counts::default().to_array();
+    pub(super) fn counts_of_effects(&mut self) -> Result<RayCounts, FilmError> {
+        let mut counts = RayCounts::default().to_array();
         for count in &mut counts {
             *count = u64::from_le_bytes(self.array()?);
             // So many rays take a million years; more could not be added up.
@@ -247,7 +247,7 @@ impl<'bytes> FilmBytes<'bytes> {
                 return Err(FilmError::Corrupt("its counts are too large"));
             }
         }
-        Ok(Counts::from_array(counts))
+        Ok(RayCounts::from_array(counts))
     }
 
     /// A node of a tile. The bytes of its sums are there before memory is taken for them.

@@ -4,7 +4,7 @@ use rtc_plan::Effect;
 
 /// Rays by kind, and evaluations by effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Counts {
+pub struct RayCounts {
     /// From the eye.
     pub camera: u64,
     /// To a light.
@@ -17,7 +17,7 @@ pub struct Counts {
     pub hits: u64,
     /// Camera rays of Whitted's integrator whose colour is no number; a display clamps it to 0.
     pub unnumbered: u64,
-    /// What [`Job::clamp`](super::Job::clamp) took.
+    /// What [`RenderSelection::clamp`](super::Job::clamp) took.
     pub clamped: ClampedLight,
     /// Evaluations of effects that are no rays.
     evaluations: [u64; Effect::COUNT],
@@ -74,7 +74,7 @@ impl ClampedLight {
     }
 }
 
-impl Default for Counts {
+impl Default for RayCounts {
     fn default() -> Self {
         Self {
             camera: 0,
@@ -89,7 +89,7 @@ impl Default for Counts {
     }
 }
 
-impl Counts {
+impl RayCounts {
     /// The kinds of rays counted.
     const RAYS: usize = 6;
 

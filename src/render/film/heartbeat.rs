@@ -4,11 +4,11 @@
 //! A stopped thread leaves a wrong value in its pixel. The caller then drops the film, so no
 //! finished picture contains such a pixel.
 
-use crate::film::Counts;
+use crate::film::RayCounts;
 
 /// The work of a thread since its last call.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Step {
+pub struct RenderStep {
     /// The rays it traced.
     pub rays: u64,
     /// The pixel it works on, from the upper left.
@@ -20,7 +20,7 @@ pub struct Step {
 }
 
 /// The observer of a render, called from all its threads; false means stop.
-pub type PixelObserver<'a> = dyn Fn(Step) -> bool + Sync + 'a;
+pub type PixelObserver<'a> = dyn Fn(RenderStep) -> bool + Sync + 'a;
 
 /// Steps of work between two calls: less than a millisecond in simple scenes.
 const EVERY: u32 = 1 << 12;
@@ -34,7 +34,7 @@ pub(crate) struct Heartbeat<'run> {
     /// Steps until the next call.
     left: u32,
     should_continue: bool,
-    /// As in [`Step`].
+    /// As in [`RenderStep`].
     open: usize,
 }
 
@@ -69,7 +69,7 @@ impl<'run> Heartbeat<'run> {
     /// Whether to continue. Call it once per step of work: a path, a bounce, a sample, a point of a
     /// light.
     #[inline]
-    pub(crate) fn should_continue(&mut self, counts: &Counts) -> bool {
+    pub(crate) fn should_continue(&mut self, counts: &RayCounts) -> bool {
         self.left -= 1;
         self.left > 0 || self.ask(counts.rays(), false)
     }
@@ -80,7 +80,7 @@ impl<'run> Heartbeat<'run> {
     }
 
     fn ask(&mut self, rays: u64, is_done: bool) -> bool {
-        let step = Step {
+        let step = RenderStep {
             rays: rays - self.reported,
             pixel: self.pixel,
             is_done,
@@ -101,12 +101,12 @@ mod tests {
     #[test]
     fn who_works_long_asks_within_a_pixel_and_hears_a_stop_for_ever() {
         let reported = Mutex::new(Vec::new());
-        let on_pixel = |step: Step| {
+        let on_pixel = |step: RenderStep| {
             reported.lock().unwrap().push(step);
             !(step.pixel == [1, 0] && step.rays > 0)
         };
         let mut heartbeat = Heartbeat::new(&on_pixel);
-        let mut counts = Counts::default();
+        let mut counts = RayCounts::default();
         counts.camera = 3;
         assert!(heartbeat.should_continue(&counts) && heartbeat.done(counts.rays()));
         heartbeat.begin([1, 0]);
@@ -118,13 +118,13 @@ mod tests {
                 && !heartbeat.done(counts.rays())
         );
         let steps = [
-            Step {
+            RenderStep {
                 rays: 3,
                 pixel: [0, 0],
                 is_done: true,
                 open: 0,
             },
-            Step {
+            RenderStep {
                 rays: 9,
                 pixel: [1, 0],
                 is_done: false,

@@ -1,4 +1,5 @@
-//! The film: the request of a render ([`Job`]), and the pixels and counts it returns ([`Film`]).
+//! The film: the request of a render ([`RenderSelection`]), and the pixels and counts it returns
+//! ([`Film`]).
 //!
 //! - `pixel`: the accumulators, with a fixed order of summation.
 //! - `tile`, `tiled`: the tile a thread works on, and the storage of all tiles.
@@ -16,7 +17,7 @@ pub(crate) mod progressive;
 pub(crate) mod tile;
 pub(crate) mod tiled;
 
-pub use counts::{ClampedLight, Counts};
+pub use counts::{ClampedLight, RayCounts};
 
 use rtc_color::Tone;
 use rtc_image::Image;
@@ -25,7 +26,7 @@ use std::num::NonZeroU32;
 
 /// The pixels and samples to render.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Job {
+pub struct RenderSelection {
     /// The requested crop, or the whole picture, clipped to the picture.
     pub crop: Option<Crop>,
     /// The kind of values in the film.
@@ -33,9 +34,9 @@ pub struct Job {
     /// The tiles to render; pixels elsewhere stay black.
     pub tiles: Option<Tiles>,
     /// The seeds of sampling.
-    pub seeds: Seeds,
+    pub seeds: SamplingSeeds,
     /// Which pixels are rendered; the others stay black.
-    pub stride: Stride,
+    pub stride: PixelStride,
     /// The background of the picture.
     pub background: Background,
     /// The maximum number of samples per pixel. The first samples of the scene are taken.
@@ -57,7 +58,7 @@ pub enum Background {
 
 /// The seed of each kind of sampling. 0 is the default; any other number gives independent noise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Seeds {
+pub struct SamplingSeeds {
     /// For the positions of sub-samples, where their pattern is random.
     pub pixel: u64,
     /// For the points of the lens: other than 0, it rotates their spiral for each sub-sample,
@@ -78,7 +79,7 @@ pub struct Tiles {
     pub last: u64,
 }
 
-impl Seeds {
+impl SamplingSeeds {
     /// The default seeds.
     pub const NONE: Self = Self {
         pixel: 0,
@@ -135,9 +136,9 @@ impl Tiles {
 
 /// Every k-th pixel of a row and of a column, from the first: enough for an estimate of rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Stride(NonZeroU32);
+pub struct PixelStride(NonZeroU32);
 
-impl Stride {
+impl PixelStride {
     /// Every pixel.
     pub const EVERY: Self = Self(NonZeroU32::MIN);
 
@@ -160,7 +161,7 @@ impl Stride {
     }
 }
 
-impl Default for Stride {
+impl Default for PixelStride {
     fn default() -> Self {
         Self::EVERY
     }
@@ -228,7 +229,7 @@ pub struct Film {
     /// For each pixel the fraction of the camera rays that hit a surface, in [0, 1].
     pub coverage: Vec<f32>,
     /// The rays it took.
-    pub counts: Counts,
+    pub counts: RayCounts,
 }
 
 impl Film {

@@ -4,8 +4,8 @@
 //! equals, bit for bit, the film of one complete render.
 
 use super::pixel::{BLOCK, PixelSum};
-use super::tiled::{Tiled, tiles_of};
-use super::{Counts, Crop, DISPLAY, Film, Values};
+use super::tiled::{TiledValues, tiles_of};
+use super::{Crop, DISPLAY, Film, RayCounts, Values};
 use rtc_image::Image;
 use std::fmt;
 use std::ops::Range;
@@ -36,7 +36,7 @@ pub(crate) struct FilmLayout {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartialFilm {
     pub(super) layout: FilmLayout,
-    pub(super) counts: Counts,
+    pub(super) counts: RayCounts,
     /// For each tile of the picture its present nodes, in order, with whole subtrees merged.
     pub(super) tiles: Vec<Vec<SumNode>>,
 }
@@ -178,7 +178,7 @@ impl FilmLayout {
     }
 
     /// The picture of all sums.
-    pub(crate) fn develop(&self, film: &Tiled<PixelSum>, counts: Counts) -> Film {
+    pub(crate) fn develop(&self, film: &TiledValues<PixelSum>, counts: RayCounts) -> Film {
         let (pixels, coverage) = match (self.summation, self.values) {
             (Summation::Distance, _) => shown(film, depths(film)),
             (Summation::InBlocks(_), Values::Display) => {
@@ -202,7 +202,7 @@ impl FilmLayout {
 
 /// The pixels row by row as `show` converts them, and their coverage, in one pass over the film.
 fn shown(
-    film: &Tiled<PixelSum>,
+    film: &TiledValues<PixelSum>,
     show: impl Fn(&PixelSum) -> [f64; 3],
 ) -> (Vec<[f64; 3]>, Vec<f32>) {
     let mut pixels = Vec::with_capacity(film.len());
@@ -215,7 +215,7 @@ fn shown(
 }
 
 /// Distances as greys, the nearest of all white, the farthest black: `(t_max − t)/(t_max − t_min)`.
-fn depths(film: &Tiled<PixelSum>) -> impl Fn(&PixelSum) -> [f64; 3] {
+fn depths(film: &TiledValues<PixelSum>) -> impl Fn(&PixelSum) -> [f64; 3] {
     let hits = film.iter().filter(|sum| sum.hits > 0);
     let (near, far) = hits.fold((f64::INFINITY, 0.0_f64), |(near, far), sum| {
         (near.min(sum.radiance.x), far.max(sum.radiance.x))
@@ -231,7 +231,7 @@ fn depths(film: &Tiled<PixelSum>) -> impl Fn(&PixelSum) -> [f64; 3] {
 impl PartialFilm {
     /// The rays it took.
     #[must_use]
-    pub fn counts(&self) -> Counts {
+    pub fn counts(&self) -> RayCounts {
         self.counts
     }
 
@@ -261,7 +261,7 @@ impl PartialFilm {
     pub(crate) fn new(layout: FilmLayout) -> Self {
         Self {
             layout,
-            counts: Counts::default(),
+            counts: RayCounts::default(),
             tiles: vec![Vec::new(); tiles_of(layout.crop).count()],
         }
     }
@@ -270,8 +270,8 @@ impl PartialFilm {
     pub(crate) fn of(
         layout: FilmLayout,
         blocks: &Range<u32>,
-        film: Tiled<PixelSum>,
-        counts: Counts,
+        film: TiledValues<PixelSum>,
+        counts: RayCounts,
     ) -> Self {
         let node = |sums: Vec<PixelSum>| {
             let blocks = blocks.clone();
@@ -320,7 +320,7 @@ impl PartialFilm {
         if let Some(area) = missing.and_then(|tile| tiles_of(self.layout.crop).nth(tile)) {
             return Err(FilmError::Missing([area.x, area.y]));
         }
-        let mut film = Tiled::new(self.layout.crop, None, PixelSum::default());
+        let mut film = TiledValues::new(self.layout.crop, None, PixelSum::default());
         for ((_, sums), nodes) in film.tiles_mut().zip(&self.tiles) {
             nodes
                 .iter()

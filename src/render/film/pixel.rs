@@ -3,7 +3,7 @@
 //! The order of summation is fixed for each kind of picture and depends on the sample indices
 //! alone, so a picture has the same bytes however its samples are distributed.
 
-use super::{Seeds, Values, coverage};
+use super::{SamplingSeeds, Values, coverage};
 use rtc_math::Vec3;
 use std::ops::{Add, Range};
 
@@ -13,16 +13,16 @@ pub(crate) struct SampleId {
     /// The pixel, from the upper left.
     pub(crate) pixel: [u32; 2],
     /// To which sequence it belongs.
-    pub(crate) stream: Stream,
+    pub(crate) stream: SampleStream,
     /// Its index in that sequence.
     pub(crate) index: u32,
 }
 
 /// A sequence of samples of a pixel.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Stream {
+pub(crate) enum SampleStream {
     /// The samples of the scene's settings.
-    Picture(Seeds),
+    Picture(SamplingSeeds),
     /// One of three sequences without end that are independent of each other: two replicates and
     /// a pilot. Those of other numbers are independent too.
     Replicate {
@@ -33,12 +33,12 @@ pub(crate) enum Stream {
     },
 }
 
-impl Stream {
+impl SampleStream {
     /// The seeds of its samples.
-    pub(crate) fn seeds(self) -> Seeds {
+    pub(crate) fn seeds(self) -> SamplingSeeds {
         match self {
             Self::Picture(seeds) => seeds,
-            Self::Replicate { number, .. } => Seeds {
+            Self::Replicate { number, .. } => SamplingSeeds {
                 pixel: number,
                 lens: number,
                 path: number,
@@ -49,7 +49,7 @@ impl Stream {
 
 /// The value of one sample of a pixel.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Sample {
+pub(crate) struct PixelSample {
     /// The radiance, finite where paths are traced.
     pub(crate) radiance: Vec3,
     /// Whether the camera ray hit a surface.
@@ -57,7 +57,7 @@ pub(crate) struct Sample {
 }
 
 /// Adds up the samples of one pixel.
-pub(crate) trait Accumulator {
+pub(crate) trait PixelAccumulator {
     /// The kind of a sample.
     type Sample: Copy;
 
@@ -75,7 +75,7 @@ pub(crate) trait Accumulator {
 #[derive(Clone, Debug)]
 pub(crate) enum SampleRanges {
     /// A range of the samples of the scene's settings.
-    Picture(Seeds, Range<u32>),
+    Picture(SamplingSeeds, Range<u32>),
     /// A range for each of the two replicates, and one for the pilot; keyed by a seed.
     Replicates(u64, [Range<u32>; 2]),
 }
@@ -83,14 +83,14 @@ pub(crate) enum SampleRanges {
 impl SampleRanges {
     /// The k-th stream that samples are taken of, and which of them; `None` after the last.
     #[inline]
-    pub(crate) fn stream(&self, k: usize) -> Option<(Stream, Range<u32>)> {
+    pub(crate) fn stream(&self, k: usize) -> Option<(SampleStream, Range<u32>)> {
         match self {
             Self::Picture(seeds, samples) => {
-                (k == 0).then(|| (Stream::Picture(*seeds), samples.clone()))
+                (k == 0).then(|| (SampleStream::Picture(*seeds), samples.clone()))
             }
             Self::Replicates(seed, [shown, pilot]) => {
                 let number = (seed << 2 | k as u64).wrapping_add(1);
-                let stream = Stream::Replicate {
+                let stream = SampleStream::Replicate {
                     replicate: k,
                     number,
                 };
@@ -150,12 +150,12 @@ impl SequentialAccumulator {
     }
 }
 
-impl Accumulator for SequentialAccumulator {
-    type Sample = Sample;
+impl PixelAccumulator for SequentialAccumulator {
+    type Sample = PixelSample;
     type PixelState = PixelSum;
 
     #[inline]
-    fn add(&mut self, _: &SampleId, Sample { radiance, hit }: Sample) {
+    fn add(&mut self, _: &SampleId, PixelSample { radiance, hit }: PixelSample) {
         self.sum.radiance += match self.values {
             Values::Display => radiance.clamp(Vec3::ZERO, Vec3::ONE),
             Values::Linear => radiance,
@@ -191,12 +191,12 @@ struct SumTree {
     blocks: u32,
 }
 
-impl Accumulator for BlockAccumulator {
-    type Sample = Sample;
+impl PixelAccumulator for BlockAccumulator {
+    type Sample = PixelSample;
     type PixelState = PixelSum;
 
     #[inline]
-    fn add(&mut self, _: &SampleId, Sample { radiance, hit }: Sample) {
+    fn add(&mut self, _: &SampleId, PixelSample { radiance, hit }: PixelSample) {
         self.block += radiance;
         self.hits += u32::from(hit);
         self.samples += 1;
@@ -244,7 +244,7 @@ mod tests {
     fn id() -> SampleId {
         SampleId {
             pixel: [0; 2],
-            stream: Stream::Picture(Seeds::NONE),
+            stream: SampleStream::Picture(SamplingSeeds::NONE),
             index: 0,
         }
     }
@@ -268,7 +268,7 @@ mod tests {
     fn blocks_are_added_along_a_binary_tree() {
         for samples in [1, 15, 16, 17, 48, 49, 64, 112, 1000] {
             let mut sums = BlockAccumulator::default();
-            let sample = |index| Sample {
+            let sample = |index| PixelSample {
                 radiance: radiance(index),
                 hit: index % 2 == 0,
             };
@@ -296,7 +296,7 @@ mod tests {
             for value in [3.0, -1.0] {
                 sums.add(
                     &id(),
-                    Sample {
+                    PixelSample {
                         radiance: Vec3::splat(value),
                         hit: true,
                     },

@@ -7,9 +7,9 @@
 //! chose the number for each other, both would be biased
 //! (`docs/book/src/decisions/0013-pilots.md`).
 
-use super::pixel::{Accumulator, Sample, SampleId, SampleRanges, Stream};
-use super::tiled::Tiled;
-use super::{Background, Counts, Crop, DISPLAY, Tiles, Values, coverage};
+use super::pixel::{PixelAccumulator, PixelSample, SampleId, SampleRanges, SampleStream};
+use super::tiled::TiledValues;
+use super::{Background, Crop, DISPLAY, RayCounts, Tiles, Values, coverage};
 use rtc_color::Tone;
 use rtc_image::Image;
 use rtc_math::Vec3;
@@ -48,9 +48,9 @@ pub struct ProgressiveFilm {
     pub display: (Tone, f64),
     /// The tiles that grow; all without.
     pub tiles: Option<Tiles>,
-    pub(crate) pixels: Tiled<Replicates>,
+    pub(crate) pixels: TiledValues<Replicates>,
     /// The rays so far.
-    pub counts: Counts,
+    pub counts: RayCounts,
 }
 
 impl ProgressiveFilm {
@@ -63,8 +63,8 @@ impl ProgressiveFilm {
             background: Background::default(),
             display: (DISPLAY, 1.0),
             tiles: None,
-            pixels: Tiled::new(crop, None, Replicates::default()),
-            counts: Counts::default(),
+            pixels: TiledValues::new(crop, None, Replicates::default()),
+            counts: RayCounts::default(),
         }
     }
 
@@ -249,12 +249,12 @@ impl Replicates {
     }
 }
 
-impl Accumulator for Replicates {
-    type Sample = Sample;
+impl PixelAccumulator for Replicates {
+    type Sample = PixelSample;
     type PixelState = Self;
 
-    fn add(&mut self, id: &SampleId, Sample { radiance, hit }: Sample) {
-        let Stream::Replicate { replicate, .. } = id.stream else {
+    fn add(&mut self, id: &SampleId, PixelSample { radiance, hit }: PixelSample) {
+        let SampleStream::Replicate { replicate, .. } = id.stream else {
             return;
         };
         let shown = match self.tone {

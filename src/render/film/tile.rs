@@ -1,35 +1,38 @@
 //! A tile being rendered: the pixels selected, the samples of each, and the storage of their sums.
 
-use super::pixel::{Accumulator, SampleId, SampleRanges};
-use super::{Crop, Stride};
+use super::pixel::{PixelAccumulator, SampleId, SampleRanges};
+use super::{Crop, PixelStride};
 
 /// Begins a pixel: given its position, its row-major index in the film, and its state in the film
 /// so far, returns its accumulator and the samples to take.
-pub(crate) type Open<'run, A> =
-    dyn Fn([u32; 2], usize, &<A as Accumulator>::PixelState) -> (A, SampleRanges) + Sync + 'run;
+pub(crate) type BeginPixel<'run, A> =
+    dyn Fn([u32; 2], usize, &StateOf<A>) -> (A, SampleRanges) + Sync + 'run;
+
+/// The state of a pixel in the film of an accumulator.
+type StateOf<A> = <A as PixelAccumulator>::PixelState;
 
 /// A tile as an integrator sees it: one pixel after the other, whatever the film keeps of each.
-pub(crate) trait FilmTile<Sample> {
+pub(crate) trait FilmTile<PixelSample> {
     /// Begins the next pixel: its coordinates in the picture, and the samples it is to take; `None`
     /// after the last.
     fn next(&mut self) -> Option<([u32; 2], SampleRanges)>;
 
     /// Adds the next sample of a stream to the current pixel.
-    fn add(&mut self, id: &SampleId, sample: Sample);
+    fn add(&mut self, id: &SampleId, sample: PixelSample);
 
     /// Stores the sum of the current pixel.
     fn close(&mut self);
 }
 
 /// A tile of a film that stores the results of an accumulator.
-pub(crate) struct Tile<'film, A: Accumulator> {
+pub(crate) struct Tile<'film, A: PixelAccumulator> {
     /// The rectangle of the picture.
     area: Crop,
     /// The index in the film.
     film: Crop,
-    stride: Stride,
+    stride: PixelStride,
     kept: &'film mut [A::PixelState],
-    open: &'film Open<'film, A>,
+    open: &'film BeginPixel<'film, A>,
     /// The column and the row of the next pixel, counted from the corner of the film.
     next: [u32; 2],
     /// Its number in the tile.
@@ -38,14 +41,14 @@ pub(crate) struct Tile<'film, A: Accumulator> {
     begun: Option<(A, usize)>,
 }
 
-impl<'film, A: Accumulator> Tile<'film, A> {
+impl<'film, A: PixelAccumulator> Tile<'film, A> {
     /// The pixels in `area` of a film with the state `kept`; only every `stride`-th from the film's
     /// corner.
     pub(crate) fn new(
         [area, film]: [Crop; 2],
-        stride: Stride,
+        stride: PixelStride,
         kept: &'film mut [A::PixelState],
-        open: &'film Open<'film, A>,
+        open: &'film BeginPixel<'film, A>,
     ) -> Self {
         Self {
             area,
@@ -69,7 +72,7 @@ impl<'film, A: Accumulator> Tile<'film, A> {
     }
 }
 
-impl<A: Accumulator> FilmTile<A::Sample> for Tile<'_, A> {
+impl<A: PixelAccumulator> FilmTile<A::Sample> for Tile<'_, A> {
     fn next(&mut self) -> Option<([u32; 2], SampleRanges)> {
         while self.index < self.kept.len() {
             let ([column, row], index) = (self.next, self.index);

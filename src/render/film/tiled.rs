@@ -6,14 +6,14 @@ use std::ops::Range;
 
 /// One value a pixel of the tiles held, and one value for all pixels of the other tiles.
 #[derive(Clone, Debug)]
-pub(crate) struct Tiled<K> {
+pub(crate) struct TiledValues<K> {
     crop: Crop,
     /// For each tile the values in rows; empty for missing tiles.
     tiles: Vec<Vec<K>>,
     elsewhere: K,
 }
 
-impl<K: Clone> Tiled<K> {
+impl<K: Clone> TiledValues<K> {
     /// The same value in all pixels. Only the tiles given are held, all of them without.
     #[must_use]
     pub(crate) fn new(crop: Crop, held: Option<Tiles>, value: K) -> Self {
@@ -30,7 +30,7 @@ impl<K: Clone> Tiled<K> {
     }
 }
 
-impl<K> Tiled<K> {
+impl<K> TiledValues<K> {
     /// The part of the picture.
     #[must_use]
     pub(crate) fn crop(&self) -> Crop {
@@ -154,7 +154,7 @@ mod tests {
                 width,
                 height,
             };
-            let mut tiled = Tiled::new(crop, None, [0, 0]);
+            let mut tiled = TiledValues::new(crop, None, [0, 0]);
             for (area, pixels) in tiled.tiles_mut() {
                 assert_eq!(
                     area.x / Tiles::SIDE,
@@ -181,7 +181,7 @@ mod tests {
             width: 0,
             height: 9,
         };
-        assert_eq!(Tiled::new(crop, None, 0).tiles_mut().count(), 0);
+        assert_eq!(TiledValues::new(crop, None, 0).tiles_mut().count(), 0);
     }
 
     #[test]
@@ -193,7 +193,7 @@ mod tests {
             height: 70,
         };
         let held = Tiles::shares([2, 3], 7);
-        let mut tiled = Tiled::new(crop, Some(held), 0);
+        let mut tiled = TiledValues::new(crop, Some(held), 0);
         assert!(tiled.values().count() < crop.pixels() / 2);
         tiled.values_mut().for_each(|value| *value = 1);
         let pixels = (0..crop.height).flat_map(|y| (0..crop.width).map(move |x| [x, y]));

@@ -1,18 +1,18 @@
 //! Denoised pictures: two half buffers with independent samples, the guides of both, and guides
 //! from additional camera rays.
 
-use super::{Selection, run};
+use super::{PixelSelection, run};
 use crate::film::heartbeat::PixelObserver;
-use crate::film::tiled::Tiled;
-use crate::film::{Counts, Film, Job};
+use crate::film::tiled::TiledValues;
+use crate::film::{Film, RayCounts, RenderSelection};
 use crate::frame::picture::sample_ranges;
 use crate::integrator::guide::GuideSums;
-use crate::integrator::path::{FirstHitsOfPaths, Strategy};
+use crate::integrator::path::{PathFirstHitFinder, SamplingStrategy};
 use crate::light::Lights;
 use crate::shape::geometry::Intersect;
 use crate::world::World;
 use crate::world::any::AnyWorld;
-use rtc_image::{Guide, Image, NoisyHalf, denoise};
+use rtc_image::{DenoisingGuide, Image, NoisyHalf, denoise};
 use std::ops::Range;
 
 /// Camera rays of the exact guides for each sample, and the most that so are taken.
@@ -35,19 +35,19 @@ impl<S: Intersect> World<S> {
     pub(crate) fn guides(
         &self,
         samples: &(dyn Fn(usize) -> Range<u32> + Sync),
-        job: &Job,
+        job: &RenderSelection,
         on_pixel: &PixelObserver<'_>,
-    ) -> Option<(Vec<Guide>, Counts)> {
-        let lights = Lights::new(self, Strategy::Mis);
-        let make_integrator = || Box::new(FirstHitsOfPaths::new(self, &lights, on_pixel)) as _;
-        let open = |_: [u32; 2], index: usize, _: &Guide| {
+    ) -> Option<(Vec<DenoisingGuide>, RayCounts)> {
+        let lights = Lights::new(self, SamplingStrategy::Mis);
+        let make_integrator = || Box::new(PathFirstHitFinder::new(self, &lights, on_pixel)) as _;
+        let open = |_: [u32; 2], index: usize, _: &DenoisingGuide| {
             (
                 GuideSums::new(&self.camera),
                 sample_ranges(job, samples(index)),
             )
         };
-        let mut film = Tiled::new(self.crop(job), job.tiles, Guide::default());
-        let counts = run(&mut film, Selection::of(job), &make_integrator, &open)?;
+        let mut film = TiledValues::new(self.crop(job), job.tiles, DenoisingGuide::default());
+        let counts = run(&mut film, PixelSelection::of(job), &make_integrator, &open)?;
         Some((film.iter().copied().collect(), counts))
     }
 }
@@ -59,7 +59,7 @@ impl AnyWorld {
     pub fn denoised(
         &self,
         samples: u32,
-        job: &Job,
+        job: &RenderSelection,
         on_pixel: &PixelObserver<'_>,
         between: &dyn Fn(),
     ) -> Option<DenoisedFilm> {
@@ -98,10 +98,10 @@ impl AnyWorld {
     fn guides_of(
         &self,
         ranges: &[Range<u32>; 2],
-        job: &Job,
+        job: &RenderSelection,
         on_pixel: &PixelObserver<'_>,
         between: &dyn Fn(),
-    ) -> Option<([Vec<Guide>; 3], Counts)> {
+    ) -> Option<([Vec<DenoisingGuide>; 3], RayCounts)> {
         let (first, a) = self.guides(&|_| ranges[0].clone(), job, on_pixel)?;
         between();
         let (second, b) = self.guides(&|_| ranges[1].clone(), job, on_pixel)?;
@@ -133,7 +133,7 @@ impl AnyWorld {
 const DISTANCE: usize = rtc_image::GUIDES - 1;
 
 /// Scales the distances of guides to [0, 1], by those that the last meet.
-fn scale_distances(guides: &mut [Vec<Guide>; 3]) {
+fn scale_distances(guides: &mut [Vec<DenoisingGuide>; 3]) {
     let with_hit = guides[2].iter().filter(|guide| guide[0] > 0.0);
     let distances = with_hit.map(|guide| guide[DISTANCE] / guide[0]);
     let (near, far) = distances.fold((f64::INFINITY, f64::NEG_INFINITY), |(near, far), d| {

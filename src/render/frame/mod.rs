@@ -4,8 +4,8 @@
 //!   renders the two halves for the denoiser, `layers` renders AOVs, and `verify` compares a plan
 //!   with the
 //!   unpruned picture.
-//! - Each of them passes a [`Selection`] of pixels, an accumulator and a maker of integrators to
-//!   [`run`] or
+//! - Each of them passes a [`PixelSelection`] of pixels, an accumulator and a maker of integrators
+//!   to [`run`] or
 //!   [`run_tiles`]. These distribute the tiles over the threads; each thread has an integrator of
 //!   its
 //!   own.
@@ -18,28 +18,28 @@ pub(crate) mod picture;
 pub(crate) mod progressive;
 pub(crate) mod verify;
 
-use super::film::pixel::Accumulator;
-use super::film::tile::{Open, Tile};
-use super::film::tiled::Tiled;
-use super::film::{Counts, Crop, Stride, Tiles};
+use super::film::pixel::PixelAccumulator;
+use super::film::tile::{BeginPixel, Tile};
+use super::film::tiled::TiledValues;
+use super::film::{Crop, PixelStride, RayCounts, Tiles};
 use super::integrator::Integrator;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Which pixels of a film are rendered.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Selection {
+pub(crate) struct PixelSelection {
     /// The requested tiles; `None` for all.
     pub(crate) tiles: Option<Tiles>,
     /// The requested pixels of them.
-    pub(crate) stride: Stride,
+    pub(crate) stride: PixelStride,
 }
 
 /// A tile's position in the picture, and the state of its pixels.
-type KeptTile<'film, K> = (Crop, &'film mut [K]);
+type SavedTile<'film, K> = (Crop, &'film mut [K]);
 
-impl Selection {
+impl PixelSelection {
     /// The requested tiles of a film.
-    fn tiles_of<K>(self, film: &mut Tiled<K>) -> Vec<KeptTile<'_, K>> {
+    fn tiles_of<K>(self, film: &mut TiledValues<K>) -> Vec<SavedTile<'_, K>> {
         let is_wanted = |area: &Crop| self.tiles.is_none_or(|own| own.contain([area.x, area.y]));
         film.tiles_mut()
             .filter(|(area, _)| is_wanted(area))
@@ -48,17 +48,17 @@ impl Selection {
 }
 
 /// Makes the integrator of a thread.
-pub(crate) type MakeIntegrator<'work, 'run, Sample> =
-    dyn Fn() -> Box<dyn Integrator<'run, Sample = Sample> + 'work> + Sync + 'work;
+pub(crate) type MakeIntegrator<'work, 'run, PixelSample> =
+    dyn Fn() -> Box<dyn Integrator<'run, Sample = PixelSample> + 'work> + Sync + 'work;
 
 /// Renders the selected pixels, as `open` begins each of them, by integrators that
 /// `make_integrator` makes; returns the number of rays, or `None` if the observer said stop.
-pub(crate) fn run<A: Accumulator>(
-    film: &mut Tiled<A::PixelState>,
-    selection: Selection,
+pub(crate) fn run<A: PixelAccumulator>(
+    film: &mut TiledValues<A::PixelState>,
+    selection: PixelSelection,
     make_integrator: &MakeIntegrator<'_, '_, A::Sample>,
-    open: &Open<'_, A>,
-) -> Option<Counts> {
+    open: &BeginPixel<'_, A>,
+) -> Option<RayCounts> {
     let crop = film.crop();
     let tiles = selection.tiles_of(film);
     let (counts, is_done) = share(tiles, make_integrator, &|integrator, (area, kept)| {
@@ -69,12 +69,12 @@ pub(crate) fn run<A: Accumulator>(
 
 /// As [`run`], in tiles distributed over the picture; if the observer said stop, unfinished tiles
 /// are unchanged. Returns the number of rays, and whether all are done.
-pub(crate) fn run_tiles<A: Accumulator<PixelState: Copy>>(
-    film: &mut Tiled<A::PixelState>,
-    selection: Selection,
+pub(crate) fn run_tiles<A: PixelAccumulator<PixelState: Copy>>(
+    film: &mut TiledValues<A::PixelState>,
+    selection: PixelSelection,
     make_integrator: &MakeIntegrator<'_, '_, A::Sample>,
-    open: &Open<'_, A>,
-) -> (Counts, bool) {
+    open: &BeginPixel<'_, A>,
+) -> (RayCounts, bool) {
     let crop = film.crop();
     let mut tiles = selection.tiles_of(film);
     tiles.sort_unstable_by_key(|(area, _)| Tiles::rank(0, [area.x, area.y]));
@@ -91,23 +91,23 @@ pub(crate) fn run_tiles<A: Accumulator<PixelState: Copy>>(
 }
 
 /// Renders a tile; false if the observer said stop.
-type RenderTile<'work, 'run, Sample, T> =
-    dyn Fn(&mut (dyn Integrator<'run, Sample = Sample> + '_), T) -> bool + Sync + 'work;
+type RenderTile<'work, 'run, PixelSample, T> =
+    dyn Fn(&mut (dyn Integrator<'run, Sample = PixelSample> + '_), T) -> bool + Sync + 'work;
 
 /// Distributes tiles over the integrators of all threads: each renders the next remaining one,
 /// until none is left or the observer said stop. Returns the rays of the finished tiles, and
 /// whether all are finished.
-fn share<'run, Sample: Copy, T: Send>(
+fn share<'run, PixelSample: Copy, T: Send>(
     tiles: Vec<T>,
-    make_integrator: &MakeIntegrator<'_, 'run, Sample>,
-    render: &RenderTile<'_, 'run, Sample, T>,
-) -> (Counts, bool) {
+    make_integrator: &MakeIntegrator<'_, 'run, PixelSample>,
+    render: &RenderTile<'_, 'run, PixelSample, T>,
+) -> (RayCounts, bool) {
     let left = Mutex::new(tiles.into_iter());
     let next = || locked(&left).next();
-    let done = Mutex::new((Counts::default(), true));
+    let done = Mutex::new((RayCounts::default(), true));
     on_all_threads(&|| {
         let mut integrator = make_integrator();
-        let mut counts = Counts::default();
+        let mut counts = RayCounts::default();
         while let Some(tile) = next() {
             let before = *integrator.counts();
             if !render(&mut *integrator, tile) {

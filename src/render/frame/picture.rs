@@ -1,41 +1,41 @@
 //! Complete and partial pictures: each pixel takes the samples of the scene's settings, or a range.
 //! Layers (AOVs) trace the same camera rays, to their first hits.
 
-use super::{MakeIntegrator, Selection, run};
+use super::{MakeIntegrator, PixelSelection, run};
 use crate::film::heartbeat::PixelObserver;
 use crate::film::partial::{FilmError, FilmLayout, PartialFilm, Summation};
 use crate::film::pixel::{
-    Accumulator, BlockAccumulator, PixelSum, SampleRanges, SequentialAccumulator,
+    BlockAccumulator, PixelAccumulator, PixelSum, SampleRanges, SequentialAccumulator,
 };
-use crate::film::tiled::Tiled;
-use crate::film::{Counts, Crop, Film, Job};
-use crate::integrator::aov::{Aov, AovAccumulator, CameraHit, FirstHits};
-use crate::integrator::first_hit::{Depth, Distance};
-use crate::integrator::path::{FirstHitsOfPaths, PathTracer, Strategy};
-use crate::integrator::whitted::Tracer;
+use crate::film::tiled::TiledValues;
+use crate::film::{Crop, Film, RayCounts, RenderSelection};
+use crate::integrator::aov::{Aov, AovAccumulator, CameraHit, FirstHitFinder};
+use crate::integrator::first_hit::{DepthIntegrator, PixelDistance};
+use crate::integrator::path::{PathFirstHitFinder, PathTracer, SamplingStrategy};
+use crate::integrator::whitted::WhittedTracer;
 use crate::light::Lights;
 use crate::shape::geometry::Intersect;
 use crate::world::World;
 use crate::world::settings::Mode;
-use rtc_image::Layers;
-use rtc_plan::{Features, PixelClass};
+use rtc_image::PixelLayers;
+use rtc_plan::{PixelClass, WhittedFeatures};
 use std::iter::repeat_n;
 use std::ops::Range;
 
 /// The sums of the pixels of a picture, and the rays they took.
-pub(crate) type Sums = (Tiled<PixelSum>, Counts);
+pub(crate) type PictureSums = (TiledValues<PixelSum>, RayCounts);
 
 impl<S: Intersect> World<S> {
     /// Sums all samples of pixels with the features `F`; `None` if `on_pixel` said stop.
     pub(crate) fn sum_with<const F: u32>(
         &self,
-        job: &Job,
+        job: &RenderSelection,
         on_pixel: &PixelObserver<'_>,
-    ) -> Option<Sums> {
+    ) -> Option<PictureSums> {
         if let Mode::Depth = self.settings.mode {
             return self.sum_distances(job, on_pixel);
         }
-        let samples = if Features(F).contains(Features::CAMERA) {
+        let samples = if WhittedFeatures(F).contains(WhittedFeatures::CAMERA) {
             self.settings.grid.samples()
         } else {
             1
@@ -48,9 +48,9 @@ impl<S: Intersect> World<S> {
                 sample_ranges(job, 0..limited(job, samples)),
             )
         };
-        let make_integrator = || Box::new(Tracer::<S, F>::new(self, on_pixel)) as _;
+        let make_integrator = || Box::new(WhittedTracer::<S, F>::new(self, on_pixel)) as _;
         let mut film = self.film(job);
-        let counts = run(&mut film, Selection::of(job), &make_integrator, &open)?;
+        let counts = run(&mut film, PixelSelection::of(job), &make_integrator, &open)?;
         Some((film, counts))
     }
 
@@ -58,11 +58,11 @@ impl<S: Intersect> World<S> {
     /// stop.
     pub(crate) fn sum_paths_with<const F: u32>(
         &self,
-        strategy: Strategy,
+        strategy: SamplingStrategy,
         samples: &Range<u32>,
-        job: &Job,
+        job: &RenderSelection,
         on_pixel: &PixelObserver<'_>,
-    ) -> Option<Sums> {
+    ) -> Option<PictureSums> {
         let lights = Lights::new(self, strategy);
         let open = |_: [u32; 2], _: usize, _: &PixelSum| {
             (
@@ -75,24 +75,28 @@ impl<S: Intersect> World<S> {
             Box::new(tracer.before(job.background).clamped(job.clamp)) as _
         };
         let mut film = self.film(job);
-        let counts = run(&mut film, Selection::of(job), &make_integrator, &open)?;
+        let counts = run(&mut film, PixelSelection::of(job), &make_integrator, &open)?;
         Some((film, counts))
     }
 
     /// Distances of the complete picture: the brightness of a pixel depends on all of them.
-    fn sum_distances(&self, job: &Job, on_pixel: &PixelObserver<'_>) -> Option<Sums> {
+    fn sum_distances(
+        &self,
+        job: &RenderSelection,
+        on_pixel: &PixelObserver<'_>,
+    ) -> Option<PictureSums> {
         let open = |pixel: [u32; 2], _: usize, _: &PixelSum| {
             let is_blank = self.plan.pixel_classes.class_of(pixel) == PixelClass::Nothing;
             (
-                Distance::default(),
+                PixelDistance::default(),
                 sample_ranges(job, 0..u32::from(!is_blank)),
             )
         };
         let mut film = self.film(job);
         let counts = run(
             &mut film,
-            Selection::of(job),
-            &|| Box::new(Depth::new(self, on_pixel)),
+            PixelSelection::of(job),
+            &|| Box::new(DepthIntegrator::new(self, on_pixel)),
             &open,
         )?;
         Some((film, counts))
@@ -101,8 +105,8 @@ impl<S: Intersect> World<S> {
     /// Renders a complete picture from the sums of all samples that `sum` computes.
     pub(crate) fn whole(
         &self,
-        job: &Job,
-        sum: impl FnOnce(&Range<u32>, &Job) -> Option<Sums>,
+        job: &RenderSelection,
+        sum: impl FnOnce(&Range<u32>, &RenderSelection) -> Option<PictureSums>,
     ) -> Option<Film> {
         let layout = self.layout(job);
         let tiles = match layout.summation {
@@ -110,7 +114,7 @@ impl<S: Intersect> World<S> {
             Summation::Distance => None,
             Summation::InOrder | Summation::InBlocks(_) => job.tiles,
         };
-        let (film, counts) = sum(&layout.all_samples(), &Job { tiles, ..*job })?;
+        let (film, counts) = sum(&layout.all_samples(), &RenderSelection { tiles, ..*job })?;
         Some(layout.develop(&film, counts).cut(self.crop(job)))
     }
 
@@ -118,9 +122,9 @@ impl<S: Intersect> World<S> {
     /// computes.
     pub(crate) fn part(
         &self,
-        job: &Job,
+        job: &RenderSelection,
         samples: Option<Range<u32>>,
-        sum: impl Fn(&Range<u32>, &Job) -> Option<Sums>,
+        sum: impl Fn(&Range<u32>, &RenderSelection) -> Option<PictureSums>,
     ) -> Result<Option<PartialFilm>, FilmError> {
         let layout = self.layout(job);
         let mut part = PartialFilm::new(layout);
@@ -134,18 +138,18 @@ impl<S: Intersect> World<S> {
     }
 
     /// A film of the tiles of a job, without samples.
-    fn film(&self, job: &Job) -> Tiled<PixelSum> {
-        Tiled::new(self.layout(job).crop, job.tiles, PixelSum::default())
+    fn film(&self, job: &RenderSelection) -> TiledValues<PixelSum> {
+        TiledValues::new(self.layout(job).crop, job.tiles, PixelSum::default())
     }
 
     /// The pixels of a job, and the summation of their samples.
-    fn layout(&self, job: &Job) -> FilmLayout {
+    fn layout(&self, job: &RenderSelection) -> FilmLayout {
         let (crop, summation) = match self.settings.mode {
             Mode::Path(samples) => {
                 let samples = limited(job, samples);
                 (self.crop(job), Summation::InBlocks(samples))
             }
-            Mode::Depth => (self.crop(&Job::default()), Summation::Distance),
+            Mode::Depth => (self.crop(&RenderSelection::default()), Summation::Distance),
             Mode::Phong | Mode::Normal | Mode::Gooch(_) => (self.crop(job), Summation::InOrder),
         };
         let values = job.values;
@@ -157,7 +161,7 @@ impl<S: Intersect> World<S> {
     }
 
     /// The crop of a job.
-    pub(crate) fn crop(&self, job: &Job) -> Crop {
+    pub(crate) fn crop(&self, job: &RenderSelection) -> Crop {
         let [width, height] = self.camera.size;
         let whole = Crop {
             x: 0,
@@ -169,9 +173,9 @@ impl<S: Intersect> World<S> {
     }
 }
 
-impl Selection {
+impl PixelSelection {
     /// The request of a job.
-    pub(crate) fn of(job: &Job) -> Self {
+    pub(crate) fn of(job: &RenderSelection) -> Self {
         Self {
             tiles: job.tiles,
             stride: job.stride,
@@ -180,12 +184,12 @@ impl Selection {
 }
 
 /// The number of samples of a pixel, limited by the job.
-fn limited(job: &Job, samples: u32) -> u32 {
+fn limited(job: &RenderSelection, samples: u32) -> u32 {
     job.samples.map_or(samples, |most| samples.min(most.get()))
 }
 
 /// The samples of a pixel in a job.
-pub(crate) fn sample_ranges(job: &Job, samples: Range<u32>) -> SampleRanges {
+pub(crate) fn sample_ranges(job: &RenderSelection, samples: Range<u32>) -> SampleRanges {
     SampleRanges::Picture(job.seeds, samples)
 }
 
@@ -194,17 +198,18 @@ impl<S: Intersect> World<S> {
     pub(crate) fn layers(
         &self,
         wanted: &[Aov],
-        job: &Job,
+        job: &RenderSelection,
         on_pixel: &PixelObserver<'_>,
-    ) -> Option<Layers> {
+    ) -> Option<PixelLayers> {
         if let Mode::Path(samples) = self.settings.mode {
-            let lights = Lights::new(self, Strategy::Mis);
-            let make_integrator = || Box::new(FirstHitsOfPaths::new(self, &lights, on_pixel)) as _;
+            let lights = Lights::new(self, SamplingStrategy::Mis);
+            let make_integrator =
+                || Box::new(PathFirstHitFinder::new(self, &lights, on_pixel)) as _;
             return self.layers_by(&make_integrator, samples, wanted, job);
         }
         let make_integrator = || {
-            let tracer = Tracer::<S, { Features::EVERYTHING.0 }>::new(self, on_pixel);
-            Box::new(FirstHits(tracer)) as _
+            let tracer = WhittedTracer::<S, { WhittedFeatures::EVERYTHING.0 }>::new(self, on_pixel);
+            Box::new(FirstHitFinder(tracer)) as _
         };
         self.layers_by(&make_integrator, self.settings.grid.samples(), wanted, job)
     }
@@ -215,18 +220,19 @@ impl<S: Intersect> World<S> {
         make_integrator: &MakeIntegrator<'_, '_, CameraHit>,
         samples: u32,
         wanted: &[Aov],
-        job: &Job,
-    ) -> Option<Layers> {
+        job: &RenderSelection,
+    ) -> Option<PixelLayers> {
         let camera = &self.camera;
-        let open = |_: [u32; 2], _: usize, _: &<AovAccumulator<'_> as Accumulator>::PixelState| {
-            (
-                AovAccumulator::new(wanted, camera),
-                sample_ranges(job, 0..samples),
-            )
-        };
-        let blank = <AovAccumulator<'_> as Accumulator>::PixelState::new();
-        let mut film = Tiled::new(self.crop(job), job.tiles, blank);
-        run(&mut film, Selection::of(job), make_integrator, &open)?;
+        let open =
+            |_: [u32; 2], _: usize, _: &<AovAccumulator<'_> as PixelAccumulator>::PixelState| {
+                (
+                    AovAccumulator::new(wanted, camera),
+                    sample_ranges(job, 0..samples),
+                )
+            };
+        let blank = <AovAccumulator<'_> as PixelAccumulator>::PixelState::new();
+        let mut film = TiledValues::new(self.crop(job), job.tiles, blank);
+        run(&mut film, PixelSelection::of(job), make_integrator, &open)?;
         let names: Vec<_> = wanted.iter().flat_map(|aov| aov.channels()).collect();
         // A pixel outside of the job has no values.
         let mut values = Vec::with_capacity(film.len() * names.len());
@@ -234,7 +240,7 @@ impl<S: Intersect> World<S> {
             values.extend_from_slice(kept);
             values.extend(repeat_n(0.0, names.len() - kept.len()));
         }
-        Some(Layers {
+        Some(PixelLayers {
             values,
             names: names.into_iter().copied().collect(),
         })

@@ -1,11 +1,11 @@
 //! Progressive pictures: each pixel takes the requested samples that its replicates lack.
 
-use super::{MakeIntegrator, Selection, run_tiles};
+use super::{MakeIntegrator, PixelSelection, run_tiles};
 use crate::film::heartbeat::PixelObserver;
-use crate::film::pixel::Sample;
+use crate::film::pixel::PixelSample;
 use crate::film::progressive::{ProgressiveFilm, Replicates};
-use crate::integrator::path::{PathTracer, Strategy};
-use crate::integrator::whitted::Tracer;
+use crate::integrator::path::{PathTracer, SamplingStrategy};
+use crate::integrator::whitted::WhittedTracer;
 use crate::kernel::KernelTask;
 use crate::light::Lights;
 use crate::shape::geometry::Intersect;
@@ -46,7 +46,7 @@ impl<S: Intersect> KernelTask for ProgressiveTask<'_, S> {
     fn run<const F: u32>(self) -> bool {
         let Self(world, film, wanted, on_pixel) = self;
         add_samples(film, wanted, None, &|| {
-            Box::new(Tracer::<S, F>::new(world, on_pixel).spread())
+            Box::new(WhittedTracer::<S, F>::new(world, on_pixel).spread())
         })
     }
 }
@@ -65,8 +65,8 @@ impl<S: Intersect> KernelTask for ProgressivePathTask<'_, S> {
 
     fn run<const F: u32>(self) -> bool {
         let Self(world, film, wanted, on_pixel) = self;
-        let (lights, background) = (Lights::new(world, Strategy::Mis), film.background);
-        let tracer = || PathTracer::<S, F>::new(world, &lights, Strategy::Mis, on_pixel);
+        let (lights, background) = (Lights::new(world, SamplingStrategy::Mis), film.background);
+        let tracer = || PathTracer::<S, F>::new(world, &lights, SamplingStrategy::Mis, on_pixel);
         let tone = Some(film.display);
         add_samples(film, wanted, tone, &|| {
             Box::new(tracer().before(background))
@@ -80,12 +80,12 @@ fn add_samples(
     film: &mut ProgressiveFilm,
     wanted: &SampleRange<'_>,
     tone: Option<(Tone, f64)>,
-    make_integrator: &MakeIntegrator<'_, '_, Sample>,
+    make_integrator: &MakeIntegrator<'_, '_, PixelSample>,
 ) -> bool {
     let seed = film.seed();
-    let selection = Selection {
+    let selection = PixelSelection {
         tiles: film.tiles,
-        ..Selection::default()
+        ..PixelSelection::default()
     };
     let open = |_: [u32; 2], index: usize, pixel: &Replicates| {
         (

@@ -1,14 +1,14 @@
 //! Plan validation: a render without pruning checks each term that the plan calls zero, and
 //! compares the two pictures.
 
-use crate::film::{Film, Job};
+use crate::film::{Film, RenderSelection};
 use rtc_math::to_u32;
 use rtc_plan::{Effect, Plan, Rule};
 use std::sync::{Mutex, PoisonError};
 
 /// A visible term that a plan left out.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Mismatch {
+pub struct PlanMismatch {
     /// The pixel, from the upper left.
     pub pixel: [u32; 2],
     /// The effect that was left out.
@@ -20,12 +20,12 @@ pub struct Mismatch {
 }
 
 /// A plan under verification, and the first difference in the order of pixels.
-pub(crate) struct Verify {
+pub(crate) struct PlanVerification {
     pub(crate) plan: Plan,
-    first: Mutex<Option<Mismatch>>,
+    first: Mutex<Option<PlanMismatch>>,
 }
 
-impl Verify {
+impl PlanVerification {
     /// A plan without differences so far.
     pub(crate) fn new(plan: Plan) -> Self {
         let first = Mutex::new(None);
@@ -33,7 +33,7 @@ impl Verify {
     }
 
     /// The first difference.
-    pub(crate) fn into_first(self) -> Option<Mismatch> {
+    pub(crate) fn into_first(self) -> Option<PlanMismatch> {
         let first = self.first.into_inner();
         first.unwrap_or_else(PoisonError::into_inner)
     }
@@ -42,7 +42,7 @@ impl Verify {
     /// first reported.
     pub(crate) fn report(&self, pixel: [u32; 2], effect: Effect, what: &'static str) {
         let rule = self.plan.rule_of(effect);
-        self.keep(Mismatch {
+        self.keep(PlanMismatch {
             pixel,
             effect,
             rule,
@@ -51,9 +51,9 @@ impl Verify {
     }
 
     /// Keeps a difference, if it is the first in the order of pixels.
-    pub(crate) fn keep(&self, mismatch: Mismatch) {
+    pub(crate) fn keep(&self, mismatch: PlanMismatch) {
         let mut first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
-        let order = |mismatch: &Mismatch| (mismatch.pixel[1], mismatch.pixel[0]);
+        let order = |mismatch: &PlanMismatch| (mismatch.pixel[1], mismatch.pixel[0]);
         if first
             .as_ref()
             .is_none_or(|first| order(&mismatch) < order(first))
@@ -67,7 +67,7 @@ impl Verify {
 pub(crate) fn first_difference(
     planned: &Film,
     naive: &Film,
-    job: &Job,
+    job: &RenderSelection,
 ) -> Option<([u32; 2], [f64; 3])> {
     let bits = |pixel: &[f64; 3]| pixel.map(f64::to_bits);
     let mut pairs = planned.image.pixels.iter().zip(&naive.image.pixels);

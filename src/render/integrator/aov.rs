@@ -3,10 +3,10 @@
 
 use super::Integrator;
 use crate::camera::Camera;
-use crate::film::Counts;
+use crate::film::RayCounts;
 use crate::film::heartbeat::Heartbeat;
-use crate::film::pixel::{Accumulator, SampleId};
-use rtc_image::Guide;
+use crate::film::pixel::{PixelAccumulator, SampleId};
+use rtc_image::DenoisingGuide;
 use rtc_math::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -97,7 +97,7 @@ impl Aov {
 
 /// The first hit of a camera ray, in detail.
 #[derive(Clone, Copy)]
-pub(crate) struct First {
+pub(crate) struct FirstHitDetails {
     pub(crate) albedo: Vec3,
     /// On either side.
     pub(crate) normal: Vec3,
@@ -113,26 +113,26 @@ pub(crate) struct CameraHit {
     /// The direction of the ray.
     pub(crate) direction: Vec3,
     /// The first hit, if there is one.
-    pub(crate) first: Option<First>,
+    pub(crate) first: Option<FirstHitDetails>,
 }
 
 /// An integrator that can find the first hit of a camera ray without following it further.
-pub(crate) trait FirstHit<'run>: Integrator<'run> {
+pub(crate) trait FindFirstHit<'run>: Integrator<'run> {
     /// The first hit of the camera ray of a sample.
     fn first_hit(&mut self, id: &SampleId) -> CameraHit;
 }
 
 /// Finds first hits alone, along the camera rays of another integrator.
-pub(crate) struct FirstHits<I>(pub(crate) I);
+pub(crate) struct FirstHitFinder<I>(pub(crate) I);
 
-impl<'run, I: FirstHit<'run>> Integrator<'run> for FirstHits<I> {
+impl<'run, I: FindFirstHit<'run>> Integrator<'run> for FirstHitFinder<I> {
     type Sample = CameraHit;
 
     fn sample(&mut self, id: &SampleId) -> CameraHit {
         self.0.first_hit(id)
     }
 
-    fn counts(&self) -> &Counts {
+    fn counts(&self) -> &RayCounts {
         self.0.counts()
     }
 
@@ -165,7 +165,7 @@ impl<'run> AovAccumulator<'run> {
     }
 }
 
-impl Accumulator for AovAccumulator<'_> {
+impl PixelAccumulator for AovAccumulator<'_> {
     type Sample = CameraHit;
     type PixelState = arrayvec::ArrayVec<f32, CHANNELS>;
 
@@ -207,9 +207,9 @@ pub(crate) struct FirstHitSums {
 
 impl FirstHitSums {
     /// Adds the first hit of a ray in this direction.
-    pub(super) fn add(&mut self, direction: Vec3, first: Option<First>) {
+    pub(super) fn add(&mut self, direction: Vec3, first: Option<FirstHitDetails>) {
         self.rays += 1;
-        let Some(First {
+        let Some(FirstHitDetails {
             albedo,
             normal,
             point,
@@ -237,7 +237,7 @@ impl FirstHitSums {
     }
 
     /// The guide of a denoiser: all means are over all rays.
-    pub(super) fn guide(&self, camera: &Camera) -> Guide {
+    pub(super) fn guide(&self, camera: &Camera) -> DenoisingGuide {
         let mean = |sum: Vec3| sum / f64::from(self.rays.max(1));
         let coverage = f64::from(self.hits) / f64::from(self.rays.max(1));
         let (albedo, normal) = (mean(self.albedo), mean(self.normal));

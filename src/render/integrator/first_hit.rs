@@ -2,38 +2,38 @@
 //! each pixel.
 
 use super::Integrator;
-use crate::camera::grid::Grid;
+use crate::camera::grid::SampleGrid;
 use crate::film::heartbeat::{Heartbeat, PixelObserver};
-use crate::film::pixel::{Accumulator, PixelSum, SampleId};
-use crate::film::{Counts, Seeds};
+use crate::film::pixel::{PixelAccumulator, PixelSum, SampleId};
+use crate::film::{RayCounts, SamplingSeeds};
 use crate::shape::geometry::Intersect;
 use crate::world::World;
 use rtc_math::Vec3;
 use rtc_plan::Effect;
 
 /// Finds distances.
-pub(crate) struct Depth<'run, S> {
+pub(crate) struct DepthIntegrator<'run, S> {
     world: &'run World<S>,
     heartbeat: Heartbeat<'run>,
-    counts: Counts,
+    counts: RayCounts,
 }
 
-impl<'run, S: Intersect> Depth<'run, S> {
+impl<'run, S: Intersect> DepthIntegrator<'run, S> {
     pub(crate) fn new(world: &'run World<S>, on_pixel: &'run PixelObserver<'run>) -> Self {
         Self {
             world,
             heartbeat: Heartbeat::new(on_pixel),
-            counts: Counts::default(),
+            counts: RayCounts::default(),
         }
     }
 }
 
-impl<'run, S: Intersect> Integrator<'run> for Depth<'run, S> {
+impl<'run, S: Intersect> Integrator<'run> for DepthIntegrator<'run, S> {
     type Sample = Option<f64>;
 
     fn sample(&mut self, id: &SampleId) -> Option<f64> {
         let camera = self.world.camera.of(id.pixel);
-        let middle = Grid::MIDDLE.cell(camera, id.pixel, [0; 2], Seeds::NONE);
+        let middle = SampleGrid::MIDDLE.cell(camera, id.pixel, [0; 2], SamplingSeeds::NONE);
         self.counts.camera += 1;
         self.counts.add(Effect::DepthBuffer);
         let hit = self.world.closest_hit(&middle.ray(camera, 0))?;
@@ -41,7 +41,7 @@ impl<'run, S: Intersect> Integrator<'run> for Depth<'run, S> {
         Some(hit.t)
     }
 
-    fn counts(&self) -> &Counts {
+    fn counts(&self) -> &RayCounts {
         &self.counts
     }
 
@@ -57,9 +57,9 @@ impl<'run, S: Intersect> Integrator<'run> for Depth<'run, S> {
 
 /// Keeps the one distance of a pixel.
 #[derive(Default)]
-pub(crate) struct Distance(PixelSum);
+pub(crate) struct PixelDistance(PixelSum);
 
-impl Accumulator for Distance {
+impl PixelAccumulator for PixelDistance {
     type Sample = Option<f64>;
     type PixelState = PixelSum;
 

@@ -3,8 +3,8 @@
 
 use super::aov::{CameraHit, FirstHitSums};
 use crate::camera::Camera;
-use crate::film::pixel::{Accumulator, SampleId};
-use rtc_image::Guide;
+use crate::film::pixel::{PixelAccumulator, SampleId};
+use rtc_image::DenoisingGuide;
 
 /// Adds up the guide of a pixel.
 pub(crate) struct GuideSums<'run> {
@@ -21,16 +21,16 @@ impl<'run> GuideSums<'run> {
     }
 }
 
-impl Accumulator for GuideSums<'_> {
+impl PixelAccumulator for GuideSums<'_> {
     type Sample = CameraHit;
-    type PixelState = Guide;
+    type PixelState = DenoisingGuide;
 
     fn add(&mut self, _: &SampleId, CameraHit { direction, first }: CameraHit) {
         self.sums.add(direction, first);
     }
 
     /// The distance is in units of the scene.
-    fn close(self) -> Guide {
+    fn close(self) -> DenoisingGuide {
         self.sums.guide(self.camera)
     }
 }

@@ -17,7 +17,7 @@ pub(crate) mod guide;
 pub(crate) mod path;
 pub(crate) mod whitted;
 
-use super::film::Counts;
+use super::film::RayCounts;
 use super::film::heartbeat::Heartbeat;
 use super::film::pixel::SampleId;
 use super::film::tile::FilmTile;
@@ -47,7 +47,7 @@ pub(crate) trait Integrator<'run> {
     }
 
     /// The rays traced so far.
-    fn counts(&self) -> &Counts;
+    fn counts(&self) -> &RayCounts;
 
     /// Tells the observer how far the work is, and whether to continue.
     fn heartbeat(&mut self) -> &mut Heartbeat<'run>;

@@ -16,13 +16,13 @@ pub(crate) const ALL: u64 = 0b1111;
 
 /// Four vectors.
 #[derive(Clone, Copy)]
-pub(crate) struct Vectors<S: Simd> {
+pub(crate) struct FourVectors<S: Simd> {
     pub(crate) x: f64x4<S>,
     pub(crate) y: f64x4<S>,
     pub(crate) z: f64x4<S>,
 }
 
-impl<S: Simd> Vectors<S> {
+impl<S: Simd> FourVectors<S> {
     /// One vector in all lanes.
     #[inline(always)]
     pub(crate) fn splat(simd: S, v: Vec3) -> Self {
@@ -210,8 +210,8 @@ fn split<S: Simd>(a: f64x4<S>) -> (f64x4<S>, f64x4<S>) {
 /// Four rays.
 #[derive(Clone, Copy)]
 pub(crate) struct Ray4<S: Simd> {
-    pub(crate) origin: Vectors<S>,
-    pub(crate) direction: Vectors<S>,
+    pub(crate) origin: FourVectors<S>,
+    pub(crate) direction: FourVectors<S>,
 }
 
 impl<S: Simd> Ray4<S> {
@@ -219,8 +219,8 @@ impl<S: Simd> Ray4<S> {
     #[inline(always)]
     pub(crate) fn each(simd: S, rays: &[Ray; LANES]) -> Self {
         Self {
-            origin: Vectors::each(simd, rays.map(|ray| ray.origin)),
-            direction: Vectors::each(simd, rays.map(|ray| ray.direction)),
+            origin: FourVectors::each(simd, rays.map(|ray| ray.origin)),
+            direction: FourVectors::each(simd, rays.map(|ray| ray.direction)),
         }
     }
 

@@ -170,12 +170,12 @@ mod tests {
     use super::*;
     use crate::accel::simd::baseline;
     use crate::lanes::LANES;
-    use crate::sampler::Key;
+    use crate::sampler::PathVertexKey;
     use rtc_math::{ldexp, pow};
 
     /// Bases near 1, near 0 and between, and where the logarithm changes its form; exponents whole
     /// and not.
-    fn pair(key: &Key, k: u64) -> (f64, f64) {
+    fn pair(key: &PathVertexKey, k: u64) -> (f64, f64) {
         let (u, choice) = (key.uniform(k), key.bits(k + 1));
         let near = |x: f64| f64::from_bits(x.to_bits() - choice % 9 + 4);
         let x = match choice >> 32 & 7 {
@@ -202,7 +202,7 @@ mod tests {
         let simd = baseline();
         let mut shown = 0;
         for index in 0..200_000 {
-            let key = Key::new([11, 5], index);
+            let key = PathVertexKey::new([11, 5], index);
             let pairs = [0, 4, 8, 12].map(|k| pair(&key, k));
             let x = f64x4::simd_from(simd, pairs.map(|(x, _)| x));
             let y = f64x4::simd_from(simd, pairs.map(|(_, y)| y));

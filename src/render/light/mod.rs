@@ -5,7 +5,7 @@
 //!   the environment (`environment`). `course` has the lights of the Whitted integrator.
 //! - [`Lights`] chooses a light in proportion to its power, or by a light tree (`tree`) if there
 //!   are
-//!   many local lights, then a point or a direction on it: an [`Incident`].
+//!   many local lights, then a point or a direction on it: an [`IncidentLight`].
 //! - It also returns the density with which it would sample a direction, for multiple importance
 //!   sampling with the BSDF.
 //!
@@ -18,7 +18,7 @@ mod shape;
 mod tree;
 mod triangle;
 
-use crate::integrator::path::Strategy;
+use crate::integrator::path::SamplingStrategy;
 use crate::light::environment::EnvironmentRadiance;
 use crate::light::punctual::Punctual;
 use crate::light::shape::ShapeLight;
@@ -33,7 +33,7 @@ use crate::shape::geometry::AttributeRequest;
 use crate::shape::geometry::Intersect;
 use crate::world::{PunctualId, Surface, SurfaceId, SurfacePrimitive, World};
 use rtc_math::{Bounds, Id, IdTable, Vec3, to_u32};
-use rtc_plan::LightUse;
+use rtc_plan::RemainingLight;
 use std::f64::consts::PI;
 
 /// Fewer local lights are chosen by power alone: with 8 a tree is slower (benches/sampling.md).
@@ -60,7 +60,7 @@ pub(crate) struct Lights<'world, S> {
 
 /// One of the lights that the path tracer chooses from.
 enum Light {
-    Punctual(Punctual, LightUse),
+    Punctual(Punctual, RemainingLight),
     Triangle(TriangleLight),
     Shape(Box<ShapeLight>),
     Environment,
@@ -70,7 +70,7 @@ enum Light {
 type LightId = Id<Light>;
 
 /// Light that a point receives from one direction.
-pub(crate) struct Incident {
+pub(crate) struct IncidentLight {
     /// The unit vector to the light.
     pub(crate) wi: Vec3,
     /// The radiance divided by the density.
@@ -102,15 +102,15 @@ fn mean(values: &[Vec3]) -> Vec3 {
 
 impl<'world, S: Intersect> Lights<'world, S> {
     /// The lights of a world.
-    pub(crate) fn new(world: &'world World<S>, strategy: Strategy) -> Self {
+    pub(crate) fn new(world: &'world World<S>, strategy: SamplingStrategy) -> Self {
         let left = |light: PunctualId| {
             let plan = world.plan.paths.as_ref();
-            plan.map_or(LightUse::All, |plan| plan.lights[light])
+            plan.map_or(RemainingLight::All, |plan| plan.lights[light])
         };
         // List the punctual lights that the plan keeps.
         let punctual = world.lights.punctual.entries();
         let mut lights = punctual
-            .filter(|(index, _)| left(*index) != LightUse::Nothing)
+            .filter(|(index, _)| left(*index) != RemainingLight::Nothing)
             .map(|(index, light)| Light::Punctual(light.clone(), left(index)))
             .collect::<IdTable<Light>>();
         // List the emissive surfaces: shapes as one light, meshes by triangle.
@@ -152,7 +152,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
 
     /// Computes the probabilities of lights, and builds a tree over the local lights if they are
     /// many.
-    fn build_distribution(&mut self, strategy: Strategy) {
+    fn build_distribution(&mut self, strategy: SamplingStrategy) {
         let disc = PI * self.radius_squared();
         let weight = |light| self.weight(light, disc, strategy);
         let mut weights = self
@@ -247,9 +247,13 @@ impl<'world, S: Intersect> Lights<'world, S> {
     }
 
     /// The approximate power that a light sends to the scene, whose cross section is `disc`.
-    fn weight(&self, light: &Light, disc: f64, strategy: Strategy) -> f64 {
+    fn weight(&self, light: &Light, disc: f64, strategy: SamplingStrategy) -> f64 {
         match light {
-            _ if strategy == Strategy::BsdfSampling && !matches!(light, Light::Punctual(..)) => 0.0,
+            _ if strategy == SamplingStrategy::BsdfSampling
+                && !matches!(light, Light::Punctual(..)) =>
+            {
+                0.0
+            }
             Light::Punctual(light, _) => light.power(disc),
             Light::Triangle(triangle) => {
                 2.0 * PI * triangle.area() * self.mean_emission(triangle).max_element()
@@ -257,7 +261,8 @@ impl<'world, S: Intersect> Lights<'world, S> {
             Light::Shape(shape) => shape.power(self.mean_emission_of_shape(shape)),
             // BSDF sampling is best for a uniform environment.
             Light::Environment
-                if self.world.lights.environment.is_uniform() && strategy != Strategy::Nee =>
+                if self.world.lights.environment.is_uniform()
+                    && strategy != SamplingStrategy::Nee =>
             {
                 0.0
             }
@@ -337,18 +342,18 @@ impl<'world, S: Intersect> Lights<'world, S> {
 
     /// Samples the light that reaches a point: two values in [0, 1), drawn where they are needed,
     /// choose a point on it or a direction to it; the first one chooses the light, too.
-    pub(crate) fn sample(&self, from: Vec3, u: impl FnOnce() -> [f64; 2]) -> Option<Incident> {
+    pub(crate) fn sample(&self, from: Vec3, u: impl FnOnce() -> [f64; 2]) -> Option<IncidentLight> {
         let (index, probability, u) = self.choose(from, u)?;
         match &self.lights[index] {
-            Light::Punctual(_, LightUse::OnlyIndex | LightUse::Nothing) => None,
-            Light::Punctual(light, LightUse::All) => light.sample(from, probability),
+            Light::Punctual(_, RemainingLight::OnlyIndex | RemainingLight::Nothing) => None,
+            Light::Punctual(light, RemainingLight::All) => light.sample(from, probability),
             Light::Triangle(triangle) => {
                 // Sample a point of the triangle, and convert from area to solid angle.
                 let point = triangle.point(u);
                 let wi = (point - from).try_normalize()?;
                 let pdf = probability * triangle.pdf(wi, point.distance_squared(from));
                 let radiance = self.emission(triangle.surface, &triangle.at(point)) / pdf;
-                (pdf > 0.0 && pdf.is_finite()).then_some(Incident {
+                (pdf > 0.0 && pdf.is_finite()).then_some(IncidentLight {
                     wi,
                     radiance,
                     pdf: Some(pdf),
@@ -360,7 +365,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
                 let (wi, EnvironmentRadiance { radiance, pdf }) =
                     self.world.lights.environment.sample(u);
                 let pdf = probability * pdf;
-                (pdf > 0.0).then_some(Incident {
+                (pdf > 0.0).then_some(IncidentLight {
                     wi,
                     radiance: radiance / pdf,
                     pdf: Some(pdf),
@@ -377,13 +382,13 @@ impl<'world, S: Intersect> Lights<'world, S> {
         from: Vec3,
         probability: f64,
         u: [f64; 2],
-    ) -> Option<Incident> {
+    ) -> Option<IncidentLight> {
         let at = light.emitter.sample(from, u);
         let wi = (at.point - from).try_normalize()?;
         let square = at.point.distance_squared(from);
         let pdf = probability * light.emitter.pdf(from, wi, &at, square);
         let radiance = self.emission(light.surface, &at) / pdf;
-        (pdf > 0.0 && pdf.is_finite()).then_some(Incident {
+        (pdf > 0.0 && pdf.is_finite()).then_some(IncidentLight {
             wi,
             radiance,
             pdf: Some(pdf),

@@ -1,8 +1,8 @@
 //! Punctual lights in physical units. They are delta lights, which BSDF sampling cannot hit.
 
-use super::Incident;
+use super::IncidentLight;
 use rtc_math::Vec3;
-use rtc_profile::Profile;
+use rtc_profile::LightProfile;
 
 /// A light without extent.
 #[derive(Clone, Debug)]
@@ -29,7 +29,7 @@ pub(crate) struct PointLight {
     pub(crate) position: Vec3,
     /// The radiant intensity, by the factors of the profile.
     pub(crate) intensity: Vec3,
-    pub(crate) profile: Profile,
+    pub(crate) profile: LightProfile,
     pub(crate) falloff: Falloff,
 }
 
@@ -62,7 +62,7 @@ impl Punctual {
     }
 
     /// The light that a point receives, divided by the probability of choosing this light.
-    pub(super) fn sample(&self, from: Vec3, probability: f64) -> Option<Incident> {
+    pub(super) fn sample(&self, from: Vec3, probability: f64) -> Option<IncidentLight> {
         let (wi, place, intensity, strength) = match self {
             Self::Directional(sun) => (sun.direction, None, sun.irradiance, 1.0),
             Self::Point(point) => {
@@ -71,7 +71,7 @@ impl Punctual {
             }
         };
         let radiance = intensity * (strength / probability);
-        (strength > 0.0 && radiance.is_finite()).then_some(Incident {
+        (strength > 0.0 && radiance.is_finite()).then_some(IncidentLight {
             wi,
             radiance,
             pdf: None,

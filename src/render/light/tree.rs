@@ -40,10 +40,10 @@ struct LightNode {
     power: f64,
     /// The cone around the normals.
     cone: Option<NormalCone>,
-    below: Below,
+    below: LightSubtree,
 }
 
-enum Below {
+enum LightSubtree {
     Light(LightId),
     /// The index of the right child.
     Right(usize),
@@ -75,14 +75,14 @@ impl LightTree {
         let mut node = LightNode::around(emitters);
         if let [emitter] = emitters {
             self.ways[emitter.light] = Some(direction);
-            node.below = Below::Light(emitter.light);
+            node.below = LightSubtree::Light(emitter.light);
             self.nodes.push(node);
             return;
         }
         self.nodes.push(node);
         let (left, right) = halves(emitters);
         self.add(left, direction, depth + 1);
-        self.nodes[index].below = Below::Right(self.nodes.len());
+        self.nodes[index].below = LightSubtree::Right(self.nodes.len());
         self.add(right, direction | 1 << depth, depth + 1);
     }
 
@@ -92,8 +92,8 @@ impl LightTree {
         let (mut index, mut probability) = (0, 1.0);
         loop {
             let right = match self.nodes[index].below {
-                Below::Light(light) => return (light, probability, u),
-                Below::Right(right) => right,
+                LightSubtree::Light(light) => return (light, probability, u),
+                LightSubtree::Right(right) => right,
             };
             let left = self.share_of_left(from, index + 1, right);
             let (child, above, share) = if u < left {
@@ -112,7 +112,7 @@ impl LightTree {
             return 0.0;
         };
         let (mut index, mut probability) = (0, 1.0);
-        while let Below::Right(right) = self.nodes[index].below {
+        while let LightSubtree::Right(right) = self.nodes[index].below {
             let left = self.share_of_left(from, index + 1, right);
             let is_right = direction & 1 == 1;
             probability *= if is_right { 1.0 - left } else { left };
@@ -146,7 +146,7 @@ impl LightNode {
             radius_squared: (bounds.max - bounds.min).length_squared() / 4.0,
             power: emitters.iter().map(|emitter| emitter.power).sum(),
             cone: NormalCone::around(emitters),
-            below: Below::Right(0),
+            below: LightSubtree::Right(0),
         }
     }
 

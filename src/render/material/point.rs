@@ -3,12 +3,12 @@
 use crate::bsdf::standard::*;
 use crate::bsdf::{LAYERS, MICROFACETS, TRANSMISSION, can};
 use crate::material::standard::{
-    Alpha, AnisotropyLayer, NormalMap, Reflection, StandardMaterial, shown,
+    Alpha, AnisotropyLayer, BaseReflectance, NormalMap, StandardMaterial, shown,
 };
 use crate::ray::Interaction;
 use crate::shape::geometry::ShadingAttributes;
 use crate::texture::sampled::UvSets;
-use rtc_math::{Basis, Vec3};
+use rtc_math::{OrthonormalBasis, Vec3};
 
 /// A material at one point of a surface.
 pub(crate) struct MaterialPoint<'world> {
@@ -21,7 +21,7 @@ pub(crate) struct MaterialPoint<'world> {
 /// The shading frame at a point: the shading normal and the tangents of the maps.
 pub(crate) struct ShadingFrame {
     /// A right-handed basis for the BSDF.
-    basis: Basis,
+    basis: OrthonormalBasis,
     /// The anisotropy of the highlights.
     stretch: Option<Anisotropy>,
 }
@@ -116,7 +116,7 @@ impl<'world> MaterialPoint<'world> {
     fn reflect(&self, standard: &mut StandardParameters, channel: Option<usize>) {
         let m = self.material;
         match &m.reflection {
-            Reflection::Metallic {
+            BaseReflectance::Metallic {
                 roughness,
                 metallic,
                 map,
@@ -133,7 +133,7 @@ impl<'world> MaterialPoint<'world> {
                 standard.specular_color = specular_color.at(&self.uvs);
             }
             // An infinite index reflects the specular colour.
-            Reflection::Specular(factor) => {
+            BaseReflectance::Specular(factor) => {
                 let [red, green, blue, glossiness] = factor.at(&self.uvs);
                 standard.specular_color = Vec3::new(red, green, blue);
                 standard.roughness = (1.0 - glossiness).clamp(0.0, 1.0);
@@ -208,7 +208,7 @@ impl<'world> MaterialPoint<'world> {
         };
         let shading = mapped(&m.normal);
         if !can::<F>(LAYERS) {
-            let basis = Basis::around(shading);
+            let basis = OrthonormalBasis::around(shading);
             let stretch = None;
             return (ShadingFrame { basis, stretch }, shading);
         }
@@ -259,13 +259,13 @@ impl ShadingFrame {
 }
 
 /// A basis around a normal, with the surface's tangent if there is one.
-fn basis(normal: Vec3, tangent: Option<Vec3>, side: f64) -> Basis {
+fn basis(normal: Vec3, tangent: Option<Vec3>, side: f64) -> OrthonormalBasis {
     let tangent = tangent
         .map(|t| t - normal * normal.dot(t))
         .and_then(Vec3::try_normalize);
     tangent.map_or_else(
-        || Basis::around(normal),
-        |tangent| Basis {
+        || OrthonormalBasis::around(normal),
+        |tangent| OrthonormalBasis {
             tangent,
             bitangent: normal.cross(tangent) * side,
             normal,

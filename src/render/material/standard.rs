@@ -18,9 +18,9 @@ pub(crate) struct StandardMaterial {
     pub(crate) is_unlit: bool,
     /// Red, green, blue and alpha.
     pub(crate) base_color: Rgba,
-    pub(crate) emission: Tint,
-    pub(crate) reflection: Reflection,
-    pub(crate) transmission: Number,
+    pub(crate) emission: MappedColor,
+    pub(crate) reflection: BaseReflectance,
+    pub(crate) transmission: MappedNumber,
     /// The index of refraction, and those of red, green and blue if they differ.
     pub(crate) ior: f64,
     pub(crate) dispersed: Option<[f64; 3]>,
@@ -55,29 +55,29 @@ pub(crate) struct Rgba {
 
 /// A number times one channel of a map.
 #[derive(Clone, Debug)]
-pub(crate) struct Number {
+pub(crate) struct MappedNumber {
     pub(crate) factor: f64,
     pub(crate) map: Option<(Map, usize)>,
 }
 
 /// A colour times that of a map.
 #[derive(Clone, Debug)]
-pub(crate) struct Tint {
+pub(crate) struct MappedColor {
     pub(crate) factor: Vec3,
     pub(crate) map: Option<Map>,
 }
 
 /// The reflectance below all layers.
 #[derive(Clone, Debug)]
-pub(crate) enum Reflection {
+pub(crate) enum BaseReflectance {
     /// Of a metal or a dielectric.
     Metallic {
         /// Roughness and metalness, in the green and the blue channel of their map.
         roughness: f64,
         metallic: f64,
         map: Option<Map>,
-        specular: Number,
-        specular_color: Tint,
+        specular: MappedNumber,
+        specular_color: MappedColor,
     },
     /// Given for normal incidence: red, green, blue and glossiness.
     Specular(Rgba),
@@ -110,18 +110,18 @@ pub(crate) struct NormalMap {
 /// The clearcoat layer.
 #[derive(Clone, Debug)]
 pub(crate) struct ClearcoatLayer {
-    pub(crate) factor: Number,
-    pub(crate) roughness: Number,
+    pub(crate) factor: MappedNumber,
+    pub(crate) roughness: MappedNumber,
     pub(crate) normal: Option<NormalMap>,
 }
 
 /// The prepared part of a layer, of a kind of the table.
 macro_rules! prepared {
     (number) => {
-        Number
+        MappedNumber
     };
     (tint) => {
-        Tint
+        MappedColor
     };
 }
 
@@ -182,14 +182,14 @@ pub(crate) struct AnisotropyLayer {
 /// The thin film.
 #[derive(Clone, Debug)]
 pub(crate) struct IridescenceLayer {
-    pub(crate) factor: Number,
+    pub(crate) factor: MappedNumber,
     pub(crate) ior: f64,
     /// The thickness where the map is 0, and the increase to where the map is 1.
     pub(crate) min: f64,
-    pub(crate) spread: Number,
+    pub(crate) spread: MappedNumber,
 }
 
-impl Number {
+impl MappedNumber {
     /// The number at a point.
     #[inline]
     pub(crate) fn at(&self, uvs: &UvSets) -> f64 {
@@ -200,7 +200,7 @@ impl Number {
     }
 }
 
-impl Tint {
+impl MappedColor {
     /// The colour at a point.
     #[inline]
     pub(crate) fn at(&self, uvs: &UvSets) -> Vec3 {

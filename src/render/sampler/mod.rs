@@ -1,6 +1,7 @@
 //! Sample values keyed by pixel, sample and path vertex.
 //!
-//! - [`Key`] is the seed of a pixel, a vertex or a dimension; hashes derive one from another.
+//! - [`PathVertexKey`] is the seed of a pixel, a vertex or a dimension; hashes derive one from
+//!   another.
 //! - `sobol` and `owen` are the sequence of path tracing: scrambled groups of four dimensions, with
 //!   neighbouring pixels on one sequence.
 //! - `sequence` are the samples of the Whitted integrator in the pixel and on the lens.
@@ -14,14 +15,15 @@ pub(crate) mod sequence;
 pub(crate) mod sobol;
 
 use rtc_math::{
-    Basis, NonNegative, Vec3, cos_sin_revolutions, fraction, golden_revolutions, mix, pow,
+    NonNegative, OrthonormalBasis, Vec3, cos_sin_revolutions, fraction, golden_revolutions, mix,
+    pow,
 };
 
 /// The key of one vertex of one path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Key(u64);
+pub(crate) struct PathVertexKey(u64);
 
-impl Key {
+impl PathVertexKey {
     /// The key without randomness.
     pub(crate) const UNUSED: Self = Self(0);
 
@@ -80,7 +82,7 @@ pub(crate) struct DiscPoints {
 impl DiscPoints {
     /// A set of `count` points, each in the middle of its ring or, if `spread`, anywhere in it.
     #[must_use]
-    pub(crate) fn new(count: u32, key: Key, spread: bool) -> Self {
+    pub(crate) fn new(count: u32, key: PathVertexKey, spread: bool) -> Self {
         let shift = if spread { key.uniform(3) } else { 0.5 };
         Self {
             count,
@@ -105,7 +107,7 @@ impl DiscPoints {
 /// apart, and both are shifted by numbers of the key.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PhongLobeSampler {
-    basis: Basis,
+    basis: OrthonormalBasis,
     exponent: f64,
     count: u32,
     shift: f64,
@@ -116,10 +118,10 @@ pub(crate) struct PhongLobeSampler {
 impl PhongLobeSampler {
     /// The lobe of `count` directions around the unit vector `axis`.
     #[must_use]
-    pub(crate) fn new(axis: Vec3, n: NonNegative, count: u32, key: Key) -> Self {
+    pub(crate) fn new(axis: Vec3, n: NonNegative, count: u32, key: PathVertexKey) -> Self {
         let (shift, rotation) = (key.uniform(0), key.bits(1));
         Self {
-            basis: Basis::around(axis),
+            basis: OrthonormalBasis::around(axis),
             exponent: 1.0 / (n.get() + 1.0),
             count,
             shift,
@@ -175,7 +177,7 @@ mod tests {
                 Vec3::Z,
                 NonNegative::new(n).unwrap(),
                 1 << 14,
-                Key::new([3, 4], 5),
+                PathVertexKey::new([3, 4], 5),
             );
             let mean =
                 (0..lobe.count).map(|k| lobe.direction(k).z).sum::<f64>() / f64::from(lobe.count);
@@ -193,7 +195,7 @@ mod tests {
             Vec3::X,
             NonNegative::new(8.0).unwrap(),
             1 << 12,
-            Key::new([0, 0], 1),
+            PathVertexKey::new([0, 0], 1),
         );
         let sum = (0..lobe.count).map(|k| lobe.direction(k)).sum::<Vec3>() / f64::from(lobe.count);
         assert!(sum.y.abs() < 1e-3 && sum.z.abs() < 1e-3, "{sum}");
@@ -202,10 +204,10 @@ mod tests {
     #[test]
     fn keys_of_neighbours_differ() {
         let keys = [
-            Key::new([0, 1], 0),
-            Key::new([1, 0], 0),
-            Key::new([0, 0], 1),
-            Key::new([0, 0], 0).child(1),
+            PathVertexKey::new([0, 1], 0),
+            PathVertexKey::new([1, 0], 0),
+            PathVertexKey::new([0, 0], 1),
+            PathVertexKey::new([0, 0], 0).child(1),
         ];
         for (i, a) in keys.iter().enumerate() {
             assert!(keys[i + 1..].iter().all(|b| a != b));

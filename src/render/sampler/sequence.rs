@@ -3,7 +3,7 @@
 //!
 //! The first n points are unbiased for every n, and stratified if n is a power of two.
 
-use crate::sampler::Key;
+use crate::sampler::PathVertexKey;
 use crate::sampler::owen::{first_two, scrambled};
 
 /// The direction numbers of the dimensions of the lens (Joe and Kuo, "Constructing Sobol sequences
@@ -36,12 +36,12 @@ const fn directions(degree: usize, inner: u32, first: [u32; 3]) -> [u32; 32] {
 
 /// A sequence of its own for each key.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Sequence(Key);
+pub(crate) struct Sequence(PathVertexKey);
 
 impl Sequence {
     /// The sequence of a key.
     #[must_use]
-    pub(crate) fn new(key: Key) -> Self {
+    pub(crate) fn new(key: PathVertexKey) -> Self {
         Self(key)
     }
 
@@ -103,7 +103,7 @@ mod tests {
     #[test]
     fn powers_of_two_fill_every_stratum_once() {
         for seed in 0..8 {
-            let sequence = Sequence::new(Key::new([3, 9], seed));
+            let sequence = Sequence::new(PathVertexKey::new([3, 9], seed));
             for dimension in 0..4 {
                 let mut seen = [0; 64];
                 (0..64).for_each(|k| seen[cell(point(&sequence, k)[dimension], 64)] += 1);
@@ -121,7 +121,8 @@ mod tests {
     #[test]
     fn every_point_is_uniform_over_the_keys() {
         for index in [0, 1, 5] {
-            let points = (0..4096).map(|seed| point(&Sequence::new(Key::new([1, 2], seed)), index));
+            let points = (0..4096)
+                .map(|seed| point(&Sequence::new(PathVertexKey::new([1, 2], seed)), index));
             let sum = points.fold([0.0; 8], |mut sum, point| {
                 (0..4).for_each(|d| {
                     sum[d] += point[d] / 4096.0;

@@ -4,9 +4,9 @@
 //! After Burley, "Practical hash-based Owen scrambling" (JCGT 9, 2020). Numbers depend on pixel,
 //! sample and dimension alone, and in a picture of a given number of samples on that number.
 
-use super::Key;
+use super::PathVertexKey;
 use super::owen::{first_two, last_two, scrambled};
-use crate::film::Seeds;
+use crate::film::SamplingSeeds;
 use rtc_math::mix;
 
 /// A pair of dimensions: 2·g is the first one of group g, 2·g + 1 the second one.
@@ -46,20 +46,20 @@ const UNIT: f64 = 1.0 / 4_294_967_296.0;
 
 /// The numbers of one path.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Sobol {
-    pixel: Key,
+pub(crate) struct SobolPath {
+    pixel: PathVertexKey,
     /// The key of all dimensions except the positions in the pixel and on the lens.
-    path: Key,
-    seeds: Seeds,
+    path: PathVertexKey,
+    seeds: SamplingSeeds,
     index: u32,
     /// The index from its highest bit on.
     reversed: u32,
 }
 
-impl Sobol {
+impl SobolPath {
     /// The numbers of path `index` of a pixel that has a sequence of its own.
-    pub(crate) fn new(pixel: [u32; 2], index: u32, seeds: Seeds) -> Self {
-        let pixel = Key::new(pixel, 0);
+    pub(crate) fn new(pixel: [u32; 2], index: u32, seeds: SamplingSeeds) -> Self {
+        let pixel = PathVertexKey::new(pixel, 0);
         Self {
             pixel,
             path: pixel.seeded(seeds.path),
@@ -76,7 +76,12 @@ impl Sobol {
     /// errors of neighbours cancel: that of a pixel is as large as by [`Self::new`], that of a
     /// blurred picture is less (Ahmed, Wonka, "Screen-space blue-noise diffusion of Monte Carlo
     /// sampling error via hierarchical ordering of pixels", SIGGRAPH Asia 2020).
-    pub(crate) fn in_picture(pixel: [u32; 2], index: u32, seeds: Seeds, samples: u32) -> Self {
+    pub(crate) fn in_picture(
+        pixel: [u32; 2],
+        index: u32,
+        seeds: SamplingSeeds,
+        samples: u32,
+    ) -> Self {
         // Of the bits of an index the lowest count samples; as many of the others as fit are a
         // position on the curve.
         let low = u32::BITS - (samples - 1).leading_zeros();
@@ -179,7 +184,7 @@ mod tests {
     fn the_first_points_of_every_power_of_two_fill_all_elementary_intervals() {
         for log in 1..=8_u32 {
             for pair in PAIRS {
-                let point = |k| Sobol::new([3, 5], k, Seeds::NONE).pair(pair);
+                let point = |k| SobolPath::new([3, 5], k, SamplingSeeds::NONE).pair(pair);
                 let points = (0..1 << log).map(point).collect::<Vec<_>>();
                 assert_filled(&points, &format!("{pair:?}"));
             }
@@ -191,8 +196,9 @@ mod tests {
         for (side, samples) in [(1, 16), (2, 16), (4, 4), (8, 1)] {
             let pixels = (0..side * side).map(|k| [8 + k % side, 24 + k / side]);
             for pair in PAIRS {
-                let point =
-                    |(pixel, k)| Sobol::in_picture(pixel, k, Seeds::NONE, samples).pair(pair);
+                let point = |(pixel, k)| {
+                    SobolPath::in_picture(pixel, k, SamplingSeeds::NONE, samples).pair(pair)
+                };
                 let points = pixels
                     .clone()
                     .flat_map(|pixel| (0..samples).map(move |k| (pixel, k)));
@@ -215,7 +221,8 @@ mod tests {
                 [u32::MAX; 2],
             ];
             let first = |pixel| {
-                Sobol::in_picture(pixel, samples - 1, Seeds::NONE, samples).pair(SobolPair::FILM)
+                SobolPath::in_picture(pixel, samples - 1, SamplingSeeds::NONE, samples)
+                    .pair(SobolPair::FILM)
             };
             let mut first_light_of_surface = pixels.map(first).map(|pair| pair.map(f64::to_bits));
             first_light_of_surface.sort_unstable();
@@ -232,7 +239,7 @@ mod tests {
     fn groups_are_independent_of_each_other() {
         // The covariance of two dimensions of different groups vanishes as that of random numbers
         // does.
-        let (n, at) = (4096, |k| Sobol::new([0, 0], k, Seeds::NONE));
+        let (n, at) = (4096, |k| SobolPath::new([0, 0], k, SamplingSeeds::NONE));
         let product = |k| {
             (at(k).pair(SobolPair::FILM)[0] - 0.5) * (at(k).pair(SobolPair::direction(0))[0] - 0.5)
         };

@@ -12,7 +12,7 @@ use rtc_math::{Bounds, Vec3};
 
 /// A sphere, a plane or a triangle.
 #[derive(Clone, Debug)]
-pub enum Basic {
+pub enum BasicShape {
     /// See [`Shape::Sphere`](super::Shape::Sphere).
     Sphere(Sphere),
     /// See [`Shape::Plane`](super::Shape::Plane).
@@ -21,4 +21,4 @@ pub enum Basic {
     Triangle(Triangle),
 }
 
-dispatch!(Basic { Sphere Plane Triangle });
+dispatch!(BasicShape { Sphere Plane Triangle });

@@ -1,6 +1,6 @@
 //! Attributes at the corners of a triangle, and their interpolation.
 
-use rtc_math::Column;
+use rtc_math::VertexColumn;
 
 /// The side of the second axis of a normal map: against v, which glTF counts downwards.
 pub(in crate::shape) fn handedness([a, b, c]: [[f64; 2]; 3]) -> f64 {
@@ -11,7 +11,7 @@ pub(in crate::shape) fn handedness([a, b, c]: [[f64; 2]; 3]) -> f64 {
 /// The values of a column, which may be empty, at three corners.
 #[inline]
 pub(in crate::shape) fn corner_values<const N: usize>(
-    column: &Column<N>,
+    column: &VertexColumn<N>,
     [a, b, c]: [u32; 3],
 ) -> Option<[[f64; N]; 3]> {
     (!column.is_empty()).then(|| {

@@ -9,7 +9,7 @@
 use crate::bsdf::warp::direction_at_angle;
 use crate::ray::OFFSET;
 use crate::sampler::remapped;
-use rtc_math::{Basis, Bounds, U, Vec3, cross};
+use rtc_math::{Bounds, OrthonormalBasis, U, Vec3, cross};
 use std::f64::consts::PI;
 
 /// A sphere is seen from outside if the square of the distance exceeds that of the radius by this
@@ -117,7 +117,8 @@ impl Emitter {
             } => {
                 let areas = frustum_areas(height, radii, is_capped);
                 let (face, [u, turns]) = face_of(&areas, u);
-                let outward = Basis::around(axis).to_world(direction_at_angle(0.0, turns));
+                let outward =
+                    OrthonormalBasis::around(axis).to_world(direction_at_angle(0.0, turns));
                 let [r0, r1] = radii;
                 if face > 0 {
                     let (center, r, normal) = match face {
@@ -139,7 +140,8 @@ impl Emitter {
                 radius,
             } => {
                 let (face, [u, turns]) = face_of(&paraboloid_areas(height, radius), u);
-                let outward = Basis::around(axis).to_world(direction_at_angle(0.0, turns));
+                let outward =
+                    OrthonormalBasis::around(axis).to_world(direction_at_angle(0.0, turns));
                 let ring = base + outward * (radius * u.sqrt());
                 if face == 1 {
                     return on(ring, -axis);
@@ -154,7 +156,8 @@ impl Emitter {
                 major,
                 minor,
             } => {
-                let outward = Basis::around(axis).to_world(direction_at_angle(0.0, u[0]));
+                let outward =
+                    OrthonormalBasis::around(axis).to_world(direction_at_angle(0.0, u[0]));
                 let turn = direction_at_angle(0.0, u[1]);
                 let normal = outward * turn.x + axis * turn.y;
                 on(center + outward * major + normal * minor, normal)
@@ -290,7 +293,7 @@ fn sphere_normal(to: Vec3, radius: f64, [u, v]: [f64; 2]) -> Vec3 {
     let most = radius / to.length();
     let across = (1.0 - sine_squared / (most * most)).max(0.0).sqrt();
     let at_center = (sine_squared / most + cosine * across).min(1.0);
-    Basis::around(to.normalize()).to_world(direction_at_angle(at_center, v))
+    OrthonormalBasis::around(to.normalize()).to_world(direction_at_angle(at_center, v))
 }
 
 /// The areas of the side, of the base and of the top.

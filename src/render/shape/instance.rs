@@ -1,7 +1,7 @@
 //! An instance of a mesh. Rays are transformed to object space, where all instances share the
 //! triangles and the BVH.
 
-use crate::accel::wide::{Candidate, Visitor};
+use crate::accel::wide::{Candidate, TriangleVisitor};
 use crate::ray::{Interaction, Ray};
 use crate::shape::baseline::ray::BaselineRay;
 use crate::shape::baseline::real::{Real, Vector};
@@ -10,7 +10,7 @@ use crate::shape::corners::{blend, corner_values, handedness, interpolate};
 use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, LocalRay, ShadingAttributes};
 use crate::shape::mesh::{BaselineMesh, PreparedMesh};
-use crate::shape::tie::{self, NearHits, Nearest};
+use crate::shape::tie::{self, ClosestHit, ClosestHitCandidates};
 use crate::shape::triangle::{self, BaselineTriangle, Triangle, WatertightRay};
 use rtc_math::{Bounds, Vec3, cross, unit};
 use std::sync::Arc;
@@ -115,7 +115,7 @@ impl Instance {
     /// Breaks the tie between the roots as close as the one at `t`.
     #[cold]
     fn resolve(&self, ray: &Ray, watertight: &WatertightRay, t: f64) -> Option<(f64, u32)> {
-        let mut tie = NearHits::new();
+        let mut tie = ClosestHitCandidates::new();
         self.visit_roots(ray, watertight, t, &mut |t, prim_id| {
             tie.add(
                 t,
@@ -168,7 +168,7 @@ impl Intersect for Instance {
 
     fn closest_hit(&self, ray: &Ray, watertight: &WatertightRay, t_max: f64) -> Option<(f64, u32)> {
         let local = self.local(ray);
-        let mut nearest = Nearest::up_to(t_max, u32::MAX);
+        let mut nearest = ClosestHit::up_to(t_max, u32::MAX);
         self.mesh
             .hierarchy()?
             .traverse(&local.ray, t_max, &mut |candidate: Candidate<'_>| {
@@ -375,7 +375,7 @@ struct BaselineNearest<'traverse, R> {
     best: (f64, u32),
 }
 
-impl<R: Real> Visitor for BaselineNearest<'_, R> {
+impl<R: Real> TriangleVisitor for BaselineNearest<'_, R> {
     const CULLS: bool = false;
 
     fn visit(&mut self, candidate: Candidate<'_>) -> f64 {

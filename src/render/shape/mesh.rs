@@ -1,13 +1,13 @@
 //! A mesh in object space, prepared once for all its instances.
 
 use crate::accel::simd::SimdLevel;
-use crate::accel::wide::{Builders, WideBvh};
+use crate::accel::wide::{BvhBuilders, WideBvh};
 use crate::shape::baseline::real::Real;
 use crate::shape::geometry::LocalRay;
-use crate::shape::plane::Normal;
+use crate::shape::plane::PlaneNormal;
 use crate::shape::triangle::{self, BaselineTriangle, Triangle};
 use rayon::prelude::*;
-use rtc_math::{Column, Shared, Vec3};
+use rtc_math::{SharedList, Vec3, VertexColumn};
 use std::sync::{Arc, OnceLock};
 
 /// The attributes of a mesh's corners except their positions; an empty column has no values. All
@@ -15,15 +15,15 @@ use std::sync::{Arc, OnceLock};
 #[derive(Clone, Debug, Default)]
 pub struct Attributes {
     /// The shading normals, of any length, or zero where there is none.
-    pub normals: Column<3>,
+    pub normals: VertexColumn<3>,
     /// The texture coordinates.
-    pub uvs: Column<2>,
+    pub uvs: VertexColumn<2>,
     /// The second set of them.
-    pub second_uvs: Column<2>,
+    pub second_uvs: VertexColumn<2>,
     /// The direction of growing u, and ±1 for the side of growing v.
-    pub tangents: Column<4>,
+    pub tangents: VertexColumn<4>,
     /// The colour, with alpha.
-    pub colors: Column<4>,
+    pub colors: VertexColumn<4>,
 }
 
 /// Up to this many triangles are prepared in advance, since they stay in the caches; more are
@@ -36,9 +36,9 @@ pub struct PreparedMesh {
     /// The attributes of the corners.
     pub(crate) attributes: Attributes,
     /// The positions of the corners, shared with the scene.
-    positions: Column<3>,
+    positions: VertexColumn<3>,
     /// The corners of each triangle that has an area, by their numbers in the mesh.
-    corners: Shared<[u32; 3]>,
+    corners: SharedList<[u32; 3]>,
     /// The prepared triangles, if they are few.
     prepared_triangles: Vec<Triangle>,
     /// What its BVH is searched with.
@@ -51,8 +51,8 @@ impl PreparedMesh {
     /// Prepares a mesh of these triangles with corners at these positions.
     #[must_use]
     pub fn new(
-        positions: &Column<3>,
-        triangles: &Shared<[u32; 3]>,
+        positions: &VertexColumn<3>,
+        triangles: &SharedList<[u32; 3]>,
         attributes: Attributes,
         simd: SimdLevel,
     ) -> Self {
@@ -148,7 +148,7 @@ impl PreparedMesh {
         let vertices = |item: u32| self.vertices(item);
         let build = || {
             let mut hierarchy =
-                WideBvh::build(Builders::One, self.simd, self.count(), 0.0, vertices)?;
+                WideBvh::build(BvhBuilders::One, self.simd, self.count(), 0.0, vertices)?;
             if !self.prepared_triangles.is_empty() {
                 hierarchy.forget_corners();
             }
@@ -158,8 +158,8 @@ impl PreparedMesh {
     }
 }
 
-/// Whether three corners are not collinear, as [`Normal::of`] decides; by uncompensated arithmetic
-/// where that is certain.
+/// Whether three corners are not collinear, as [`PlaneNormal::of`] decides; by uncompensated
+/// arithmetic where that is certain.
 fn has_area([a, b, c]: [Vec3; 3]) -> bool {
     /// A sine this large is not an error of rounding.
     const MIN_AREA: f64 = 1e-6;
@@ -168,12 +168,12 @@ fn has_area([a, b, c]: [Vec3; 3]) -> bool {
     let (first, second) = (b - a, c - a);
     let size = first.abs().max_element() * second.abs().max_element();
     let area = first.cross(second).abs().max_element();
-    size > NORMAL && area > MIN_AREA * size || Normal::of([a, b, c]).is_some()
+    size > NORMAL && area > MIN_AREA * size || PlaneNormal::of([a, b, c]).is_some()
 }
 
 /// Where three corners are.
 #[inline(always)]
-fn places(positions: &Column<3>, [a, b, c]: [u32; 3]) -> [Vec3; 3] {
+fn places(positions: &VertexColumn<3>, [a, b, c]: [u32; 3]) -> [Vec3; 3] {
     // Written out: `map` of an array is a call here.
     let place = |corner: u32| Vec3::from_array(positions.at(corner as usize));
     [place(a), place(b), place(c)]

@@ -20,8 +20,8 @@ use crate::shape::interval::{Interval, between_planes, roots};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{
-    Basis, Bounds, DoubleDouble, U, Vec3, atan2, cross, difference_of_products, dot, ldexp,
-    unit_scale,
+    Bounds, DoubleDouble, OrthonormalBasis, U, Vec3, atan2, cross, difference_of_products, dot,
+    ldexp, unit_scale,
 };
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -61,7 +61,7 @@ impl ParaboloidFace {
 /// F along a ray, `a·t² − 2·b·t + c`, and its inputs: the cross products of its start and its
 /// direction with the axis.
 #[derive(Clone, Copy)]
-struct Coefficients {
+struct QuadraticCoefficients {
     w: Vec3,
     x: Vec3,
     a: f64,
@@ -99,7 +99,7 @@ impl Paraboloid {
         let parts = [ParaboloidFace::Base, ParaboloidFace::Side];
         let ends = between_planes(self.axis, self.height, start, ray.direction, parts)?;
         let inside = self.inside(ray, start, &ends)?;
-        let Coefficients { b, c, .. } = self.coefficients(start, ray.direction);
+        let QuadraticCoefficients { b, c, .. } = self.coefficients(start, ray.direction);
         inside.seen_from(c, -b).and(ends)
     }
 
@@ -118,7 +118,7 @@ impl Paraboloid {
             .min(ends.leave.0);
         let f = start + d * nearest;
         let coefficients = self.coefficients(f, d);
-        let Coefficients { a, b, c, .. } = coefficients;
+        let QuadraticCoefficients { a, b, c, .. } = coefficients;
         let discriminant = difference_of_products(b, b, a, c);
         let size = (start.abs() + f.abs()).element_sum();
         let error_bound = self.error_bound(&coefficients, d, size, nearest);
@@ -133,12 +133,12 @@ impl Paraboloid {
     }
 
     /// F along the ray from a point, given from the base, along `d`.
-    fn coefficients(&self, from: Vec3, d: Vec3) -> Coefficients {
+    fn coefficients(&self, from: Vec3, d: Vec3) -> QuadraticCoefficients {
         let k = self.latus_rectum;
         let (w, x) = (cross(from, self.axis), cross(d, self.axis));
         let depth = self.height - dot(self.axis, from);
         let half_rise = 0.5 * k * dot(self.axis, d);
-        Coefficients {
+        QuadraticCoefficients {
             w,
             x,
             a: x.dot(x),
@@ -149,8 +149,14 @@ impl Paraboloid {
 
     /// A bound on the error of the discriminant b² − a·c of a ray that was moved by `nearest`
     /// between two points of this size together.
-    fn error_bound(&self, coefficients: &Coefficients, d: Vec3, size: f64, nearest: f64) -> f64 {
-        let Coefficients { w, x, a, b, c } = *coefficients;
+    fn error_bound(
+        &self,
+        coefficients: &QuadraticCoefficients,
+        d: Vec3,
+        size: f64,
+        nearest: f64,
+    ) -> f64 {
+        let QuadraticCoefficients { w, x, a, b, c } = *coefficients;
         let k = self.latus_rectum;
         // Bound the error of each coefficient by the sizes of its terms, then that of the
         // discriminant.
@@ -292,11 +298,11 @@ impl Intersect for Paraboloid {
         let local = at.point - self.base;
         let along = dot(local, self.axis);
         let radial = self.radial(local, along);
-        let Basis {
+        let OrthonormalBasis {
             tangent: x,
             bitangent: y,
             ..
-        } = Basis::around(self.axis);
+        } = OrthonormalBasis::around(self.axis);
         let turns = atan2(radial.dot(y), radial.dot(x)) / TAU;
         let u = if turns < 0.0 { turns + 1.0 } else { turns };
         let is_cap = at.normal.dot(self.axis) < -0.5;

@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 /// The orientation of a plane.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Normal {
+pub(crate) struct PlaneNormal {
     /// The normal as given, times a power of two.
     pub(super) raw: Vec3,
     /// Its square.
@@ -26,12 +26,12 @@ pub(crate) struct Normal {
 /// An axis parallel to a normal, and its sign: products with such a normal are exact, and so are
 /// their sums.
 #[derive(Clone, Copy, Debug)]
-pub struct Axis {
+pub struct PlaneAxis {
     pub(super) index: usize,
     pub(super) sign: f64,
 }
 
-impl Axis {
+impl PlaneAxis {
     /// N·(anchor − p), but for the sign of a 0.
     #[inline(always)]
     fn distance(self, anchor: Vec3, p: Vec3) -> f64 {
@@ -51,10 +51,10 @@ impl Axis {
 #[derive(Clone, Copy, Debug)]
 pub struct Plane {
     pub(super) anchor: Vec3,
-    pub(super) normal: Normal,
+    pub(super) normal: PlaneNormal,
 }
 
-impl Normal {
+impl PlaneNormal {
     /// The normal along a vector, which must not be zero.
     #[must_use]
     #[inline(always)]
@@ -90,7 +90,7 @@ impl Normal {
     fn parameter(&self, anchor: Vec3, ray: &Ray) -> Option<f64> {
         let axis = self.axis();
         let slope = match axis {
-            Some(Axis { index, sign }) => sign * ray.direction[index],
+            Some(PlaneAxis { index, sign }) => sign * ray.direction[index],
             None => dot(self.raw, ray.direction),
         };
         if slope == 0.0 {
@@ -101,7 +101,7 @@ impl Normal {
 
     /// The axis parallel to the normal, if any.
     #[inline(always)]
-    fn axis(&self) -> Option<Axis> {
+    fn axis(&self) -> Option<PlaneAxis> {
         if self.square != 1.0 {
             return None;
         }
@@ -113,12 +113,12 @@ impl Normal {
         } else {
             (0, x, [y, z])
         };
-        (others == [0.0; 2]).then_some(Axis { index, sign })
+        (others == [0.0; 2]).then_some(PlaneAxis { index, sign })
     }
 
     /// N·(anchor − p), as if in twice the precision.
     #[inline(always)]
-    fn distance(&self, axis: Option<Axis>, anchor: Vec3, p: Vec3) -> f64 {
+    fn distance(&self, axis: Option<PlaneAxis>, anchor: Vec3, p: Vec3) -> f64 {
         // The sign of a 0 is that of the sum.
         if let Some(distance) = axis.map(|axis| axis.distance(anchor, p))
             && distance != 0.0
@@ -175,7 +175,7 @@ impl Plane {
     pub fn new(anchor: Vec3, normal: Vec3) -> Self {
         Self {
             anchor,
-            normal: Normal::new(normal),
+            normal: PlaneNormal::new(normal),
         }
     }
 
@@ -306,7 +306,7 @@ impl<R: Real> Baseline<R> for BaselinePlane<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sampler::Key;
+    use crate::sampler::PathVertexKey;
 
     /// Limits within 64 u of the root: uncompensated arithmetic is often right about them, and
     /// often wrong.
@@ -314,11 +314,11 @@ mod tests {
     fn a_plane_said_to_lie_beyond_has_no_root_before() {
         let mut reported = 0;
         for index in 0..50_000 {
-            let key = Key::new([3, 5], index);
+            let key = PathVertexKey::new([3, 5], index);
             let vector = |k: u64| {
                 Vec3::new(key.uniform(k), key.uniform(k + 1), key.uniform(k + 2)) * 2.0 - 1.0
             };
-            let (anchor, normal) = (vector(0), Normal::new(vector(3)));
+            let (anchor, normal) = (vector(0), PlaneNormal::new(vector(3)));
             let ray = Ray {
                 origin: vector(6),
                 direction: vector(9),
@@ -339,7 +339,10 @@ mod tests {
     fn a_point_on_a_plane_along_an_axis_has_the_bits_of_the_sum() {
         let normals = [Vec3::X, Vec3::NEG_Y * 3.0, Vec3::NEG_Z];
         for (index, normal) in (0..3000_u32).zip(normals.into_iter().cycle()) {
-            let (normal, key) = (Normal::new(normal), Key::new([3, 6], index.into()));
+            let (normal, key) = (
+                PlaneNormal::new(normal),
+                PathVertexKey::new([3, 6], index.into()),
+            );
             let number = |k: u64| [0.0, -0.0, 0.5, -3.0][(key.bits(k) % 4) as usize];
             let place = Vec3::new(number(0), number(1), number(2));
             let ray = Ray {
@@ -358,7 +361,7 @@ mod tests {
 
     #[test]
     fn a_plane_behind_the_ray_or_along_it_is_not_said_to_lie_beyond() {
-        let normal = Normal::new(Vec3::Z);
+        let normal = PlaneNormal::new(Vec3::Z);
         let is_beyond = |direction| {
             let ray = Ray {
                 origin: Vec3::ZERO,

@@ -29,7 +29,7 @@ pub enum Quad {
         halves: [Option<(Triangle, [usize; 3])>; 2],
     },
     /// A patch.
-    Patch(Patch),
+    Patch(BilinearPatch),
 }
 
 impl Quad {
@@ -37,7 +37,7 @@ impl Quad {
     #[must_use]
     pub fn new(vertices: [Vec3; 4]) -> Self {
         if !is_flat(vertices) {
-            return Self::Patch(Patch { vertices });
+            return Self::Patch(BilinearPatch { vertices });
         }
         let normal = |t: [usize; 3]| {
             cross(
@@ -110,7 +110,7 @@ impl Quad {
     /// A direction along the surface in which u grows, at this v.
     pub(crate) fn tangent(&self, v: f64) -> Option<Vec3> {
         match self {
-            Self::Flat { vertices, .. } | Self::Patch(Patch { vertices }) => {
+            Self::Flat { vertices, .. } | Self::Patch(BilinearPatch { vertices }) => {
                 across(*vertices, v).try_normalize()
             }
         }
@@ -139,11 +139,11 @@ fn across([q00, q10, q11, q01]: [Vec3; 4], v: f64) -> Vec3 {
 
 /// A bilinear patch: `Q(u, v)` with corners Q(0,0), Q(1,0), Q(1,1), Q(0,1).
 #[derive(Clone, Copy, Debug)]
-pub struct Patch {
+pub struct BilinearPatch {
     vertices: [Vec3; 4],
 }
 
-impl Patch {
+impl BilinearPatch {
     /// The first crossing in front, with its u and v.
     fn intersection(&self, ray: &Ray) -> Option<(f64, [f64; 2])> {
         let [q00, q10, q11, q01] = self.vertices.map(|vertex| vertex - ray.origin);
@@ -282,7 +282,9 @@ impl HasBaseline for Quad {
                     half.map(|(triangle, _)| BaselineTriangle::new(triangle.vertices()))
                 }))
             }
-            Self::Patch(Patch { vertices }) => BaselineQuad::Patch(vertices.map(Vector::of)),
+            Self::Patch(BilinearPatch { vertices }) => {
+                BaselineQuad::Patch(vertices.map(Vector::of))
+            }
         }))
     }
 }

@@ -26,14 +26,14 @@ pub(crate) fn error(ray: &Ray, t: f64, at: &Interaction) -> f64 {
 
 /// The closest of some hits, and whether it ties with another.
 #[derive(Clone, Copy)]
-pub(crate) struct Nearest<K> {
+pub(crate) struct ClosestHit<K> {
     pub(crate) t: f64,
     pub(crate) key: K,
     /// The next one.
     next: f64,
 }
 
-impl<K: Copy + Ord> Nearest<K> {
+impl<K: Copy + Ord> ClosestHit<K> {
     /// No hit yet, up to `t_max`; `none` is above all keys.
     #[inline]
     pub(crate) fn up_to(t_max: f64, none: K) -> Self {
@@ -72,13 +72,13 @@ impl<K: Copy + Ord> Nearest<K> {
 }
 
 /// All hits that may be the closest.
-pub(crate) struct NearHits<K> {
+pub(crate) struct ClosestHitCandidates<K> {
     hits: Vec<(f64, f64, K)>,
     /// The least upper end of their intervals.
     bound: f64,
 }
 
-impl<K: Copy + Ord> NearHits<K> {
+impl<K: Copy + Ord> ClosestHitCandidates<K> {
     /// None yet.
     pub(crate) fn new() -> Self {
         Self {
@@ -128,7 +128,7 @@ mod tests {
         // The first overlaps the second, and the second the third, which is certainly the nearest.
         let hits = [(5.0, 1.0, 0), (4.0, 0.5, 1), (3.3, 0.3, 2), (4.2, 0.1, 3)];
         for order in orders(&hits) {
-            let mut tie = NearHits::new();
+            let mut tie = ClosestHitCandidates::new();
             order
                 .iter()
                 .for_each(|(t, error, key)| tie.add(*t, *error, *key));
@@ -146,7 +146,7 @@ mod tests {
         ] {
             let hits = [(hits[0], 0.0, 0), (hits[1], 0.0, 1), (hits[2], 0.0, 2)];
             for order in orders(&hits) {
-                let mut nearest = Nearest::up_to(f64::INFINITY, u32::MAX);
+                let mut nearest = ClosestHit::up_to(f64::INFINITY, u32::MAX);
                 order.iter().for_each(|(t, _, key)| nearest.add(*t, *key));
                 assert_eq!((nearest.t, nearest.is_tied()), (1.0, tied), "{order:?}");
             }

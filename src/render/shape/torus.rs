@@ -17,7 +17,7 @@ use crate::shape::emitter::Emitter;
 use crate::shape::four::Shape4;
 use crate::shape::geometry::{Intersect, SolidCrossing};
 use crate::shape::mesh::BaselineMesh;
-use crate::shape::plane::Normal;
+use crate::shape::plane::PlaneNormal;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, Vec3, cross, ldexp};
 use std::sync::Arc;
@@ -250,7 +250,7 @@ impl Torus {
     pub fn new(center: Vec3, axis: Vec3, major: f64, minor: f64) -> Self {
         Self {
             center,
-            axis: Normal::new(axis).unit(),
+            axis: PlaneNormal::new(axis).unit(),
             major,
             minor,
             unit: ldexp(1.0, libm::ilogb(major + minor).clamp(-1000, 1000)),

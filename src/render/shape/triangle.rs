@@ -13,7 +13,7 @@ use crate::shape::corners::interpolate;
 use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
 use crate::shape::mesh::BaselineMesh;
-use crate::shape::plane::Normal;
+use crate::shape::plane::PlaneNormal;
 use rtc_math::{Bounds, U, Vec3, difference_of_products};
 use std::sync::Arc;
 
@@ -111,7 +111,7 @@ pub(crate) fn root(vertices: &[Vec3; 3], ray: &Ray, watertight: &WatertightRay) 
     if !is_hit(vertices, ray, watertight) {
         return None;
     }
-    Normal::of(*vertices)?.intersect(vertices[0], ray)
+    PlaneNormal::of(*vertices)?.intersect(vertices[0], ray)
 }
 
 /// A prepared triangle, of the size of two cache lines.
@@ -119,7 +119,7 @@ pub(crate) fn root(vertices: &[Vec3; 3], ray: &Ray, watertight: &WatertightRay) 
 #[repr(align(64))]
 pub struct Triangle {
     vertices: [Vec3; 3],
-    normal: Normal,
+    normal: PlaneNormal,
 }
 
 const _: () = assert!(size_of::<Triangle>() == 128, "memory is what rays wait for");
@@ -130,7 +130,7 @@ impl Triangle {
     pub fn new(vertices: [Vec3; 3]) -> Option<Self> {
         Some(Self {
             vertices,
-            normal: Normal::of(vertices)?,
+            normal: PlaneNormal::of(vertices)?,
         })
     }
 
@@ -138,7 +138,7 @@ impl Triangle {
     #[must_use]
     #[inline]
     pub(crate) fn with_area(vertices: [Vec3; 3]) -> Self {
-        let normal = Normal::of(vertices).unwrap_or_else(|| Normal::new(Vec3::Z));
+        let normal = PlaneNormal::of(vertices).unwrap_or_else(|| PlaneNormal::new(Vec3::Z));
         Self { vertices, normal }
     }
 

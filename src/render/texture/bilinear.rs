@@ -1,7 +1,7 @@
 //! Texture lookup, normal maps and bump maps by the rules of the course.
 
 use super::sampled::{ColorSpace, sample};
-use super::{Image, Texture, TexturePlace};
+use super::{Image, Texture, TextureLookupPoint};
 use rtc_math::{SolidTexture, TextureMapping, Vec3, cross};
 
 /// A height field over a surface.
@@ -23,7 +23,7 @@ impl Bump {
         &self,
         normal: Vec3,
         tangent: Option<Vec3>,
-        place: &TexturePlace,
+        place: &TextureLookupPoint,
     ) -> Option<Vec3> {
         if let Texture::Procedural(texture) = &self.texture
             && texture.mapping == TextureMapping::World
@@ -51,7 +51,7 @@ fn mean_channel(color: Vec3) -> f64 {
 
 /// Looks a texture up, each channel of an image in [0, 1]; `None` without the texture coordinates
 /// that it needs.
-pub(crate) fn look_up(texture: &Texture, place: &TexturePlace) -> Option<Vec3> {
+pub(crate) fn look_up(texture: &Texture, place: &TextureLookupPoint) -> Option<Vec3> {
     if let Texture::Procedural(texture) = texture {
         return texture.color_at(place.uv, place.point);
     }

@@ -5,7 +5,7 @@ use rtc_math::Lanes;
 
 /// What decides, with the texture coordinates, which texels a look-up reads.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) struct Layout {
+pub(super) struct TexelLayout {
     /// The index into the sets.
     pub(super) set: usize,
     pub(super) size: [u32; 2],
@@ -15,16 +15,16 @@ pub(super) struct Layout {
 
 /// The texels that a look-up reads, and their weights.
 #[derive(Clone, Copy)]
-pub(super) struct Footprint {
+pub(super) struct TexelFootprint {
     /// The indices of the upper left, upper right, lower left and lower right texel.
     texels: [usize; 4],
     /// The weights of the right and of the lower texels; `None` to read the first texel alone.
     weights: Option<[f32; 2]>,
 }
 
-impl Footprint {
+impl TexelFootprint {
     #[inline]
-    pub(super) fn new(layout: &Layout, [u, v]: [f64; 2]) -> Self {
+    pub(super) fn new(layout: &TexelLayout, [u, v]: [f64; 2]) -> Self {
         let ([width, height], wrap) = (layout.size, layout.wrap);
         let is_linear = layout.filter == Filter::Linear;
         let ([left, right], s) = neighbors(u, width, wrap[0], is_linear);

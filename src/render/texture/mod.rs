@@ -2,7 +2,7 @@
 //!
 //! [`Texture`] has a variant for each kind of the IR: `bilinear` by the rules of the course,
 //! `sampled` by those of glTF (wrap modes and filters), patterns, and the coordinates as a colour.
-//! A [`TexturePlace`] is the point of a lookup: texture coordinates and world coordinates. An
+//! A [`TextureLookupPoint`] is the point of a lookup: texture coordinates and world coordinates. An
 //! [`Image`] decodes its texels on lookup and is shared by its textures. `footprint` selects the
 //! texels of a bilinear lookup.
 
@@ -34,7 +34,7 @@ pub(crate) enum Texture {
 
 /// Where on a surface a texture is looked up.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct TexturePlace {
+pub(crate) struct TextureLookupPoint {
     /// The first texture coordinates, if there are any.
     pub(crate) uv: Option<[f64; 2]>,
     /// The point in world coordinates.

@@ -1,6 +1,6 @@
 //! Texture sampling by the rules of glTF: texture coordinates and colour spaces.
 
-use super::footprint::{Footprint, Layout, single};
+use super::footprint::{TexelFootprint, TexelLayout, single};
 use super::{Filter, Image, Texture, Wrap};
 use rtc_color::srgb_decoded;
 use rtc_image::Texels;
@@ -23,7 +23,7 @@ pub(crate) struct UvSets {
     /// In world coordinates.
     point: Vec3,
     /// The last footprint: the maps of a material mostly have the same one.
-    last: Cell<Option<(Layout, Footprint)>>,
+    last: Cell<Option<(TexelLayout, TexelFootprint)>>,
 }
 
 impl UvSets {
@@ -40,13 +40,13 @@ impl UvSets {
 
     /// The footprint of a layout, at the coordinates of its set.
     #[inline]
-    fn footprint(&self, layout: Layout, uv: [f64; 2]) -> Footprint {
+    fn footprint(&self, layout: TexelLayout, uv: [f64; 2]) -> TexelFootprint {
         if let Some((last, footprint)) = self.last.get()
             && last == layout
         {
             return footprint;
         }
-        let footprint = Footprint::new(&layout, uv);
+        let footprint = TexelFootprint::new(&layout, uv);
         self.last.set(Some((layout, footprint)));
         footprint
     }
@@ -83,7 +83,7 @@ impl Map {
             None,
         ) = (&self.texture, &self.texture_from_surface)
         {
-            let layout = Layout {
+            let layout = TexelLayout {
                 set: self.set,
                 size: [image.width, image.height],
                 wrap: *wrap,
@@ -133,17 +133,17 @@ pub(crate) fn sample(
     filter: Filter,
     color_space: ColorSpace,
 ) -> [f64; 4] {
-    let layout = Layout {
+    let layout = TexelLayout {
         set: 0,
         size: [image.width, image.height],
         wrap,
         filter,
     };
-    mean(&Footprint::new(&layout, uv), image, color_space)
+    mean(&TexelFootprint::new(&layout, uv), image, color_space)
 }
 
 /// The mean of the texels of a footprint by their weights: red, green, blue and alpha.
-fn mean(footprint: &Footprint, image: &Image, color_space: ColorSpace) -> [f64; 4] {
+fn mean(footprint: &TexelFootprint, image: &Image, color_space: ColorSpace) -> [f64; 4] {
     let tables: &[[f32; 256]; 2] = &DECODED;
     let linear = &tables[ColorSpace::Linear as usize];
     let color = &tables[color_space as usize];

@@ -4,21 +4,21 @@ use crate::accel::simd::SimdLevel;
 use crate::film::heartbeat::PixelObserver;
 use crate::film::partial::{FilmError, PartialFilm};
 use crate::film::progressive::ProgressiveFilm;
-use crate::film::{Counts, Film, Job};
+use crate::film::{Film, RayCounts, RenderSelection};
 use crate::integrator::aov::Aov;
 use crate::shape::Shape;
 use crate::shape::baseline::BaselineShape;
-use crate::shape::basic::Basic;
+use crate::shape::basic::BasicShape;
 use crate::world::World;
-use rtc_image::{Guide, Layers};
-use rtc_plan::{Arithmetic, Plan, Rules, Shapes};
+use rtc_image::{DenoisingGuide, PixelLayers};
+use rtc_plan::{Arithmetic, Plan, RuleSet, ShapeSet};
 use rtc_valid::ValidScene;
 use std::ops::Range;
 
 /// A scene prepared as planned. It renders on the threads of the current pool.
 pub enum AnyWorld {
     /// With the basic shapes only.
-    Basic(World<Basic>),
+    Basic(World<BasicShape>),
     /// With all shapes.
     All(World<Shape>),
     /// By baseline formulas.
@@ -51,10 +51,10 @@ impl AnyWorld {
     #[must_use]
     pub fn prepare_at(scene: &ValidScene, plan: &Plan, simd: SimdLevel) -> Self {
         match (plan.arithmetic, plan.shapes) {
-            (Arithmetic::Robust, Shapes::Basic) => {
+            (Arithmetic::Robust, ShapeSet::Basic) => {
                 Self::Basic(World::prepare_at(scene, plan, simd))
             }
-            (Arithmetic::Robust, Shapes::All) => Self::All(World::prepare_at(scene, plan, simd)),
+            (Arithmetic::Robust, ShapeSet::All) => Self::All(World::prepare_at(scene, plan, simd)),
             (Arithmetic::Plain, _) => Self::Plain(World::prepare_at(scene, plan, simd)),
             (Arithmetic::F32, _) => Self::F32(World::prepare_at(scene, plan, simd)),
         }
@@ -94,7 +94,7 @@ impl AnyWorld {
     ///
     /// `on_pixel` is called from all threads, after each pixel and within long ones.
     #[must_use]
-    pub fn render(&self, job: &Job, on_pixel: &PixelObserver<'_>) -> Option<Film> {
+    pub fn render(&self, job: &RenderSelection, on_pixel: &PixelObserver<'_>) -> Option<Film> {
         each!(self, world => world.render(job, on_pixel))
     }
 
@@ -106,7 +106,7 @@ impl AnyWorld {
     /// If the samples are not whole blocks, or no paths are traced.
     pub fn render_part(
         &self,
-        job: &Job,
+        job: &RenderSelection,
         samples: Option<Range<u32>>,
         on_pixel: &PixelObserver<'_>,
     ) -> Result<Option<PartialFilm>, FilmError> {
@@ -122,9 +122,9 @@ impl AnyWorld {
     pub fn layers(
         &self,
         wanted: &[Aov],
-        job: &Job,
+        job: &RenderSelection,
         on_pixel: &PixelObserver<'_>,
-    ) -> Option<Layers> {
+    ) -> Option<PixelLayers> {
         let unpruned = self.unpruned();
         let world = unpruned.as_ref().unwrap_or(self);
         each!(world, world => world.layers(wanted, job, on_pixel))
@@ -135,14 +135,14 @@ impl AnyWorld {
     #[must_use]
     pub fn unpruned(&self) -> Option<Self> {
         let rules = each!(self, world => world.plan.rules);
-        (rules != Rules::NONE).then(|| self.bare())
+        (rules != RuleSet::NONE).then(|| self.bare())
     }
 
     /// Sums a range of the samples of traced paths.
     pub(crate) fn range(
         &self,
         samples: &Range<u32>,
-        job: &Job,
+        job: &RenderSelection,
         on_pixel: &PixelObserver<'_>,
     ) -> Option<Film> {
         each!(self, world => world.whole(job, |_, job| world.sum(samples, job, on_pixel)))
@@ -152,7 +152,7 @@ impl AnyWorld {
     pub(crate) fn bare(&self) -> Self {
         let (scene, plan) = each!(self, world => (world.scene(), &world.plan));
         let simd = each!(self, world => world.simd);
-        let bare = Plan::with_arithmetic(plan.arithmetic, scene, Rules::NONE);
+        let bare = Plan::with_arithmetic(plan.arithmetic, scene, RuleSet::NONE);
         Self::prepare_at(scene, &bare, simd)
     }
 
@@ -161,9 +161,9 @@ impl AnyWorld {
     pub(crate) fn guides(
         &self,
         samples: &(dyn Fn(usize) -> Range<u32> + Sync),
-        job: &Job,
+        job: &RenderSelection,
         on_pixel: &PixelObserver<'_>,
-    ) -> Option<(Vec<Guide>, Counts)> {
+    ) -> Option<(Vec<DenoisingGuide>, RayCounts)> {
         each!(self, world => world.guides(samples, job, on_pixel))
     }
 
@@ -187,7 +187,7 @@ impl AnyWorld {
 pub fn render(
     scene: &ValidScene,
     plan: &Plan,
-    job: &Job,
+    job: &RenderSelection,
     on_pixel: &PixelObserver<'_>,
 ) -> Option<Film> {
     AnyWorld::prepare(scene, plan).render(job, on_pixel)

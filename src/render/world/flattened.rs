@@ -2,7 +2,7 @@
 
 use super::{Surface, SurfaceId, SurfacePrimitive};
 use crate::accel::simd::SimdLevel;
-use crate::accel::wide::{Builders, Candidate, MOST, WideBvh};
+use crate::accel::wide::{BvhBuilders, Candidate, MOST, WideBvh};
 use crate::ray::Ray;
 use crate::shape::geometry::{Intersect, LocalRay};
 use crate::shape::mesh::MAX_PREPARED;
@@ -138,7 +138,7 @@ impl FlattenedInstances {
             let (surface, prim_id) = key(&starts, item);
             surfaces[surface].shape.corners(prim_id).unwrap_or_default()
         };
-        let mut hierarchy = WideBvh::build(Builders::All, simd, count, error_bound, corners)?;
+        let mut hierarchy = WideBvh::build(BvhBuilders::All, simd, count, error_bound, corners)?;
         // World-space corners are those of a mesh only if it is not transformed; few are prepared.
         if count <= MAX_PREPARED || !ids.iter().all(|surface| shape(*surface).is_in_place()) {
             hierarchy.forget_corners();

@@ -6,7 +6,7 @@ use crate::light::course::CourseLight;
 use crate::light::environment::Environment;
 use crate::light::punctual::{DirectionalLight, Falloff, PointLight, Punctual};
 use rtc_math::IdTable;
-use rtc_plan::{EnvironmentUse, PathPlan, Plan, facts};
+use rtc_plan::{PathPlan, Plan, RemainingEnvironment, facts};
 use rtc_valid::{self as valid, ValidScene};
 
 /// The lights of a world. There are two kinds of lists; the one that the integrator does not use is
@@ -37,7 +37,7 @@ impl<S> World<S> {
 pub(super) fn lights_for(scene: &ValidScene, plan: &Plan, textures: &Textures) -> LightList {
     match &plan.paths {
         Some(paths) => {
-            let is_constant = paths.environment == EnvironmentUse::Constant;
+            let is_constant = paths.environment == RemainingEnvironment::Constant;
             let punctuals = facts::light::punctual(scene.lights()).into_iter();
             LightList {
                 course: IdTable::default(),

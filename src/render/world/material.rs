@@ -161,13 +161,13 @@ pub(super) fn standard(
 ) -> StandardMaterial {
     let m = material;
     // Resolve each factor and its map to a texture slot.
-    let slots = Slots {
+    let slots = MappedParameters {
         index,
         textures,
         plan,
     };
     let emission = if m.emissive == Vec3::ZERO {
-        Tint {
+        MappedColor {
             factor: Vec3::ZERO,
             map: None,
         }
@@ -226,14 +226,14 @@ fn absorption(m: &Standard) -> Vec3 {
 }
 
 /// Makes the parameters of a material that may have maps.
-struct Slots<'world> {
+struct MappedParameters<'world> {
     /// Which material of the scene.
     index: valid::MaterialId,
     textures: &'world Textures,
     plan: &'world PathPlan,
 }
 
-impl Slots<'_> {
+impl MappedParameters<'_> {
     /// The surface details that the material needs.
     fn request(&self, m: &Standard) -> AttributeRequest {
         let others = [
@@ -268,26 +268,31 @@ impl Slots<'_> {
         prepared.look_up(&anywhere).map(MapSource::Value)
     }
 
-    fn number(&self, factor: UnitInterval, map: Option<&valid::Map>, channel: usize) -> Number {
+    fn number(
+        &self,
+        factor: UnitInterval,
+        map: Option<&valid::Map>,
+        channel: usize,
+    ) -> MappedNumber {
         self.scaled(factor.get(), map, channel)
     }
 
-    fn scaled(&self, factor: f64, map: Option<&valid::Map>, channel: usize) -> Number {
+    fn scaled(&self, factor: f64, map: Option<&valid::Map>, channel: usize) -> MappedNumber {
         let (factor, map) = match self.source(map, ColorSpace::Linear) {
             None => (factor, None),
             Some(MapSource::Value(value)) => (factor * value[channel], None),
             Some(MapSource::Map(map)) => (factor, Some((map, channel))),
         };
-        Number { factor, map }
+        MappedNumber { factor, map }
     }
 
-    fn tint(&self, factor: Vec3, map: Option<&valid::Map>) -> Tint {
+    fn tint(&self, factor: Vec3, map: Option<&valid::Map>) -> MappedColor {
         let (factor, map) = match self.source(map, ColorSpace::Srgb) {
             None => (factor, None),
             Some(MapSource::Value([r, g, b, _])) => (factor * Vec3::new(r, g, b), None),
             Some(MapSource::Map(map)) => (factor, Some(map)),
         };
-        Tint { factor, map }
+        MappedColor { factor, map }
     }
 
     fn rgba(&self, factor: [UnitInterval; 4], map: Option<&valid::Map>) -> Rgba {
@@ -305,9 +310,11 @@ impl Slots<'_> {
         Some(NormalMap { map, scale })
     }
 
-    fn reflection(&self, m: &Standard) -> Reflection {
+    fn reflection(&self, m: &Standard) -> BaseReflectance {
         if let Some(factor) = m.specular_glossiness {
-            return Reflection::Specular(self.rgba(factor, m.specular_glossiness_map.as_ref()));
+            return BaseReflectance::Specular(
+                self.rgba(factor, m.specular_glossiness_map.as_ref()),
+            );
         }
         let (roughness, metallic) = (m.roughness.get(), m.metallic.get());
         let source = self.source(m.metallic_roughness_map.as_ref(), ColorSpace::Linear);
@@ -316,7 +323,7 @@ impl Slots<'_> {
             Some(MapSource::Value([_, g, b, _])) => (roughness * g, metallic * b, None),
             Some(MapSource::Map(map)) => (roughness, metallic, Some(map)),
         };
-        Reflection::Metallic {
+        BaseReflectance::Metallic {
             roughness,
             metallic,
             map,
@@ -360,7 +367,7 @@ macro_rules! plain_layers {
         $weight:ident: $weight_kind:ident($of_weight:ident, $weight_map:ident $(, $weight_channel:literal)?);
         $($part:ident: $kind:ident($factor:ident, $map:ident $(, $channel:literal)?);)*
     })*) => {
-        impl Slots<'_> {
+        impl MappedParameters<'_> {
             fn plain_layers(&self, m: &Standard) -> PlainLayers {
                 PlainLayers {
                     $($layer: m.$of_weight.is_nonzero().then(|| $prepared {

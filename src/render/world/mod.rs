@@ -28,13 +28,13 @@ use crate::accel::bvh::Bvh;
 use crate::accel::simd::SimdLevel;
 use crate::accel::wide::Candidate;
 use crate::camera::Camera;
-use crate::frame::verify::Verify;
+use crate::frame::verify::PlanVerification;
 use crate::material::phong::PhongMaterial;
 use crate::material::standard::StandardMaterial;
 use crate::ray::Ray;
 use crate::shape::Shape;
 use crate::shape::geometry::Intersect;
-use crate::shape::tie::{CLOSE, NearHits, Nearest};
+use crate::shape::tie::{CLOSE, ClosestHit, ClosestHitCandidates};
 use crate::shape::triangle::WatertightRay;
 use alpha::AlphaTested;
 use flattened::{FlattenedInstances, FlattenedRay};
@@ -100,7 +100,7 @@ pub struct World<S = Shape> {
     /// The surfaces that the plan keeps, in the order of the scene.
     pub surfaces: IdTable<Surface, Surface<S>>,
     /// The plan to validate by a render without pruning.
-    pub(crate) verify: Option<Verify>,
+    pub(crate) verify: Option<PlanVerification>,
     /// The surfaces that shadow rays of paths test for alpha.
     pub(crate) alpha_tested: AlphaTested,
     objects: ObjectBvh,
@@ -170,7 +170,7 @@ impl<S: Intersect> World<S> {
         ray: &Ray,
         unit: f64,
         from: SurfacePrimitive,
-        nearest: &Nearest<SurfacePrimitive>,
+        nearest: &ClosestHit<SurfacePrimitive>,
     ) -> Option<Hit> {
         let (t, (surface, prim_id)) = match nearest.key {
             _ if nearest.key == NO_PRIMITIVE => return None,
@@ -186,8 +186,8 @@ impl<S: Intersect> World<S> {
 
     /// The closest hit on surfaces that are not flattened; infinite if there is none.
     #[inline]
-    fn closest_hit_in_objects(&self, ray: &Ray) -> Nearest<SurfacePrimitive> {
-        let mut nearest = Nearest::up_to(f64::INFINITY, NO_PRIMITIVE);
+    fn closest_hit_in_objects(&self, ray: &Ray) -> ClosestHit<SurfacePrimitive> {
+        let mut nearest = ClosestHit::up_to(f64::INFINITY, NO_PRIMITIVE);
         let objects = &self.objects;
         if objects.is_empty() {
             return nearest;
@@ -231,7 +231,7 @@ impl<S: Intersect> World<S> {
         from: SurfacePrimitive,
         t: f64,
     ) -> Option<(f64, SurfacePrimitive)> {
-        let (mut tie, watertight) = (NearHits::new(), WatertightRay::new(ray));
+        let (mut tie, watertight) = (ClosestHitCandidates::new(), WatertightRay::new(ray));
         // Collect all roots near `t` with their error bounds.
         let mut add = |t: f64, surface: SurfaceId, prim_id: u32| {
             tie.add(

@@ -14,7 +14,7 @@ use crate::accel::simd::SimdLevel;
 use crate::shape::geometry::Intersect;
 use rtc_math::IdTable;
 use rtc_plan::facts::material;
-use rtc_plan::{Plan, Rules};
+use rtc_plan::{Plan, RuleSet};
 use rtc_valid::{self as valid, ValidScene};
 use std::sync::Arc;
 
@@ -51,12 +51,12 @@ impl<S: Prepare> World<S> {
             }
         };
         // Build the hierarchies over the surfaces.
-        let Lookup {
+        let SurfaceLookup {
             objects,
             casters,
             flattened,
             small_scene,
-        } = Lookup::of(scene, plan, &surfaces, simd);
+        } = SurfaceLookup::of(scene, plan, &surfaces, simd);
         Self {
             scene: scene.clone(),
             camera: camera(scene.camera()),
@@ -110,14 +110,14 @@ fn surfaces<S: Prepare>(
 }
 
 /// Where rays look for the surfaces of a world.
-struct Lookup {
+struct SurfaceLookup {
     objects: ObjectBvh,
     casters: Option<ObjectBvh>,
     flattened: Option<FlattenedInstances>,
     small_scene: Option<SmallScene>,
 }
 
-impl Lookup {
+impl SurfaceLookup {
     fn of<S: Intersect>(
         scene: &ValidScene,
         plan: &Plan,
@@ -139,7 +139,7 @@ impl Lookup {
         let casters = objects.iter().copied();
         let casters: Vec<SurfaceId> = casters.filter(|id| casts(&surfaces[*id])).collect();
         // A world without pruning tests all surfaces, so validation finds a hit that a cone missed.
-        let bundled = !is_path && plan.rules != Rules::NONE;
+        let bundled = !is_path && plan.rules != RuleSet::NONE;
         let small_scene = || {
             let mut small_scene = SmallScene::new(surfaces, &objects, &casters)?;
             small_scene.follow(surfaces, plan);

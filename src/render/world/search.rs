@@ -2,17 +2,17 @@
 
 use super::flattened::FlattenedRay;
 use super::{STOP, SurfacePrimitive};
-use crate::accel::wide::{Candidate, Visitor};
+use crate::accel::wide::{Candidate, TriangleVisitor};
 use crate::shape::geometry::Intersect;
-use crate::shape::tie::Nearest;
+use crate::shape::tie::ClosestHit;
 
 /// Looks for the nearest hit.
 pub(super) struct ClosestSearch<'traverse, S> {
     pub(super) triangles: FlattenedRay<'traverse, S>,
-    pub(super) nearest: Nearest<SurfacePrimitive>,
+    pub(super) nearest: ClosestHit<SurfacePrimitive>,
 }
 
-impl<S: Intersect> Visitor for ClosestSearch<'_, S> {
+impl<S: Intersect> TriangleVisitor for ClosestSearch<'_, S> {
     #[inline(always)]
     fn visit(&mut self, candidate: Candidate<'_>) -> f64 {
         if let Some((t, key)) = self.triangles.root(&candidate) {
@@ -39,7 +39,7 @@ impl<'traverse, S> AnySearch<'traverse, S> {
     }
 }
 
-impl<S: Intersect> Visitor for AnySearch<'_, S> {
+impl<S: Intersect> TriangleVisitor for AnySearch<'_, S> {
     const IS_CERTAIN: bool = true;
 
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! The settings and the camera of a world.
 
 use super::World;
-use crate::camera::grid::{Grid, Pattern};
+use crate::camera::grid::{Pattern, SampleGrid};
 use crate::camera::{Camera, Projection};
 use rtc_math::Vec3;
 use rtc_plan::Plan;
@@ -25,7 +25,7 @@ pub(crate) struct Settings {
     /// The points of each soft light.
     pub(crate) light_samples: u32,
     /// The arrangement of the samples of a pixel, without path tracing.
-    pub(crate) grid: Grid,
+    pub(crate) grid: SampleGrid,
 }
 
 /// The kind of value of a pixel.
@@ -145,9 +145,9 @@ pub(super) fn settings(scene: &ValidScene) -> Settings {
         light_samples: light_samples.get(),
         grid: match mode {
             // A depth buffer has one ray through the middle of each pixel.
-            Mode::Depth => Grid::MIDDLE,
+            Mode::Depth => SampleGrid::MIDDLE,
             Mode::Phong | Mode::Normal | Mode::Gooch(_) | Mode::Path(_) => {
-                Grid::new(supersampling.get(), points, pattern)
+                SampleGrid::new(supersampling.get(), points, pattern)
             }
         },
     }

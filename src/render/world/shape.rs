@@ -4,7 +4,7 @@ use crate::accel::simd::SimdLevel;
 use crate::shape::Shape;
 use crate::shape::baseline::BaselineShape;
 use crate::shape::baseline::real::Real;
-use crate::shape::basic::Basic;
+use crate::shape::basic::BasicShape;
 use crate::shape::geometry::Intersect;
 use crate::shape::kinds::*;
 use crate::shape::mesh::{Attributes, BaselineMesh, PreparedMesh};
@@ -159,7 +159,7 @@ impl PrepareShape for valid::Instance {
     }
 }
 
-impl Prepare for Basic {
+impl Prepare for BasicShape {
     type Mesh = PreparedMesh;
 
     fn prepare_mesh(mesh: &valid::Mesh, simd: SimdLevel) -> PreparedMesh {

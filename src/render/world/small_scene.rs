@@ -5,7 +5,7 @@ use super::{Hit, NO_PRIMITIVE, Surface, SurfaceId, World, segment};
 use crate::accel::ray_cone_cache::{BoundingSpheres, MAX_ITEMS};
 use crate::ray::Ray;
 use crate::shape::geometry::Intersect;
-use crate::shape::tie::Nearest;
+use crate::shape::tie::ClosestHit;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{IdTable, Vec3};
 use rtc_plan::{LightPlan, Plan};
@@ -111,7 +111,7 @@ impl<S: Intersect> World<S> {
         mut items: u64,
         ray: &Ray,
     ) -> Option<Hit> {
-        let mut nearest = Nearest::up_to(f64::INFINITY, NO_PRIMITIVE);
+        let mut nearest = ClosestHit::up_to(f64::INFINITY, NO_PRIMITIVE);
         if items == 0 {
             return None;
         }

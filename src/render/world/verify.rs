@@ -4,11 +4,11 @@ use super::World;
 use super::any::render;
 use super::shape::Prepare;
 use crate::film::heartbeat::PixelObserver;
-use crate::film::{Crop, Film, Job};
-use crate::frame::verify::{Mismatch, Verify, first_difference};
+use crate::film::{Crop, Film, RenderSelection};
+use crate::frame::verify::{PlanMismatch, PlanVerification, first_difference};
 use crate::shape::Shape;
 use crate::shape::baseline::BaselineShape;
-use rtc_plan::{Arithmetic, Effect, Plan, Rule, Rules};
+use rtc_plan::{Arithmetic, Effect, Plan, Rule, RuleSet};
 use rtc_valid::ValidScene;
 
 /// Renders as planned and without rules, and compares: `None` if `on_pixel` said stop, else the
@@ -19,9 +19,9 @@ use rtc_valid::ValidScene;
 pub fn verify(
     scene: &ValidScene,
     plan: &Plan,
-    job: &Job,
+    job: &RenderSelection,
     on_pixel: &PixelObserver<'_>,
-) -> Option<Result<Film, Mismatch>> {
+) -> Option<Result<Film, PlanMismatch>> {
     let planned = render(scene, plan, job, on_pixel)?;
     let (naive, verify) = match plan.arithmetic {
         Arithmetic::Robust => naively::<Shape>(scene, plan, job, on_pixel)?,
@@ -40,14 +40,14 @@ pub fn verify(
 fn naively<S: Prepare>(
     scene: &ValidScene,
     plan: &Plan,
-    job: &Job,
+    job: &RenderSelection,
     on_pixel: &PixelObserver<'_>,
-) -> Option<(Film, Verify)> {
+) -> Option<(Film, PlanVerification)> {
     let mut world = World::<S>::prepare(
         scene,
-        &Plan::with_arithmetic(plan.arithmetic, scene, Rules::NONE),
+        &Plan::with_arithmetic(plan.arithmetic, scene, RuleSet::NONE),
     );
-    world.verify = Some(Verify::new(plan.clone()));
+    world.verify = Some(PlanVerification::new(plan.clone()));
     let naive = world.render(job, on_pixel)?;
     Some((naive, world.verify?))
 }
@@ -57,11 +57,11 @@ fn naively<S: Prepare>(
 fn blame(
     scene: &ValidScene,
     plan: &Plan,
-    job: &Job,
+    job: &RenderSelection,
     pixel: [u32; 2],
     color: [f64; 3],
     on_pixel: &PixelObserver<'_>,
-) -> Option<Mismatch> {
+) -> Option<PlanMismatch> {
     let [x, y] = pixel;
     let crop = Some(Crop {
         x,
@@ -69,7 +69,7 @@ fn blame(
         width: 1,
         height: 1,
     });
-    let mut mismatch = Mismatch {
+    let mut mismatch = PlanMismatch {
         pixel,
         effect: Effect::Surfaces,
         rule: None,
@@ -80,7 +80,7 @@ fn blame(
             continue;
         };
         let without = Plan::with_arithmetic(plan.arithmetic, scene, plan.rules.without(rule));
-        let film = render(scene, &without, &Job { crop, ..*job }, on_pixel)?;
+        let film = render(scene, &without, &RenderSelection { crop, ..*job }, on_pixel)?;
         if film.image.pixels.first() == Some(&color) {
             (mismatch.effect, mismatch.rule) = (hit_mask.effect, Some(rule));
             break;

@@ -1,6 +1,6 @@
 //! A folder that is searched, on disk or in memory.
 
-use crate::loader::Opened;
+use crate::loader::OpenedFile;
 use crate::memory::MemoryFiles;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
@@ -81,10 +81,10 @@ impl Folder {
     }
 
     /// Opens the file at a path without `..`, in this folder or above.
-    pub(super) fn open(&self, path: &Path) -> Option<Opened> {
+    pub(super) fn open(&self, path: &Path) -> Option<OpenedFile> {
         match &self.files {
-            Some(files) => Opened::in_memory(files, path),
-            None => Opened::at(path),
+            Some(files) => OpenedFile::in_memory(files, path),
+            None => OpenedFile::at(path),
         }
     }
 

@@ -55,7 +55,10 @@ impl<'s> SyntaxTree<'s> {
     pub fn is_equivalent(&self, other: &SyntaxTree<'_>) -> bool {
         let is_same = |id: NodeId| {
             let (mine, theirs) = (self.node(id), other.node(id));
-            let has_link = matches!(mine.syntax, Syntax::List | Syntax::Map | Syntax::Alias);
+            let has_link = matches!(
+                mine.syntax,
+                NodeSyntax::List | NodeSyntax::Map | NodeSyntax::Alias
+            );
             mine.syntax == theirs.syntax
                 && if has_link {
                     mine.link == theirs.link
@@ -83,7 +86,7 @@ pub struct NodeId(u32);
 
 /// How a node is written; this also decides the meaning of its link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Syntax {
+enum NodeSyntax {
     /// `null` in JSON.
     Null,
     /// `true` or `false` in JSON.
@@ -110,7 +113,7 @@ struct TreeNode {
     start: u32,
     end: u32,
     link: u32,
-    syntax: Syntax,
+    syntax: NodeSyntax,
 }
 
 /// The type of a node, with aliases resolved.
@@ -272,7 +275,7 @@ impl<'s> SyntaxTree<'s> {
     #[must_use]
     pub fn target(&self, id: NodeId) -> NodeId {
         let node = self.node(id);
-        if node.syntax == Syntax::Alias {
+        if node.syntax == NodeSyntax::Alias {
             NodeId(node.link)
         } else {
             id
@@ -307,7 +310,7 @@ impl<'s> SyntaxTree<'s> {
     /// The node with aliases resolved.
     fn resolve_alias(&self, id: NodeId) -> TreeNode {
         let node = self.node(id);
-        if node.syntax == Syntax::Alias {
+        if node.syntax == NodeSyntax::Alias {
             self.node(NodeId(node.link))
         } else {
             node
@@ -318,14 +321,14 @@ impl<'s> SyntaxTree<'s> {
     #[must_use]
     pub fn kind(&self, id: NodeId) -> NodeKind {
         match self.resolve_alias(id).syntax {
-            Syntax::Null => NodeKind::Null,
-            Syntax::Bool => NodeKind::Bool,
-            Syntax::Number => NodeKind::Number,
-            Syntax::Word => NodeKind::Word,
-            Syntax::Quoted | Syntax::Unescaped => NodeKind::Text,
-            Syntax::List => NodeKind::List,
-            Syntax::Map => NodeKind::Map,
-            Syntax::Alias => unreachable!("an alias never refers to another alias"),
+            NodeSyntax::Null => NodeKind::Null,
+            NodeSyntax::Bool => NodeKind::Bool,
+            NodeSyntax::Number => NodeKind::Number,
+            NodeSyntax::Word => NodeKind::Word,
+            NodeSyntax::Quoted | NodeSyntax::Unescaped => NodeKind::Text,
+            NodeSyntax::List => NodeKind::List,
+            NodeSyntax::Map => NodeKind::Map,
+            NodeSyntax::Alias => unreachable!("an alias never refers to another alias"),
         }
     }
 
@@ -334,31 +337,31 @@ impl<'s> SyntaxTree<'s> {
     pub fn shape(&self, id: NodeId) -> NodeContent<'_> {
         let node = self.resolve_alias(id);
         match node.syntax {
-            Syntax::Null | Syntax::Bool | Syntax::Number | Syntax::Word => {
+            NodeSyntax::Null | NodeSyntax::Bool | NodeSyntax::Number | NodeSyntax::Word => {
                 NodeContent::Word(self.source_of(node))
             }
-            Syntax::Quoted | Syntax::Unescaped => NodeContent::Text(self.quoted(node)),
-            Syntax::List => NodeContent::List,
-            Syntax::Map => NodeContent::Map,
-            Syntax::Alias => unreachable!("an alias never refers to another alias"),
+            NodeSyntax::Quoted | NodeSyntax::Unescaped => NodeContent::Text(self.quoted(node)),
+            NodeSyntax::List => NodeContent::List,
+            NodeSyntax::Map => NodeContent::Map,
+            NodeSyntax::Alias => unreachable!("an alias never refers to another alias"),
         }
     }
 
     /// Whether the node is a map, aliases followed.
     #[must_use]
     pub fn is_map(&self, id: NodeId) -> bool {
-        self.resolve_alias(id).syntax == Syntax::Map
+        self.resolve_alias(id).syntax == NodeSyntax::Map
     }
 
     /// Whether the node is a list, aliases followed.
     #[must_use]
     pub fn is_list(&self, id: NodeId) -> bool {
-        self.resolve_alias(id).syntax == Syntax::List
+        self.resolve_alias(id).syntax == NodeSyntax::List
     }
 
     /// The value of a quoted string or a block scalar.
     fn quoted(&self, node: TreeNode) -> &str {
-        let text = if node.syntax == Syntax::Unescaped {
+        let text = if node.syntax == NodeSyntax::Unescaped {
             let (start, end) = self.ranges[node.link as usize];
             self.unescaped.get(start as usize..end as usize)
         } else {
@@ -372,10 +375,14 @@ impl<'s> SyntaxTree<'s> {
     pub fn text(&self, id: NodeId) -> Option<&str> {
         let node = self.resolve_alias(id);
         match node.syntax {
-            Syntax::Quoted | Syntax::Unescaped => Some(self.quoted(node)),
-            Syntax::Word => Some(self.source_of(node)),
-            Syntax::Null | Syntax::Bool | Syntax::Number | Syntax::List | Syntax::Map => None,
-            Syntax::Alias => unreachable!("an alias never refers to another alias"),
+            NodeSyntax::Quoted | NodeSyntax::Unescaped => Some(self.quoted(node)),
+            NodeSyntax::Word => Some(self.source_of(node)),
+            NodeSyntax::Null
+            | NodeSyntax::Bool
+            | NodeSyntax::Number
+            | NodeSyntax::List
+            | NodeSyntax::Map => None,
+            NodeSyntax::Alias => unreachable!("an alias never refers to another alias"),
         }
     }
 
@@ -432,7 +439,7 @@ impl<'s> SyntaxTree<'s> {
     /// The index after the node and its descendants.
     fn end(&self, id: NodeId) -> u32 {
         let node = self.node(id);
-        if matches!(node.syntax, Syntax::List | Syntax::Map) {
+        if matches!(node.syntax, NodeSyntax::List | NodeSyntax::Map) {
             node.link
         } else {
             id.0 + 1

@@ -38,7 +38,7 @@ fn drawn(points: &[(f64, f64)], steps: &[(f64, f64)]) -> Option<String> {
     };
     let (xs, ys) = (axis(|point| point.0)?, axis(|point| point.1)?);
     // Draw the step line and the points.
-    let mut canvas = Canvas([[0; COLUMNS]; LINES]);
+    let mut canvas = BrailleCanvas([[0; COLUMNS]; LINES]);
     let place = |(x, y): (f64, f64)| {
         let at = |value: f64, (low, high): (f64, f64), most: usize| {
             let fraction = (ln(value) - ln(low)) / (ln(high) - ln(low));
@@ -77,9 +77,9 @@ fn ends((low, high): (f64, f64), value: f64) -> (f64, f64) {
 }
 
 /// A bitmap of dots, from the upper left.
-struct Canvas([[u8; COLUMNS]; LINES]);
+struct BrailleCanvas([[u8; COLUMNS]; LINES]);
 
-impl Canvas {
+impl BrailleCanvas {
     fn set(&mut self, [x, y]: [usize; 2]) {
         if let Some(letter) = self.0.get_mut(y / 4).and_then(|line| line.get_mut(x / 2)) {
             *letter |= BITS[y % 4][x % 2];

@@ -18,7 +18,7 @@ const MUTED: RGBColor = RGBColor(0x80, 0x80, 0x80);
 const FLOOR: RGBColor = RGBColor(0xd0, 0x60, 0x30);
 
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>;
-type Outcome<T = ()> = Result<T, Box<dyn Error>>;
+type ChartResult<T = ()> = Result<T, Box<dyn Error>>;
 
 /// A mark of a plot that shows its values on hover or keyboard focus.
 struct ChartMark {
@@ -94,7 +94,7 @@ pub(super) fn front_steps(rows: &[&StudyRow], end: f64) -> Vec<(f64, f64)> {
     steps
 }
 
-fn draw_row(chart: &mut Chart<'_, '_>, row: &StudyRow) -> Outcome {
+fn draw_row(chart: &mut Chart<'_, '_>, row: &StudyRow) -> ChartResult {
     let (x, y) = (row.seconds.value, row.errors.rmse);
     let color = if row.front { ACCENT } else { MUTED };
     let errors = &row.errors;
@@ -119,7 +119,7 @@ fn draw_label(
     row: &StudyRow,
     used: &[Parameter],
     labels: &mut Vec<(i32, i32)>,
-) -> Outcome {
+) -> ChartResult {
     /// The approximate size of a label.
     const SIZE: (i32, i32) = (110, 13);
     const ABOVE_OR_BELOW: [i32; 2] = [-15, 6];
@@ -224,7 +224,7 @@ fn span(values: impl Iterator<Item = f64>) -> AxisRange {
 
 fn plot(
     size: (u32, u32),
-    draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Outcome<Vec<ChartMark>>,
+    draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> ChartResult<Vec<ChartMark>>,
 ) -> String {
     let mut svg = String::new();
     let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();

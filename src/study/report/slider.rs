@@ -4,7 +4,7 @@
 use super::super::difference::{Difference, heat_map};
 use super::html::{self, escaped};
 use super::picture::wide;
-use rtc_codec::Change;
+use rtc_codec::ValueChange;
 use rtc_image::Image;
 use serde_json::Value;
 use std::fmt::Write;
@@ -23,7 +23,7 @@ pub struct SliderPage<'a> {
     /// FLIP of each pixel.
     pub flips: &'a [f64],
     /// The differences of their scenes, if known.
-    pub changes: Option<&'a [Change]>,
+    pub changes: Option<&'a [ValueChange]>,
 }
 
 /// The self-contained page.
@@ -90,7 +90,7 @@ fn changed(page: &SliderPage<'_>) -> String {
         return String::new();
     };
     let mut rows = String::new();
-    for Change { path, new, old } in changes.iter().take(MAX_CHANGES) {
+    for ValueChange { path, new, old } in changes.iter().take(MAX_CHANGES) {
         let cell = |value: &Option<Value>| escaped(&value_text(value.as_ref()));
         let (path, old, new) = (escaped(path), cell(old), cell(new));
         let _ = writeln!(rows, "<tr><td>{path}</td><td>{old}</td><td>{new}</td></tr>");

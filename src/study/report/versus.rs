@@ -1,7 +1,7 @@
 //! The comparison of a scene with its reference, for a terminal.
 
 use super::super::advice::{digits, seconds};
-use super::super::versus::{DifferentTile, Versus};
+use super::super::versus::{DifferentTile, SceneComparison};
 use super::table::count;
 use std::fmt::Write;
 
@@ -10,7 +10,7 @@ const MAX_LISTED: usize = 5;
 
 /// The comparison as text.
 #[must_use]
-pub fn versus_table(versus: &Versus) -> String {
+pub fn versus_table(versus: &SceneComparison) -> String {
     // Write the subjects of the comparison.
     let mut text = String::new();
     for (which, about) in ["scene    ", "reference"].iter().zip(&versus.scenes) {
@@ -61,7 +61,7 @@ pub fn versus_table(versus: &Versus) -> String {
     text
 }
 
-fn difference(versus: &Versus) -> String {
+fn difference(versus: &SceneComparison) -> String {
     let error = versus.error;
     if versus.rendered == 0.0 {
         return "The pictures are the same, to the last bit of the rendered part.\n".to_owned();
@@ -76,7 +76,7 @@ fn difference(versus: &Versus) -> String {
     )
 }
 
-fn tiles(versus: &Versus) -> String {
+fn tiles(versus: &SceneComparison) -> String {
     let (count, all) = (versus.different.len(), versus.tested);
     if count == 0 {
         return format!(

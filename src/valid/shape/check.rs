@@ -4,7 +4,7 @@ use super::area::has_area;
 use super::{Csg, Ellipsoid, Instance, Quad, Shape, Sphere, Surface, Triangle};
 use crate::check::{Checker, EntityCounts, SMALLEST};
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{self as ir, EntityKind, Field, ShapeKind, ValuePath};
+use rtc_ir::{self as ir, EntityField, EntityKind, ShapeKind, ValuePath};
 use rtc_math::{Positive, Vec3, is_set_expression, unit};
 
 /// Validates a surface. `Some(None)` for a face without an area: no ray can hit it, so it is
@@ -31,7 +31,7 @@ pub(crate) fn surface(
         material.0,
         counts.materials,
         "material",
-        ValuePath::new(EntityKind::Surface, index, Field::Material),
+        ValuePath::new(EntityKind::Surface, index, EntityField::Material),
     );
     let shape = shape.validate(&mut surface_check);
     let material = material?;
@@ -58,12 +58,12 @@ impl SurfaceCheck<'_, '_> {
         if self.kind == ShapeKind::Csg {
             return self.whole();
         }
-        let field = Field::of_shape(self.kind, path);
+        let field = EntityField::of_shape(self.kind, path);
         ValuePath::new(EntityKind::Surface, self.index, field)
     }
 
     fn whole(&self) -> ValuePath {
-        ValuePath::new(EntityKind::Surface, self.index, Field::Whole)
+        ValuePath::new(EntityKind::Surface, self.index, EntityField::Whole)
     }
 
     /// A point: its components are finite and in range.

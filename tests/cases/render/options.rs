@@ -6,7 +6,7 @@
 use libtest_mimic::Failed;
 use rtc::internals::color::Tone;
 use rtc::internals::image::BackgroundFill;
-use rtc::internals::passes::{IntegratorChoice, Overrides, Sun, View};
+use rtc::internals::passes::{IntegratorChoice, Overrides, SunLight, View};
 use rtc::internals::plan::Arithmetic;
 use rtc::internals::render::Aov;
 use std::fs;
@@ -25,7 +25,7 @@ pub(super) struct Options {
     pub(super) denoise: bool,
     pub(super) integrator: Option<IntegratorChoice>,
     pub(super) view: View,
-    pub(super) suns: Vec<Sun>,
+    pub(super) suns: Vec<SunLight>,
     pub(super) env_color: Option<[f64; 3]>,
     /// A file beside the case.
     pub(super) env: Option<String>,
@@ -132,10 +132,10 @@ fn size(text: &str) -> Option<[u32; 2]> {
     Some([width.parse().ok()?, height.parse().ok()?])
 }
 
-fn sun(text: &str) -> Option<Sun> {
+fn sun(text: &str) -> Option<SunLight> {
     let [x, y, z, irradiance] = numbers(text)?;
     let irradiance = [irradiance; 3];
-    Some(Sun {
+    Some(SunLight {
         direction: [x, y, z],
         irradiance,
     })

@@ -4,16 +4,16 @@
 use super::options::Options;
 use libtest_mimic::Failed;
 use rtc::internals::color::Tone;
-use rtc::internals::diag::Sink;
+use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::front::pixels;
 use rtc::internals::image::{
-    Association, BackgroundFill, DisplayTransform, FileFormat, Image, Layers, Picture,
+    AlphaAssociation, BackgroundFill, DisplayTransform, FileFormat, Image, Picture, PixelLayers,
 };
-use rtc::internals::ir::Lowered;
+use rtc::internals::ir::LoweredScene;
 use rtc::internals::passes::{EnvironmentOverride, SceneKind, ViewAndLight};
 use rtc::internals::pipeline::{self, Renderer};
-use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{AnyWorld, Aov, Background, Job, Values};
+use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::render::{AnyWorld, Aov, Background, RenderSelection, Values};
 use rtc::internals::source::{Loader, SourceMap};
 use rtc::internals::valid::{Mode, ValidScene};
 use std::collections::BTreeSet;
@@ -29,7 +29,7 @@ pub(super) struct Shot {
 pub(super) fn shoot(case: &Path) -> Result<Shot, Failed> {
     let mut options = Options::read(case)?;
     let scene = validate(case, &mut options)?;
-    let plan = Plan::with_arithmetic(options.arithmetic, &scene, Rules::ALL);
+    let plan = Plan::with_arithmetic(options.arithmetic, &scene, RuleSet::ALL);
     let renderer = Renderer::new(&scene, &plan, options.threads)?;
     let picture = match options.aov {
         Some((aov, range)) => layer(&renderer, &scene, aov, range),
@@ -48,7 +48,7 @@ pub(super) fn shoot(case: &Path) -> Result<Shot, Failed> {
 
 /// The proven scene of a case, in which no more is found than it says.
 fn validate(case: &Path, options: &mut Options) -> Result<ValidScene, Failed> {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
     let file = Loader.file(case, &mut map).map_err(|e| format!("{e:?}"))?;
     let reading = pipeline::Options {
         front: options.front.clone(),
@@ -80,11 +80,11 @@ fn validate(case: &Path, options: &mut Options) -> Result<ValidScene, Failed> {
 
 /// Puts a scene into the light of its options; one without light comes into the studio.
 fn stage(
-    lowered: &mut Lowered,
+    lowered: &mut LoweredScene,
     case: &Path,
     options: &Options,
     map: &SourceMap,
-    sink: &mut Sink,
+    sink: &mut DiagnosticSink,
 ) -> Result<(), Failed> {
     let mut environment = options.env_color.map(EnvironmentOverride::Color);
     if let Some(name) = &options.env {
@@ -114,7 +114,7 @@ fn colors(renderer: &Renderer, scene: &ValidScene, options: &Options) -> Picture
     let mode = &scene.settings().mode;
     let tone = options.tone.unwrap_or(mode.tone());
     let is_plain = options.stops == 0.0 && options.tone.unwrap_or(Tone::None) == Tone::None;
-    let job = Job {
+    let job = RenderSelection {
         values: if is_plain && mode.tone() == Tone::None {
             Values::Display
         } else {
@@ -125,11 +125,11 @@ fn colors(renderer: &Renderer, scene: &ValidScene, options: &Options) -> Picture
         } else {
             Background::Nothing
         },
-        ..Job::default()
+        ..RenderSelection::default()
     };
     let film = match *mode {
         Mode::Path(path) if options.denoise => {
-            let world = AnyWorld::prepare(scene, &Plan::new(scene, Rules::ALL));
+            let world = AnyWorld::prepare(scene, &Plan::new(scene, RuleSet::ALL));
             let picture = world.denoised(path.samples.get(), &job, &|_| true, &|| ());
             picture.unwrap().film
         }
@@ -142,14 +142,16 @@ fn colors(renderer: &Renderer, scene: &ValidScene, options: &Options) -> Picture
         tone,
         background: options.background,
     };
-    look.develop(film.image, film.coverage, Association::Straight)
+    look.develop(film.image, film.coverage, AlphaAssociation::Straight)
 }
 
 /// A layer as colours: its values from the first of a range, black, to the last, white.
 fn layer(renderer: &Renderer, scene: &ValidScene, aov: Aov, [low, high]: [f64; 2]) -> Picture {
     let camera = scene.camera();
     let (width, height) = (camera.width.get(), camera.height.get());
-    let Layers { names, values } = renderer.layers(&[aov], &Job::default(), &|| true).unwrap();
+    let PixelLayers { names, values } = renderer
+        .layers(&[aov], &RenderSelection::default(), &|| true)
+        .unwrap();
     assert_eq!(names, aov.channels());
     let shade = |value: &f32| ((f64::from(*value) - low) / (high - low)).clamp(0.0, 1.0);
     let color = |values: &[f32]| match values {

@@ -1,7 +1,7 @@
 //! Random emitters.
 
 use super::Dice;
-use rtc::internals::ir::{Emitter, Photometry};
+use rtc::internals::ir::{Photometry, PunctualKind};
 
 impl Dice {
     /// An emitter of any kind.
@@ -10,17 +10,17 @@ impl Dice {
         position: [f64; 3],
         direction: [f64; 3],
         range: Option<f64>,
-    ) -> Emitter {
+    ) -> PunctualKind {
         match self.roll(4) {
-            0 => Emitter::Sun { direction },
-            1 => Emitter::Point { position, range },
-            2 => Emitter::Photometric {
+            0 => PunctualKind::Sun { direction },
+            1 => PunctualKind::Point { position, range },
+            2 => PunctualKind::Photometric {
                 position,
                 direction,
                 horizontal: self.pick(&[[1.0, 0.25, 0.125], [-2.0, 1.0, 0.5]]),
                 photometry: Box::new(self.photometry()),
             },
-            _ => Emitter::Spot {
+            _ => PunctualKind::Spot {
                 position,
                 direction,
                 inner_angle: 0.1,
@@ -44,12 +44,12 @@ impl Dice {
     }
 
     /// An emitter above the origin that points about downwards.
-    pub(in super::super) fn emitter_above(&mut self) -> Emitter {
+    pub(in super::super) fn emitter_above(&mut self) -> PunctualKind {
         let position = [self.number(1), self.number(1), self.pick(&[1.0, 1.5, 3.0])];
         let direction = [self.number(1), self.number(1), -1.5];
         let range = self.pick(&[None, Some(3.0)]);
         let mut emitter = self.emitter(position, direction, range);
-        if let Emitter::Sun { direction } = &mut emitter {
+        if let PunctualKind::Sun { direction } = &mut emitter {
             *direction = position;
         }
         emitter

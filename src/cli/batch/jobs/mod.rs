@@ -4,15 +4,15 @@ mod dask;
 mod openjd;
 mod slurm;
 
-use super::super::args::{Engine, Farm};
-use super::commands::Commands;
-use super::frames::Frames;
+use super::super::args::{FarmArgs, FarmEngine};
+use super::commands::JobCommands;
+use super::frames::JobFrames;
 
 /// A picture in parts, or some frames of them, for an engine.
 pub(super) struct FarmJob<'a> {
-    engine: Engine,
-    commands: Commands<'a>,
-    frames: &'a Frames,
+    engine: FarmEngine,
+    commands: JobCommands<'a>,
+    frames: &'a JobFrames,
     /// The description of the job, without quotes.
     title: String,
     picture: &'a str,
@@ -24,7 +24,7 @@ pub(super) struct FarmJob<'a> {
 
 impl<'a> FarmJob<'a> {
     /// The job for scenes whose hashes are given.
-    pub(super) fn new(args: &'a Farm, frames: &'a Frames, hashes: &[String]) -> Self {
+    pub(super) fn new(args: &'a FarmArgs, frames: &'a JobFrames, hashes: &[String]) -> Self {
         let (parts, picture) = (args.parts, &args.picture);
         let scene = frames.scene(&example(frames));
         let hash = hashes.first().map_or("", String::as_str);
@@ -35,7 +35,7 @@ impl<'a> FarmJob<'a> {
         let version = env!("CARGO_PKG_VERSION");
         Self {
             engine: args.to,
-            commands: Commands::new(args, frames),
+            commands: JobCommands::new(args, frames),
             frames,
             title: format!(
                 "{parts} parts of {picture}, of {scene} {hash}{more}, for rtc {version}"
@@ -51,18 +51,18 @@ impl<'a> FarmJob<'a> {
     /// What starts it, typed in its folder.
     pub(super) fn how_to_run(&self) -> &'static str {
         match self.engine {
-            Engine::OpenJd => "openjd run template.json",
-            Engine::Slurm => "sh submit.sh",
-            Engine::Dask => "python run.py",
+            FarmEngine::OpenJd => "openjd run template.json",
+            FarmEngine::Slurm => "sh submit.sh",
+            FarmEngine::Dask => "python run.py",
         }
     }
 
     /// The names and texts of its files.
     pub(super) fn files(&self) -> Vec<(&'static str, String)> {
         let mut files = match self.engine {
-            Engine::OpenJd => vec![("template.json", openjd::template(self))],
-            Engine::Slurm => slurm::scripts(self).to_vec(),
-            Engine::Dask => vec![("run.py", dask::driver(self))],
+            FarmEngine::OpenJd => vec![("template.json", openjd::template(self))],
+            FarmEngine::Slurm => slurm::scripts(self).to_vec(),
+            FarmEngine::Dask => vec![("run.py", dask::driver(self))],
         };
         files.push(("README", self.readme()));
         files
@@ -73,12 +73,12 @@ impl<'a> FarmJob<'a> {
         let Self { title, retries, .. } = self;
         let whole = self.commands.whole(&example(self.frames)).join(" ");
         let run = match self.engine {
-            Engine::OpenJd => format!(
+            FarmEngine::OpenJd => format!(
                 "`openjd run template.json` here; on Deadline Cloud `deadline bundle submit` with \
                 `--max-retries-per-task {retries}`"
             ),
-            Engine::Slurm => "`sh submit.sh` in this folder, which all nodes share".to_owned(),
-            Engine::Dask => {
+            FarmEngine::Slurm => "`sh submit.sh` in this folder, which all nodes share".to_owned(),
+            FarmEngine::Dask => {
                 "`python run.py [SCHEDULER]` in this folder, which all workers share; one \
                  thread a worker"
                     .to_owned()
@@ -94,6 +94,6 @@ impl<'a> FarmJob<'a> {
 }
 
 /// The first frame, as it is in names.
-fn example(frames: &Frames) -> String {
+fn example(frames: &JobFrames) -> String {
     frames.names().into_iter().next().unwrap_or_default()
 }

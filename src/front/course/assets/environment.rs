@@ -3,7 +3,7 @@
 use super::{AssetLoader, MissingAssetPolicy, PendingAsset};
 use crate::pixels;
 use rtc_image::is_radiance;
-use rtc_ir::{ImageId, Lowered};
+use rtc_ir::{ImageId, LoweredScene};
 use rtc_source::FileKind;
 
 /// The largest file read, in bytes: the largest image in 32-bit floats.
@@ -19,7 +19,7 @@ pub(super) const KIND: FileKind = FileKind {
 pub(super) fn load(
     id: ImageId,
     pending: &PendingAsset,
-    lowered: &mut Lowered,
+    lowered: &mut LoweredScene,
     loader: &mut AssetLoader<'_>,
 ) {
     // Find, read and decode the file.

@@ -6,11 +6,11 @@ use crate::{FrontOptions, gltf, over_limit};
 use glam::DAffine3;
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{
-    EntityKind, Field, ImageId, Light, Lowered, Material, MeshId, Punctual, Scene, Shape,
-    SourceSpans, Surface, Texture, TextureId, ValuePath,
+    EntityField, EntityKind, ImageId, Light, LoweredScene, Material, MeshId, Punctual, Scene,
+    Shape, SourceSpans, Surface, Texture, TextureId, ValuePath,
 };
 use rtc_math::Vec3;
-use rtc_source::{Budget, Exceeded, FileId, FileKind, Found, Resource};
+use rtc_source::{Budget, FileId, FileKind, FoundFile, LimitExceeded, Resource};
 
 /// The file formats of assets.
 pub(super) const KIND: FileKind = FileKind {
@@ -43,7 +43,7 @@ impl GltfAssets {
         &mut self,
         transform: [[f64; 3]; 4],
         pending: &PendingAsset,
-        lowered: &mut Lowered,
+        lowered: &mut LoweredScene,
         loader: &mut AssetLoader<'_>,
     ) {
         if self.is_over {
@@ -90,7 +90,7 @@ impl GltfAssets {
 /// Adds the bytes of an asset to the source map if they are one. Otherwise diagnostics would quote
 /// a file of another format.
 fn add_asset(
-    found: &Found,
+    found: &FoundFile,
     bytes: Vec<u8>,
     pending: &PendingAsset,
     loader: &mut AssetLoader<'_>,
@@ -127,7 +127,7 @@ impl IndexOffsets {
     }
 
     /// Records the spans of the asset's entities under their new indices.
-    fn record(&self, asset: &Lowered, source_spans: &mut SourceSpans) {
+    fn record(&self, asset: &LoweredScene, source_spans: &mut SourceSpans) {
         let Scene {
             images,
             textures,
@@ -142,8 +142,9 @@ impl IndexOffsets {
             (EntityKind::Material, self.materials, materials.len()),
         ] {
             for index in 0..count {
-                let transform = ValuePath::new(entity, offsets as usize + index, Field::Whole);
-                let source = ValuePath::new(entity, index, Field::Whole);
+                let transform =
+                    ValuePath::new(entity, offsets as usize + index, EntityField::Whole);
+                let source = ValuePath::new(entity, index, EntityField::Whole);
                 source_spans.record(transform, asset.source_spans.span(source));
             }
         }
@@ -179,8 +180,8 @@ impl IndexOffsets {
 }
 
 /// Adds the images, textures, meshes and materials of an asset to a scene.
-fn add(asset: Lowered, lowered: &mut Lowered) -> ImportedAsset {
-    let Lowered {
+fn add(asset: LoweredScene, lowered: &mut LoweredScene) -> ImportedAsset {
+    let LoweredScene {
         scene,
         source_spans,
     } = lowered;
@@ -207,7 +208,7 @@ fn add(asset: Lowered, lowered: &mut Lowered) -> ImportedAsset {
 
 impl ImportedAsset {
     /// Charges the budget for one more placement.
-    fn charge(&self, budget: &Budget) -> Result<(), Exceeded> {
+    fn charge(&self, budget: &Budget) -> Result<(), LimitExceeded> {
         let names = self.names.iter().map(|name| name.len() as u64).sum::<u64>();
         let lights = size_of::<Light>() as u64 * self.lights.len() as u64;
         let surfaces = self.surfaces.len() as u64;
@@ -216,8 +217,8 @@ impl ImportedAsset {
     }
 
     /// Adds the surfaces and lights of the asset, transformed by `world`.
-    fn transform(&self, world: DAffine3, pending: &PendingAsset, lowered: &mut Lowered) {
-        let Lowered {
+    fn transform(&self, world: DAffine3, pending: &PendingAsset, lowered: &mut LoweredScene) {
+        let LoweredScene {
             scene,
             source_spans,
         } = lowered;
@@ -235,14 +236,18 @@ impl ImportedAsset {
                 instance.world_from_object = (world * source).to_cols_array_2d();
             }
             source_spans.record(
-                ValuePath::new(EntityKind::Surface, scene.surfaces.len(), Field::Whole),
+                ValuePath::new(
+                    EntityKind::Surface,
+                    scene.surfaces.len(),
+                    EntityField::Whole,
+                ),
                 pending.span,
             );
             scene.surfaces.push(surface);
         }
         for light in &self.lights {
             source_spans.record(
-                ValuePath::new(EntityKind::Light, scene.lights.len(), Field::Whole),
+                ValuePath::new(EntityKind::Light, scene.lights.len(), EntityField::Whole),
                 pending.span,
             );
             scene.lights.push(transformed(light, world));

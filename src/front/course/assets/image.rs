@@ -1,14 +1,14 @@
 //! Loads the images of textures, and turns bump maps that hold normals into normal maps.
 
 use super::{AssetLoader, AssetTarget, FileCache, MissingAssetPolicy, PendingAsset};
-use crate::pixels::{self, PixelFault};
-use rtc_diag::{Diagnostic, Sink, clip_path, codes};
-use rtc_image::{Opacity, Pixels};
+use crate::pixels::{self, PixelDecodeError};
+use rtc_diag::{Diagnostic, DiagnosticSink, clip_path, codes};
+use rtc_image::{OpacityUse, Pixels};
 use rtc_ir::{
-    self as ir, Bump, EntityKind, Field, ImageId, Lowered, Material, Scene, Texture, TextureId,
-    ValuePath,
+    self as ir, Bump, EntityField, EntityKind, ImageId, LoweredScene, Material, Scene, Texture,
+    TextureId, ValuePath,
 };
-use rtc_source::Found;
+use rtc_source::FoundFile;
 use std::collections::BTreeMap;
 
 /// The largest file read, in bytes: the largest image, uncompressed.
@@ -19,8 +19,8 @@ const MAX_BYTES: u64 = 1 << 30;
 pub(super) fn load(
     id: ImageId,
     pending: &PendingAsset,
-    lowered: &mut Lowered,
-    (cache, opacity): (&mut FileCache<ImageId>, Opacity),
+    lowered: &mut LoweredScene,
+    (cache, opacity): (&mut FileCache<ImageId>, OpacityUse),
     loader: &mut AssetLoader<'_>,
 ) -> Option<ImageId> {
     let found = loader.find(pending, policy(pending))?;
@@ -87,9 +87,9 @@ fn policy(pending: &PendingAsset) -> MissingAssetPolicy {
 }
 
 fn read(
-    found: &Found,
+    found: &FoundFile,
     pending: &PendingAsset,
-    opacity: Opacity,
+    opacity: OpacityUse,
     loader: &mut AssetLoader<'_>,
 ) -> Option<Pixels> {
     match loader.loader.found(found, MAX_BYTES, loader.map) {
@@ -107,7 +107,7 @@ fn read(
     }
 }
 
-fn rejection(fault: &PixelFault, found: &Found, pending: &PendingAsset) -> Diagnostic {
+fn rejection(fault: &PixelDecodeError, found: &FoundFile, pending: &PendingAsset) -> Diagnostic {
     let what = format!("the texture `{}`", found.shown.display());
     pixels::rejection(
         fault,
@@ -118,7 +118,7 @@ fn rejection(fault: &PixelFault, found: &Found, pending: &PendingAsset) -> Diagn
 }
 
 /// Turns bump maps that hold normals into normal maps.
-pub(super) fn find_normal_maps(lowered: &mut Lowered, sink: &mut Sink) {
+pub(super) fn find_normal_maps(lowered: &mut LoweredScene, sink: &mut DiagnosticSink) {
     let Scene {
         materials,
         textures,
@@ -153,10 +153,11 @@ pub(super) fn find_normal_maps(lowered: &mut Lowered, sink: &mut Sink) {
                 "`{}` holds normals, so it is used as a normal map",
                 clip_path(&images[image].name)
             );
-            let span =
-                lowered
-                    .source_spans
-                    .span(ValuePath::new(EntityKind::Material, index, Field::Bump));
+            let span = lowered.source_spans.span(ValuePath::new(
+                EntityKind::Material,
+                index,
+                EntityField::Bump,
+            ));
             sink.push(
                 Diagnostic::new(&codes::NORMALS_AS_BUMP, message)
                     .at(span, "holds normals")

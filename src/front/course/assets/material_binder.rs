@@ -8,9 +8,10 @@ use crate::mesh::SpannedName;
 use crate::{gltf, over_limit};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{
-    EntityKind, Field, Instance, Lowered, MaterialId, Mesh, MeshId, Scene, Shape, ValuePath,
+    EntityField, EntityKind, Instance, LoweredScene, MaterialId, Mesh, MeshId, Scene, Shape,
+    ValuePath,
 };
-use rtc_source::{Exceeded, Resource, Span};
+use rtc_source::{LimitExceeded, Resource, Span};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The source of a mesh's material.
@@ -50,7 +51,7 @@ struct MeshMaterials {
 pub(super) fn bind(
     pending_materials: &[PendingMaterial],
     meshes: &MeshFiles,
-    lowered: &mut Lowered,
+    lowered: &mut LoweredScene,
     loader: &mut AssetLoader<'_>,
 ) -> MtlCache {
     let scene = &lowered.scene;
@@ -96,12 +97,12 @@ struct MaterialBinder<'a, 'run> {
     mesh_materials: BTreeMap<usize, Option<MeshMaterials>>,
     /// Whether an MTL of a mesh file exists, for the files checked so far.
     has_library: BTreeMap<usize, bool>,
-    lowered: &'a mut Lowered,
+    lowered: &'a mut LoweredScene,
     loader: &'a mut AssetLoader<'run>,
 }
 
 impl MaterialBinder<'_, '_> {
-    fn bind(&mut self, pending: &PendingMaterial) -> Result<(), Exceeded> {
+    fn bind(&mut self, pending: &PendingMaterial) -> Result<(), LimitExceeded> {
         let Some(Instance { mesh, .. }) = instance(&self.lowered.scene, pending.surface).cloned()
         else {
             return Ok(());
@@ -163,18 +164,18 @@ impl MaterialBinder<'_, '_> {
         pending: &PendingMaterial,
         mesh: MeshId,
         at: usize,
-    ) -> Result<(), Exceeded> {
+    ) -> Result<(), LimitExceeded> {
         let (file, budget) = (&self.meshes.files[at], self.loader.map.budget());
         let Some(Some(mesh_materials)) = self.mesh_materials.get_mut(&at) else {
             return Ok(());
         };
-        let Lowered {
+        let LoweredScene {
             scene,
             source_spans,
         } = &mut *self.lowered;
         // Split the mesh the first time; its first part replaces it.
         if mesh_materials.parts.is_empty() {
-            let path = |mesh: usize| ValuePath::new(EntityKind::Mesh, mesh, Field::Whole);
+            let path = |mesh: usize| ValuePath::new(EntityKind::Mesh, mesh, EntityField::Whole);
             let (mesh_index, span) = (mesh.0 as usize, source_spans.span(path(mesh.0 as usize)));
             let name = scene.meshes[mesh_index].name.clone();
             for (first, part) in file.parts(budget)?.into_iter().enumerate() {
@@ -197,7 +198,7 @@ impl MaterialBinder<'_, '_> {
         budget.charge(Resource::Surfaces, more)?;
         budget.charge(Resource::Memory, more * gltf::SURFACE)?;
         let surface = scene.surfaces[pending.surface].clone();
-        let path = |surface| ValuePath::new(EntityKind::Surface, surface, Field::Whole);
+        let path = |surface| ValuePath::new(EntityKind::Surface, surface, EntityField::Whole);
         let span = source_spans.span(path(pending.surface));
         // Add one surface per part; the first replaces the surface.
         let parts = mesh_materials.parts.iter().zip(&mesh_materials.materials);

@@ -1,17 +1,17 @@
 //! Loads mesh files, each once, and extracts the parts that a scene uses.
 
-use super::text_file::TextKind;
+use super::text_file::TextFileKind;
 use super::{AssetLoader, FileCache, MissingAssetPolicy, PendingAsset};
-use crate::mesh::{EXTENSIONS, MaterialUse, Parsed, SpannedName, is_mesh, parse};
+use crate::mesh::{EXTENSIONS, MaterialUse, ParsedMesh, SpannedName, is_mesh, parse};
 use crate::over_limit;
-use rtc_diag::{Diagnostic, Sink, clip, codes};
-use rtc_ir::{Lowered, Mesh, MeshId, Mode, Scene, Shape};
-use rtc_source::{Budget, Exceeded, FileId, FileKind, Found, Resource, Span};
+use rtc_diag::{Diagnostic, DiagnosticSink, clip, codes};
+use rtc_ir::{LoweredScene, Mesh, MeshId, Mode, Scene, Shape};
+use rtc_source::{Budget, FileId, FileKind, FoundFile, LimitExceeded, Resource, Span};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// The file formats of meshes.
-pub(super) const TEXT: TextKind = TextKind {
+pub(super) const TEXT: TextFileKind = TextFileKind {
     entity: "mesh",
     is_not: "no OBJ, OFF, STL, PLY or XYZ",
     code: &codes::BAD_MESH_FILE,
@@ -54,7 +54,7 @@ impl MeshFiles {
         &mut self,
         id: MeshId,
         pending: &PendingAsset,
-        lowered: &mut Lowered,
+        lowered: &mut LoweredScene,
         loader: &mut AssetLoader<'_>,
     ) {
         let Some(found) = loader.find(pending, MissingAssetPolicy::Object) else {
@@ -145,8 +145,8 @@ fn fill(target: &mut Mesh, mesh: Mesh) {
 }
 
 impl MeshFile {
-    pub(super) fn new(parsed: Parsed, file: FileId, path: String) -> Self {
-        let Parsed {
+    pub(super) fn new(parsed: ParsedMesh, file: FileId, path: String) -> Self {
+        let ParsedMesh {
             mesh: full_mesh,
             not_drawn: _,
             material_use,
@@ -168,7 +168,7 @@ impl MeshFile {
     }
 
     /// The triangles with the material `name`, if there are any.
-    fn part(&self, name: &str, budget: &Budget) -> Result<Option<Mesh>, Exceeded> {
+    fn part(&self, name: &str, budget: &Budget) -> Result<Option<Mesh>, LimitExceeded> {
         let Some(at) = self.material_use.index_of(name) else {
             return Ok(None);
         };
@@ -178,7 +178,7 @@ impl MeshFile {
     }
 
     /// One mesh for the triangles of each material.
-    pub(super) fn parts(&self, budget: &Budget) -> Result<Vec<Mesh>, Exceeded> {
+    pub(super) fn parts(&self, budget: &Budget) -> Result<Vec<Mesh>, LimitExceeded> {
         budget.has(Resource::Memory, 4 * self.full_mesh.positions.len() as u64)?;
         let mut unused = vec![UNASSIGNED; self.full_mesh.positions.len()];
         let ranges = self.material_use.parts(self.full_mesh.triangles.len());
@@ -205,7 +205,7 @@ fn extract(
     ranges: &[Range<usize>],
     new_indices: &mut [u32],
     budget: &Budget,
-) -> Result<Mesh, Exceeded> {
+) -> Result<Mesh, LimitExceeded> {
     let triangles = || {
         ranges
             .iter()
@@ -251,7 +251,7 @@ fn extract(
 
 /// Reads and parses a mesh file.
 fn read_file(
-    found: &Found,
+    found: &FoundFile,
     pending: &PendingAsset,
     loader: &mut AssetLoader<'_>,
 ) -> Option<MeshFile> {
@@ -263,10 +263,10 @@ fn read_file(
 
 /// Reports the elements of a file that are not drawn; `named` is where a scene names the file.
 pub(super) fn report_not_drawn(
-    parsed: &Parsed,
+    parsed: &ParsedMesh,
     file: FileId,
     named: Option<Span>,
-    sink: &mut Sink,
+    sink: &mut DiagnosticSink,
 ) {
     if let Some((first, count)) = &parsed.not_drawn {
         let message = format!("{}: {}", count_of(*count), first.message);

@@ -1,25 +1,25 @@
 //! The diagnostic for a file that is not found.
 
-use super::{Missing, PendingAsset};
+use super::{MissingFile, PendingAsset};
 use rtc_diag::{Diagnostic, clip_path, codes};
 use std::path::PathBuf;
 
 /// The diagnostic for a file that is not found; `similar` is the name of an existing one.
 pub(super) fn missing(
     pending: &PendingAsset,
-    fault: &Missing,
+    fault: &MissingFile,
     similar: Option<&str>,
 ) -> Diagnostic {
     let name = clip_path(&pending.path);
     match fault {
-        Missing::NoFolder => {
+        MissingFile::NoFolder => {
             let message =
                 format!("`{name}` cannot be found: a scene from standard input has no folder");
             Diagnostic::new(&codes::FILE_OUTSIDE, message)
                 .at(pending.span, "no folder to search")
                 .hint("pass the folder of its files with `--asset-root FOLDER`")
         }
-        Missing::Absent(searched) => {
+        MissingFile::Absent(searched) => {
             Diagnostic::new(&codes::FILE_NOT_FOUND, format!("there is no file `{name}`"))
                 .at(pending.span, "not found")
                 .hint(match similar {
@@ -28,7 +28,7 @@ pub(super) fn missing(
                 })
                 .hint(HINT)
         }
-        Missing::Outside(searched) => {
+        MissingFile::Outside(searched) => {
             let message = format!("`{name}` leaves the folder of the scene");
             Diagnostic::new(&codes::FILE_OUTSIDE, message)
                 .at(pending.span, "not followed")

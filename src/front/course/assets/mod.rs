@@ -4,7 +4,7 @@
 //! Lowering leaves a placeholder in the IR for each file and a [`PendingAsset`] with its path, its
 //! span and its [`AssetTarget`]. [`load`] works through them in these steps:
 //!
-//! 1. `AssetLoader` finds each file (near the scene, see `rtc_source::Search`) and reads it. A
+//! 1. `AssetLoader` finds each file (near the scene, see `rtc_source::FileSearch`) and reads it. A
 //!    file with several names is loaded once (`FileCache`).
 //! 2. The module of its format decodes it into the placeholder: `image`, `mesh`, `environment`,
 //!    `photometry` or `gltf`.
@@ -42,10 +42,12 @@ use super::object;
 use crate::FrontOptions;
 use crate::pixels::PICTURES;
 use missing::missing;
-use rtc_diag::{Diagnostic, Severity, Sink, clip_path, codes, nearest};
-use rtc_image::Opacity;
-use rtc_ir::{EntityKind, Field, ImageId, Lowered, MeshId, Photometry, ValuePath};
-use rtc_source::{FileId, FileKind, Found, Identity, Loader, Missing, Search, SourceMap, Span};
+use rtc_diag::{Diagnostic, DiagnosticSink, Severity, clip_path, codes, nearest};
+use rtc_image::OpacityUse;
+use rtc_ir::{EntityField, EntityKind, ImageId, LoweredScene, MeshId, Photometry, ValuePath};
+use rtc_source::{
+    FileId, FileIdentity, FileKind, FileSearch, FoundFile, Loader, MissingFile, SourceMap, Span,
+};
 use std::collections::BTreeMap;
 
 /// A file that a scene names and that is not loaded yet.
@@ -94,7 +96,7 @@ impl AssetTarget {
             Self::Mesh(id) => Some((EntityKind::Mesh, id.0)),
             Self::Gltf(_) | Self::Photometry(_) | Self::Materials => None,
         }
-        .map(|(entity, index)| ValuePath::new(entity, index as usize, Field::Whole))
+        .map(|(entity, index)| ValuePath::new(entity, index as usize, EntityField::Whole))
     }
 }
 
@@ -107,8 +109,8 @@ pub fn load(
     scene: FileId,
     options: &FrontOptions,
     map: &mut SourceMap,
-    sink: &mut Sink,
-) -> Lowered {
+    sink: &mut DiagnosticSink,
+) -> LoweredScene {
     let UnfinishedScene {
         mut lowered,
         pending_assets,
@@ -119,7 +121,7 @@ pub fn load(
         return lowered;
     }
     let folder = map.folder(scene);
-    let search = Search::new(folder, options.asset_root.as_deref())
+    let search = FileSearch::new(folder, options.asset_root.as_deref())
         .with_parent(folder, options.home.as_deref());
     let mut import = AssetImport::new(search, options, map, sink);
     import.load_all(pending_assets, &mut lowered);
@@ -147,10 +149,10 @@ struct AssetImport<'run> {
 
 impl<'run> AssetImport<'run> {
     fn new(
-        search: Search,
+        search: FileSearch,
         options: &'run FrontOptions,
         map: &'run mut SourceMap,
-        sink: &'run mut Sink,
+        sink: &'run mut DiagnosticSink,
     ) -> Self {
         Self {
             loader: AssetLoader {
@@ -171,7 +173,7 @@ impl<'run> AssetImport<'run> {
     }
 
     /// Assigns materials to the meshes, and points textures to the loaded images.
-    fn finish(mut self, pending_materials: &[PendingMaterial], lowered: &mut Lowered) {
+    fn finish(mut self, pending_materials: &[PendingMaterial], lowered: &mut LoweredScene) {
         let cache =
             material_binder::bind(pending_materials, &self.meshes, lowered, &mut self.loader);
         self.load_all(cache.pending_assets, lowered);
@@ -182,17 +184,17 @@ impl<'run> AssetImport<'run> {
     }
 
     /// Loads files.
-    fn load_all(&mut self, pending_assets: Vec<PendingAsset>, lowered: &mut Lowered) {
+    fn load_all(&mut self, pending_assets: Vec<PendingAsset>, lowered: &mut LoweredScene) {
         let loader = &mut self.loader;
         for pending in pending_assets {
             match pending.target {
                 AssetTarget::Image(id) | AssetTarget::Map(id) => {
-                    let kind = (&mut self.images, Opacity::Dropped);
+                    let kind = (&mut self.images, OpacityUse::Dropped);
                     let image = image::load(id, &pending, lowered, kind, loader);
                     self.image_of.insert(id.0, image);
                 }
                 AssetTarget::Sampled(id) | AssetTarget::Mask(id) => {
-                    let kind = (&mut self.sampled, Opacity::Kept);
+                    let kind = (&mut self.sampled, OpacityUse::Kept);
                     let image = image::load(id, &pending, lowered, kind, loader);
                     self.image_of.insert(id.0, image);
                 }
@@ -211,7 +213,7 @@ impl<'run> AssetImport<'run> {
 
 /// A cache of loaded files by identity: each is loaded once, whatever its name. `None` if loading
 /// failed.
-struct FileCache<T>(BTreeMap<Identity, Option<T>>);
+struct FileCache<T>(BTreeMap<FileIdentity, Option<T>>);
 
 impl<T> Default for FileCache<T> {
     fn default() -> Self {
@@ -221,7 +223,7 @@ impl<T> Default for FileCache<T> {
 
 impl<T> FileCache<T> {
     /// The result of loading a file; calls `read` the first time.
-    fn get_or_load(&mut self, found: &Found, read: impl FnOnce() -> Option<T>) -> Option<&T> {
+    fn get_or_load(&mut self, found: &FoundFile, read: impl FnOnce() -> Option<T>) -> Option<&T> {
         let Some(identity) = found.identity() else {
             // The file has been removed; reading it reports that.
             read();
@@ -233,11 +235,11 @@ impl<T> FileCache<T> {
 
 /// Finds and reads files, and reports failures.
 struct AssetLoader<'run> {
-    search: Search,
+    search: FileSearch,
     options: &'run FrontOptions,
     loader: Loader,
     map: &'run mut SourceMap,
-    sink: &'run mut Sink,
+    sink: &'run mut DiagnosticSink,
     /// The number of file names compared with missing ones.
     compared: usize,
 }
@@ -278,7 +280,7 @@ impl MissingAssetPolicy {
 
 impl AssetLoader<'_> {
     /// Finds a file; reports a missing one.
-    fn find(&mut self, pending: &PendingAsset, policy: MissingAssetPolicy) -> Option<Found> {
+    fn find(&mut self, pending: &PendingAsset, policy: MissingAssetPolicy) -> Option<FoundFile> {
         let extensions: &[&str] = match policy {
             MissingAssetPolicy::Object if !has_extension(&pending.path) => &["", ".obj", ".off"],
             MissingAssetPolicy::Object
@@ -327,7 +329,7 @@ impl AssetLoader<'_> {
         })
     }
 
-    fn report_location(&mut self, pending: &PendingAsset, found: &Found, elsewhere: bool) {
+    fn report_location(&mut self, pending: &PendingAsset, found: &FoundFile, elsewhere: bool) {
         if elsewhere {
             let message = format!(
                 "`{}` is taken from `{}`",
@@ -354,7 +356,7 @@ impl AssetLoader<'_> {
     /// Reports a file that was found and can't be read.
     fn unreadable(
         &mut self,
-        found: &Found,
+        found: &FoundFile,
         why: &str,
         span: Option<Span>,
         policy: MissingAssetPolicy,

@@ -17,18 +17,18 @@ pub(super) use bake::bake;
 pub(super) use cache::MtlCache;
 
 use super::mesh::MeshFile;
-use super::text_file::TextKind;
+use super::text_file::TextFileKind;
 use super::{AssetLoader, AssetTarget, MissingAssetPolicy, PendingAsset};
 use crate::mesh::SpannedName;
-use crate::mesh::mtl::{Library, is_mtl, parse};
+use crate::mesh::mtl::{MtlLibrary, is_mtl, parse};
 use cache::sibling_path;
 use phong::weight;
 use rtc_diag::{Diagnostic, Severity, codes};
-use rtc_ir::{Lowered, MaterialId, Mode};
+use rtc_ir::{LoweredScene, MaterialId, Mode};
 use rtc_source::{FileId, FileKind, Span};
 
 /// The file formats of MTL libraries.
-pub(super) const TEXT: TextKind = TextKind {
+pub(super) const TEXT: TextFileKind = TextFileKind {
     entity: "material",
     is_not: "no MTL",
     code: &codes::BAD_MTL,
@@ -42,7 +42,7 @@ pub(super) const TEXT: TextKind = TextKind {
 
 /// A parsed MTL library and its file.
 struct LoadedLibrary {
-    library: Library,
+    library: MtlLibrary,
     file: FileId,
     /// Its path relative to the searched folder.
     path: String,
@@ -77,7 +77,7 @@ impl MeshFile {
     pub(super) fn materials(
         &self,
         cache: &mut MtlCache,
-        lowered: &mut Lowered,
+        lowered: &mut LoweredScene,
         loader: &mut AssetLoader<'_>,
     ) -> Option<Vec<Option<MaterialId>>> {
         if let Some(texture) = &self.texture {
@@ -159,7 +159,7 @@ impl MeshFile {
     fn report_mirrors(
         &self,
         libraries: &[LoadedLibrary],
-        lowered: &Lowered,
+        lowered: &LoweredScene,
         loader: &mut AssetLoader<'_>,
     ) {
         let settings = &lowered.scene.settings;
@@ -192,8 +192,8 @@ impl MeshFile {
 }
 
 /// Reports the errors and unsupported statements of a library.
-fn report(library: &Library, file: FileId, loader: &mut AssetLoader<'_>) {
-    let Library {
+fn report(library: &MtlLibrary, file: FileId, loader: &mut AssetLoader<'_>) {
+    let MtlLibrary {
         materials: _,
         faults,
         not_shown,

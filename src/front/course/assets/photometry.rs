@@ -1,15 +1,15 @@
 //! Loads photometric profiles: IES files (LM-63, 1986 to 2019) of type C.
 
-use super::text_file::TextKind;
+use super::text_file::TextFileKind;
 use super::{AssetLoader, FileCache, MissingAssetPolicy, PendingAsset};
 use crate::over_limit;
-use crate::words::{Lines, ParseFault, Word, WordFault};
+use crate::words::{TextParseError, Word, WordError, WordLines};
 use rtc_diag::codes;
-use rtc_ir::{Emitter, Light, Lowered, Photometry, Punctual};
+use rtc_ir::{Light, LoweredScene, Photometry, Punctual, PunctualKind};
 use rtc_source::{Budget, FileKind, Resource};
 
 /// The file formats of profiles.
-pub(super) const TEXT: TextKind = TextKind {
+pub(super) const TEXT: TextFileKind = TextFileKind {
     entity: "profile",
     is_not: "no IES profile",
     code: &codes::BAD_PHOTOMETRY,
@@ -25,7 +25,7 @@ pub(super) const TEXT: TextKind = TextKind {
 pub(super) fn load(
     light: usize,
     pending: &PendingAsset,
-    lowered: &mut Lowered,
+    lowered: &mut LoweredScene,
     cache: &mut FileCache<Photometry>,
     loader: &mut AssetLoader<'_>,
 ) {
@@ -45,7 +45,7 @@ pub(super) fn load(
         return;
     }
     if let Some(Light::Punctual(Punctual { emitter, .. })) = lowered.scene.lights.get_mut(light)
-        && let Emitter::Photometric { photometry, .. } = emitter
+        && let PunctualKind::Photometric { photometry, .. } = emitter
     {
         let name = std::mem::take(&mut photometry.name);
         **photometry = Photometry {
@@ -64,31 +64,31 @@ fn is_profile(head: &[u8]) -> bool {
 const TILT: &[u8] = b"TILT=";
 
 /// Parses a profile; its name is empty.
-fn parse(bytes: &[u8], budget: &Budget) -> Result<Photometry, ParseFault> {
+fn parse(bytes: &[u8], budget: &Budget) -> Result<Photometry, TextParseError> {
     // A number of two bytes becomes one of eight, in a list that grows by doubling; the profile of
     // a quadrant is unfolded to four.
     budget.charge(Resource::Memory, 32 * bytes.len() as u64)?;
-    let mut numbers = NumberReader::open(bytes).map_err(fault)?;
+    let mut numbers = IesNumberReader::open(bytes).map_err(fault)?;
     let photometry = numbers.photometry().map_err(fault)?;
     Ok(photometry)
 }
 
-fn fault(fault: WordFault) -> ParseFault {
-    ParseFault::Faults(vec![fault])
+fn fault(fault: WordError) -> TextParseError {
+    TextParseError::Faults(vec![fault])
 }
 
 /// Reads the numbers after the `TILT=` line.
-struct NumberReader<'a> {
-    lines: Lines<'a>,
+struct IesNumberReader<'a> {
+    lines: WordLines<'a>,
     /// The tokens of the current line in reverse order.
     words: Vec<Word<'a>>,
     /// The last token read.
     last: Word<'a>,
 }
 
-impl<'a> NumberReader<'a> {
-    fn open(bytes: &'a [u8]) -> Result<Self, WordFault> {
-        let (mut lines, mut words) = (Lines::new(bytes), Vec::new());
+impl<'a> IesNumberReader<'a> {
+    fn open(bytes: &'a [u8]) -> Result<Self, WordError> {
+        let (mut lines, mut words) = (WordLines::new(bytes), Vec::new());
         let mut last = Word::START;
         while lines.next(&mut words) {
             last = words[0];
@@ -111,7 +111,7 @@ impl<'a> NumberReader<'a> {
     }
 
     /// The next token. Tokens are separated by white space and commas; line ends have no meaning.
-    fn word(&mut self) -> Result<Word<'a>, WordFault> {
+    fn word(&mut self) -> Result<Word<'a>, WordError> {
         while self.words.is_empty() {
             let mut line = Vec::new();
             if !self.lines.next(&mut line) {
@@ -127,12 +127,12 @@ impl<'a> NumberReader<'a> {
         Ok(self.last)
     }
 
-    fn number(&mut self) -> Result<f64, WordFault> {
+    fn number(&mut self) -> Result<f64, WordError> {
         self.word()?.number()
     }
 
     /// Reads a count of at least `min`.
-    fn count(&mut self, min: usize, entity: &str) -> Result<usize, WordFault> {
+    fn count(&mut self, min: usize, entity: &str) -> Result<usize, WordError> {
         let word = self.word()?;
         let count = usize::try_from(word.integer()?).ok();
         count.filter(|count| *count >= min).ok_or_else(|| {
@@ -142,7 +142,7 @@ impl<'a> NumberReader<'a> {
     }
 
     /// Reads `count` numbers. Memory grows with the file, not with the count it claims.
-    fn list(&mut self, count: usize) -> Result<Vec<f64>, WordFault> {
+    fn list(&mut self, count: usize) -> Result<Vec<f64>, WordError> {
         let mut list = Vec::new();
         for _ in 0..count {
             list.push(self.number()?);
@@ -151,7 +151,7 @@ impl<'a> NumberReader<'a> {
     }
 
     /// Reads angles in ascending order.
-    fn angles(&mut self, count: usize) -> Result<Vec<f64>, WordFault> {
+    fn angles(&mut self, count: usize) -> Result<Vec<f64>, WordError> {
         let mut angles = Vec::new();
         for _ in 0..count {
             let angle = self.number()?;
@@ -165,7 +165,7 @@ impl<'a> NumberReader<'a> {
     }
 
     /// Reads the numbers of LM-63-2002, section 5, from the number of lamps on.
-    fn photometry(&mut self) -> Result<Photometry, WordFault> {
+    fn photometry(&mut self) -> Result<Photometry, WordError> {
         let _lamps = self.number()?;
         let _lumens = self.number()?;
         let mut factor = self.number()?;
@@ -185,7 +185,7 @@ impl<'a> NumberReader<'a> {
         let _watts = self.number()?;
         let vertical = self.angles(rows)?;
         let horizontal = self.angles(columns)?;
-        let symmetry = Symmetry::of(&horizontal, &self.last)?;
+        let symmetry = LateralSymmetry::of(&horizontal, &self.last)?;
         let mut profile = Vec::new();
         for _ in 0..columns {
             profile.push(self.candela(rows, factor)?);
@@ -194,7 +194,7 @@ impl<'a> NumberReader<'a> {
     }
 
     /// Reads the intensities at one horizontal angle.
-    fn candela(&mut self, rows: usize, factor: f64) -> Result<Vec<f64>, WordFault> {
+    fn candela(&mut self, rows: usize, factor: f64) -> Result<Vec<f64>, WordError> {
         let mut candela = Vec::new();
         for _ in 0..rows {
             let value = self.number()? * factor;
@@ -211,7 +211,7 @@ impl<'a> NumberReader<'a> {
 /// The lateral symmetry of a profile: the measured range of horizontal angles, from which the rest
 /// is mirrored (LM-63-2002, section 5.14).
 #[derive(Clone, Copy)]
-enum Symmetry {
+enum LateralSymmetry {
     /// Rotationally symmetric: one plane.
     All,
     /// Symmetric in each quadrant: 0° to 90°.
@@ -224,8 +224,8 @@ enum Symmetry {
     Whole,
 }
 
-impl Symmetry {
-    fn of(angles: &[f64], last: &Word<'_>) -> Result<Self, WordFault> {
+impl LateralSymmetry {
+    fn of(angles: &[f64], last: &Word<'_>) -> Result<Self, WordError> {
         match angles {
             [_] => Ok(Self::All),
             [0.0, .., 90.0] => Ok(Self::Quarter),
@@ -291,7 +291,7 @@ mod tests {
     use super::*;
     use rtc_source::Limits;
 
-    fn read(text: &str) -> Result<Photometry, ParseFault> {
+    fn read(text: &str) -> Result<Photometry, TextParseError> {
         parse(text.as_bytes(), &Budget::new(Limits::default()))
     }
 
@@ -373,6 +373,6 @@ mod tests {
         limits.set(Resource::Memory, 1000);
         let text = format!("TILT=NONE {}", " 1".repeat(100));
         let found = parse(text.as_bytes(), &Budget::new(limits));
-        assert!(matches!(found, Err(ParseFault::Limit(_))));
+        assert!(matches!(found, Err(TextParseError::Limit(_))));
     }
 }

@@ -6,15 +6,15 @@ use super::AssetImport;
 use super::material_binder::{MaterialSource, PendingMaterial};
 use super::mesh::{self, MeshFile};
 use crate::mesh::{is_mesh, parse};
-use crate::words::ParseFault;
+use crate::words::TextParseError;
 use crate::{FrontOptions, UpAxis, gltf, over_limit};
-use rtc_diag::{Diagnostic, Sink, codes};
+use rtc_diag::{Diagnostic, DiagnosticSink, codes};
 use rtc_ir::{
-    EntityKind, Field, Instance, Lowered, Material, MaterialId, Mesh, MeshId, Shape, SourceSpans,
-    Standard, Surface, ValuePath,
+    EntityField, EntityKind, Instance, LoweredScene, Material, MaterialId, Mesh, MeshId, Shape,
+    SourceSpans, Standard, Surface, ValuePath,
 };
 use rtc_math::Vec3;
-use rtc_source::{FileId, Search, SourceMap, Span};
+use rtc_source::{FileId, FileSearch, SourceMap, Span};
 
 /// The roughness of a mesh without a material.
 const ROUGHNESS: f64 = 0.6;
@@ -27,8 +27,8 @@ pub fn lower_standalone_mesh(
     file: FileId,
     options: &FrontOptions,
     map: &mut SourceMap,
-    sink: &mut Sink,
-) -> Option<Lowered> {
+    sink: &mut DiagnosticSink,
+) -> Option<LoweredScene> {
     let parsed = parse_file(file, map, sink)?;
     let name = map.name(file).rsplit(['/', '\\']).next();
     let name = name.unwrap_or_default().to_owned();
@@ -67,17 +67,17 @@ pub fn lower_standalone_mesh(
     let mut source_spans = SourceSpans::default();
     for entity in [EntityKind::Mesh, EntityKind::Surface] {
         source_spans.record(
-            ValuePath::new(entity, 0, Field::Whole),
+            ValuePath::new(entity, 0, EntityField::Whole),
             Span::new(file, 0, 0),
         );
     }
-    let mut lowered = Lowered {
+    let mut lowered = LoweredScene {
         scene,
         source_spans,
     };
     // Load the materials of the mesh.
     let folder = map.folder(file);
-    let search = Search::new(folder, options.asset_root.as_deref())
+    let search = FileSearch::new(folder, options.asset_root.as_deref())
         .with_parent(folder, options.home.as_deref());
     let mut import = AssetImport::new(search, options, map, sink);
     import.meshes.add(MeshId(0), mesh_file);
@@ -107,7 +107,11 @@ fn stands_on_z(mesh: &Mesh, is_stl: bool) -> bool {
 }
 
 /// Parses the mesh file.
-fn parse_file(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<crate::mesh::Parsed> {
+fn parse_file(
+    file: FileId,
+    map: &SourceMap,
+    sink: &mut DiagnosticSink,
+) -> Option<crate::mesh::ParsedMesh> {
     let bytes = map.bytes(file);
     if !is_mesh(bytes) {
         let message = format!("`{}` is {}", map.name(file), mesh::TEXT.is_not);
@@ -117,11 +121,11 @@ fn parse_file(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<crate::m
     }
     match parse(bytes, map.budget()) {
         Ok(parsed) => return Some(parsed),
-        Err(ParseFault::Limit(fault)) => {
+        Err(TextParseError::Limit(fault)) => {
             let what = format!("the mesh `{}`", map.name(file));
             sink.push(over_limit(&what, &fault).at(Span::new(file, 0, 0), "the file"));
         }
-        Err(ParseFault::Faults(faults)) => {
+        Err(TextParseError::Faults(faults)) => {
             for fault in faults {
                 let diagnostic = Diagnostic::new(&codes::BAD_MESH_FILE, fault.message.as_str());
                 sink.push(diagnostic.at(fault.span(file), fault.label));

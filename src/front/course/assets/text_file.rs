@@ -2,12 +2,12 @@
 
 use super::{AssetLoader, MissingAssetPolicy, PendingAsset};
 use crate::over_limit;
-use crate::words::ParseFault;
+use crate::words::TextParseError;
 use rtc_diag::{Code, Diagnostic};
-use rtc_source::{Budget, FileId, FileKind, Found};
+use rtc_source::{Budget, FileId, FileKind, FoundFile};
 
 /// A kind of text file.
-pub(super) struct TextKind {
+pub(super) struct TextFileKind {
     /// The entity in the file.
     pub(super) entity: &'static str,
     /// The message about a file of another format.
@@ -27,20 +27,20 @@ impl AssetLoader<'_> {
     /// reported.
     pub(super) fn read_text<T>(
         &mut self,
-        found: &Found,
+        found: &FoundFile,
         pending: &PendingAsset,
-        kind: &TextKind,
-        parse: fn(&[u8], &Budget) -> Result<T, ParseFault>,
+        kind: &TextFileKind,
+        parse: fn(&[u8], &Budget) -> Result<T, TextParseError>,
     ) -> Option<(FileId, T)> {
         let file = self.open_text(found, pending, kind)?;
         match parse(self.map.bytes(file), self.map.budget()) {
             Ok(parsed) => return Some((file, parsed)),
-            Err(ParseFault::Limit(fault)) => {
+            Err(TextParseError::Limit(fault)) => {
                 let what = format!("the {} `{}`", kind.entity, found.shown.display());
                 let diagnostic = over_limit(&what, &fault).at(pending.span, "named here");
                 self.reject(diagnostic, kind.policy);
             }
-            Err(ParseFault::Faults(faults)) => {
+            Err(TextParseError::Faults(faults)) => {
                 // With `--lenient` the entity is omitted once, so one diagnostic is enough.
                 let count = if self.options.lenient {
                     1
@@ -60,9 +60,9 @@ impl AssetLoader<'_> {
 
     fn open_text(
         &mut self,
-        found: &Found,
+        found: &FoundFile,
         pending: &PendingAsset,
-        kind: &TextKind,
+        kind: &TextFileKind,
     ) -> Option<FileId> {
         match self.loader.found(found, kind.max_bytes, self.map) {
             Ok(bytes) if (kind.file.begins)(&bytes) => Some(self.map.add_found(found, bytes)),

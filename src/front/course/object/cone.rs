@@ -1,12 +1,12 @@
 //! The cone and the paraboloid: round shapes with one cap and a top; and the keys of a base and an
 //! axis, which the cylinder has too.
 
-use super::Lower;
-use crate::course::decode::{Context, SharedValue, Spanned, SpannedVector};
+use super::LowerObject;
+use crate::course::decode::{DecodeContext, SharedValue, Spanned, SpannedVector};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Positive};
-use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::record::{FieldResult, keys, record};
 use crate::course::synonym::{AXIS, ENDS, HEIGHT, POSITION, RADIUS, with_canonical};
 use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_ir as ir;
@@ -14,11 +14,11 @@ use rtc_math::{Vec3, unit};
 
 /// The values of the keys of a base and an axis.
 pub(super) struct AxisKeys<'o> {
-    pub(super) position: &'o FieldOutcome<Spanned<Point>>,
-    pub(super) up: &'o FieldOutcome<Spanned<Vector>>,
-    pub(super) direction: &'o FieldOutcome<Spanned<Vector>>,
-    pub(super) height: &'o FieldOutcome<Spanned<Positive>>,
-    pub(super) ends: &'o FieldOutcome<[Spanned<Point>; 2]>,
+    pub(super) position: &'o FieldResult<Spanned<Point>>,
+    pub(super) up: &'o FieldResult<Spanned<Vector>>,
+    pub(super) direction: &'o FieldResult<Spanned<Vector>>,
+    pub(super) height: &'o FieldResult<Spanned<Positive>>,
+    pub(super) ends: &'o FieldResult<[Spanned<Point>; 2]>,
 }
 
 impl AxisKeys<'_> {
@@ -32,18 +32,18 @@ impl AxisKeys<'_> {
             ends,
         } = self;
         match (position, up, direction, height, ends) {
-            (.., FieldOutcome::Read([base, top])) => {
+            (.., FieldResult::Read([base, top])) => {
                 let up = Vec3::from_array(top.value.0) - Vec3::from_array(base.value.0);
                 Some((base.map(|point| point.0), top.map(|_| up.to_array())))
             }
-            (FieldOutcome::Read(base), FieldOutcome::Read(up), ..) => {
+            (FieldResult::Read(base), FieldResult::Read(up), ..) => {
                 Some((base.map(|point| point.0), up.map(|vector| vector.0)))
             }
             (
-                FieldOutcome::Read(base),
+                FieldResult::Read(base),
                 _,
-                FieldOutcome::Read(direction),
-                FieldOutcome::Read(height),
+                FieldResult::Read(direction),
+                FieldResult::Read(height),
                 _,
             ) => {
                 // The validator rejects a direction of length 0.
@@ -85,8 +85,8 @@ macro_rules! round_record {
             variants { [position up] [position direction height] [ends] }
         }
 
-        impl Lower for $name {
-            fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+        impl LowerObject for $name {
+            fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
                 let Self { kind, position, up, direction, height, ends, radius, material, shadow } =
                     self;
                 let axis_keys = AxisKeys { position, up, direction, height, ends };

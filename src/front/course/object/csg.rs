@@ -4,15 +4,15 @@
 //! become the operands of one expression. A polyhedron is the intersection of half-spaces. The
 //! result is one surface for each material, or more than one where some cast no shadow.
 
-use super::{Lower, Object};
-use crate::course::decode::{Context, Decode, SharedValue, Spanned};
+use super::{LowerObject, Object};
+use crate::course::decode::{Decode, DecodeContext, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, Positive};
-use crate::course::object::SurfaceProps;
-use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::object::SurfaceProperties;
+use crate::course::record::{FieldResult, keys, record};
 use crate::course::rotation::{Rotation, RotationKeys};
-use crate::course::schema::{self, Definitions};
+use crate::course::schema::{self, SchemaDefinitions};
 use crate::course::synonym::{POSITION, ROTATION, ROTATION_ANGLE, ROTATION_AXIS, with_canonical};
 use crate::course::value::{Angles, AnyScalar, Point, Vector};
 use rtc_diag::codes;
@@ -26,11 +26,11 @@ use serde_json::{Value as Json, json};
 pub(in crate::course) struct Operand(Box<Object>);
 
 impl Decode for Operand {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         Object::decode(node, context).map(|object| Self(Box::new(object)))
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         schema::operand(definitions)
     }
 }
@@ -41,7 +41,7 @@ pub(in crate::course) struct Operands(Vec<Spanned<Operand>>);
 impl Decode for Operands {
     const IS_LIST: bool = true;
 
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         let tree = context.tree;
         if !tree.is_list(node) {
             return context.expected(node, "a list of objects");
@@ -57,7 +57,7 @@ impl Decode for Operands {
         operands.into_iter().collect::<Option<_>>().map(Self)
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         let item = Operand::schema(definitions);
         json!({ "type": "array", "items": item, "minItems": 1, "maxItems": MAX_SET_OPERANDS })
     }
@@ -99,21 +99,21 @@ macro_rules! set_record {
             variants { [both] [of] }
         }
 
-        impl Lower for $name {
-            fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+        impl LowerObject for $name {
+            fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
                 let Self {
                     kind, both, of, material, position, scale, rotation, axis, angle, shadow,
                 } = self;
                 let operands = match (both, of) {
-                    (FieldOutcome::Read(both), _) => &both[..],
-                    (_, FieldOutcome::Read(of)) => &of.value.0,
+                    (FieldResult::Read(both), _) => &both[..],
+                    (_, FieldResult::Read(of)) => &of.value.0,
                     _ => return,
                 };
                 let rotation = RotationKeys { rotation, axis, angle }.axes(context);
                 let expression = lowering.expression(SetStep::$name, operands, kind, context);
                 // Shared properties are lowered in the order of decoding, after the operands.
                 // Errors in a material that no operand uses are reported, too.
-                if let FieldOutcome::Read(material) = material
+                if let FieldResult::Read(material) = material
                     && lowering.material(material, context).is_none()
                 {
                     return;
@@ -160,7 +160,7 @@ struct PlacedSolid {
 
 /// Operands, and the operations over them.
 #[derive(Default)]
-struct Expression {
+struct CsgExpression {
     operands: Vec<PlacedSolid>,
     steps: Vec<SetStep>,
 }
@@ -172,9 +172,9 @@ impl Lowering {
         operation: SetStep,
         operands: &[Spanned<Operand>],
         kind: &Spanned<AnyScalar>,
-        context: &mut Context<'_>,
-    ) -> Option<Expression> {
-        let mut whole = Expression::default();
+        context: &mut DecodeContext<'_>,
+    ) -> Option<CsgExpression> {
+        let mut whole = CsgExpression::default();
         let mut is_valid = true;
         for (index, operand) in operands.iter().enumerate() {
             let Some(part) = self.operand(operand, context) else {
@@ -201,8 +201,8 @@ impl Lowering {
     fn operand(
         &mut self,
         operand: &Spanned<Operand>,
-        context: &mut Context<'_>,
-    ) -> Option<Expression> {
+        context: &mut DecodeContext<'_>,
+    ) -> Option<CsgExpression> {
         let Operand(object) = &operand.value;
         if matches!(**object, Object::Mesh(_) | Object::Gltf(_)) {
             report(operand.span, "a mesh is no operand", "no solid", context);
@@ -216,7 +216,7 @@ impl Lowering {
         if surfaces.is_empty() {
             return None;
         }
-        let expression = Expression::of(&surfaces);
+        let expression = CsgExpression::of(&surfaces);
         if expression.is_none() {
             let name = surfaces[0].shape.kind().name();
             let message = format!("a {name} has no inside");
@@ -240,8 +240,13 @@ impl Lowering {
     }
 
     /// Adds the surfaces of an expression, one for each material.
-    fn add_expression(&mut self, expression: Expression, span: Option<Span>, casts_shadow: bool) {
-        let Expression { operands, steps } = expression;
+    fn add_expression(
+        &mut self,
+        expression: CsgExpression,
+        span: Option<Span>,
+        casts_shadow: bool,
+    ) {
+        let CsgExpression { operands, steps } = expression;
         let mut looks: Vec<((MaterialId, bool), Vec<u32>)> = Vec::new();
         let materials = &self.scene.materials;
         let is_same = |MaterialId(a): MaterialId, MaterialId(b): MaterialId| {
@@ -258,7 +263,7 @@ impl Lowering {
         }
         let operands: Vec<_> = operands.into_iter().map(|operand| operand.solid).collect();
         for ((material, casts_no_shadow), faces) in looks {
-            let props = SurfaceProps {
+            let props = SurfaceProperties {
                 object_span: span,
                 material,
                 span,
@@ -274,7 +279,7 @@ impl Lowering {
     }
 }
 
-impl Expression {
+impl CsgExpression {
     /// The expression of the surfaces of one object; `None` if they have no inside.
     fn of(surfaces: &[ir::Surface]) -> Option<Self> {
         let placed = |solid, surface: &ir::Surface| PlacedSolid {
@@ -465,7 +470,7 @@ fn word(operation: SetStep) -> &'static str {
 }
 
 /// Reports an operand that is none.
-fn report(span: Option<Span>, message: &str, label: &str, context: &mut Context<'_>) {
+fn report(span: Option<Span>, message: &str, label: &str, context: &mut DecodeContext<'_>) {
     const HINT: &str = "the operands are spheres, ellipsoids, boxes and other convex polyhedra, \
                         cylinders, cones, paraboloids, tori, half-spaces (`plane`), and unions, \
                         intersections and differences of these";

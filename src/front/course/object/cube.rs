@@ -1,12 +1,12 @@
 //! The cube of some files.
 
-use super::{Lower, report_negative};
-use crate::course::decode::{Context, SharedValue, Spanned};
+use super::{LowerObject, report_negative};
+use crate::course::decode::{DecodeContext, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, NonNegative, Real};
 use crate::course::object::solid::box_around;
-use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::record::{FieldResult, keys, record};
 use crate::course::rotation::{Rotation, RotationKeys, axes_rotated_about};
 use crate::course::synonym::{POSITION, ROTATION, ROTATION_ANGLE, ROTATION_AXIS, with_canonical};
 use crate::course::value::{Angles, AnyScalar, Point, Vector};
@@ -43,8 +43,8 @@ record! {
     }
 }
 
-impl Lower for Cube {
-    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+impl LowerObject for Cube {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         let Cube {
             kind,
             position,
@@ -62,7 +62,7 @@ impl Lower for Cube {
         };
         // The axes, rotated by either set of keys.
         let rotation_keys = match (euler_axis, euler_angle) {
-            (FieldOutcome::Read(axis), FieldOutcome::Read(angle)) => Some(axes_rotated_about(
+            (FieldResult::Read(axis), FieldResult::Read(angle)) => Some(axes_rotated_about(
                 Vec3::from_array(axis.value.0),
                 angle.value.0,
             )),

@@ -1,13 +1,13 @@
 //! The cylinder.
 
-use super::Lower;
+use super::LowerObject;
 use super::cone::AxisKeys;
 
-use crate::course::decode::{Context, SharedValue, Spanned, SpannedVector};
+use crate::course::decode::{DecodeContext, SharedValue, Spanned, SpannedVector};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Positive, Real};
-use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::record::{FieldResult, keys, record};
 use crate::course::rotation::axes_rotated_about;
 use crate::course::synonym::{AXIS, ENDS, HEIGHT, POSITION, RADIUS, with_canonical};
 use crate::course::value::{AnyScalar, Point, Vector};
@@ -47,8 +47,8 @@ record! {
     }
 }
 
-impl Lower for Cylinder {
-    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+impl LowerObject for Cylinder {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         let Cylinder {
             kind,
             radius,
@@ -92,10 +92,10 @@ fn axis(cylinder: &Cylinder) -> Option<(SpannedVector, SpannedVector, Spanned<f6
     } = cylinder;
     // The older form rotates the axis about its middle.
     if let (
-        FieldOutcome::Read(middle),
-        FieldOutcome::Read(height),
-        FieldOutcome::Read(axis),
-        FieldOutcome::Read(angle),
+        FieldResult::Read(middle),
+        FieldResult::Read(height),
+        FieldResult::Read(axis),
+        FieldResult::Read(angle),
     ) = (position, height, euler_axis, euler_angle)
     {
         let [along, ..] = axes_rotated_about(Vec3::from_array(axis.value.0), angle.value.0);
@@ -107,11 +107,8 @@ fn axis(cylinder: &Cylinder) -> Option<(SpannedVector, SpannedVector, Spanned<f6
         ));
     }
     // The common form has a base, a direction and a height.
-    if let (
-        FieldOutcome::Read(position),
-        FieldOutcome::Read(direction),
-        FieldOutcome::Read(height),
-    ) = (position, direction, height)
+    if let (FieldResult::Read(position), FieldResult::Read(direction), FieldResult::Read(height)) =
+        (position, direction, height)
     {
         return Some((
             position.map(|point| point.0),
@@ -150,8 +147,8 @@ record! {
     }
 }
 
-impl Lower for InfiniteCylinder {
-    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+impl LowerObject for InfiniteCylinder {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         let Self {
             kind,
             position,

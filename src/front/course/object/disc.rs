@@ -1,7 +1,7 @@
 //! The disc.
 
-use super::Lower;
-use crate::course::decode::{Context, SharedValue, Spanned};
+use super::LowerObject;
+use crate::course::decode::{DecodeContext, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::NonNegative;
@@ -28,8 +28,8 @@ record! {
     }
 }
 
-impl Lower for Disc {
-    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+impl LowerObject for Disc {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         let Disc {
             kind,
             center,

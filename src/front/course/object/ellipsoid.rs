@@ -1,11 +1,11 @@
 //! The ellipsoid: a sphere that is stretched along its axes, and turned.
 
-use super::Lower;
-use crate::course::decode::{Context, SharedValue, Spanned};
+use super::LowerObject;
+use crate::course::decode::{DecodeContext, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::Degrees;
-use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::record::{FieldResult, keys, record};
 use crate::course::rotation::{AffineColumns, Rotation, RotationKeys, world_from_object};
 use crate::course::synonym::{POSITION, ROTATION, ROTATION_ANGLE, ROTATION_AXIS, with_canonical};
 use crate::course::value::{Angles, AnyScalar, Point, Scale, Vector};
@@ -42,10 +42,10 @@ record! {
 }
 
 /// The map of the unit sphere, with the spans of centre and size.
-type Placement = (AffineColumns, [Option<Span>; 2]);
+type EllipsoidPlacement = (AffineColumns, [Option<Span>; 2]);
 
 impl Ellipsoid {
-    fn placement(&self, context: &mut Context<'_>) -> Option<Placement> {
+    fn placement(&self, context: &mut DecodeContext<'_>) -> Option<EllipsoidPlacement> {
         let Self {
             position,
             radius,
@@ -55,7 +55,7 @@ impl Ellipsoid {
             transform,
             ..
         } = self;
-        if let FieldOutcome::Read(transform) = transform {
+        if let FieldResult::Read(transform) = transform {
             return Some((transform.value, [transform.span; 2]));
         }
         let rotation_keys = RotationKeys {
@@ -80,8 +80,8 @@ impl Ellipsoid {
     }
 }
 
-impl Lower for Ellipsoid {
-    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+impl LowerObject for Ellipsoid {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         let props = lowering.surface_props(&self.kind, &self.material, &self.shadow, context);
         let (Some((AffineColumns(columns), spans)), Some(props)) = (self.placement(context), props)
         else {

@@ -1,7 +1,7 @@
 //! A glTF asset and its placement.
 
-use super::Lower;
-use crate::course::decode::{Context, Spanned};
+use super::LowerObject;
+use crate::course::decode::{DecodeContext, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::number::Degrees;
 use crate::course::record::{keys, record};
@@ -33,8 +33,8 @@ record! {
     }
 }
 
-impl Lower for Gltf {
-    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+impl LowerObject for Gltf {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         let Gltf {
             _kind: _,
             file,

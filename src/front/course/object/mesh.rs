@@ -1,17 +1,17 @@
 //! A mesh file and its placement.
 
-use super::Lower;
-use super::sizing::Sizing;
+use super::LowerObject;
+use super::sizing::MeshSizing;
 use super::sphere::Radius;
 use crate::course::assets::{MaterialSource, PendingMaterial};
-use crate::course::decode::{Context, Decode, SharedValue, Spanned};
+use crate::course::decode::{Decode, DecodeContext, SharedValue, Spanned};
 use crate::course::keyword::{Keyword, KeywordTable};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, Real};
-use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::record::{FieldResult, keys, record};
 use crate::course::rotation::{AffineColumns, Rotation, RotationKeys, world_from_object};
-use crate::course::schema::Definitions;
+use crate::course::schema::SchemaDefinitions;
 use crate::course::synonym::{
     FILE, POSITION, ROTATION, ROTATION_ANGLE, ROTATION_AXIS, SCALE, with_canonical,
 };
@@ -64,7 +64,7 @@ record! {
         /// `map_Ke`, `map_Pr`, `map_Pm` and the placement of maps.
         materials: Spanned<LibraryKind>, optional, keys!["materials"];
         /// For an OBJ: only the faces with the `usemtl` of this name; empty for faces without one.
-        part: Spanned<PartName>, optional, keys!["part"];
+        part: Spanned<MeshMaterialName>, optional, keys!["part"];
         /// A name for people to read.
         label: Spanned<DisplayName>, optional, keys!["label"];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
@@ -90,10 +90,10 @@ impl Keyword for LibraryKind {
 
 /// The name of a material in a mesh file, which may be empty.
 #[derive(Clone, Debug)]
-pub(crate) struct PartName(String);
+pub(crate) struct MeshMaterialName(String);
 
-impl Decode for PartName {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+impl Decode for MeshMaterialName {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         match context.tree.shape(node) {
             NodeContent::Word(text) | NodeContent::Text(text) => Some(Self(text.to_owned())),
             NodeContent::List | NodeContent::Map => {
@@ -102,13 +102,13 @@ impl Decode for PartName {
         }
     }
 
-    fn schema(_: &mut Definitions) -> Json {
+    fn schema(_: &mut SchemaDefinitions) -> Json {
         json!({ "type": ["string", "number"] })
     }
 }
 
-impl Lower for Mesh {
-    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+impl LowerObject for Mesh {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         let Mesh {
             kind,
             file,
@@ -120,9 +120,9 @@ impl Lower for Mesh {
             ..
         } = self;
         let props = match material {
-            FieldOutcome::Read(material) => lowering.surface_props(kind, material, shadow, context),
-            FieldOutcome::Absent => Some(lowering.grey_surface_props(kind, shadow)),
-            FieldOutcome::Broken => None,
+            FieldResult::Read(material) => lowering.surface_props(kind, material, shadow, context),
+            FieldResult::Absent => Some(lowering.grey_surface_props(kind, shadow)),
+            FieldResult::Broken => None,
         };
         // The transform and the sizing.
         let index = lowering.scene.surfaces.len();
@@ -131,9 +131,9 @@ impl Lower for Mesh {
             return;
         };
         let part = match part {
-            FieldOutcome::Read(part) => Some(&*part.value.0),
-            FieldOutcome::Absent => None,
-            FieldOutcome::Broken => return,
+            FieldResult::Read(part) => Some(&*part.value.0),
+            FieldResult::Absent => None,
+            FieldResult::Broken => return,
         };
         let [axes @ .., _] = transform.value.0;
         if axes == [[0.0; 3]; 3] {
@@ -153,7 +153,7 @@ impl Lower for Mesh {
         };
         let value_spans = [("mesh", file.span), (TRANSFORM, transform.span)];
         lowering.add_surface(&props, ir::Shape::Instance(shape), &value_spans);
-        if let FieldOutcome::Read(label) = label {
+        if let FieldResult::Read(label) = label {
             lowering.set_name(&label.value.0);
         }
     }
@@ -164,8 +164,8 @@ impl Mesh {
     fn transform(
         &self,
         index: usize,
-        context: &mut Context<'_>,
-    ) -> Option<(Spanned<AffineColumns>, Option<Sizing>)> {
+        context: &mut DecodeContext<'_>,
+    ) -> Option<(Spanned<AffineColumns>, Option<MeshSizing>)> {
         let Self {
             position,
             scale,
@@ -184,25 +184,25 @@ impl Mesh {
         };
         // `transform` overrides other keys; else one of `scale`, `size` and `fit` gives the size.
         let (scale, sizing) = match (transform, scale, size, fit) {
-            (FieldOutcome::Read(transform), ..) => {
+            (FieldResult::Read(transform), ..) => {
                 report_key_without_effect(position.span, "position", context);
                 report_key_without_effect(rotation_keys.span(), "rotation", context);
                 return Some((*transform, None));
             }
-            (_, FieldOutcome::Read(scale), ..) => (scale.map(|scale| scale.0), None),
-            (.., FieldOutcome::Read(size), _) => {
-                let sizing = Sizing::Check(index, size.value.0);
+            (_, FieldResult::Read(scale), ..) => (scale.map(|scale| scale.0), None),
+            (.., FieldResult::Read(size), _) => {
+                let sizing = MeshSizing::Check(index, size.value.0);
                 (size.map(|size| [size.0; 3]), Some(sizing))
             }
-            (.., FieldOutcome::Read(fit)) => {
+            (.., FieldResult::Read(fit)) => {
                 report_axis_without_effect(fit, context);
-                (fit.map(|fit| [fit.length; 3]), Some(Sizing::Fit(index)))
+                (fit.map(|fit| [fit.length; 3]), Some(MeshSizing::Fit(index)))
             }
             (
-                FieldOutcome::Absent,
-                FieldOutcome::Absent,
-                FieldOutcome::Absent,
-                FieldOutcome::Absent,
+                FieldResult::Absent,
+                FieldResult::Absent,
+                FieldResult::Absent,
+                FieldResult::Absent,
             ) => (position.map(|_| [1.0; 3]), None),
             _ => return None,
         };
@@ -215,7 +215,7 @@ impl Mesh {
 }
 
 /// Reports a key that `transform` overrides.
-fn report_key_without_effect(span: Option<Span>, key: &str, context: &mut Context<'_>) {
+fn report_key_without_effect(span: Option<Span>, key: &str, context: &mut DecodeContext<'_>) {
     let Some(span) = span else { return };
     let message = || format!("`{key}` has no effect with `transform`");
     context.report(&codes::NO_EFFECT, span, message, |d| {
@@ -232,12 +232,12 @@ pub(super) const TRANSFORM: &str = "worldFromObject";
 fn pending_material(
     surface: usize,
     object: Option<Span>,
-    material: &FieldOutcome<Spanned<SharedValue<Material>>>,
-    materials: &FieldOutcome<Spanned<LibraryKind>>,
+    material: &FieldResult<Spanned<SharedValue<Material>>>,
+    materials: &FieldResult<Spanned<LibraryKind>>,
 ) -> PendingMaterial {
     let (source, span) = match (materials, material) {
-        (FieldOutcome::Read(library), _) => (MaterialSource::Mtl, library.span),
-        (_, FieldOutcome::Absent) => (MaterialSource::MtlOrGrey, object),
+        (FieldResult::Read(library), _) => (MaterialSource::Mtl, library.span),
+        (_, FieldResult::Absent) => (MaterialSource::MtlOrGrey, object),
         _ => (MaterialSource::Scene, object),
     };
     PendingMaterial {
@@ -247,7 +247,7 @@ fn pending_material(
     }
 }
 
-fn report_axis_without_effect(radius: &Spanned<Radius>, context: &mut Context<'_>) {
+fn report_axis_without_effect(radius: &Spanned<Radius>, context: &mut DecodeContext<'_>) {
     if let Some(span) = radius.value.axis.and_then(|axis| axis.span) {
         let message = || "the axis of a `fit` has no effect".to_owned();
         context.report(&codes::NO_EFFECT, span, message, |d| {

@@ -1,10 +1,10 @@
 //! The objects of the course: one record per `type`, in the file that is named after it.
 //!
 //! The macro `kinds!` lists all types with their names; [`Object`], [`KINDS`], the decoder and the
-//! schema come from this list. Each record implements `Lower`, which adds surfaces to the scene:
-//! first `Lowering::surface_props` lowers the properties that all surfaces of an object share
-//! (material, shadow flag, span), then `Lowering::add_surface` adds each surface with the spans of
-//! its values.
+//! schema come from this list. Each record implements `LowerObject`, which adds surfaces to the
+//! scene: first `Lowering::surface_props` lowers the properties that all surfaces of an object
+//! share (material, shadow flag, span), then `Lowering::add_surface` adds each surface with the
+//! spans of its values.
 //!
 //! * `sphere`, `plane`, `triangle`, `quad`, `disc`, `cylinder` (with the one without ends), `cone`
 //!   (with the paraboloid), `torus` and `ellipsoid` become the shape of the same name in the IR.
@@ -33,18 +33,18 @@ mod sphere;
 pub(super) mod torus;
 mod triangle;
 
-use super::decode::{Context, Decode, MapEntry, SharedValue, Spanned, ValueKey};
+use super::decode::{Decode, DecodeContext, MapEntry, SharedValue, Spanned, ValueKey};
 use super::lower::Lowering;
 use super::material::Material;
 use super::number::NonNegative;
 use super::reader::{MATERIAL, look_up, missing_keys};
 use super::record::Record;
-use super::schema::{self, Definitions};
+use super::schema::{self, SchemaDefinitions};
 use super::spelling::quoted_list;
 use super::value::AnyScalar;
 use rtc_diag::clip;
 use rtc_diag::{Severity, codes, nearest};
-use rtc_ir::{self as ir, EntityKind, Field, MaterialId};
+use rtc_ir::{self as ir, EntityField, EntityKind, MaterialId};
 use rtc_math::shortest;
 use rtc_source::Span;
 use rtc_source::tree::NodeId;
@@ -54,15 +54,15 @@ use serde_json::Value as Json;
 pub(super) struct ObjectKind {
     pub(super) names: &'static [&'static str],
     pub(super) record: &'static Record,
-    decode: fn(NodeId, &mut Context<'_>) -> Option<Object>,
-    pub(super) schema: fn(&mut Definitions) -> Json,
+    decode: fn(NodeId, &mut DecodeContext<'_>) -> Option<Object>,
+    pub(super) schema: fn(&mut SchemaDefinitions) -> Json,
 }
 
 /// Lowers an object to surfaces of the IR.
-trait Lower {
+trait LowerObject {
     /// Lowers an object. An object without a valid material or variant is omitted, which is
     /// reported.
-    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>);
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>);
 }
 
 /// Declares the types of objects: the module, the record and the names.
@@ -84,7 +84,7 @@ macro_rules! kinds {
         impl Lowering {
             /// Lowers an object. An object without a valid material or variant is omitted, which is
             /// reported.
-            pub(super) fn object(&mut self, object: &Object, context: &mut Context<'_>) {
+            pub(super) fn object(&mut self, object: &Object, context: &mut DecodeContext<'_>) {
                 match object {
                     $(Object::$record(record) => record.lower(self, context),)+
                 }
@@ -118,7 +118,7 @@ kinds! {
 }
 
 impl Decode for Object {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         if !context.tree.is_map(node) {
             return context.expected(node, "a map");
         }
@@ -166,13 +166,13 @@ impl Decode for Object {
         object
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         schema::object(definitions)
     }
 }
 
 /// The entry of the material of an object.
-fn own_material<'a>(node: NodeId, context: &Context<'a>) -> Option<MapEntry<'a>> {
+fn own_material<'a>(node: NodeId, context: &DecodeContext<'a>) -> Option<MapEntry<'a>> {
     let tree = context.tree;
     let mut pairs = tree.pairs(node);
     let (key_node, value) = pairs.find(|(key, _)| tree.text(*key) == Some(MATERIAL))?;
@@ -185,7 +185,7 @@ fn own_material<'a>(node: NodeId, context: &Context<'a>) -> Option<MapEntry<'a>>
 }
 
 /// Reports an object whose type is written as a key, as in `- sphere:`.
-fn report_type_as_key(node: NodeId, context: &mut Context<'_>) -> bool {
+fn report_type_as_key(node: NodeId, context: &mut DecodeContext<'_>) -> bool {
     let tree = context.tree;
     let is_kind = |name: &str| KINDS.iter().any(|kind| kind.names.contains(&name));
     let named = tree
@@ -214,7 +214,7 @@ fn report_type_as_key(node: NodeId, context: &mut Context<'_>) -> bool {
 }
 
 /// Reports an object of unknown type.
-fn report_unknown_type(name: &str, node: NodeId, context: &mut Context<'_>) {
+fn report_unknown_type(name: &str, node: NodeId, context: &mut DecodeContext<'_>) {
     let (lenient, span) = (context.options.lenient, context.tree.span(node));
     let known = KINDS.iter().flat_map(|kind| kind.names).copied();
     let suggestion = nearest(name, known)
@@ -247,7 +247,7 @@ fn report_unknown_type(name: &str, node: NodeId, context: &mut Context<'_>) {
 }
 
 /// The properties that all surfaces of an object share.
-pub(super) struct SurfaceProps {
+pub(super) struct SurfaceProperties {
     object_span: Option<Span>,
     material: MaterialId,
     span: Option<Span>,
@@ -261,11 +261,11 @@ impl Lowering {
         kind: &Spanned<AnyScalar>,
         material: &Spanned<SharedValue<Material>>,
         shadow: &Spanned<bool>,
-        context: &mut Context<'_>,
-    ) -> Option<SurfaceProps> {
+        context: &mut DecodeContext<'_>,
+    ) -> Option<SurfaceProperties> {
         let id = self.material(material, context)?;
         self.dependent.record_shadow(shadow);
-        Some(SurfaceProps {
+        Some(SurfaceProperties {
             object_span: kind.span,
             material: id,
             span: material.span,
@@ -278,8 +278,8 @@ impl Lowering {
         &mut self,
         kind: &Spanned<AnyScalar>,
         shadow: &Spanned<bool>,
-    ) -> SurfaceProps {
-        SurfaceProps {
+    ) -> SurfaceProperties {
+        SurfaceProperties {
             object_span: kind.span,
             material: self.grey(),
             span: kind.span,
@@ -291,7 +291,7 @@ impl Lowering {
     /// spans.
     pub(super) fn add_surface(
         &mut self,
-        props: &SurfaceProps,
+        props: &SurfaceProperties,
         shape: ir::Shape,
         value_spans: &[(&str, Option<Span>)],
     ) {
@@ -300,7 +300,7 @@ impl Lowering {
             self.invisible(value_span.and_then(|(_, span)| *span).or(props.object_span));
             return;
         }
-        let SurfaceProps {
+        let SurfaceProperties {
             object_span,
             material,
             span,
@@ -312,12 +312,12 @@ impl Lowering {
             material,
             casts_no_shadow: !casts_shadow,
         });
-        self.record_span(EntityKind::Surface, index, Field::Whole, object_span);
+        self.record_span(EntityKind::Surface, index, EntityField::Whole, object_span);
         for (path, span) in value_spans {
-            let field = Field::of_shape(kind, path);
+            let field = EntityField::of_shape(kind, path);
             self.record_span(EntityKind::Surface, index, field, *span);
         }
-        self.record_span(EntityKind::Surface, index, Field::Material, span);
+        self.record_span(EntityKind::Surface, index, EntityField::Material, span);
     }
 
     /// Omits an object of size 0 and records its span.
@@ -326,7 +326,7 @@ impl Lowering {
     }
 
     /// Reports the objects of size 0.
-    pub(super) fn report_invisible(&mut self, context: &mut Context<'_>) {
+    pub(super) fn report_invisible(&mut self, context: &mut DecodeContext<'_>) {
         for span in std::mem::take(&mut self.invisible) {
             let message = || "an object of size 0 is invisible".to_owned();
             context.report(&codes::INVISIBLE, span, message, |d| {
@@ -369,7 +369,7 @@ fn zero_size_field(shape: &ir::Shape) -> Option<&'static str> {
 
 /// Reports a negative length of an object that becomes triangles or a quad; the validator reports
 /// those of other shapes.
-fn report_negative(length: &Spanned<NonNegative>, name: &str, context: &mut Context<'_>) {
+fn report_negative(length: &Spanned<NonNegative>, name: &str, context: &mut DecodeContext<'_>) {
     if let Some(span) = length.span {
         let shown = shortest(length.value.0);
         let message = || format!("the {name} `{shown}` is not above 0");

@@ -2,13 +2,13 @@
 
 use super::quad::EDGES;
 use super::triangle::CORNERS;
-use super::{Lower, report_negative};
-use crate::course::decode::{Context, SharedValue, Spanned, SpannedVector};
+use super::{LowerObject, report_negative};
+use crate::course::decode::{DecodeContext, SharedValue, Spanned, SpannedVector};
 use crate::course::keyword::{Keyword, KeywordTable};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Real};
-use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::record::{FieldResult, keys, record};
 use crate::course::synonym::{AXIS, POSITION, RADIUS, with_canonical, with_last};
 use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_diag::codes;
@@ -49,7 +49,7 @@ record! {
         /// The type of the object.
         kind: Spanned<AnyScalar>, required, keys!["type"];
         /// The outline: `quad` for a square, `circle` for a disc.
-        outline: Spanned<Outline>, required, keys!["typ"];
+        outline: Spanned<PlaneOutline>, required, keys!["typ"];
         /// The centre.
         center: Spanned<Point>, required, &with_canonical(POSITION, "center");
         /// The normal; that of a square is along an axis.
@@ -65,20 +65,20 @@ record! {
 
 /// The outline of a bounded plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Outline {
+pub(crate) enum PlaneOutline {
     Square,
     Circle,
 }
 
-impl Keyword for Outline {
+impl Keyword for PlaneOutline {
     const KEYWORDS: KeywordTable<Self> = &[
-        ("quad", Outline::Square, "A square."),
-        ("circle", Outline::Circle, "A disc."),
+        ("quad", PlaneOutline::Square, "A square."),
+        ("circle", PlaneOutline::Circle, "A disc."),
     ];
 }
 
-impl Lower for Plane {
-    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+impl LowerObject for Plane {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         let props = lowering.surface_props(&self.kind, &self.material, &self.shadow, context);
         report_sign(self, context);
         if let (Some(props), Some((center, normal))) = (props, center_and_normal(self)) {
@@ -92,8 +92,8 @@ impl Lower for Plane {
     }
 }
 
-impl Lower for BoundedPlane {
-    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+impl LowerObject for BoundedPlane {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         let BoundedPlane {
             kind,
             outline,
@@ -108,7 +108,7 @@ impl Lower for BoundedPlane {
         };
         // A bounded plane is a disc or a square.
         match outline.value {
-            Outline::Circle => {
+            PlaneOutline::Circle => {
                 let shape = ir::Disc {
                     center: center.value.0,
                     normal: normal.value.0,
@@ -122,9 +122,11 @@ impl Lower for BoundedPlane {
                 lowering.add_surface(&props, ir::Shape::Disc(shape), &value_spans);
             }
             // A square of size 0 is invisible.
-            Outline::Square if radius.value.0 == 0.0 => lowering.invisible(radius.span),
-            Outline::Square if radius.value.0 < 0.0 => report_negative(radius, "radius", context),
-            Outline::Square => {
+            PlaneOutline::Square if radius.value.0 == 0.0 => lowering.invisible(radius.span),
+            PlaneOutline::Square if radius.value.0 < 0.0 => {
+                report_negative(radius, "radius", context)
+            }
+            PlaneOutline::Square => {
                 let fields = ["vertices/0", "vertices/1", "vertices/2", "vertices/3"];
                 let value_spans = fields.map(|field| (field, center.span));
                 match square_corners(center.value.0, normal.value.0, radius.value.0) {
@@ -158,7 +160,7 @@ fn square_corners(center: [f64; 3], normal: [f64; 3], half: f64) -> Option<[[f64
     ])
 }
 
-fn report_oblique(normal: &Spanned<Vector>, context: &mut Context<'_>) {
+fn report_oblique(normal: &Spanned<Vector>, context: &mut DecodeContext<'_>) {
     let Some(span) = normal.span else { return };
     let message = || "a square `bplane` has its normal along an axis".to_owned();
     context.report(&codes::UNSUPPORTED, span, message, |d| {
@@ -181,19 +183,19 @@ fn center_and_normal(plane: &Plane) -> Option<(SpannedVector, SpannedVector)> {
         shadow: _,
     } = plane;
     // An equation comes first.
-    if let FieldOutcome::Read(equation) = equation {
+    if let FieldResult::Read(equation) = equation {
         return Some(plane_of_equation(equation));
     }
     // Other forms are three points, a point with a normal, a distance or two edges.
     match (corners, position, normal, distance, edges) {
-        (FieldOutcome::Read(corners), ..) => Some(plane_of_points(corners)),
-        (_, FieldOutcome::Read(position), FieldOutcome::Read(normal), ..) => {
+        (FieldResult::Read(corners), ..) => Some(plane_of_points(corners)),
+        (_, FieldResult::Read(position), FieldResult::Read(normal), ..) => {
             Some((position.map(|point| point.0), normal.map(|vector| vector.0)))
         }
-        (_, _, FieldOutcome::Read(normal), FieldOutcome::Read(distance), _) => {
+        (_, _, FieldResult::Read(normal), FieldResult::Read(distance), _) => {
             Some(plane_at_distance(normal, distance))
         }
-        (_, FieldOutcome::Read(position), .., FieldOutcome::Read([up, side])) => {
+        (_, FieldResult::Read(position), .., FieldResult::Read([up, side])) => {
             let [up_vector, side_vector] = [up, side].map(|edge| Vec3::from_array(edge.value.0));
             let span = up.span.zip(side.span).map(|(first, last)| first.to(last));
             let normal = cross(side_vector, up_vector);
@@ -228,8 +230,8 @@ fn plane_of_equation([a, b, c, d]: &[Spanned<Real>; 4]) -> (SpannedVector, Spann
 }
 
 /// Reports the sign convention of the last coefficient.
-fn report_sign(plane: &Plane, context: &mut Context<'_>) {
-    let FieldOutcome::Read([.., d]) = &plane.equation else {
+fn report_sign(plane: &Plane, context: &mut DecodeContext<'_>) {
+    let FieldResult::Read([.., d]) = &plane.equation else {
         return;
     };
     if let (Some(span), true) = (d.span, d.value.0 != 0.0) {

@@ -2,11 +2,11 @@
 
 use super::solid::UNIT_SQUARE;
 use super::triangle::VERTICES;
-use super::{Lower, SurfaceProps};
-use crate::course::decode::{Context, SharedValue, Spanned, SpannedVector};
+use super::{LowerObject, SurfaceProperties};
+use crate::course::decode::{DecodeContext, SharedValue, Spanned, SpannedVector};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
-use crate::course::record::{FieldOutcome, Spellings, keys, record};
+use crate::course::record::{FieldResult, Spellings, keys, record};
 use crate::course::synonym::CORNER;
 use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_diag::codes;
@@ -55,8 +55,8 @@ record! {
     variants { [corners] [position edges] }
 }
 
-impl Lower for Quad {
-    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+impl LowerObject for Quad {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         let props = lowering.surface_props(&self.kind, &self.material, &self.shadow, context);
         if let (Some(props), Some(mut corners)) = (props, corners(self)) {
             if let Some(swap) =
@@ -80,7 +80,7 @@ impl Lower for Quad {
 impl Lowering {
     /// Adds two triangles instead of a quad, which share the diagonal from its first corner to its
     /// third.
-    fn add_two_triangles(&mut self, props: &SurfaceProps, corners: &[SpannedVector; 4]) {
+    fn add_two_triangles(&mut self, props: &SurfaceProperties, corners: &[SpannedVector; 4]) {
         for at in [[0, 1, 2], [0, 2, 3]] {
             let triangle = ir::Triangle {
                 vertices: at.map(|k| corners[k].value),
@@ -94,8 +94,8 @@ impl Lowering {
 
 /// Whether four corners that are not coplanar span a curved patch. Reports it if the file does not
 /// say.
-fn is_curved(quad: &Quad, corners: &[SpannedVector; 4], context: &mut Context<'_>) -> bool {
-    if let FieldOutcome::Read(curved) = quad.curved {
+fn is_curved(quad: &Quad, corners: &[SpannedVector; 4], context: &mut DecodeContext<'_>) -> bool {
+    if let FieldResult::Read(curved) = quad.curved {
         return curved.value;
     }
     if let Some(span) = corners[3].span {
@@ -121,10 +121,8 @@ fn corners(quad: &Quad) -> Option<[SpannedVector; 4]> {
         shadow: _,
     } = quad;
     match (corners, position, edges) {
-        (FieldOutcome::Read(corners), ..) => {
-            Some(corners.map(|corner| corner.map(|point| point.0)))
-        }
-        (_, FieldOutcome::Read(position), FieldOutcome::Read([up, side])) => {
+        (FieldResult::Read(corners), ..) => Some(corners.map(|corner| corner.map(|point| point.0))),
+        (_, FieldResult::Read(position), FieldResult::Read([up, side])) => {
             let [corner, v, u] = [position.value.0, up.value.0, side.value.0].map(Vec3::from_array);
             let second = side.map(|_| (corner + u).to_array());
             let third = side.map(|_| (corner + u + v).to_array());
@@ -165,7 +163,11 @@ fn corners_to_swap(corners: &[Vec3; 4]) -> Option<[usize; 2]> {
 }
 
 /// Reports crossing edges; with `--lenient` swaps the corners.
-fn report_crossed(corners: &mut [SpannedVector; 4], [a, b]: [usize; 2], context: &mut Context<'_>) {
+fn report_crossed(
+    corners: &mut [SpannedVector; 4],
+    [a, b]: [usize; 2],
+    context: &mut DecodeContext<'_>,
+) {
     const WHICH: [&str; 4] = ["first", "second", "third", "fourth"];
     let (first, second) = (corners[a].span, corners[b].span);
     let lenient = context.options.lenient;

@@ -1,14 +1,14 @@
 //! Sizes of meshes that depend on the bounds of the mesh in its file.
 
 use super::mesh::TRANSFORM;
-use rtc_diag::{Diagnostic, Severity, Sink, codes};
-use rtc_ir::{self as ir, EntityKind, Field, Lowered, ValuePath};
+use rtc_diag::{Diagnostic, DiagnosticSink, Severity, codes};
+use rtc_ir::{self as ir, EntityField, EntityKind, LoweredScene, ValuePath};
 use rtc_math::{Vec3, shortest};
 use rtc_source::Span;
 
 /// A change of the size of a mesh instance, applied after its file is loaded.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Sizing {
+pub(crate) enum MeshSizing {
     /// Scale the mesh to the size in the transform of this surface.
     Fit(usize),
     /// Keep this surface, which is scaled by this factor, unless it fills the view.
@@ -16,13 +16,13 @@ pub(crate) enum Sizing {
 }
 
 /// Applies the sizing of a mesh instance; its mesh is loaded.
-pub(crate) fn apply(sizing: Sizing, lowered: &mut Lowered, sink: &mut Sink) {
+pub(crate) fn apply(sizing: MeshSizing, lowered: &mut LoweredScene, sink: &mut DiagnosticSink) {
     // The instance and the bounds of its mesh.
     let (surface, factor_of) = match sizing {
-        Sizing::Fit(surface) => (surface, None),
-        Sizing::Check(surface, size) => (surface, Some(size)),
+        MeshSizing::Fit(surface) => (surface, None),
+        MeshSizing::Check(surface, size) => (surface, Some(size)),
     };
-    let Lowered {
+    let LoweredScene {
         scene,
         source_spans,
     } = lowered;
@@ -43,7 +43,7 @@ pub(crate) fn apply(sizing: Sizing, lowered: &mut Lowered, sink: &mut Sink) {
     };
     // A factor is kept unless the mesh would fill the view.
     if let Some(size) = factor_of {
-        let transform = Field::of_shape(ir::ShapeKind::Instance, TRANSFORM);
+        let transform = EntityField::of_shape(ir::ShapeKind::Instance, TRANSFORM);
         let span = source_spans.span(ValuePath::new(EntityKind::Surface, surface, transform));
         if !hides_view(
             transformed_box(instance.world_from_object, [min, max]),

@@ -1,16 +1,16 @@
 //! The polyhedra: box, tetrahedron and prism. They are lowered to triangles.
 
-use super::Lower;
+use super::LowerObject;
 use super::quad::FOUR_CORNERS;
 use super::triangle::{CORNERS, VERTICES};
-use crate::course::decode::{Context, Decode, SharedValue, Spanned};
+use crate::course::decode::{Decode, DecodeContext, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, Real, json_number};
-use crate::course::object::SurfaceProps;
-use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::object::SurfaceProperties;
+use crate::course::record::{FieldResult, keys, record};
 use crate::course::rotation::{Rotation, RotationKeys};
-use crate::course::schema::Definitions;
+use crate::course::schema::SchemaDefinitions;
 use crate::course::synonym::{POSITION, ROTATION, ROTATION_ANGLE, ROTATION_AXIS, with_canonical};
 use crate::course::value::{Angles, AnyScalar, Point, Scale, Vector};
 use rtc_diag::codes;
@@ -96,10 +96,10 @@ record! {
 
 /// The indices of the corners of a face, counter-clockwise as seen from outside. The first of four
 /// corners is the lower left of its texture.
-type Face = &'static [usize];
+type FaceCorners = &'static [usize];
 
 /// Bit k of a corner's index selects the end of edge k.
-const BOX: &[Face] = &[
+const BOX: &[FaceCorners] = &[
     &[0, 4, 6, 2],
     &[5, 1, 3, 7],
     &[0, 1, 5, 4],
@@ -107,8 +107,8 @@ const BOX: &[Face] = &[
     &[1, 0, 2, 3],
     &[4, 5, 7, 6],
 ];
-const TETRAHEDRON: &[Face] = &[&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]];
-const PRISM: &[Face] = &[
+const TETRAHEDRON: &[FaceCorners] = &[&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]];
+const PRISM: &[FaceCorners] = &[
     &[0, 2, 1],
     &[3, 4, 5],
     &[0, 1, 4, 3],
@@ -139,7 +139,7 @@ impl ThirdEdge {
 impl Decode for ThirdEdge {
     const IS_LIST: bool = true;
 
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         if context.tree.is_list(node) {
             Vector::decode(node, context).map(|edge| Self::Edge(edge.0))
         } else {
@@ -147,7 +147,7 @@ impl Decode for ThirdEdge {
         }
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         json!({ "anyOf": [Vector::schema(definitions), Real::schema(definitions)] })
     }
 
@@ -159,8 +159,8 @@ impl Decode for ThirdEdge {
     }
 }
 
-impl Lower for Cuboid {
-    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+impl LowerObject for Cuboid {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         let props = lowering.surface_props(&self.kind, &self.material, &self.shadow, context);
         if let (Some(props), Some((corners, span))) = (props, box_corners(self, context)) {
             report_assumed_depth(&self.depth, corners[4] - corners[0], context);
@@ -169,8 +169,8 @@ impl Lower for Cuboid {
     }
 }
 
-impl Lower for Tetrahedron {
-    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+impl LowerObject for Tetrahedron {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         let Tetrahedron {
             kind,
             corners,
@@ -201,8 +201,8 @@ impl Lower for Tetrahedron {
     }
 }
 
-impl Lower for Prism {
-    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+impl LowerObject for Prism {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         let Prism {
             kind,
             corners,
@@ -216,13 +216,13 @@ impl Lower for Prism {
         };
         // The six corners, from either variant.
         let (span, corners, up) = match (corners, up, ends) {
-            (FieldOutcome::Read(corners), FieldOutcome::Read(up), _) => {
+            (FieldResult::Read(corners), FieldResult::Read(up), _) => {
                 let [a, b, c] = corners.map(|corner| Vec3::from_array(corner.value.0));
                 let up = Vec3::from_array(up.value.0);
                 let top = [a + up, b + up, c + up];
                 (corners[0].span, [a, b, c, top[0], top[1], top[2]], up)
             }
-            (.., FieldOutcome::Read(ends)) => {
+            (.., FieldResult::Read(ends)) => {
                 let corners = ends.map(|corner| Vec3::from_array(corner.value.0));
                 let [a, b, c, d, e, f] = corners;
                 (ends[0].span, corners, (d - a) + (e - b) + (f - c))
@@ -248,10 +248,10 @@ impl Lowering {
     /// Adds the faces of a box with these corners.
     pub(super) fn add_box(
         &mut self,
-        props: &SurfaceProps,
+        props: &SurfaceProperties,
         corners: &[Vec3; 8],
         span: Option<Span>,
-        context: &mut Context<'_>,
+        context: &mut DecodeContext<'_>,
     ) {
         let polyhedron = Polyhedron {
             name: "box",
@@ -265,10 +265,10 @@ impl Lowering {
     /// Adds the faces of a polyhedron as triangles, counter-clockwise as seen from outside.
     fn add_polyhedron(
         &mut self,
-        props: &SurfaceProps,
+        props: &SurfaceProperties,
         polyhedron: &Polyhedron<'_>,
         span: Option<Span>,
-        context: &mut Context<'_>,
+        context: &mut DecodeContext<'_>,
     ) {
         // Only the sign of the volume is used. Edges are scaled so that it does not underflow.
         let [x, y, z] = polyhedron
@@ -313,11 +313,11 @@ pub(super) const UNIT_SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0
 struct Polyhedron<'c> {
     name: &'static str,
     corners: &'c [Vec3],
-    faces: &'static [Face],
+    faces: &'static [FaceCorners],
     edges: [Vec3; 3],
 }
 
-fn report_flat(name: &str, span: Span, context: &mut Context<'_>) {
+fn report_flat(name: &str, span: Span, context: &mut DecodeContext<'_>) {
     context.report(
         &codes::FLAT_SOLID,
         span,
@@ -331,11 +331,11 @@ fn report_flat(name: &str, span: Span, context: &mut Context<'_>) {
 
 /// Reports the assumed direction of a depth that is only a length.
 fn report_assumed_depth(
-    depth: &FieldOutcome<Spanned<ThirdEdge>>,
+    depth: &FieldResult<Spanned<ThirdEdge>>,
     edge: Vec3,
-    context: &mut Context<'_>,
+    context: &mut DecodeContext<'_>,
 ) {
-    if let FieldOutcome::Read(Spanned {
+    if let FieldResult::Read(Spanned {
         value: ThirdEdge::Length(_),
         span: Some(span),
     }) = *depth
@@ -352,7 +352,10 @@ fn report_assumed_depth(
 }
 
 /// The corners of a box, and the span of its size.
-fn box_corners(add_box: &Cuboid, context: &mut Context<'_>) -> Option<([Vec3; 8], Option<Span>)> {
+fn box_corners(
+    add_box: &Cuboid,
+    context: &mut DecodeContext<'_>,
+) -> Option<([Vec3; 8], Option<Span>)> {
     let Cuboid {
         kind: _,
         extremes,
@@ -369,7 +372,7 @@ fn box_corners(add_box: &Cuboid, context: &mut Context<'_>) -> Option<([Vec3; 8]
     // Bit k of a corner's index tells its end of axis k.
     let end = |index: usize, axis: usize| (index >> axis) & 1;
     // One form has a corner and its edges.
-    if let (FieldOutcome::Read(corner), FieldOutcome::Read([up, side]), FieldOutcome::Read(depth)) =
+    if let (FieldResult::Read(corner), FieldResult::Read([up, side]), FieldResult::Read(depth)) =
         (position, edges, depth)
     {
         let corner = Vec3::from_array(corner.value.0);
@@ -379,13 +382,13 @@ fn box_corners(add_box: &Cuboid, context: &mut Context<'_>) -> Option<([Vec3; 8]
     }
     // The others have two opposite corners, or a centre with a rotation.
     match (extremes, position, dimension) {
-        (FieldOutcome::Read(ends), ..) => {
+        (FieldResult::Read(ends), ..) => {
             let corner = |index| {
                 Vec3::from_array([0, 1, 2].map(|axis| ends[end(index, axis)].value.0[axis]))
             };
             Some((std::array::from_fn(corner), ends[0].span))
         }
-        (_, FieldOutcome::Read(center), FieldOutcome::Read(dimension)) => {
+        (_, FieldResult::Read(center), FieldResult::Read(dimension)) => {
             let axes = RotationKeys {
                 rotation,
                 axis,

@@ -1,13 +1,13 @@
 //! The sphere and the rotation of its texture.
 
-use super::Lower;
-use crate::course::decode::{Context, Decode, SharedValue, Spanned};
+use super::LowerObject;
+use crate::course::decode::{Decode, DecodeContext, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, NonNegative, json_number};
-use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::record::{FieldResult, keys, record};
 use crate::course::rotation::{Quaternion, Rotation};
-use crate::course::schema::Definitions;
+use crate::course::schema::SchemaDefinitions;
 use crate::course::synonym::{POSITION, RADIUS, with_canonical};
 use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_diag::{Severity, codes};
@@ -52,7 +52,7 @@ pub(crate) struct Radius {
 impl Decode for Radius {
     const IS_LIST: bool = true;
 
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         let tree = context.tree;
         if tree.shape(node) != NodeContent::List {
             return NonNegative::decode(node, context).map(|length| Self {
@@ -73,7 +73,7 @@ impl Decode for Radius {
         })
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         let length = NonNegative::schema(definitions);
         let pair = json!([length, Vector::schema(definitions)]);
         let list = json!({ "type": "array", "prefixItems": pair, "minItems": 2, "maxItems": 2 });
@@ -85,8 +85,8 @@ impl Decode for Radius {
     }
 }
 
-impl Lower for Sphere {
-    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+impl LowerObject for Sphere {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         let Sphere {
             kind,
             position,
@@ -98,12 +98,12 @@ impl Lower for Sphere {
             shadow,
         } = self;
         let texture_from_world = match quaternion {
-            FieldOutcome::Read(quaternion) => {
+            FieldResult::Read(quaternion) => {
                 let axis = axis.ok().and_then(|axis| axis.span);
                 report_two_rotations(axis.or(angle.span), quaternion, context);
                 texture_rotation(quaternion.value)
             }
-            FieldOutcome::Absent | FieldOutcome::Broken => {
+            FieldResult::Absent | FieldResult::Broken => {
                 rotated_to_z(texture_axis(radius, axis, context), angle.value.0)
             }
         };
@@ -122,20 +122,20 @@ impl Lower for Sphere {
 /// The axis of the texture: +z unless a non-zero axis is given. Reports an axis without effect.
 fn texture_axis(
     radius: &Spanned<Radius>,
-    axis: &FieldOutcome<Spanned<Rotation<Vector>>>,
-    context: &mut Context<'_>,
+    axis: &FieldResult<Spanned<Rotation<Vector>>>,
+    context: &mut DecodeContext<'_>,
 ) -> Vec3 {
     // An ignored rotation counts as absent.
     let axis = match axis {
-        FieldOutcome::Read(Spanned {
+        FieldResult::Read(Spanned {
             value: Rotation(Some(axis)),
             span,
-        }) => FieldOutcome::Read(Spanned {
+        }) => FieldResult::Read(Spanned {
             value: *axis,
             span: *span,
         }),
-        FieldOutcome::Read(_) | FieldOutcome::Absent => FieldOutcome::Absent,
-        FieldOutcome::Broken => FieldOutcome::Broken,
+        FieldResult::Read(_) | FieldResult::Absent => FieldResult::Absent,
+        FieldResult::Broken => FieldResult::Broken,
     };
     let mut no_effect = |axis: &Spanned<Vector>, message: &str| {
         axis.span.into_iter().for_each(|span| {
@@ -149,7 +149,7 @@ fn texture_axis(
     };
     // `axis` overrides the axis beside the radius.
     let chosen = match (&axis, &radius.value.axis) {
-        (FieldOutcome::Read(axis), inner) => {
+        (FieldResult::Read(axis), inner) => {
             inner.iter().for_each(|inner| {
                 no_effect(
                     inner,
@@ -158,8 +158,8 @@ fn texture_axis(
             });
             axis
         }
-        (FieldOutcome::Absent | FieldOutcome::Broken, Some(axis)) => axis,
-        (FieldOutcome::Absent | FieldOutcome::Broken, None) => return Vec3::Z,
+        (FieldResult::Absent | FieldResult::Broken, Some(axis)) => axis,
+        (FieldResult::Absent | FieldResult::Broken, None) => return Vec3::Z,
     };
     unit(Vec3::from_array(chosen.value.0)).unwrap_or_else(|| {
         no_effect(
@@ -191,7 +191,7 @@ fn texture_rotation(Quaternion(parts): Quaternion) -> Option<[[f64; 3]; 3]> {
 fn report_two_rotations(
     other: Option<Span>,
     quaternion: &Spanned<Quaternion>,
-    context: &mut Context<'_>,
+    context: &mut DecodeContext<'_>,
 ) {
     let mut no_effect = |span: Option<Span>, message: &str| {
         if let Some(span) = span {

@@ -1,11 +1,11 @@
 //! The torus.
 
-use super::Lower;
-use crate::course::decode::{Context, SharedValue, Spanned};
+use super::LowerObject;
+use crate::course::decode::{DecodeContext, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Positive};
-use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::record::{FieldResult, keys, record};
 use crate::course::synonym::{AXIS, POSITION, with_canonical};
 use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_diag::codes;
@@ -43,8 +43,8 @@ record! {
     variants { [radius alpha] [radii] [inner_outer] }
 }
 
-impl Lower for Torus {
-    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+impl LowerObject for Torus {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         let Torus {
             kind,
             position,
@@ -58,14 +58,14 @@ impl Lower for Torus {
         } = self;
         // The major and the minor radius, from one variant.
         let (radius, alpha) = match (radius, alpha, radii, inner_outer) {
-            (FieldOutcome::Read(radius), FieldOutcome::Read(alpha), ..) => {
+            (FieldResult::Read(radius), FieldResult::Read(alpha), ..) => {
                 (radius.map(|radius| radius.0), alpha.map(|alpha| alpha.0))
             }
-            (_, _, FieldOutcome::Read(radii), _) => {
+            (_, _, FieldResult::Read(radii), _) => {
                 let [radius, alpha] = radii.map(|radius| radius.map(|radius| radius.0));
                 (radius, alpha)
             }
-            (.., FieldOutcome::Read([inner, outer])) => {
+            (.., FieldResult::Read([inner, outer])) => {
                 let [major, minor] = major_and_minor(inner.value.0, outer.value.0);
                 (outer.map(|_| major), inner.map(|_| minor))
             }
@@ -90,7 +90,7 @@ impl Lower for Torus {
         // Inner and outer radii are interpreted when all objects are known.
         let surface = lowering.scene.surfaces.len();
         lowering.add_surface(&props, ir::Shape::Torus(shape), &value_spans);
-        if let (FieldOutcome::Read(radii), true) =
+        if let (FieldResult::Read(radii), true) =
             (inner_outer, lowering.scene.surfaces.len() > surface)
         {
             lowering.ambiguous_tori.push(AmbiguousTorus {
@@ -118,7 +118,7 @@ const MAX_OTHERS: usize = 64;
 impl Lowering {
     /// Chooses between the two interpretations of each ambiguous torus: the one that contains fewer
     /// points of other entities. Call it after all of these are lowered.
-    pub(crate) fn resolve_tori(&mut self, context: &mut Context<'_>) {
+    pub(crate) fn resolve_tori(&mut self, context: &mut DecodeContext<'_>) {
         for AmbiguousTorus {
             surface,
             radii: [inner, outer],
@@ -182,7 +182,7 @@ fn report_two_radii(
     inner: &Spanned<Positive>,
     outer: &Spanned<Positive>,
     is_tube: bool,
-    context: &mut Context<'_>,
+    context: &mut DecodeContext<'_>,
 ) {
     let Some(span) = inner.span else { return };
     let ([first, second], hint) = match is_tube {

@@ -1,10 +1,10 @@
 //! The triangle.
 
-use super::Lower;
-use crate::course::decode::{Context, SharedValue, Spanned};
+use super::LowerObject;
+use crate::course::decode::{DecodeContext, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
-use crate::course::record::{FieldOutcome, Spellings, keys, record};
+use crate::course::record::{FieldResult, Spellings, keys, record};
 use crate::course::value::{AnyScalar, Point, Uv};
 use rtc_ir as ir;
 
@@ -45,8 +45,8 @@ record! {
 /// The paths of the corners in the IR.
 pub(crate) const VERTICES: [&str; 3] = ["vertices/0", "vertices/1", "vertices/2"];
 
-impl Lower for Triangle {
-    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+impl LowerObject for Triangle {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         let Triangle {
             kind,
             corners,
@@ -54,7 +54,7 @@ impl Lower for Triangle {
             material,
             shadow,
         } = self;
-        let uvs = if let FieldOutcome::Read(uvs) = uvs {
+        let uvs = if let FieldResult::Read(uvs) = uvs {
             Some(uvs.map(|uv| uv.value.0))
         } else {
             None

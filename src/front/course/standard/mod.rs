@@ -15,12 +15,12 @@ mod value;
 
 pub(super) use texture::TextureMap;
 
-use super::decode::{Context, Decode, Spanned};
+use super::decode::{Decode, DecodeContext, Spanned};
 use super::lower::Lowering;
 use super::number::{NonNegative, Positive, Real};
 use super::reader::MapReader;
-use super::record::{FieldDeclaration, FieldOutcome, FieldValue, Record, Requirement};
-use super::schema::{self, Definitions};
+use super::record::{FieldDeclaration, FieldRequirement, FieldResult, FieldValue, Record};
+use super::schema::{self, SchemaDefinitions};
 use super::value::{AnyScalar, Color, DisplayName};
 use rtc_ir::{self as ir, Alpha};
 use rtc_source::tree::NodeId;
@@ -81,19 +81,19 @@ macro_rules! written {
 /// The default for each kind of parameter.
 macro_rules! requirement {
     (map, $default:expr) => {
-        Requirement::Optional
+        FieldRequirement::Optional
     };
     (distance, $default:expr) => {
-        Requirement::Optional
+        FieldRequirement::Optional
     };
     (some_fractions, $default:expr) => {
-        Requirement::Optional
+        FieldRequirement::Optional
     };
     (flag, $default:expr) => {
-        Requirement::Default(|| Decode::json(&$default))
+        FieldRequirement::Default(|| Decode::json(&$default))
     };
     ($kind:ident, $default:expr) => {
-        Requirement::Default(|| Decode::json(&<written!($kind)>::from($default)))
+        FieldRequirement::Default(|| Decode::json(&<written!($kind)>::from($default)))
     };
 }
 
@@ -124,8 +124,8 @@ macro_rules! material {
     )*) => {
         /// The material of glTF.
         pub(crate) struct StandardMaterial {
-            name: FieldOutcome<Spanned<DisplayName>>,
-            $($field: FieldOutcome<Spanned<written!($kind)>>,)*
+            name: FieldResult<Spanned<DisplayName>>,
+            $($field: FieldResult<Spanned<written!($kind)>>,)*
         }
 
         impl StandardMaterial {
@@ -141,7 +141,7 @@ macro_rules! material {
                         doc: " `standard`: which material this is.",
                         spellings: &[&["type"]],
                         json: &[],
-                        requirement: Requirement::Required,
+                        requirement: FieldRequirement::Required,
                         schema: <Spanned<AnyScalar> as FieldValue>::schema,
                     },
                     FieldDeclaration {
@@ -149,7 +149,7 @@ macro_rules! material {
                         doc: " A name for people to read.",
                         spellings: &[&["name"]],
                         json: &[],
-                        requirement: Requirement::Optional,
+                        requirement: FieldRequirement::Optional,
                         schema: <Spanned<DisplayName> as FieldValue>::schema,
                     },
                     $(FieldDeclaration {
@@ -168,10 +168,10 @@ macro_rules! material {
             /// Lowers the material; its textures are added to the pending assets.
             fn lowered(&self, lowering: &mut Lowering) -> ir::Standard {
                 let mut standard = ir::Standard::default();
-                if let FieldOutcome::Read(name) = &self.name {
+                if let FieldResult::Read(name) = &self.name {
                     standard.name.clone_from(&name.value.0);
                 }
-                $(if let FieldOutcome::Read(written) = &self.$field {
+                $(if let FieldResult::Read(written) = &self.$field {
                     standard.$field = lowered!($kind, written, lowering);
                 })*
                 standard
@@ -179,7 +179,7 @@ macro_rules! material {
         }
 
         impl Decode for StandardMaterial {
-            fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+            fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
                 let mut reader = MapReader::open(&Self::RECORD, node, context)?;
                 let _ = reader.next::<Spanned<AnyScalar>>(context);
                 let name = reader.next(context);
@@ -187,7 +187,7 @@ macro_rules! material {
                 reader.close(context).then_some(Self { name, $($field,)* })
             }
 
-            fn schema(definitions: &mut Definitions) -> Json {
+            fn schema(definitions: &mut SchemaDefinitions) -> Json {
                 schema::record(&Self::RECORD, definitions)
             }
         }

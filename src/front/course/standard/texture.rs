@@ -1,13 +1,13 @@
 //! The textures of a `standard` material: images with the placement and sampling of glTF.
 
-use super::super::decode::{Context, Decode, Spanned};
+use super::super::decode::{Decode, DecodeContext, Spanned};
 use super::super::keyword::{keyword, keyword_schema};
 use super::super::lower::Lowering;
 use super::super::pattern::{FileOrPattern, PatternMap, pattern_word};
 use super::super::reader::look_up;
-use super::super::record::{FieldOutcome, keys, record};
+use super::super::record::{FieldResult, keys, record};
 use super::super::rotation::PlaneRows;
-use super::super::schema::Definitions;
+use super::super::schema::SchemaDefinitions;
 use super::super::value::{FileName, tuple};
 use super::value::SetIndex;
 use crate::course::keyword::{Keyword, KeywordTable};
@@ -42,7 +42,7 @@ pub(crate) enum MapOrFile {
 }
 
 impl Decode for MapOrFile {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         if context.tree.is_map(node) {
             return if look_up("pattern", node, context).is_some() {
                 PatternMap::decode(node, context).map(|map| Self::Pattern(Box::new(map)))
@@ -60,11 +60,11 @@ impl Decode for MapOrFile {
             set: Spanned::without_span(SetIndex(0)),
             wrap: Spanned::without_span(WrapModes([Wrap::Repeat; 2])),
             filter: Spanned::without_span(Filter::Linear),
-            transform: FieldOutcome::Absent,
+            transform: FieldResult::Absent,
         }))
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         let [file, word, pattern] = FileOrPattern::variants(definitions);
         let image = TextureMap::schema(definitions);
         json!({ "title": "file, texture or pattern", "anyOf": [file, image, word, pattern] })
@@ -89,15 +89,15 @@ const WRAPS: KeywordTable<Wrap> = &[
 impl Decode for WrapModes {
     const IS_LIST: bool = true;
 
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         if context.tree.shape(node) == NodeContent::List {
-            let each = |node, context: &mut Context<'_>| keyword(node, WRAPS, context);
+            let each = |node, context: &mut DecodeContext<'_>| keyword(node, WRAPS, context);
             return tuple(node, "a word or a list of two", context, each).map(Self);
         }
         keyword(node, WRAPS, context).map(|wrap| Self([wrap; 2]))
     }
 
-    fn schema(_: &mut Definitions) -> Json {
+    fn schema(_: &mut SchemaDefinitions) -> Json {
         let keyword = keyword_schema(WRAPS);
         let pair = json!({ "type": "array", "items": keyword, "minItems": 2, "maxItems": 2 });
         json!({ "anyOf": [keyword, pair] })
@@ -145,8 +145,8 @@ impl Lowering {
             texture: self.files.sampled(&mut self.scene, file, sampling),
             set: set.value.0,
             texture_from_surface: match transform {
-                FieldOutcome::Read(rows) => Some(rows.value.0),
-                FieldOutcome::Absent | FieldOutcome::Broken => None,
+                FieldResult::Read(rows) => Some(rows.value.0),
+                FieldResult::Absent | FieldResult::Broken => None,
             },
         }
     }

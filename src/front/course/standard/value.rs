@@ -1,10 +1,10 @@
 //! The value types of a `standard` material: fractions, ranges, alpha modes.
 
-use super::super::decode::{Context, Decode, Spanned};
+use super::super::decode::{Decode, DecodeContext, Spanned};
 use super::super::keyword::{KeywordTable, keyword, keyword_schema};
 use super::super::number::{NonNegative, Real, integer, json_number, number, ranged};
 use super::super::record::{keys, record};
-use super::super::schema::Definitions;
+use super::super::schema::SchemaDefinitions;
 use super::super::value::{Color, tuple};
 use super::Alpha;
 use rtc_source::tree::NodeId;
@@ -44,11 +44,11 @@ macro_rules! numbers {
         impl Decode for $name {
             const IS_LIST: bool = true;
 
-            fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+            fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
                 tuple(node, $what, context, |node, context| number(node, $what, context)).map(Self)
             }
 
-            fn schema(_: &mut Definitions) -> Json {
+            fn schema(_: &mut SchemaDefinitions) -> Json {
                 json!({ "type": "array", "items": $item, "minItems": $count, "maxItems": $count })
             }
 
@@ -130,7 +130,7 @@ record! {
 }
 
 impl Decode for AlphaMode {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         if context.tree.is_map(node) {
             let mask = Mask::decode(node, context)?;
             return Some(Self(Alpha::Mask(mask.mask.value.0)));
@@ -138,7 +138,7 @@ impl Decode for AlphaMode {
         keyword(node, ALPHA_MODES, context).map(Self)
     }
 
-    fn schema(definitions: &mut Definitions) -> Json {
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
         let mut schema = keyword_schema(ALPHA_MODES);
         let variants = schema["anyOf"].as_array_mut();
         let mask = Mask::schema(definitions);

@@ -2,10 +2,10 @@
 //! the scene.
 
 use super::super::camera::{Projection, projection};
-use super::super::field::Fields;
+use super::super::field::ObjectFields;
 use super::Lowering;
 use glam::DAffine3;
-use rtc_ir::{self as ir, BoundingSphere, Camera, EntityKind, Field, Lens, ValuePath};
+use rtc_ir::{self as ir, BoundingSphere, Camera, EntityField, EntityKind, Lens, ValuePath};
 use rtc_math::{Vec3, cos, sin, unit};
 use rtc_source::tree::NodeId;
 
@@ -38,7 +38,7 @@ impl Lowering<'_, '_, '_> {
         match chosen {
             Some((at, camera)) => {
                 self.source_spans.record(
-                    ValuePath::new(EntityKind::Camera, 0, Field::Whole),
+                    ValuePath::new(EntityKind::Camera, 0, EntityField::Whole),
                     self.report.json.span(at),
                 );
                 self.scene.camera = camera;
@@ -68,7 +68,7 @@ impl Lowering<'_, '_, '_> {
 
     fn camera_of(&self, seen: &CameraUse) -> Option<(NodeId, Camera)> {
         let at = *self.doc.cameras.get(seen.camera)?;
-        let fields = Fields::new(self.report.json, at).animated(&self.materials.animated);
+        let fields = ObjectFields::new(self.report.json, at).animated(&self.materials.animated);
         let (mut camera, ahead) = through(projection(fields)?, seen.world)?;
         if let Some(extras) = fields.rtc_extras() {
             refine(&mut camera, ahead, extras);
@@ -90,7 +90,7 @@ impl Lowering<'_, '_, '_> {
             .doc
             .cameras
             .get(seen.camera)
-            .map(|camera| Fields::new(self.report.json, *camera).name());
+            .map(|camera| ObjectFields::new(self.report.json, *camera).name());
         [
             name.unwrap_or_default(),
             self.doc.nodes[seen.node].name.clone(),
@@ -124,7 +124,7 @@ fn through(projection: Projection, world: DAffine3) -> Option<(Camera, Vec3)> {
 
 /// Sets the properties that glTF lacks: the size of the picture, the plane of focus, the offset of
 /// the centre in half sizes, and the lens.
-fn refine(camera: &mut Camera, ahead: Vec3, extras: Fields<'_, '_>) {
+fn refine(camera: &mut Camera, ahead: Vec3, extras: ObjectFields<'_, '_>) {
     let [eye, center, right, up] =
         [camera.eye, camera.center, camera.right, camera.up].map(Vec3::from_array);
     let [width, height] = camera.size;

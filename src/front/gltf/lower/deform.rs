@@ -1,13 +1,13 @@
 //! Deforms meshes by morph targets and then by skinning.
 
 use super::super::accessor_reader::AccessorReader;
-use super::super::attribute::Attribute;
+use super::super::attribute::VertexAttribute;
 use super::super::document::Document;
 use super::super::primitive::Primitive;
 use super::shape::Deformation;
 use super::uv::TexCoordSets;
 use glam::{DAffine3, DMat3};
-use rtc_ir::{self as ir, Column};
+use rtc_ir::{self as ir, VertexColumn};
 use rtc_math::Vec3;
 
 /// Moves the vertices of a mesh.
@@ -25,7 +25,7 @@ pub(super) fn deform(
     let targets = targets
         .map(|(target, weight)| (target.as_slice(), *weight))
         .collect::<Vec<_>>();
-    let morph = Morph { doc, targets };
+    let morph = MorphTargets { doc, targets };
     morph.add::<3, 3>("POSITION", &mut mesh.positions);
     morph.add::<3, 3>("NORMAL", &mut mesh.normals);
     morph.add::<4, 3>("TANGENT", &mut mesh.tangents);
@@ -41,15 +41,19 @@ pub(super) fn deform(
 }
 
 /// The morph targets that count, each with its weight.
-struct Morph<'d, 's> {
+struct MorphTargets<'d, 's> {
     doc: &'d Document<'s>,
-    targets: Vec<(&'d [Attribute], f64)>,
+    targets: Vec<(&'d [VertexAttribute], f64)>,
 }
 
-impl Morph<'_, '_> {
+impl MorphTargets<'_, '_> {
     /// Adds the morph targets of an attribute, to the first `M` of its components. False if none
     /// changes it.
-    fn add<const N: usize, const M: usize>(&self, name: &str, column: &mut Column<N>) -> bool {
+    fn add<const N: usize, const M: usize>(
+        &self,
+        name: &str,
+        column: &mut VertexColumn<N>,
+    ) -> bool {
         let mut animated: Option<Vec<[f64; N]>> = None;
         for (target, weight) in &self.targets {
             let accessor = target
@@ -70,7 +74,7 @@ impl Morph<'_, '_> {
             });
         }
         if let Some(animated) = &animated {
-            *column = Column::rounded(animated.iter().copied());
+            *column = VertexColumn::rounded(animated.iter().copied());
         }
         animated.is_some()
     }
@@ -107,7 +111,7 @@ fn skin(doc: &Document<'_>, primitive: &Primitive, joints: &[DAffine3], mesh: &m
     }
     // Transform positions, normals and tangents.
     let positions = mesh.positions.iter().map(Vec3::from_array).zip(&blends);
-    mesh.positions = Column::rounded(
+    mesh.positions = VertexColumn::rounded(
         positions.map(|(p, (matrix, translation))| (matrix * p + translation).to_array()),
     );
     // Normals turn with the cofactors, which the inverse transpose is but for its length.
@@ -121,7 +125,7 @@ fn skin(doc: &Document<'_>, primitive: &Primitive, joints: &[DAffine3], mesh: &m
     let normals = mesh.normals.iter().map(Vec3::from_array).zip(&blends);
     let turned = normals
         .map(|(normal, (matrix, _))| (cofactors(matrix) * normal).normalize_or_zero().to_array());
-    mesh.normals = Column::rounded(turned);
+    mesh.normals = VertexColumn::rounded(turned);
     let turned = mesh
         .tangents
         .iter()
@@ -130,5 +134,5 @@ fn skin(doc: &Document<'_>, primitive: &Primitive, joints: &[DAffine3], mesh: &m
             let Vec3 { x, y, z } = (*matrix * Vec3::new(x, y, z)).normalize_or_zero();
             [x, y, z, side]
         });
-    mesh.tangents = Column::rounded(turned);
+    mesh.tangents = VertexColumn::rounded(turned);
 }

@@ -1,10 +1,12 @@
 //! Punctual lights (`KHR_lights_punctual`): they point along their negative z axis, and scale has
 //! no effect. `extras.rtc` holds lights without falloff and photometric profiles.
 
-use super::super::field::Fields;
+use super::super::field::ObjectFields;
 use super::Lowering;
 use glam::DAffine3;
-use rtc_ir::{Emitter, EntityKind, Field, Light, Photometry, PointLight, Punctual, ValuePath};
+use rtc_ir::{
+    EntityField, EntityKind, Light, Photometry, PointLight, Punctual, PunctualKind, ValuePath,
+};
 use rtc_math::{Vec3, unit};
 use rtc_source::tree::NodeId;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -12,7 +14,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 impl Lowering<'_, '_, '_> {
     /// Lowers the light at a node with the transform `world`.
     pub(super) fn light(&mut self, light: NodeId, world: DAffine3) {
-        let fields = Fields::new(self.report.json, light).animated(&self.materials.animated);
+        let fields = ObjectFields::new(self.report.json, light).animated(&self.materials.animated);
         let intensity = fields.number_or("intensity", 1.0);
         let position = world.translation.to_array();
         let backward = unit(world.z_axis).unwrap_or(Vec3::ZERO);
@@ -26,10 +28,10 @@ impl Lowering<'_, '_, '_> {
         // A punctual light shines along its local -z axis.
         let range = fields.number("range").filter(|range| *range > 0.0);
         let emitter = match fields.text("type").as_deref() {
-            Some("directional") if backward != Vec3::ZERO => Emitter::Sun {
+            Some("directional") if backward != Vec3::ZERO => PunctualKind::Sun {
                 direction: backward.to_array(),
             },
-            Some("point") => Emitter::Point { position, range },
+            Some("point") => PunctualKind::Point { position, range },
             Some("spot") if backward != Vec3::ZERO => {
                 let angle = |key, default| {
                     fields
@@ -39,7 +41,7 @@ impl Lowering<'_, '_, '_> {
                 let outer_angle: f64 = angle("outerConeAngle", FRAC_PI_4);
                 let outer_angle = outer_angle.min(FRAC_PI_2);
                 let inner_angle = angle("innerConeAngle", 0.0);
-                Emitter::Spot {
+                PunctualKind::Spot {
                     position,
                     direction: (-backward).to_array(),
                     inner_angle,
@@ -61,14 +63,18 @@ impl Lowering<'_, '_, '_> {
     }
 
     fn add_light(&mut self, at: NodeId, light: Light) {
-        let place = ValuePath::new(EntityKind::Light, self.scene.lights.len(), Field::Whole);
+        let place = ValuePath::new(
+            EntityKind::Light,
+            self.scene.lights.len(),
+            EntityField::Whole,
+        );
         self.source_spans.record(place, self.report.json.span(at));
         self.scene.lights.push(light);
     }
 }
 
 /// A light that glTF can't express.
-fn light_extras(extras: Fields<'_, '_>, world: DAffine3) -> Option<Light> {
+fn light_extras(extras: ObjectFields<'_, '_>, world: DAffine3) -> Option<Light> {
     let position = world.translation.to_array();
     if let Some(point) = extras.object("point") {
         return Some(Light::Point(PointLight {
@@ -86,7 +92,7 @@ fn light_extras(extras: Fields<'_, '_>, world: DAffine3) -> Option<Light> {
     };
     let axis = |axis: Vec3| unit(axis).unwrap_or(Vec3::ZERO);
     Some(Light::Punctual(Punctual {
-        emitter: Emitter::Photometric {
+        emitter: PunctualKind::Photometric {
             position,
             direction: (-axis(world.z_axis)).to_array(),
             horizontal: axis(world.x_axis).to_array(),

@@ -1,7 +1,7 @@
 //! Materials: factors and textures of glTF and of its extensions. Each material is lowered once.
 
 use super::super::document::Document;
-use super::super::field::Fields;
+use super::super::field::ObjectFields;
 use super::super::pointer::AnimatedValues;
 use super::super::primitive::Primitive;
 use super::super::report::AssetReport;
@@ -9,7 +9,7 @@ use super::texture::LoweredTextures;
 use super::uv::TexCoordSets;
 use rtc_diag::codes;
 use rtc_ir::{
-    self as ir, Alpha, Bump, EntityKind, Field, Map, MaterialId, Phong, Scene, SourceSpans,
+    self as ir, Alpha, Bump, EntityField, EntityKind, Map, MaterialId, Phong, Scene, SourceSpans,
     Standard, ValuePath,
 };
 use rtc_math::to_u32;
@@ -17,7 +17,7 @@ use rtc_source::tree::SyntaxTree;
 use std::collections::BTreeMap;
 
 /// What became of the materials of the asset.
-pub(super) struct Materials {
+pub(super) struct ImportedMaterials {
     /// The properties of all parts that an animation has moved.
     pub(super) animated: AnimatedValues,
     made: Vec<Option<MaterialId>>,
@@ -37,14 +37,14 @@ pub(super) fn chosen(
     json: &SyntaxTree<'_>,
 ) -> Option<usize> {
     let variant = variant?;
-    let mappings = Fields::new(json, primitive.at).extension("KHR_materials_variants")?;
+    let mappings = ObjectFields::new(json, primitive.at).extension("KHR_materials_variants")?;
     let mapping = mappings
         .objects("mappings")
         .find(|mapping| mapping.indices("variants").contains(&variant))?;
     mapping.index("material")
 }
 
-impl Materials {
+impl ImportedMaterials {
     pub(super) fn new(doc: &Document<'_>, animated: AnimatedValues) -> Self {
         Self {
             animated,
@@ -136,8 +136,8 @@ impl Materials {
         let mut standard = match material {
             None => Standard::default(),
             Some(material) => {
-                let fields =
-                    Fields::new(report.json, doc.materials[material]).animated(&self.animated);
+                let fields = ObjectFields::new(report.json, doc.materials[material])
+                    .animated(&self.animated);
                 let mut reader = MaterialReader {
                     doc,
                     textures: &mut self.textures,
@@ -147,8 +147,11 @@ impl Materials {
                 };
                 // A Phong material is stored in extras.
                 if let Some(phong) = reader.phong(fields) {
-                    let place =
-                        ValuePath::new(EntityKind::Material, scene.materials.len(), Field::Whole);
+                    let place = ValuePath::new(
+                        EntityKind::Material,
+                        scene.materials.len(),
+                        EntityField::Whole,
+                    );
                     source_spans.record(place, report.json.span(fields.at));
                     scene.materials.push(ir::Material::Phong(phong));
                     self.made[material] = Some(id);
@@ -174,7 +177,11 @@ impl Materials {
         }
         // Record the origin and store the material.
         if let Some(material) = material {
-            let place = ValuePath::new(EntityKind::Material, scene.materials.len(), Field::Whole);
+            let place = ValuePath::new(
+                EntityKind::Material,
+                scene.materials.len(),
+                EntityField::Whole,
+            );
             source_spans.record(place, report.json.span(doc.materials[material]));
         }
         scene
@@ -198,13 +205,13 @@ struct MaterialReader<'m, 'd, 'r, 's> {
 }
 
 impl MaterialReader<'_, '_, '_, '_> {
-    fn map(&mut self, fields: Option<Fields<'_, '_>>, key: &str) -> Option<Map> {
+    fn map(&mut self, fields: Option<ObjectFields<'_, '_>>, key: &str) -> Option<Map> {
         let info = fields?.object(key)?;
         self.textures
             .map(self.doc, info, self.scene, self.source_spans, self.report)
     }
 
-    fn material(&mut self, fields: Fields<'_, '_>) -> Standard {
+    fn material(&mut self, fields: ObjectFields<'_, '_>) -> Standard {
         let pbr = fields.object("pbrMetallicRoughness");
         let strength = extension(fields, "emissive_strength").map_or(1.0, |extension| {
             extension.number_or("emissiveStrength", 1.0)
@@ -246,7 +253,7 @@ impl MaterialReader<'_, '_, '_, '_> {
     }
 
     /// The Phong material in `extras.rtc`, if any.
-    fn phong(&mut self, fields: Fields<'_, '_>) -> Option<Phong> {
+    fn phong(&mut self, fields: ObjectFields<'_, '_>) -> Option<Phong> {
         let extension = fields.rtc_extras()?.object("phong")?;
         let mut texture = |key| {
             let index = extension.index(key)?;
@@ -275,7 +282,7 @@ impl MaterialReader<'_, '_, '_, '_> {
         })
     }
 
-    fn specular_glossiness(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
+    fn specular_glossiness(&mut self, fields: ObjectFields<'_, '_>, standard: &mut Standard) {
         let extension = extension(fields, "pbrSpecularGlossiness");
         let Some(model) = extension else { return };
         let [r, g, b] = model.vector_or("specularFactor", [1.0; 3]);
@@ -285,7 +292,7 @@ impl MaterialReader<'_, '_, '_, '_> {
         standard.base_color_map = self.map(extension, "diffuseTexture");
     }
 
-    fn iridescence(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
+    fn iridescence(&mut self, fields: ObjectFields<'_, '_>, standard: &mut Standard) {
         let extension = extension(fields, "iridescence");
         standard.iridescence = number(extension, "iridescenceFactor", 0.0);
         standard.iridescence_map = self.map(extension, "iridescenceTexture");
@@ -300,11 +307,11 @@ impl MaterialReader<'_, '_, '_, '_> {
 }
 
 /// The object of a `KHR_materials_*` extension.
-fn extension<'t, 's>(fields: Fields<'t, 's>, name: &str) -> Option<Fields<'t, 's>> {
+fn extension<'t, 's>(fields: ObjectFields<'t, 's>, name: &str) -> Option<ObjectFields<'t, 's>> {
     fields.extension(&format!("KHR_materials_{name}"))
 }
 
-fn number(fields: Option<Fields<'_, '_>>, key: &str, default: f64) -> f64 {
+fn number(fields: Option<ObjectFields<'_, '_>>, key: &str, default: f64) -> f64 {
     fields.map_or(default, |fields| fields.number_or(key, default))
 }
 
@@ -335,7 +342,7 @@ macro_rules! read {
 macro_rules! extensions {
     ($($name:literal { $($field:ident: $kind:ident $key:literal;)* })*) => {
         impl MaterialReader<'_, '_, '_, '_> {
-            fn extensions(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
+            fn extensions(&mut self, fields: ObjectFields<'_, '_>, standard: &mut Standard) {
                 $(if let Some(extension) = fields.extension($name) {
                     $(read!($kind, standard.$field, self, extension, $key);)*
                 })*

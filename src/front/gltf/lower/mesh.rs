@@ -1,7 +1,7 @@
 //! Meshes: the attributes of a primitive as an IR mesh. Equal primitives share a mesh.
 
 use super::super::accessor_reader::AccessorReader;
-use super::super::attribute::Attribute;
+use super::super::attribute::VertexAttribute;
 use super::super::document::Document;
 use super::super::primitive::{Primitive, TRIANGLES};
 use super::super::report::AssetReport;
@@ -10,7 +10,8 @@ use super::uv::TexCoordSets;
 use super::{deform, tangent, topology};
 use crate::glyph::pick;
 use rtc_ir::{
-    self as ir, Column, EntityKind, Field, Mesh, MeshId, Scene, Shared, SourceSpans, ValuePath,
+    self as ir, EntityField, EntityKind, Mesh, MeshId, Scene, SharedList, SourceSpans, ValuePath,
+    VertexColumn,
 };
 use rtc_math::to_u32;
 use rtc_source::Resource;
@@ -28,9 +29,9 @@ const TANGENT: u64 = 4;
 const TANGENT_BYTES: u64 = 128;
 
 /// The meshes that were made.
-pub(super) struct Meshes<'d> {
+pub(super) struct ImportedMeshes<'d> {
     /// The distinct sources of primitives, and the source of each primitive.
-    parts: BTreeMap<MeshParts<'d>, usize>,
+    parts: BTreeMap<PrimitiveData<'d>, usize>,
     of_primitive: BTreeMap<NodeId, usize>,
     /// The mesh of each request; `None` if it has no surface.
     made: BTreeMap<MeshKey, Option<MeshId>>,
@@ -40,19 +41,19 @@ pub(super) struct Meshes<'d> {
 pub(super) type MeshKey = (usize, ShapeId, bool, TexCoordSets);
 
 /// Names and accessors.
-type Pairs<'d> = Vec<(&'d str, usize)>;
+type AttributeAccessors<'d> = Vec<(&'d str, usize)>;
 
 /// The source data of a primitive.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
-struct MeshParts<'d> {
-    attributes: Pairs<'d>,
-    targets: Vec<Pairs<'d>>,
+struct PrimitiveData<'d> {
+    attributes: AttributeAccessors<'d>,
+    targets: Vec<AttributeAccessors<'d>>,
     indices: Option<usize>,
     mode: u64,
 }
 
 /// A requested mesh.
-pub(super) struct WantedMesh<'d, 'w> {
+pub(super) struct RequestedMesh<'d, 'w> {
     pub(super) primitive: &'d Primitive,
     pub(super) name: &'d str,
     pub(super) shape: (ShapeId, Deformation<'w>),
@@ -60,7 +61,7 @@ pub(super) struct WantedMesh<'d, 'w> {
     pub(super) uv_sets: TexCoordSets,
 }
 
-impl<'d> Meshes<'d> {
+impl<'d> ImportedMeshes<'d> {
     pub(super) fn new() -> Self {
         Self {
             parts: BTreeMap::new(),
@@ -73,7 +74,7 @@ impl<'d> Meshes<'d> {
     pub(super) fn make(
         &mut self,
         doc: &'d Document<'_>,
-        wanted: &WantedMesh<'d, '_>,
+        wanted: &RequestedMesh<'d, '_>,
         scene: &mut Scene,
         source_spans: &mut SourceSpans,
         report: &mut AssetReport<'_, '_>,
@@ -88,7 +89,7 @@ impl<'d> Meshes<'d> {
                 .flatten()?;
             let id = MeshId(to_u32(scene.meshes.len()));
             source_spans.record(
-                ValuePath::new(EntityKind::Mesh, scene.meshes.len(), Field::Whole),
+                ValuePath::new(EntityKind::Mesh, scene.meshes.len(), EntityField::Whole),
                 report.json.span(primitive.at),
             );
             scene.meshes.push(mesh);
@@ -101,7 +102,7 @@ impl<'d> Meshes<'d> {
     }
 
     /// The key of a requested mesh.
-    pub(super) fn key(&mut self, wanted: &WantedMesh<'d, '_>) -> MeshKey {
+    pub(super) fn key(&mut self, wanted: &RequestedMesh<'d, '_>) -> MeshKey {
         let (tangents, uv_sets) = (wanted.needs_tangents, wanted.uv_sets);
         let parts = self.parts(wanted.primitive);
         (parts, wanted.shape.0, tangents, uv_sets)
@@ -116,14 +117,14 @@ impl<'d> Meshes<'d> {
         } = self;
         *of_primitive.entry(primitive.at).or_insert_with(|| {
             let next = parts.len();
-            *parts.entry(MeshParts::of(primitive)).or_insert(next)
+            *parts.entry(PrimitiveData::of(primitive)).or_insert(next)
         })
     }
 }
 
-impl<'d> MeshParts<'d> {
+impl<'d> PrimitiveData<'d> {
     fn of(primitive: &'d Primitive) -> Self {
-        let pairs = |attributes: &'d [Attribute]| -> Pairs<'d> {
+        let pairs = |attributes: &'d [VertexAttribute]| -> AttributeAccessors<'d> {
             attributes
                 .iter()
                 .map(|attribute| (attribute.name.as_str(), attribute.accessor))
@@ -168,10 +169,10 @@ pub(super) fn corners(doc: &Document<'_>, primitive: &Primitive) -> u64 {
 /// and set of joints that moves them. False if that is too much.
 pub(super) fn charge(
     doc: &Document<'_>,
-    wanted: &WantedMesh<'_, '_>,
+    wanted: &RequestedMesh<'_, '_>,
     report: &mut AssetReport<'_, '_>,
 ) -> bool {
-    let WantedMesh {
+    let RequestedMesh {
         primitive,
         name,
         shape: (_, shape),
@@ -237,7 +238,7 @@ pub(super) fn vertex(primitive: &Primitive, sets: TexCoordSets) -> u64 {
 
 /// Reads a primitive, moves its vertices, and gives it tangents if it needs them. Lenient, vertices
 /// that no triangle uses may be anything.
-fn read(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>, is_lenient: bool) -> Option<Mesh> {
+fn read(doc: &Document<'_>, wanted: &RequestedMesh<'_, '_>, is_lenient: bool) -> Option<Mesh> {
     let count = usize::try_from(vertices_of(doc, wanted.primitive)).ok()?;
     let mut triangles = topology::triangles(doc, wanted.primitive, count)?;
     let mut mesh = vertices(doc, wanted)?;
@@ -253,8 +254,8 @@ fn read(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>, is_lenient: bool) -> Op
 }
 
 /// Reads the vertices of a primitive, and moves them.
-pub(super) fn vertices(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>) -> Option<Mesh> {
-    let WantedMesh {
+pub(super) fn vertices(doc: &Document<'_>, wanted: &RequestedMesh<'_, '_>) -> Option<Mesh> {
+    let RequestedMesh {
         primitive,
         name,
         shape: (_, shape),
@@ -263,11 +264,11 @@ pub(super) fn vertices(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>) -> Optio
     } = wanted;
     let elements = |name: &str| AccessorReader::of(doc, doc.accessors.get(primitive.find(name)?)?);
     let positions = elements("POSITION")?.column();
-    let normals = elements("NORMAL").map_or_else(Column::default, |normals| normals.column());
+    let normals = elements("NORMAL").map_or_else(VertexColumn::default, |normals| normals.column());
     // Tangents without normals are ignored (glTF 2.0, section 3.7.2.1).
     let tangents = elements("TANGENT").filter(|_| !normals.is_empty());
     let [first, second] = &uv_sets.names();
-    let uvs = |name: &str| elements(name).map_or_else(Column::default, |uvs| uvs.column());
+    let uvs = |name: &str| elements(name).map_or_else(VertexColumn::default, |uvs| uvs.column());
     let mut mesh = ir::Mesh {
         name: (*name).to_owned(),
         part: None,
@@ -276,23 +277,24 @@ pub(super) fn vertices(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>) -> Optio
         uvs: uvs(first),
         second_uvs: Some(second)
             .filter(|second| *second != first)
-            .map_or_else(Column::default, |second| uvs(second)),
-        tangents: tangents.map_or_else(Column::default, |tangents| tangents.column()),
-        colors: elements("COLOR_0").map_or_else(Column::default, |accessor| colors(&accessor)),
-        triangles: Shared::default(),
+            .map_or_else(VertexColumn::default, |second| uvs(second)),
+        tangents: tangents.map_or_else(VertexColumn::default, |tangents| tangents.column()),
+        colors: elements("COLOR_0")
+            .map_or_else(VertexColumn::default, |accessor| colors(&accessor)),
+        triangles: SharedList::default(),
     };
     deform::deform(doc, primitive, (*shape, *uv_sets), &mut mesh);
     Some(mesh)
 }
 
 /// Colours with alpha, each channel from 0 to 1.
-fn colors(elements: &AccessorReader<'_>) -> Column<4> {
+fn colors(elements: &AccessorReader<'_>) -> VertexColumn<4> {
     let has_alpha = elements.layout.components() == 4;
     let colors = elements.vectors().into_iter();
     clamped(colors.map(|[r, g, b, alpha]| [r, g, b, if has_alpha { alpha } else { 1.0 }]))
 }
 
 /// Colours, each channel kept from 0 to 1.
-pub(super) fn clamped(colors: impl Iterator<Item = [f64; 4]>) -> Column<4> {
-    Column::rounded(colors.map(|color| color.map(|channel| channel.clamp(0.0, 1.0))))
+pub(super) fn clamped(colors: impl Iterator<Item = [f64; 4]>) -> VertexColumn<4> {
+    VertexColumn::rounded(colors.map(|color| color.map(|channel| channel.clamp(0.0, 1.0))))
 }

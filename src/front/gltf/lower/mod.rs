@@ -28,16 +28,18 @@ mod uv;
 pub(crate) use camera::{looking_at, pixel};
 
 use super::document::Document;
-use super::field::Fields;
+use super::field::ObjectFields;
 use super::primitive::Primitive;
 use super::report::AssetReport;
 use crate::FrontOptions;
 use crate::UpAxis;
 use glam::DAffine3;
-use material::Materials;
-use mesh::Meshes;
+use material::ImportedMaterials;
+use mesh::ImportedMeshes;
 use rtc_diag::codes;
-use rtc_ir::{self as ir, EntityKind, Field, Lowered, MaterialId, Scene, SourceSpans, ValuePath};
+use rtc_ir::{
+    self as ir, EntityField, EntityKind, LoweredScene, MaterialId, Scene, SourceSpans, ValuePath,
+};
 use rtc_math::Vec3;
 use rtc_source::Resource;
 use rtc_source::tree::NodeId;
@@ -56,8 +58,8 @@ struct Lowering<'l, 'r, 's> {
     report: &'l mut AssetReport<'r, 's>,
     scene: Scene,
     source_spans: SourceSpans,
-    materials: Materials,
-    meshes: Meshes<'l>,
+    materials: ImportedMaterials,
+    meshes: ImportedMeshes<'l>,
     strokes: StrokeMeshes,
     shapes: Deformations,
     /// The material of each lowered primitive, in the variant.
@@ -73,7 +75,7 @@ pub(super) fn lower<'s>(
     doc: &Document<'s>,
     options: &FrontOptions,
     report: &mut AssetReport<'_, 's>,
-) -> Lowered {
+) -> LoweredScene {
     let variant = options
         .variant
         .as_deref()
@@ -84,8 +86,8 @@ pub(super) fn lower<'s>(
         report,
         scene: empty(),
         source_spans: SourceSpans::default(),
-        materials: Materials::new(doc, std::mem::take(&mut pose.animated)),
-        meshes: Meshes::new(),
+        materials: ImportedMaterials::new(doc, std::mem::take(&mut pose.animated)),
+        meshes: ImportedMeshes::new(),
         strokes: StrokeMeshes::default(),
         shapes: Deformations::default(),
         chosen: BTreeMap::new(),
@@ -113,7 +115,7 @@ pub(crate) fn empty() -> Scene {
 
 /// The index of the variant of this name.
 fn find_variant(name: &str, report: &mut AssetReport<'_, '_>) -> Option<usize> {
-    let root = Fields::new(report.json, report.json.root());
+    let root = ObjectFields::new(report.json, report.json.root());
     let variants = root.extension("KHR_materials_variants");
     let names: Vec<String> = variants
         .iter()
@@ -179,7 +181,7 @@ impl Lowering<'_, '_, '_> {
     }
 
     /// Lowers the mesh of one node.
-    fn node(&mut self, index: usize, pose: &pose::Pose, worlds: &[DAffine3]) {
+    fn node(&mut self, index: usize, pose: &pose::ScenePose, worlds: &[DAffine3]) {
         let (doc, node, world) = (self.doc, &self.doc.nodes[index], worlds[index]);
         self.camera_and_light(index, world);
         let Some(mesh) = node.mesh.and_then(|mesh| doc.meshes.get(mesh)) else {
@@ -209,7 +211,7 @@ impl Lowering<'_, '_, '_> {
                 !is_stroked && self.materials.needs_tangents(material, &self.scene);
             let uv_sets = self.materials.uv_sets(material);
             let shape = (shape, self.shapes.get(shape));
-            let made = mesh::WantedMesh {
+            let made = mesh::RequestedMesh {
                 primitive,
                 name: &mesh.name,
                 shape,
@@ -261,9 +263,13 @@ impl Lowering<'_, '_, '_> {
             mesh,
             world_from_object,
         });
-        let place = ValuePath::new(EntityKind::Surface, self.scene.surfaces.len(), Field::Whole);
+        let place = ValuePath::new(
+            EntityKind::Surface,
+            self.scene.surfaces.len(),
+            EntityField::Whole,
+        );
         self.source_spans.record(place, self.report.json.span(at));
-        let extras = Fields::new(self.report.json, at).rtc_extras();
+        let extras = ObjectFields::new(self.report.json, at).rtc_extras();
         self.scene.surfaces.push(ir::Surface {
             shape,
             material,
@@ -311,7 +317,7 @@ impl Lowering<'_, '_, '_> {
         id
     }
 
-    fn finish(mut self, camera: Option<&str>) -> Lowered {
+    fn finish(mut self, camera: Option<&str>) -> LoweredScene {
         self.strokes.set_radius(&mut self.scene);
         self.camera(camera);
         self.settings_extras();
@@ -319,7 +325,7 @@ impl Lowering<'_, '_, '_> {
             self.scene.names.clear();
         }
         self.source_spans.finish();
-        Lowered {
+        LoweredScene {
             scene: self.scene,
             source_spans: self.source_spans,
         }

@@ -3,9 +3,9 @@
 
 use super::super::accessor_reader::AccessorReader;
 use super::super::animation::{Animation, Interpolation, Keyframes};
-use super::super::channel::Path;
+use super::super::channel::AnimatedPath;
 use super::super::document::Document;
-use super::super::node::Transform;
+use super::super::node::NodeTransform;
 use super::super::pointer::{self, AnimatedProperty, AnimatedValues};
 use super::super::report::AssetReport;
 use super::transform::compose;
@@ -21,20 +21,20 @@ use std::collections::BTreeMap;
 const WEIGHT: u64 = 32;
 
 /// The transforms and weights of all nodes.
-pub(super) struct Pose {
-    transforms: Vec<Transform>,
+pub(super) struct ScenePose {
+    transforms: Vec<NodeTransform>,
     /// The weights of nodes, where they have their own.
     weights: BTreeMap<usize, Vec<f64>>,
     /// The properties that moved by pointers.
     pub(super) animated: AnimatedValues,
 }
 
-impl Pose {
+impl ScenePose {
     /// The transformation of a node from itself to its parent.
     pub(super) fn local(&self, node: usize) -> DAffine3 {
         match self.transforms[node] {
-            Transform::Matrix(matrix) => DAffine3::from_mat4(DMat4::from_cols_array(&matrix)),
-            Transform::Parts {
+            NodeTransform::Matrix(matrix) => DAffine3::from_mat4(DMat4::from_cols_array(&matrix)),
+            NodeTransform::Parts {
                 translation,
                 rotation,
                 scale,
@@ -53,13 +53,13 @@ pub(super) fn pose(
     doc: &Document<'_>,
     options: &FrontOptions,
     report: &mut AssetReport<'_, '_>,
-) -> Pose {
+) -> ScenePose {
     // Start with the transforms and weights at rest.
     let nodes = doc.nodes.iter().enumerate();
     let weights = nodes
         .filter(|(_, node)| !node.weights.is_empty())
         .map(|(index, node)| (index, node.weights.clone()));
-    let mut pose = Pose {
+    let mut pose = ScenePose {
         transforms: doc.nodes.iter().map(|node| node.transform).collect(),
         weights: weights.collect(),
         animated: AnimatedValues::new(),
@@ -71,7 +71,7 @@ pub(super) fn pose(
             let sampler = channel
                 .sampler
                 .and_then(|sampler| animation.samplers.get(sampler));
-            let Some(keys) = sampler.and_then(|sampler| Keys::of(doc, sampler)) else {
+            let Some(keys) = sampler.and_then(|sampler| SamplerKeyframes::of(doc, sampler)) else {
                 continue;
             };
             // A pointer animates any property.
@@ -86,12 +86,12 @@ pub(super) fn pose(
                 continue;
             };
             let memory = keys.width() as u64 * WEIGHT;
-            if path == Path::Weights
+            if path == AnimatedPath::Weights
                 && !report.charge(Resource::Memory, memory, channel.at, "the channel")
             {
                 break;
             }
-            if let Some(value) = keys.sample(path == Path::Rotation, time) {
+            if let Some(value) = keys.sample(path == AnimatedPath::Rotation, time) {
                 pose.set(node, path, value);
             }
         }
@@ -129,12 +129,12 @@ fn chosen<'d>(
     found
 }
 
-impl Pose {
+impl ScenePose {
     /// Moves a property to where it is at a time.
     fn animate_property(
         &mut self,
         property: &AnimatedProperty,
-        (keys, time): (&Keys<'_>, f64),
+        (keys, time): (&SamplerKeyframes<'_>, f64),
         at: NodeId,
         report: &mut AssetReport<'_, '_>,
     ) {
@@ -155,12 +155,12 @@ impl Pose {
         }
     }
 
-    fn set(&mut self, node: usize, path: Path, value: Vec<f64>) {
-        if path == Path::Weights {
+    fn set(&mut self, node: usize, path: AnimatedPath, value: Vec<f64>) {
+        if path == AnimatedPath::Weights {
             self.weights.insert(node, value);
             return;
         }
-        let Some(Transform::Parts {
+        let Some(NodeTransform::Parts {
             translation,
             rotation,
             scale,
@@ -170,22 +170,24 @@ impl Pose {
         };
         let three = || <[f64; 3]>::try_from(&value[..]).ok();
         match path {
-            Path::Translation => *translation = three().unwrap_or(*translation),
-            Path::Scale => *scale = three().unwrap_or(*scale),
-            Path::Rotation => *rotation = <[f64; 4]>::try_from(&value[..]).unwrap_or(*rotation),
-            Path::Weights => {}
+            AnimatedPath::Translation => *translation = three().unwrap_or(*translation),
+            AnimatedPath::Scale => *scale = three().unwrap_or(*scale),
+            AnimatedPath::Rotation => {
+                *rotation = <[f64; 4]>::try_from(&value[..]).unwrap_or(*rotation)
+            }
+            AnimatedPath::Weights => {}
         }
     }
 }
 
 /// The keyframes of a sampler; only those around the time are read.
-struct Keys<'d> {
+struct SamplerKeyframes<'d> {
     times: AccessorReader<'d>,
     output: AccessorReader<'d>,
     interpolation: Interpolation,
 }
 
-impl<'d> Keys<'d> {
+impl<'d> SamplerKeyframes<'d> {
     fn of(doc: &'d Document<'_>, sampler: &Keyframes) -> Option<Self> {
         let elements =
             |accessor: Option<usize>| AccessorReader::of(doc, doc.accessors.get(accessor?)?);

@@ -1,14 +1,14 @@
 //! Render settings and the environment, from `extras.rtc` of the asset.
 
 use super::super::accessor_reader::AccessorReader;
-use super::super::field::Fields;
-use super::super::layout::Component;
+use super::super::field::ObjectFields;
+use super::super::layout::ComponentType;
 use super::Lowering;
 use rtc_color::Tone;
 use rtc_diag::codes;
 use rtc_ir::{
-    Display, EntityKind, Environment, Field, Gooch, Image, ImageId, Mode, PathSettings, Pixels,
-    Settings, ValuePath,
+    Display, EntityField, EntityKind, Environment, Gooch, Image, ImageId, Mode, PathSettings,
+    Pixels, Settings, ValuePath,
 };
 use rtc_source::Resource;
 use serde_json::Value as Json;
@@ -16,12 +16,12 @@ use serde_json::Value as Json;
 impl Lowering<'_, '_, '_> {
     /// Adopts the settings and the environment of the asset.
     pub(super) fn settings_extras(&mut self) {
-        let root = Fields::new(self.report.json, self.report.json.root());
+        let root = ObjectFields::new(self.report.json, self.report.json.root());
         let Some(extras) = root.rtc_extras() else {
             return;
         };
         if extras.has("mode") {
-            let place = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
+            let place = ValuePath::new(EntityKind::Settings, 0, EntityField::Whole);
             self.source_spans
                 .record(place, self.report.json.span(extras.at));
         }
@@ -40,8 +40,8 @@ impl Lowering<'_, '_, '_> {
         }
     }
 
-    fn environment(&mut self, extras: Fields<'_, '_>) {
-        let place = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
+    fn environment(&mut self, extras: ObjectFields<'_, '_>) {
+        let place = ValuePath::new(EntityKind::Environment, 0, EntityField::Whole);
         self.source_spans
             .record(place, self.report.json.span(extras.at));
         let image = match (extras.index("image"), extras.index("pixels")) {
@@ -69,7 +69,7 @@ impl Lowering<'_, '_, '_> {
     }
 
     /// The image whose pixels are the elements of an accessor.
-    fn pixels(&mut self, extras: Fields<'_, '_>, accessor: usize) -> Option<ImageId> {
+    fn pixels(&mut self, extras: ObjectFields<'_, '_>, accessor: usize) -> Option<ImageId> {
         let doc = self.doc;
         let accessor = doc.accessors.get(accessor)?;
         let elements = AccessorReader::of(doc, accessor)?;
@@ -81,7 +81,7 @@ impl Lowering<'_, '_, '_> {
                 .filter(|height| height * width == count)?;
             Some([u32::try_from(width).ok()?, u32::try_from(height).ok()?])
         });
-        let is_color = elements.layout.component == Component::F32
+        let is_color = elements.layout.component == ComponentType::F32
             && (elements.layout.columns, elements.layout.rows) == (1, 3);
         let Some([width, height]) = size.filter(|_| is_color) else {
             let message = "the number of pixels is not a multiple of `width`";
@@ -98,7 +98,11 @@ impl Lowering<'_, '_, '_> {
         {
             return None;
         }
-        let place = ValuePath::new(EntityKind::Image, self.scene.images.len(), Field::Whole);
+        let place = ValuePath::new(
+            EntityKind::Image,
+            self.scene.images.len(),
+            EntityField::Whole,
+        );
         self.source_spans
             .record(place, self.report.json.span(extras.at));
         // Copy the pixels as 32-bit floats.
@@ -112,7 +116,7 @@ impl Lowering<'_, '_, '_> {
             pixels.extend(channels.flat_map(f32::to_le_bytes));
         });
         Some(self.scene.add_image(Image {
-            name: Fields::new(self.report.json, accessor.at).name(),
+            name: ObjectFields::new(self.report.json, accessor.at).name(),
             width,
             height,
             kind,
@@ -122,7 +126,7 @@ impl Lowering<'_, '_, '_> {
 }
 
 /// Changes the settings that are named. The schema has reported wrong values.
-fn read(extras: Fields<'_, '_>, settings: &mut Settings) {
+fn read(extras: ObjectFields<'_, '_>, settings: &mut Settings) {
     if let Some(mode) = extras.text("mode").and_then(|word| mode_of(&word, extras)) {
         settings.mode = mode;
     }
@@ -137,7 +141,7 @@ fn read(extras: Fields<'_, '_>, settings: &mut Settings) {
     }
 }
 
-fn mode_of(word: &str, extras: Fields<'_, '_>) -> Option<Mode> {
+fn mode_of(word: &str, extras: ObjectFields<'_, '_>) -> Option<Mode> {
     let parameters = extras.object(word);
     Some(match word {
         "phong" => Mode::Phong,

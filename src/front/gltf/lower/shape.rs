@@ -4,7 +4,7 @@ use super::super::accessor_reader::AccessorReader;
 use super::super::document::Document;
 use super::super::report::AssetReport;
 use super::super::skin::Skin;
-use super::pose::Pose;
+use super::pose::ScenePose;
 use glam::{DAffine3, DMat4};
 use rtc_source::Resource;
 use std::collections::BTreeMap;
@@ -75,7 +75,7 @@ impl Deformations {
         &mut self,
         doc: &Document<'_>,
         (node, skin): (usize, Option<usize>),
-        (pose, worlds): (&Pose, &[DAffine3]),
+        (pose, worlds): (&ScenePose, &[DAffine3]),
         report: &mut AssetReport<'_, '_>,
     ) -> Option<ShapeId> {
         let joints = match skin {
@@ -88,7 +88,7 @@ impl Deformations {
         })
     }
 
-    fn of_weights(&mut self, doc: &Document<'_>, node: usize, pose: &Pose) -> Option<usize> {
+    fn of_weights(&mut self, doc: &Document<'_>, node: usize, pose: &ScenePose) -> Option<usize> {
         let of = doc.nodes[node].mesh?;
         let animated = pose.weights(node);
         if let Some(known) = self.of_mesh.get(&of).filter(|_| animated.is_none()) {

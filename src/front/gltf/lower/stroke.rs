@@ -6,13 +6,14 @@
 use super::super::document::Document;
 use super::super::primitive::{Primitive, TRIANGLES};
 use super::super::report::AssetReport;
-use super::mesh::{self, MeshKey, WantedMesh};
+use super::mesh::{self, MeshKey, RequestedMesh};
 use super::topology;
 use super::transform::InstanceTransforms;
-use crate::glyph::{Glyph, radius, thin_glyphs};
+use crate::glyph::{StrokeShape, radius, thin_glyphs};
 use glam::DAffine3;
 use rtc_ir::{
-    BoundingSphere, Column, EntityKind, Field, Mesh, MeshId, Scene, SourceSpans, ValuePath,
+    BoundingSphere, EntityField, EntityKind, Mesh, MeshId, Scene, SourceSpans, ValuePath,
+    VertexColumn,
 };
 use rtc_math::{Vec3, to_u32};
 use rtc_source::Resource;
@@ -26,7 +27,7 @@ const TRIANGLE: u64 = 108;
 #[derive(Default)]
 pub(super) struct StrokeMeshes {
     /// Each with the offsets of its corners at radius 1.
-    made: Vec<(MeshId, Column<3>)>,
+    made: Vec<(MeshId, VertexColumn<3>)>,
     /// For each request, by the linear part of its transform, the mesh and the position of its
     /// first vertex; `None` where it is invisible.
     known: BTreeMap<(MeshKey, LinearPartBits), Option<(MeshId, Vec3)>>,
@@ -47,7 +48,7 @@ impl StrokeMeshes {
     pub(super) fn make(
         &mut self,
         doc: &Document<'_>,
-        (wanted, key): (&WantedMesh<'_, '_>, MeshKey),
+        (wanted, key): (&RequestedMesh<'_, '_>, MeshKey),
         places: &InstanceTransforms<'_>,
         (scene, source_spans): (&mut Scene, &mut SourceSpans),
         report: &mut AssetReport<'_, '_>,
@@ -65,13 +66,16 @@ impl StrokeMeshes {
                     let Some(solid) = charge(doc, wanted, source.is_some(), report) else {
                         return shown;
                     };
-                    let source = source.get_or_insert_with(|| Source::read(doc, wanted));
+                    let source = source.get_or_insert_with(|| StrokeSource::read(doc, wanted));
                     let made = source.as_ref().and_then(|source| {
                         // Build a thin solid for each point or line.
                         let (mesh, offsets, _) =
                             thin_glyphs(&source.mesh, &source.ends, world, solid)?;
-                        let place =
-                            ValuePath::new(EntityKind::Mesh, scene.meshes.len(), Field::Whole);
+                        let place = ValuePath::new(
+                            EntityKind::Mesh,
+                            scene.meshes.len(),
+                            EntityField::Whole,
+                        );
                         source_spans.record(place, report.json.span(wanted.primitive.at));
                         let id = MeshId(to_u32(scene.meshes.len()));
                         scene.meshes.push(mesh);
@@ -109,19 +113,19 @@ impl StrokeMeshes {
             let animated = corners.map(|(p, offset)| {
                 (Vec3::from_array(p) + radius * Vec3::from_array(offset)).to_array()
             });
-            mesh.positions = Column::rounded(animated.collect::<Vec<_>>());
+            mesh.positions = VertexColumn::rounded(animated.collect::<Vec<_>>());
         }
     }
 }
 
 /// The vertices of a primitive, and between which of them it has points or lines.
-struct Source {
+struct StrokeSource {
     mesh: Mesh,
     ends: Vec<[u32; 2]>,
 }
 
-impl Source {
-    fn read(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>) -> Option<Self> {
+impl StrokeSource {
+    fn read(doc: &Document<'_>, wanted: &RequestedMesh<'_, '_>) -> Option<Self> {
         let mesh = mesh::vertices(doc, wanted)?;
         let ends = topology::strokes(doc, wanted.primitive, mesh.positions.len())?;
         Some(Self { mesh, ends })
@@ -138,16 +142,16 @@ impl Source {
 /// back, none if that is too much.
 fn charge(
     doc: &Document<'_>,
-    wanted: &WantedMesh<'_, '_>,
+    wanted: &RequestedMesh<'_, '_>,
     is_read: bool,
     report: &mut AssetReport<'_, '_>,
-) -> Option<&'static Glyph> {
+) -> Option<&'static StrokeShape> {
     const POINTS: u64 = 0;
     const LINES: u64 = 1;
     let primitive = wanted.primitive;
     let corners = mesh::corners(doc, primitive);
     let has_normals = primitive.find("NORMAL").is_some();
-    let solid = Glyph::of(primitive.mode == POINTS, has_normals, corners);
+    let solid = StrokeShape::of(primitive.mode == POINTS, has_normals, corners);
     let count = match primitive.mode {
         LINES => corners / 2,
         _ => corners,

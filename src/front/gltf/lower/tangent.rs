@@ -7,11 +7,11 @@
 
 use crate::glyph::pick;
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
-use rtc_ir::{Column, Mesh};
+use rtc_ir::{Mesh, VertexColumn};
 use rtc_math::{Vec3, to_u32};
 
 /// A mesh with tangents per corner.
-struct Corners<'m> {
+struct MeshCorners<'m> {
     mesh: &'m Mesh,
     tangents: Vec<[f64; 4]>,
     /// For each corner, the part of its position; empty if no position is split.
@@ -22,9 +22,9 @@ struct Corners<'m> {
 const MOST: u32 = 512;
 
 /// Functions that give the same bits on every machine.
-struct Libm;
+struct LibmMath;
 
-impl Ops for Libm {
+impl Ops for LibmMath {
     fn sqrt(x: f32) -> f32 {
         x.sqrt()
     }
@@ -34,7 +34,7 @@ impl Ops for Libm {
     }
 }
 
-impl Corners<'_> {
+impl MeshCorners<'_> {
     fn vertex(&self, face: usize, corner: usize) -> usize {
         self.mesh.triangles[face][corner] as usize
     }
@@ -44,7 +44,7 @@ impl Corners<'_> {
     clippy::cast_possible_truncation,
     reason = "MikkTSpace computes in 32-bit floats"
 )]
-impl Geometry<Libm> for Corners<'_> {
+impl Geometry<LibmMath> for MeshCorners<'_> {
     fn num_faces(&self) -> usize {
         self.mesh.triangles.len()
     }
@@ -98,7 +98,7 @@ pub(super) fn generate(mesh: &mut Mesh) {
     if mesh.normals.is_empty() {
         flatten(mesh);
     }
-    let mut corners = Corners {
+    let mut corners = MeshCorners {
         mesh,
         parts: parts(mesh),
         tangents: vec![[1.0, 0.0, 0.0, 1.0]; 3 * mesh.triangles.len()],
@@ -173,7 +173,7 @@ fn flatten(mesh: &mut Mesh) {
         let normal = (b - a).cross(c - a).normalize_or_zero();
         [normal.to_array(); 3]
     });
-    mesh.normals = Column::rounded(normals);
+    mesh.normals = VertexColumn::rounded(normals);
 }
 
 /// Puts the tangents of corners to the vertices; a vertex with several is tangents_of.
@@ -204,7 +204,7 @@ fn split_vertices(mesh: &mut Mesh, tangents: &[[f64; 4]]) {
         }
     }
     pick(mesh, &origin);
-    mesh.tangents = Column::rounded(
+    mesh.tangents = VertexColumn::rounded(
         tangents_of
             .into_iter()
             .map(|tangent| tangent.unwrap_or([1.0, 0.0, 0.0, 1.0])),

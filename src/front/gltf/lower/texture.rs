@@ -1,12 +1,12 @@
 //! Textures and images. Each is lowered once.
 
 use super::super::document::Document;
-use super::super::field::Fields;
+use super::super::field::ObjectFields;
 use super::super::report::AssetReport;
 use rtc_diag::codes;
 use rtc_ir::{
-    self as ir, EntityKind, Field, Filter, ImageId, Map, Sampled, Scene, SourceSpans, TextureId,
-    ValuePath, Wrap,
+    self as ir, EntityField, EntityKind, Filter, ImageId, Map, Sampled, Scene, SourceSpans,
+    TextureId, ValuePath, Wrap,
 };
 use rtc_math::{cos, sin, to_u32};
 use std::collections::BTreeMap;
@@ -39,7 +39,7 @@ impl LoweredTextures {
     pub(super) fn map(
         &mut self,
         doc: &Document<'_>,
-        info: Fields<'_, '_>,
+        info: ObjectFields<'_, '_>,
         scene: &mut Scene,
         source_spans: &mut SourceSpans,
         report: &mut AssetReport<'_, '_>,
@@ -72,7 +72,11 @@ impl LoweredTextures {
         let texture = doc.textures.get(index)?;
         let image = self.image(doc, texture.source?, scene, source_spans, report)?;
         let id = TextureId(to_u32(scene.textures.len()));
-        let place = ValuePath::new(EntityKind::Texture, scene.textures.len(), Field::Whole);
+        let place = ValuePath::new(
+            EntityKind::Texture,
+            scene.textures.len(),
+            EntityField::Whole,
+        );
         source_spans.record(place, report.json.span(texture.at));
         scene.textures.push(ir::Texture::Image(image));
         self.of_phong.insert(index, id);
@@ -123,7 +127,7 @@ impl LoweredTextures {
         let id = image.map(|image| {
             let at = scene.textures.len();
             source_spans.record(
-                ValuePath::new(EntityKind::Texture, at, Field::Whole),
+                ValuePath::new(EntityKind::Texture, at, EntityField::Whole),
                 report.json.span(texture.at),
             );
             scene.textures.push(ir::Texture::Sampled(Sampled {
@@ -151,7 +155,7 @@ impl LoweredTextures {
         Some(*self.images.entry(picture).or_insert_with(|| {
             let at = scene.images.len();
             source_spans.record(
-                ValuePath::new(EntityKind::Image, at, Field::Whole),
+                ValuePath::new(EntityKind::Image, at, EntityField::Whole),
                 report.json.span(image.at),
             );
             scene.images.push(ir::Image {
@@ -172,7 +176,7 @@ fn wrap(code: u64) -> Wrap {
 }
 
 /// Scale, then rotation, then offset (`KHR_texture_transform`).
-fn texture_from_surface(fields: Fields<'_, '_>) -> [[f64; 3]; 2] {
+fn texture_from_surface(fields: ObjectFields<'_, '_>) -> [[f64; 3]; 2] {
     let [x, y] = fields.vector_or("offset", [0.0; 2]);
     let [u, v] = fields.vector_or("scale", [1.0; 2]);
     let angle = fields.number_or("rotation", 0.0);

@@ -2,8 +2,8 @@
 
 use super::super::accessor_reader::AccessorReader;
 use super::super::document::Document;
-use super::super::node::Instancing;
-use super::pose::Pose;
+use super::super::node::GpuInstancing;
+use super::pose::ScenePose;
 use glam::{DAffine3, DQuat};
 use rtc_math::{Vec3, unit};
 
@@ -11,7 +11,7 @@ use rtc_math::{Vec3, unit};
 /// `scene_from_file`; of one in a loop, its own.
 pub(super) fn worlds(
     doc: &Document<'_>,
-    pose: &Pose,
+    pose: &ScenePose,
     scene_from_file: Option<[Vec3; 3]>,
 ) -> Vec<DAffine3> {
     let count = doc.nodes.len();
@@ -113,7 +113,7 @@ impl<'d> InstanceTransforms<'d> {
     }
 
     /// The transforms of instances.
-    pub(super) fn many(doc: &'d Document<'_>, world: DAffine3, instancing: &Instancing) -> Self {
+    pub(super) fn many(doc: &'d Document<'_>, world: DAffine3, instancing: &GpuInstancing) -> Self {
         let elements = |accessor| AccessorReader::of(doc, doc.accessors.get(accessor)?);
         let parts = instancing.parts.map(|accessor| elements(accessor?));
         let read = parts.iter().flatten().map(|reader| reader.count);

@@ -1,9 +1,9 @@
 //! The filters of decoded attributes.
 
-use super::Fault;
+use super::MeshoptError;
 
 /// Undoes a filter on elements of `stride` bytes, in place.
-pub(super) fn apply(filter: &str, stride: usize, bytes: &mut [u8]) -> Result<(), Fault> {
+pub(super) fn apply(filter: &str, stride: usize, bytes: &mut [u8]) -> Result<(), MeshoptError> {
     match (filter, stride) {
         ("" | "NONE", _) => {}
         ("OCTAHEDRAL", 4) => each_4(bytes, |[x, y, one, w]| {

@@ -1,18 +1,18 @@
 //! Modes 1 and 2: triangles by the edges and corners they share with those before, and indices by
 //! their differences.
 
-use super::{Fault, Reader, unzigzag};
+use super::{MeshoptError, MeshoptReader, unzigzag};
 
 /// Entries of each queue, and bytes of the table at the end of triangles.
 const QUEUE: usize = 16;
 
 /// The newest entries, the newest first.
-struct Queue<T> {
+struct RecentEntries<T> {
     entries: [T; QUEUE],
     newest: usize,
 }
 
-impl<T: Copy + Default> Queue<T> {
+impl<T: Copy + Default> RecentEntries<T> {
     fn new() -> Self {
         Self {
             entries: [T::default(); QUEUE],
@@ -31,10 +31,10 @@ impl<T: Copy + Default> Queue<T> {
 }
 
 /// What decoding triangles remembers.
-struct Triangles<'a> {
-    data: Reader<'a>,
-    edges: Queue<[u32; 2]>,
-    corners: Queue<u32>,
+struct TriangleDecoder<'a> {
+    data: MeshoptReader<'a>,
+    edges: RecentEntries<[u32; 2]>,
+    corners: RecentEntries<u32>,
     /// The index expected of a corner that was never seen.
     next: u32,
     /// The index that was last written out.
@@ -42,7 +42,7 @@ struct Triangles<'a> {
 }
 
 /// Decodes `count` indices of triangles.
-pub(super) fn triangles(bytes: &[u8], count: usize) -> Result<Vec<u32>, Fault> {
+pub(super) fn triangles(bytes: &[u8], count: usize) -> Result<Vec<u32>, MeshoptError> {
     let inside = bytes
         .strip_prefix(&[0xe1])
         .ok_or("the first byte does not mark triangles")?;
@@ -57,11 +57,11 @@ pub(super) fn triangles(bytes: &[u8], count: usize) -> Result<Vec<u32>, Fault> {
     let (codes, data) = inside
         .split_at_checked(count / 3)
         .ok_or("the data ends too early")?;
-    let data = Reader { bytes: data };
-    let mut state = Triangles {
+    let data = MeshoptReader { bytes: data };
+    let mut state = TriangleDecoder {
         data,
-        edges: Queue::new(),
-        corners: Queue::new(),
+        edges: RecentEntries::new(),
+        corners: RecentEntries::new(),
         next: 0,
         last: 0,
     };
@@ -76,8 +76,8 @@ pub(super) fn triangles(bytes: &[u8], count: usize) -> Result<Vec<u32>, Fault> {
     }
 }
 
-impl Triangles<'_> {
-    fn triangle(&mut self, code: u8, table: &[u8]) -> Result<[u32; 3], Fault> {
+impl TriangleDecoder<'_> {
+    fn triangle(&mut self, code: u8, table: &[u8]) -> Result<[u32; 3], MeshoptError> {
         let (high, low) = (code >> 4, code & 15);
         // The triangle shares a recent edge and adds one corner.
         if high < 15 {
@@ -118,7 +118,7 @@ impl Triangles<'_> {
     }
 
     /// The third corner of a triangle on a known edge.
-    fn on_edge(&mut self, low: u8) -> Result<u32, Fault> {
+    fn on_edge(&mut self, low: u8) -> Result<u32, MeshoptError> {
         let corner = match low {
             0 => self.corner(0)?,
             1..=12 => return Ok(self.corners.get(low)),
@@ -131,7 +131,7 @@ impl Triangles<'_> {
     }
 
     /// A corner never seen (0), written out (15), or one of those seen last.
-    fn corner(&mut self, kind: u8) -> Result<u32, Fault> {
+    fn corner(&mut self, kind: u8) -> Result<u32, MeshoptError> {
         match kind {
             0 => {
                 self.next = self.next.wrapping_add(1);
@@ -153,7 +153,7 @@ impl Triangles<'_> {
 
 /// Decodes `count` indices without triangles; the lowest bit says from which of two baselines each
 /// differs.
-pub(super) fn sequence(bytes: &[u8], count: usize) -> Result<Vec<u32>, Fault> {
+pub(super) fn sequence(bytes: &[u8], count: usize) -> Result<Vec<u32>, MeshoptError> {
     const TAIL: usize = 4;
     let inside = bytes
         .strip_prefix(&[0xd1])
@@ -162,7 +162,7 @@ pub(super) fn sequence(bytes: &[u8], count: usize) -> Result<Vec<u32>, Fault> {
         .len()
         .checked_sub(TAIL)
         .ok_or("the data ends too early")?;
-    let mut reader = Reader {
+    let mut reader = MeshoptReader {
         bytes: &inside[..end],
     };
     let mut last = [0_u32; 2];

@@ -11,7 +11,7 @@ mod vertex;
 
 use super::buffer::{ByteRange, Bytes, byte_range};
 use super::document::Document;
-use super::field::Fields;
+use super::field::ObjectFields;
 use super::report::AssetReport;
 use rtc_diag::codes;
 use rtc_source::Resource;
@@ -25,15 +25,15 @@ use std::rc::Rc;
 const MAX_RATIO: usize = 1024;
 
 /// The reason why data are invalid.
-type Fault = &'static str;
+type MeshoptError = &'static str;
 
 /// Bytes read one after another.
-struct Reader<'a> {
+struct MeshoptReader<'a> {
     bytes: &'a [u8],
 }
 
-impl<'a> Reader<'a> {
-    fn take(&mut self, count: usize) -> Result<&'a [u8], Fault> {
+impl<'a> MeshoptReader<'a> {
+    fn take(&mut self, count: usize) -> Result<&'a [u8], MeshoptError> {
         let (head, rest) = self
             .bytes
             .split_at_checked(count)
@@ -42,12 +42,12 @@ impl<'a> Reader<'a> {
         Ok(head)
     }
 
-    fn byte(&mut self) -> Result<u8, Fault> {
+    fn byte(&mut self) -> Result<u8, MeshoptError> {
         self.take(1).map(|bytes| bytes[0])
     }
 
     /// A number in groups of seven bits, the least first (LEB128).
-    fn number(&mut self) -> Result<u32, Fault> {
+    fn number(&mut self) -> Result<u32, MeshoptError> {
         let mut number = 0;
         for shift in (0..35).step_by(7) {
             let byte = self.byte()?;
@@ -77,7 +77,7 @@ struct StreamHeader {
 
 impl StreamHeader {
     /// Reads the header. A size that the bytes cannot decompress to is an error.
-    fn read(bytes: &[u8], extension: Fields<'_, '_>) -> Result<Self, Fault> {
+    fn read(bytes: &[u8], extension: ObjectFields<'_, '_>) -> Result<Self, MeshoptError> {
         let (Some(count), Some(stride)) = (extension.index("count"), extension.index("byteStride"))
         else {
             return Err("it has no `count` or no `byteStride`");
@@ -105,9 +105,9 @@ impl StreamHeader {
 
 /// Decompresses the views that are compressed, those of the same bytes and claims once.
 pub(super) fn expand(doc: &mut Document<'_>, report: &mut AssetReport<'_, '_>) {
-    let mut made: BTreeMap<StreamHeader, Result<Bytes<'static>, Fault>> = BTreeMap::new();
+    let mut made: BTreeMap<StreamHeader, Result<Bytes<'static>, MeshoptError>> = BTreeMap::new();
     for index in 0..doc.views.len() {
-        let fields = Fields::new(report.json, doc.views[index].at);
+        let fields = ObjectFields::new(report.json, doc.views[index].at);
         let names = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
         let Some(extension) = names.iter().find_map(|name| fields.extension(name)) else {
             continue;
@@ -138,7 +138,7 @@ pub(super) fn expand(doc: &mut Document<'_>, report: &mut AssetReport<'_, '_>) {
     }
 }
 
-fn add(at: NodeId, fault: Fault, report: &mut AssetReport<'_, '_>) {
+fn add(at: NodeId, fault: MeshoptError, report: &mut AssetReport<'_, '_>) {
     report.add(
         &codes::GLTF_COMPRESSED,
         "",
@@ -148,7 +148,7 @@ fn add(at: NodeId, fault: Fault, report: &mut AssetReport<'_, '_>) {
 }
 
 /// The compressed bytes of a view.
-fn source<'d>(doc: &'d Document<'_>, extension: Fields<'_, '_>) -> Option<&'d [u8]> {
+fn source<'d>(doc: &'d Document<'_>, extension: ObjectFields<'_, '_>) -> Option<&'d [u8]> {
     let buffer = doc.buffers.get(extension.index("buffer")?)?;
     let offset = extension.index("byteOffset").unwrap_or(0);
     buffer
@@ -157,7 +157,7 @@ fn source<'d>(doc: &'d Document<'_>, extension: Fields<'_, '_>) -> Option<&'d [u
         .get(offset..offset.checked_add(extension.index("byteLength")?)?)
 }
 
-fn decode(bytes: &[u8], header: &StreamHeader) -> Result<Vec<u8>, Fault> {
+fn decode(bytes: &[u8], header: &StreamHeader) -> Result<Vec<u8>, MeshoptError> {
     let StreamHeader {
         bytes: _,
         count,
@@ -178,7 +178,7 @@ fn decode(bytes: &[u8], header: &StreamHeader) -> Result<Vec<u8>, Fault> {
 }
 
 /// Indices as bytes, of two or four each.
-fn narrow(indices: &[u32], stride: usize) -> Result<Vec<u8>, Fault> {
+fn narrow(indices: &[u32], stride: usize) -> Result<Vec<u8>, MeshoptError> {
     match stride {
         4 => Ok(indices
             .iter()
@@ -187,7 +187,7 @@ fn narrow(indices: &[u32], stride: usize) -> Result<Vec<u8>, Fault> {
         2 => {
             let short =
                 |index: &u32| u16::try_from(*index).map_err(|_| "an index has more than 16 bits");
-            let shorts: Result<Vec<u16>, Fault> = indices.iter().map(short).collect();
+            let shorts: Result<Vec<u16>, MeshoptError> = indices.iter().map(short).collect();
             Ok(shorts?
                 .iter()
                 .flat_map(|index| index.to_le_bytes())

@@ -1,6 +1,6 @@
 //! Mode 0: elements as differences from the one before, byte by byte, in blocks of groups of 16.
 
-use super::{Fault, Reader, unzigzag};
+use super::{MeshoptError, MeshoptReader, unzigzag};
 
 /// Elements of a group.
 const GROUP: usize = 16;
@@ -10,7 +10,7 @@ const BLOCK_ELEMENTS: usize = 256;
 
 /// The encoding of the differences of a channel of four bytes; version 0 has bytes only.
 #[derive(Clone, Copy)]
-enum Channel {
+enum ByteChannel {
     Bytes,
     Shorts,
     /// Exclusive or, with the bits rotated so far.
@@ -18,7 +18,7 @@ enum Channel {
 }
 
 /// Decodes `count` elements of `stride` bytes.
-pub(super) fn decode(bytes: &[u8], count: usize, stride: usize) -> Result<Vec<u8>, Fault> {
+pub(super) fn decode(bytes: &[u8], count: usize, stride: usize) -> Result<Vec<u8>, MeshoptError> {
     if !stride.is_multiple_of(4) || stride == 0 || stride > BLOCK_ELEMENTS {
         return Err("the stride is not a multiple of 4 up to 256");
     }
@@ -42,11 +42,11 @@ pub(super) fn decode(bytes: &[u8], count: usize, stride: usize) -> Result<Vec<u8
         .ok_or("the data ends too early")?;
     let (baseline, channels) = bytes[bytes.len() - tail..].split_at(stride);
     let channels = if version == 0 {
-        vec![Channel::Bytes; stride / 4]
+        vec![ByteChannel::Bytes; stride / 4]
     } else {
         read_channels(channels)?
     };
-    let mut reader = Reader {
+    let mut reader = MeshoptReader {
         bytes: &bytes[1..end],
     };
     // Decode blocks of elements: each is the previous one plus deltas.
@@ -77,27 +77,27 @@ pub(super) fn decode(bytes: &[u8], count: usize, stride: usize) -> Result<Vec<u8
     }
 }
 
-fn read_channels(bytes: &[u8]) -> Result<Vec<Channel>, Fault> {
+fn read_channels(bytes: &[u8]) -> Result<Vec<ByteChannel>, MeshoptError> {
     let channel = |byte: &u8| match byte & 3 {
-        0 => Ok(Channel::Bytes),
-        1 => Ok(Channel::Shorts),
-        2 => Ok(Channel::Xor(u32::from(byte >> 4))),
+        0 => Ok(ByteChannel::Bytes),
+        1 => Ok(ByteChannel::Shorts),
+        2 => Ok(ByteChannel::Xor(u32::from(byte >> 4))),
         _ => Err("a channel has an unknown mode"),
     };
     bytes.iter().map(channel).collect()
 }
 
 /// Four bytes of an element from those of the element before.
-fn step(channel: Channel, last: [u8; 4], delta: [u8; 4]) -> [u8; 4] {
+fn step(channel: ByteChannel, last: [u8; 4], delta: [u8; 4]) -> [u8; 4] {
     match channel {
-        Channel::Bytes => {
+        ByteChannel::Bytes => {
             let mut next = last;
             for (byte, delta) in next.iter_mut().zip(delta) {
                 *byte = byte.wrapping_add(unzigzag(u32::from(delta)).to_le_bytes()[0]);
             }
             next
         }
-        Channel::Shorts => {
+        ByteChannel::Shorts => {
             let short = |at: usize| {
                 let delta = unzigzag(u32::from(u16::from_le_bytes([delta[at], delta[at + 1]])))
                     .to_le_bytes();
@@ -108,7 +108,7 @@ fn step(channel: Channel, last: [u8; 4], delta: [u8; 4]) -> [u8; 4] {
             let ([a, b], [c, d]) = (short(0), short(2));
             [a, b, c, d]
         }
-        Channel::Xor(rotation) => (u32::from_le_bytes(last)
+        ByteChannel::Xor(rotation) => (u32::from_le_bytes(last)
             ^ u32::from_le_bytes(delta).rotate_right(rotation))
         .to_le_bytes(),
     }
@@ -117,11 +117,11 @@ fn step(channel: Channel, last: [u8; 4], delta: [u8; 4]) -> [u8; 4] {
 /// Reads the differences of one block: for each byte of an element its own row of
 /// [`BLOCK_ELEMENTS`].
 fn read_block(
-    reader: &mut Reader<'_>,
+    reader: &mut MeshoptReader<'_>,
     version: u8,
     (elements, stride): (usize, usize),
     deltas: &mut [u8],
-) -> Result<(), Fault> {
+) -> Result<(), MeshoptError> {
     let controls = if version == 0 {
         &[][..]
     } else {
@@ -144,11 +144,11 @@ fn read_block(
 
 /// Reads one row: two bits a group that choose among the widths, then the groups.
 fn read_row(
-    reader: &mut Reader<'_>,
+    reader: &mut MeshoptReader<'_>,
     widths: [usize; 4],
     elements: usize,
     row: &mut [u8],
-) -> Result<(), Fault> {
+) -> Result<(), MeshoptError> {
     let groups = elements.div_ceil(GROUP);
     let header = reader.take(groups.div_ceil(4))?;
     for (group, deltas) in row.chunks_exact_mut(GROUP).take(groups).enumerate() {
@@ -160,7 +160,11 @@ fn read_row(
 
 /// Reads 16 differences of the given number of bits; all bits set means that a byte after the group
 /// follows.
-fn read_group(reader: &mut Reader<'_>, width: usize, deltas: &mut [u8]) -> Result<(), Fault> {
+fn read_group(
+    reader: &mut MeshoptReader<'_>,
+    width: usize,
+    deltas: &mut [u8],
+) -> Result<(), MeshoptError> {
     match width {
         0 => deltas.fill(0),
         8 => deltas.copy_from_slice(reader.take(GROUP)?),
@@ -194,7 +198,7 @@ mod tests {
     #[test]
     fn the_group_of_the_specification_is_read_as_it_says() {
         let bytes = [0x17, 0x5f, 0xf0, 0xbc, 0x77, 0xa9, 0x21, 0x00, 0x34, 0xb5];
-        let (mut deltas, mut reader) = ([0; GROUP], Reader { bytes: &bytes });
+        let (mut deltas, mut reader) = ([0; GROUP], MeshoptReader { bytes: &bytes });
         read_group(&mut reader, 4, &mut deltas).unwrap();
         let signed = deltas.map(|delta| unzigzag(u32::from(delta)).to_le_bytes()[0].cast_signed());
         assert_eq!(

@@ -4,14 +4,17 @@ use super::Value::{
     Attributes, Boolean, Choice, Index, Indices, Integer, Keyword, Many, Number, Numbers, One,
     PerComponent, Targets, Text, Texts, Version,
 };
-use super::{FACTOR, FREE, IndexTarget, Key, Object, POSITIVE, SIGNED, UNIT, optional, required};
+use super::{
+    FACTOR, FREE, IndexTarget, ObjectSchema, POSITIVE, PropertySchema, SIGNED, UNIT, optional,
+    required,
+};
 
 /// The greatest number a property takes that has no other bound: up to it floats hold every whole
 /// number.
 pub(super) const MAX_INTEGER: u64 = (1 << 53) - 1;
-const NAME: Key = optional("name", Text);
+const NAME: PropertySchema = optional("name", Text);
 
-pub(super) static ROOT: Object = Object {
+pub(super) static ROOT: ObjectSchema = ObjectSchema {
     name: "asset",
     keys: &[
         optional("extensionsUsed", Texts),
@@ -34,7 +37,7 @@ pub(super) static ROOT: Object = Object {
     ],
 };
 
-static ASSET: Object = Object {
+static ASSET: ObjectSchema = ObjectSchema {
     name: "asset header",
     keys: &[
         optional("copyright", Text),
@@ -44,7 +47,7 @@ static ASSET: Object = Object {
     ],
 };
 
-static ACCESSOR: Object = Object {
+static ACCESSOR: ObjectSchema = ObjectSchema {
     name: "accessor",
     keys: &[
         NAME,
@@ -66,7 +69,7 @@ static ACCESSOR: Object = Object {
     ],
 };
 
-static SPARSE: Object = Object {
+static SPARSE: ObjectSchema = ObjectSchema {
     name: "sparse part",
     keys: &[
         required("count", Integer(1, MAX_INTEGER)),
@@ -75,7 +78,7 @@ static SPARSE: Object = Object {
     ],
 };
 
-static SPARSE_INDICES: Object = Object {
+static SPARSE_INDICES: ObjectSchema = ObjectSchema {
     name: "sparse indices",
     keys: &[
         required("bufferView", Index(IndexTarget::BufferViews)),
@@ -84,7 +87,7 @@ static SPARSE_INDICES: Object = Object {
     ],
 };
 
-static SPARSE_VALUES: Object = Object {
+static SPARSE_VALUES: ObjectSchema = ObjectSchema {
     name: "sparse values",
     keys: &[
         required("bufferView", Index(IndexTarget::BufferViews)),
@@ -92,7 +95,7 @@ static SPARSE_VALUES: Object = Object {
     ],
 };
 
-static BUFFER: Object = Object {
+static BUFFER: ObjectSchema = ObjectSchema {
     name: "buffer",
     keys: &[
         NAME,
@@ -101,7 +104,7 @@ static BUFFER: Object = Object {
     ],
 };
 
-static BUFFER_VIEW: Object = Object {
+static BUFFER_VIEW: ObjectSchema = ObjectSchema {
     name: "buffer view",
     keys: &[
         NAME,
@@ -113,7 +116,7 @@ static BUFFER_VIEW: Object = Object {
     ],
 };
 
-static CAMERA: Object = Object {
+static CAMERA: ObjectSchema = ObjectSchema {
     name: "camera",
     keys: &[
         NAME,
@@ -123,7 +126,7 @@ static CAMERA: Object = Object {
     ],
 };
 
-static PERSPECTIVE: Object = Object {
+static PERSPECTIVE: ObjectSchema = ObjectSchema {
     name: "perspective",
     keys: &[
         optional("aspectRatio", Number(POSITIVE)),
@@ -133,7 +136,7 @@ static PERSPECTIVE: Object = Object {
     ],
 };
 
-static ORTHOGRAPHIC: Object = Object {
+static ORTHOGRAPHIC: ObjectSchema = ObjectSchema {
     name: "orthographic projection",
     keys: &[
         required("xmag", Number(FREE)),
@@ -143,7 +146,7 @@ static ORTHOGRAPHIC: Object = Object {
     ],
 };
 
-static IMAGE: Object = Object {
+static IMAGE: ObjectSchema = ObjectSchema {
     name: "image",
     keys: &[
         NAME,
@@ -156,7 +159,7 @@ static IMAGE: Object = Object {
     ],
 };
 
-static TEXTURE: Object = Object {
+static TEXTURE: ObjectSchema = ObjectSchema {
     name: "texture",
     keys: &[
         NAME,
@@ -167,7 +170,7 @@ static TEXTURE: Object = Object {
 
 const WRAPS: super::Value = Choice(&[33071, 33648, 10497]);
 
-static SAMPLER: Object = Object {
+static SAMPLER: ObjectSchema = ObjectSchema {
     name: "sampler",
     keys: &[
         NAME,
@@ -178,7 +181,7 @@ static SAMPLER: Object = Object {
     ],
 };
 
-pub(super) static TEXTURE_INFO: Object = Object {
+pub(super) static TEXTURE_INFO: ObjectSchema = ObjectSchema {
     name: "texture info",
     keys: &[
         required("index", Index(IndexTarget::Textures)),
@@ -186,7 +189,7 @@ pub(super) static TEXTURE_INFO: Object = Object {
     ],
 };
 
-pub(super) static NORMAL_TEXTURE: Object = Object {
+pub(super) static NORMAL_TEXTURE: ObjectSchema = ObjectSchema {
     name: "texture info",
     keys: &[
         required("index", Index(IndexTarget::Textures)),
@@ -195,7 +198,7 @@ pub(super) static NORMAL_TEXTURE: Object = Object {
     ],
 };
 
-static OCCLUSION_TEXTURE: Object = Object {
+static OCCLUSION_TEXTURE: ObjectSchema = ObjectSchema {
     name: "texture info",
     keys: &[
         required("index", Index(IndexTarget::Textures)),
@@ -204,7 +207,7 @@ static OCCLUSION_TEXTURE: Object = Object {
     ],
 };
 
-static MATERIAL: Object = Object {
+static MATERIAL: ObjectSchema = ObjectSchema {
     name: "material",
     keys: &[
         NAME,
@@ -219,7 +222,7 @@ static MATERIAL: Object = Object {
     ],
 };
 
-static METALLIC_ROUGHNESS: Object = Object {
+static METALLIC_ROUGHNESS: ObjectSchema = ObjectSchema {
     name: "metallic-roughness model",
     keys: &[
         optional("baseColorFactor", Numbers(&[4], UNIT)),
@@ -230,7 +233,7 @@ static METALLIC_ROUGHNESS: Object = Object {
     ],
 };
 
-static MESH: Object = Object {
+static MESH: ObjectSchema = ObjectSchema {
     name: "mesh",
     keys: &[
         NAME,
@@ -239,7 +242,7 @@ static MESH: Object = Object {
     ],
 };
 
-static PRIMITIVE: Object = Object {
+static PRIMITIVE: ObjectSchema = ObjectSchema {
     name: "primitive",
     keys: &[
         required("attributes", Attributes),
@@ -250,7 +253,7 @@ static PRIMITIVE: Object = Object {
     ],
 };
 
-static NODE: Object = Object {
+static NODE: ObjectSchema = ObjectSchema {
     name: "node",
     keys: &[
         NAME,
@@ -266,12 +269,12 @@ static NODE: Object = Object {
     ],
 };
 
-static SCENE: Object = Object {
+static SCENE: ObjectSchema = ObjectSchema {
     name: "scene",
     keys: &[NAME, optional("nodes", Indices(IndexTarget::Nodes))],
 };
 
-static SKIN: Object = Object {
+static SKIN: ObjectSchema = ObjectSchema {
     name: "skin",
     keys: &[
         NAME,
@@ -281,7 +284,7 @@ static SKIN: Object = Object {
     ],
 };
 
-static ANIMATION: Object = Object {
+static ANIMATION: ObjectSchema = ObjectSchema {
     name: "animation",
     keys: &[
         NAME,
@@ -290,7 +293,7 @@ static ANIMATION: Object = Object {
     ],
 };
 
-static CHANNEL: Object = Object {
+static CHANNEL: ObjectSchema = ObjectSchema {
     name: "channel",
     keys: &[
         required("sampler", Index(IndexTarget::Own)),
@@ -298,7 +301,7 @@ static CHANNEL: Object = Object {
     ],
 };
 
-static TARGET: Object = Object {
+static TARGET: ObjectSchema = ObjectSchema {
     name: "channel target",
     keys: &[
         optional("node", Index(IndexTarget::Nodes)),
@@ -309,7 +312,7 @@ static TARGET: Object = Object {
     ],
 };
 
-static ANIMATION_SAMPLER: Object = Object {
+static ANIMATION_SAMPLER: ObjectSchema = ObjectSchema {
     name: "animation sampler",
     keys: &[
         required("input", Index(IndexTarget::Accessors)),

@@ -7,7 +7,8 @@ use super::Value::{
 };
 use super::core::{MAX_INTEGER, NORMAL_TEXTURE, TEXTURE_INFO};
 use super::{
-    FACTOR, FREE, IndexTarget, Key, NumberRange, Object, POSITIVE, UNIT, optional, required,
+    FACTOR, FREE, IndexTarget, NumberRange, ObjectSchema, POSITIVE, PropertySchema, UNIT, optional,
+    required,
 };
 
 /// An extension.
@@ -15,7 +16,7 @@ use super::{
 pub(crate) struct Extension {
     pub(super) name: &'static str,
     /// The kinds of objects that carry it, and the object of the extension.
-    pub(super) places: &'static [(&'static str, &'static Object)],
+    pub(super) places: &'static [(&'static str, &'static ObjectSchema)],
 }
 
 /// The extension of this name.
@@ -63,7 +64,7 @@ const FROM_ONE: NumberRange = NumberRange {
 /// An extension whose objects occur in one kind of object.
 const fn extension(
     name: &'static str,
-    places: &'static [(&'static str, &'static Object)],
+    places: &'static [(&'static str, &'static ObjectSchema)],
 ) -> Extension {
     Extension { name, places }
 }
@@ -150,7 +151,7 @@ macro_rules! of_materials {
             name: $name,
             places: &[(
                 "material",
-                &Object {
+                &ObjectSchema {
                     name: "extension",
                     keys: &[$(optional($key, value!($kind))),*],
                 },
@@ -162,15 +163,15 @@ macro_rules! of_materials {
 rtc_tables::extensions!(of_materials);
 
 /// An extension object with these properties.
-const fn object(keys: &'static [Key]) -> Object {
-    Object {
+const fn object(keys: &'static [PropertySchema]) -> ObjectSchema {
+    ObjectSchema {
         name: "extension",
         keys,
     }
 }
 
-static INSTANCING: Object = object(&[required("attributes", Attributes)]);
-static MESHOPT: Object = object(&[
+static INSTANCING: ObjectSchema = object(&[required("attributes", Attributes)]);
+static MESHOPT: ObjectSchema = object(&[
     required("buffer", Index(IndexTarget::Buffers)),
     optional("byteOffset", Integer(0, MAX_INTEGER)),
     required("byteLength", Integer(1, MAX_INTEGER)),
@@ -182,16 +183,16 @@ static MESHOPT: Object = object(&[
         Keyword(&["NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"]),
     ),
 ]);
-static FALLBACK: Object = object(&[optional("fallback", Boolean)]);
-static SOURCE: Object = object(&[optional("source", Index(IndexTarget::Images))]);
-static ANIMATION_POINTER: Object = object(&[required("pointer", Pointer)]);
-static DRACO: Object = object(&[
+static FALLBACK: ObjectSchema = object(&[optional("fallback", Boolean)]);
+static SOURCE: ObjectSchema = object(&[optional("source", Index(IndexTarget::Images))]);
+static ANIMATION_POINTER: ObjectSchema = object(&[required("pointer", Pointer)]);
+static DRACO: ObjectSchema = object(&[
     required("bufferView", Index(IndexTarget::BufferViews)),
     required("attributes", Attributes),
 ]);
-static LIGHTS: Object = object(&[required("lights", Many(&LIGHT))]);
-static LIGHT_REFERENCE: Object = object(&[required("light", Index(IndexTarget::Lights))]);
-static LIGHT: Object = Object {
+static LIGHTS: ObjectSchema = object(&[required("lights", Many(&LIGHT))]);
+static LIGHT_REFERENCE: ObjectSchema = object(&[required("light", Index(IndexTarget::Lights))]);
+static LIGHT: ObjectSchema = ObjectSchema {
     name: "light",
     keys: &[
         optional("name", Text),
@@ -202,15 +203,15 @@ static LIGHT: Object = Object {
         optional("range", Number(POSITIVE)),
     ],
 };
-static SPOT: Object = Object {
+static SPOT: ObjectSchema = ObjectSchema {
     name: "spot",
     keys: &[
         optional("innerConeAngle", Number(RIGHT_ANGLE)),
         optional("outerConeAngle", Number(RIGHT_ANGLE)),
     ],
 };
-static EMISSIVE_STRENGTH: Object = object(&[optional("emissiveStrength", Number(FACTOR))]);
-static IRIDESCENCE: Object = object(&[
+static EMISSIVE_STRENGTH: ObjectSchema = object(&[optional("emissiveStrength", Number(FACTOR))]);
+static IRIDESCENCE: ObjectSchema = object(&[
     optional("iridescenceFactor", Number(UNIT)),
     optional("iridescenceTexture", One(&TEXTURE_INFO)),
     optional("iridescenceIor", Number(FROM_ONE)),
@@ -218,21 +219,21 @@ static IRIDESCENCE: Object = object(&[
     optional("iridescenceThicknessMaximum", Number(FACTOR)),
     optional("iridescenceThicknessTexture", One(&TEXTURE_INFO)),
 ]);
-static SPECULAR_GLOSSINESS: Object = object(&[
+static SPECULAR_GLOSSINESS: ObjectSchema = object(&[
     optional("diffuseFactor", Numbers(&[4], UNIT)),
     optional("diffuseTexture", One(&TEXTURE_INFO)),
     optional("specularFactor", Numbers(&[3], UNIT)),
     optional("glossinessFactor", Number(UNIT)),
     optional("specularGlossinessTexture", One(&TEXTURE_INFO)),
 ]);
-static UNLIT: Object = object(&[]);
-static VARIANTS: Object = object(&[required("variants", Many(&VARIANT))]);
-static VARIANT: Object = Object {
+static UNLIT: ObjectSchema = object(&[]);
+static VARIANTS: ObjectSchema = object(&[required("variants", Many(&VARIANT))]);
+static VARIANT: ObjectSchema = ObjectSchema {
     name: "variant",
     keys: &[required("name", Text)],
 };
-static VARIANT_MAPPINGS: Object = object(&[required("mappings", Many(&MAPPING))]);
-static MAPPING: Object = Object {
+static VARIANT_MAPPINGS: ObjectSchema = object(&[required("mappings", Many(&MAPPING))]);
+static MAPPING: ObjectSchema = ObjectSchema {
     name: "mapping",
     keys: &[
         required("variants", Indices(IndexTarget::Variants)),
@@ -240,10 +241,10 @@ static MAPPING: Object = Object {
         optional("name", Text),
     ],
 };
-static NODE_LEVELS: Object = object(&[required("ids", Indices(IndexTarget::Nodes))]);
-static MATERIAL_LEVELS: Object = object(&[required("ids", Indices(IndexTarget::Materials))]);
-static VISIBILITY: Object = object(&[optional("visible", Boolean)]);
-static TEXTURE_TRANSFORM: Object = object(&[
+static NODE_LEVELS: ObjectSchema = object(&[required("ids", Indices(IndexTarget::Nodes))]);
+static MATERIAL_LEVELS: ObjectSchema = object(&[required("ids", Indices(IndexTarget::Materials))]);
+static VISIBILITY: ObjectSchema = object(&[optional("visible", Boolean)]);
+static TEXTURE_TRANSFORM: ObjectSchema = object(&[
     optional("offset", Numbers(&[2], FREE)),
     optional("rotation", Number(FREE)),
     optional("scale", Numbers(&[2], FREE)),

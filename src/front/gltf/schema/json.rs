@@ -4,7 +4,7 @@
 
 use super::core::ROOT;
 use super::extension::all;
-use super::{Key, NumberRange, Object, Value};
+use super::{NumberRange, ObjectSchema, PropertySchema, Value};
 use serde_json::{Map, Value as Json, json};
 
 /// Lines of `object.property | default | unit | description`.
@@ -27,7 +27,7 @@ struct JsonWriter {
 
 impl JsonWriter {
     /// A reference to the schema of an object, whose properties are described under a name.
-    fn object(&mut self, object: &'static Object, name: &str) -> Json {
+    fn object(&mut self, object: &'static ObjectSchema, name: &str) -> Json {
         // Kinds of texture infos differ in their last property.
         let id = format!("{name} {}", object.keys.last().map_or("", |key| key.name));
         let reference = json!({ "$ref": format!("#/$defs/{id}") });
@@ -58,7 +58,7 @@ impl JsonWriter {
         reference
     }
 
-    fn property(&mut self, key: &Key, name: &str) -> Json {
+    fn property(&mut self, key: &PropertySchema, name: &str) -> Json {
         let mut schema = self.value(&key.value);
         let about = AboutText::of(name, key.name);
         if let Some(map) = schema.as_object_mut() {

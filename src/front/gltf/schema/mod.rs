@@ -1,10 +1,10 @@
 //! The JSON schema of glTF 2.0 as tables, and its validation.
 //!
 //! `core` holds the objects of glTF, `extension` those of extensions, and `rtc_extras` those
-//! that `rtc` writes into `extras`. An [`Object`] lists its properties, each with the kind of its
-//! [`Value`]. `traverse` visits the JSON with a stack, finds the table of each object, and reports
-//! unknown and missing properties; `value` checks one value. `json` writes the tables as the JSON
-//! Schema and the documentation in `schema/`, with the descriptions of `about.txt`.
+//! that `rtc` writes into `extras`. An [`ObjectSchema`] lists its properties, each with the kind of
+//! its [`Value`]. `traverse` visits the JSON with a stack, finds the table of each object, and
+//! reports unknown and missing properties; `value` checks one value. `json` writes the tables as
+//! the JSON Schema and the documentation in `schema/`, with the descriptions of `about.txt`.
 
 mod core;
 mod extension;
@@ -19,31 +19,31 @@ pub(super) use traverse::traverse;
 
 /// A kind of object.
 #[derive(Debug)]
-pub(super) struct Object {
+pub(super) struct ObjectSchema {
     /// As messages call it, and as extensions say where they belong.
     name: &'static str,
     /// Its properties, but for `extensions` and `extras`, which all have.
-    keys: &'static [Key],
+    keys: &'static [PropertySchema],
 }
 
 /// A property.
 #[derive(Debug)]
-struct Key {
+struct PropertySchema {
     name: &'static str,
     value: Value,
     required: bool,
 }
 
-const fn required(name: &'static str, value: Value) -> Key {
-    Key {
+const fn required(name: &'static str, value: Value) -> PropertySchema {
+    PropertySchema {
         name,
         value,
         required: true,
     }
 }
 
-const fn optional(name: &'static str, value: Value) -> Key {
-    Key {
+const fn optional(name: &'static str, value: Value) -> PropertySchema {
+    PropertySchema {
         name,
         value,
         required: false,
@@ -80,8 +80,8 @@ enum Value {
     Attributes,
     /// A list of such.
     Targets,
-    One(&'static Object),
-    Many(&'static Object),
+    One(&'static ObjectSchema),
+    Many(&'static ObjectSchema),
 }
 
 /// The range of a number; an infinite bound does not limit it.

@@ -1,13 +1,15 @@
 //! The properties of `extras.rtc`: values that glTF can't express, as `emit/gltf` writes them.
 
 use super::Value::{Boolean, Index, Integer, Keyword, Number, Numbers, One, Text};
-use super::{FACTOR, FREE, IndexTarget, Key, Object, POSITIVE, optional, required};
+use super::{
+    FACTOR, FREE, IndexTarget, ObjectSchema, POSITIVE, PropertySchema, optional, required,
+};
 use rtc_ir::Settings;
 use serde_json::Value as Json;
 use std::sync::LazyLock;
 
 /// The object that `extras.rtc` of a kind of object is, if it is read there.
-pub(super) fn find(owner: &str) -> Option<&'static Object> {
+pub(super) fn find(owner: &str) -> Option<&'static ObjectSchema> {
     match owner {
         "asset" => Some(&SETTINGS),
         "camera" => Some(&CAMERA),
@@ -22,8 +24,8 @@ pub(super) fn find(owner: &str) -> Option<&'static Object> {
 const MAX_COUNT: u64 = u32::MAX as u64;
 
 /// An object of `extras.rtc`.
-const fn rtc_object(keys: &'static [Key]) -> Object {
-    Object {
+const fn rtc_object(keys: &'static [PropertySchema]) -> ObjectSchema {
+    ObjectSchema {
         name: "part of `extras.rtc`",
         keys,
     }
@@ -31,7 +33,7 @@ const fn rtc_object(keys: &'static [Key]) -> Object {
 
 /// The settings of the picture, by their names in the IR, and the environment; the mode is a word,
 /// with its parameters apart.
-static SETTINGS: LazyLock<Object> = LazyLock::new(|| {
+static SETTINGS: LazyLock<ObjectSchema> = LazyLock::new(|| {
     let schema = Json::from(Settings::schema());
     let fields = schema["properties"].as_object().into_iter().flatten();
     let settings = fields.map(|(name, field)| {
@@ -79,18 +81,18 @@ fn value_of(schema: &Json) -> super::Value {
     }
 }
 
-static GOOCH: Object = rtc_object(&[
+static GOOCH: ObjectSchema = rtc_object(&[
     required("b", Number(FREE)),
     required("y", Number(FREE)),
     required("alpha", Number(FREE)),
     required("beta", Number(FREE)),
 ]);
-static PATH: Object = rtc_object(&[
+static PATH: ObjectSchema = rtc_object(&[
     required("samples", Integer(1, MAX_COUNT)),
     optional("multipleScattering", Boolean),
 ]);
 /// An exposure in stops, and a tone map or that of the mode.
-static DISPLAY: Object = rtc_object(&[
+static DISPLAY: ObjectSchema = rtc_object(&[
     optional("exposure", Number(FREE)),
     optional(
         "tone",
@@ -99,7 +101,7 @@ static DISPLAY: Object = rtc_object(&[
 ]);
 /// Its radiance; an image of all directions, by index or as rows of floating-point pixels; the rows
 /// of the rotation from the world to the image.
-static ENVIRONMENT: Object = rtc_object(&[
+static ENVIRONMENT: ObjectSchema = rtc_object(&[
     required("radiance", Numbers(&[3], FACTOR)),
     optional("image", Index(IndexTarget::Images)),
     optional("pixels", Index(IndexTarget::Accessors)),
@@ -108,7 +110,7 @@ static ENVIRONMENT: Object = rtc_object(&[
 ]);
 
 /// The size of the picture, the plane of focus, the middle in halves of the picture, the lens.
-static CAMERA: Object = rtc_object(&[
+static CAMERA: ObjectSchema = rtc_object(&[
     required("width", Integer(1, MAX_COUNT)),
     required("height", Integer(1, MAX_COUNT)),
     required("focusDistance", Number(POSITIVE)),
@@ -118,15 +120,15 @@ static CAMERA: Object = rtc_object(&[
 ]);
 
 /// A light without falloff, or a lamp as it was measured.
-static LIGHT: Object = rtc_object(&[
+static LIGHT: ObjectSchema = rtc_object(&[
     optional("point", One(&POINT)),
     optional("photometry", One(&PHOTOMETRY)),
 ]);
-static POINT: Object = rtc_object(&[
+static POINT: ObjectSchema = rtc_object(&[
     required("color", Numbers(&[3], FACTOR)),
     optional("radius", Number(FACTOR)),
 ]);
-static PHOTOMETRY: Object = rtc_object(&[
+static PHOTOMETRY: ObjectSchema = rtc_object(&[
     optional("name", Text),
     required("factor", Numbers(&[3], FACTOR)),
     required("vertical", Numbers(&[], FREE)),
@@ -135,8 +137,8 @@ static PHOTOMETRY: Object = rtc_object(&[
 ]);
 
 /// Phong's model.
-static MATERIAL: Object = rtc_object(&[optional("phong", One(&PHONG))]);
-static PHONG: Object = rtc_object(&[
+static MATERIAL: ObjectSchema = rtc_object(&[optional("phong", One(&PHONG))]);
+static PHONG: ObjectSchema = rtc_object(&[
     required("color", Numbers(&[3], FACTOR)),
     optional("ka", Number(FACTOR)),
     optional("kd", Number(FACTOR)),
@@ -154,4 +156,4 @@ static PHONG: Object = rtc_object(&[
 ]);
 
 /// Whether the surfaces of the node cast no shadow.
-static NODE: Object = rtc_object(&[optional("castsNoShadow", Boolean)]);
+static NODE: ObjectSchema = rtc_object(&[optional("castsNoShadow", Boolean)]);

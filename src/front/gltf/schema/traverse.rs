@@ -2,7 +2,7 @@
 //! against the objects that may carry it.
 
 use super::core::ROOT;
-use super::{IndexTarget, Key, Object, TARGETS, extension, rtc_extras};
+use super::{IndexTarget, ObjectSchema, PropertySchema, TARGETS, extension, rtc_extras};
 use crate::gltf::report::{AssetReport, shown};
 use rtc_diag::codes;
 use rtc_source::tree::{NodeId, NodeKind};
@@ -31,9 +31,9 @@ pub(crate) fn traverse(is_known: bool, report: &mut AssetReport<'_, '_>) -> BTre
     // Mark each item of the root arrays as unused until a reference is found.
     let slot = |item| {
         if json.kind(item) == NodeKind::Map {
-            Slot::Unused
+            ListElement::Unused
         } else {
-            Slot::NoPart
+            ListElement::NoPart
         }
     };
     let slots = TARGETS.map(|(_, path)| {
@@ -44,7 +44,7 @@ pub(crate) fn traverse(is_known: bool, report: &mut AssetReport<'_, '_>) -> BTre
     });
     let present = TARGETS.map(|(_, path)| path.len() == 1 || json.at(root, &path[..2]).is_some());
     // Visit the objects of the document with an explicit stack.
-    let mut traverse = Walk {
+    let mut traverse = SchemaWalk {
         report,
         declared,
         slots,
@@ -64,29 +64,29 @@ pub(crate) fn traverse(is_known: bool, report: &mut AssetReport<'_, '_>) -> BTre
 
 /// An element of a list of parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Slot {
+enum ListElement {
     Unused,
     Used,
     /// It is no object, so nothing can refer to it.
     NoPart,
 }
 
-pub(super) struct Walk<'w, 'r, 's> {
+pub(super) struct SchemaWalk<'w, 'r, 's> {
     pub(super) report: &'w mut AssetReport<'r, 's>,
     /// The extensions in `extensionsUsed`; with `--lenient`, also missing ones.
     declared: BTreeSet<String>,
     /// The length of each array that indices refer to.
-    slots: [Vec<Slot>; TARGETS.len()],
+    slots: [Vec<ListElement>; TARGETS.len()],
     /// The asset has the extension that contains the array, if any.
     present: [bool; TARGETS.len()],
     /// The asset is glTF 2; else only its header is checked.
     is_known: bool,
     /// Objects that are still to be checked.
-    pub(super) open: Vec<(NodeId, &'static Object)>,
+    pub(super) open: Vec<(NodeId, &'static ObjectSchema)>,
 }
 
-impl Walk<'_, '_, '_> {
-    fn object(&mut self, node: NodeId, object: &'static Object) {
+impl SchemaWalk<'_, '_, '_> {
+    fn object(&mut self, node: NodeId, object: &'static ObjectSchema) {
         let json = self.report.json;
         let mut seen: u32 = 0;
         let is_header = !self.is_known && node == json.root();
@@ -115,10 +115,10 @@ impl Walk<'_, '_, '_> {
 
     /// Reports the properties that an object needs and has not; `seen` has a bit for each that it
     /// has.
-    fn missing(&mut self, node: NodeId, object: &'static Object, seen: u32) {
+    fn missing(&mut self, node: NodeId, object: &'static ObjectSchema, seen: u32) {
         for (
             at,
-            Key {
+            PropertySchema {
                 name,
                 value: _,
                 required,
@@ -133,7 +133,7 @@ impl Walk<'_, '_, '_> {
         }
     }
 
-    fn unknown(&mut self, name: NodeId, object: &'static Object) {
+    fn unknown(&mut self, name: NodeId, object: &'static ObjectSchema) {
         let written = self.report.json.text(name).unwrap_or_default();
         let message = format!(
             "the {} has an unknown property `{}`",
@@ -145,7 +145,7 @@ impl Walk<'_, '_, '_> {
     }
 
     /// Extras may be anything, except for those of rtc itself.
-    fn extras(&mut self, value: NodeId, owner: &'static Object) {
+    fn extras(&mut self, value: NodeId, owner: &'static ObjectSchema) {
         let rtc = self.report.json.get(value, "rtc");
         if let Some((node, object)) = rtc.zip(rtc_extras::find(owner.name))
             && self.expect(node, NodeKind::Map, "rtc")
@@ -159,7 +159,7 @@ impl Walk<'_, '_, '_> {
         }
     }
 
-    fn extensions(&mut self, node: NodeId, owner: &'static Object) {
+    fn extensions(&mut self, node: NodeId, owner: &'static ObjectSchema) {
         let json = self.report.json;
         if !self.expect(node, NodeKind::Map, "extensions") {
             return;
@@ -211,7 +211,7 @@ impl Walk<'_, '_, '_> {
     }
 
     /// The extension of an object refers to that of the asset, if it has properties there.
-    fn has_root(&mut self, name: &str, value: NodeId, owner: &Object) {
+    fn has_root(&mut self, name: &str, value: NodeId, owner: &ObjectSchema) {
         let target = TARGETS
             .iter()
             .position(|(_, path)| path.len() > 1 && path[1] == name);
@@ -258,8 +258,8 @@ impl Walk<'_, '_, '_> {
             .ok()
             .and_then(|index| self.slots[at].get_mut(index))
         {
-            Some(slot @ (Slot::Unused | Slot::Used)) => *slot = Slot::Used,
-            Some(Slot::NoPart) => {
+            Some(slot @ (ListElement::Unused | ListElement::Used)) => *slot = ListElement::Used,
+            Some(ListElement::NoPart) => {
                 let message = format!("item {index} of `{target}` is no object");
                 self.report.add(
                     &codes::GLTF_REFERENCE,
@@ -296,7 +296,7 @@ impl Walk<'_, '_, '_> {
             ) {
                 continue;
             }
-            let unused = |(_, slot): &(NodeId, &Slot)| **slot == Slot::Unused;
+            let unused = |(_, slot): &(NodeId, &ListElement)| **slot == ListElement::Unused;
             for (node, _) in json.list(json.root(), path[0]).zip(slots).filter(unused) {
                 self.report.add(
                     &codes::GLTF_REMARK,

@@ -1,12 +1,12 @@
 //! The check of one property value against its table.
 
-use super::traverse::Walk;
+use super::traverse::SchemaWalk;
 use super::{IndexTarget, NumberRange, Value};
 use rtc_diag::codes;
 use rtc_source::tree::{NodeId, NodeKind};
 use std::collections::BTreeSet;
 
-impl Walk<'_, '_, '_> {
+impl SchemaWalk<'_, '_, '_> {
     /// Checks the value of the property `name`; nested values are deferred.
     pub(super) fn value(&mut self, node: NodeId, value: &'static Value, name: &str) {
         match value {

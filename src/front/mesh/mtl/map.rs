@@ -2,7 +2,7 @@
 
 use super::super::WordSpan;
 use super::super::material_use::name;
-use crate::words::{Word, WordFault};
+use crate::words::{Word, WordError};
 
 /// An image, and its mapping onto a surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +26,7 @@ pub(super) fn read<'a>(
     head: &Word<'a>,
     rest: &[Word<'a>],
     file: &[u8],
-) -> Result<(MtlMap, Option<Word<'a>>), WordFault> {
+) -> Result<(MtlMap, Option<Word<'a>>), WordError> {
     let mut map = MtlMap::of(String::new());
     let (mut rest, mut unread) = (rest, None);
     while let Some((option, others)) = rest.split_first() {

@@ -1,19 +1,19 @@
 //! Builds the mesh of an OBJ, after its contents are checked and counted against the budget.
 
 use super::corner::{Corner, CornerCounts, indices};
-use super::smooth::Smoothing;
-use super::{Check, Vertices, is_face, part_of};
+use super::smooth::SmoothNormals;
+use super::{ObjCheck, ObjVertices, is_face, part_of};
 use crate::mesh::polygon::EarClipper;
 use crate::mesh::stroke::{Segments, StrokeMesher, join};
-use crate::mesh::{ParseFault, SpannedName};
-use crate::words::Lines;
+use crate::mesh::{SpannedName, TextParseError};
+use crate::words::WordLines;
 use rtc_ir::Mesh;
-use rtc_math::{Column, to_u32};
-use rtc_source::{Budget, Exceeded, Resource};
+use rtc_math::{VertexColumn, to_u32};
+use rtc_source::{Budget, LimitExceeded, Resource};
 
-impl Check {
+impl ObjCheck {
     /// The mesh of a file without errors.
-    pub(super) fn mesh(&mut self, bytes: &[u8], budget: &Budget) -> Result<Mesh, ParseFault> {
+    pub(super) fn mesh(&mut self, bytes: &[u8], budget: &Budget) -> Result<Mesh, TextParseError> {
         let smoothing = self.smoothing(bytes, budget)?;
         let is_plain = self.used == [false; 2];
         // The temporary memory of the map that merges equal corners.
@@ -53,10 +53,13 @@ impl Check {
     }
 
     /// The normals of the smoothing groups, beside those of the file.
-    fn smoothing(&mut self, bytes: &[u8], budget: &Budget) -> Result<Smoothing, Exceeded> {
-        let mut smoothing = Smoothing::default();
+    fn smoothing(&mut self, bytes: &[u8], budget: &Budget) -> Result<SmoothNormals, LimitExceeded> {
+        let mut smoothing = SmoothNormals::default();
         if self.smooth_corners > 0 {
-            budget.has(Resource::Memory, Smoothing::at_most(self.smooth_corners))?;
+            budget.has(
+                Resource::Memory,
+                SmoothNormals::at_most(self.smooth_corners),
+            )?;
             self.each_face(bytes, |face, group| smoothing.request(face, group));
             smoothing.begin();
             self.each_face(bytes, |face, group| {
@@ -70,7 +73,7 @@ impl Check {
 
     /// The strokes of lines and points, each with its material; all vertices as points if there is
     /// nothing else.
-    fn drawn_meshes(&mut self, budget: &Budget) -> Result<Vec<(SpannedName, Mesh)>, Exceeded> {
+    fn drawn_meshes(&mut self, budget: &Budget) -> Result<Vec<(SpannedName, Mesh)>, LimitExceeded> {
         let has_nothing = self.triangles == 0 && self.not_drawn.is_none();
         if self.strokes.is_empty() && !has_nothing {
             return Ok(Vec::new());
@@ -119,11 +122,11 @@ impl Check {
             let take = |three: [usize; 3]| triangles.push(three.map(|at| polygon[at]));
             clipper.cut(face.len(), position, take);
         });
-        let Vertices {
+        let ObjVertices {
             positions, tints, ..
         } = std::mem::take(&mut self.vertices);
         Mesh {
-            positions: Column::from(positions).pick(&used),
+            positions: VertexColumn::from(positions).pick(&used),
             colors: tints.column().pick(&used),
             triangles: triangles.into(),
             ..Mesh::default()
@@ -131,7 +134,7 @@ impl Check {
     }
 
     /// The mesh of a file whose corners are more than positions.
-    fn merged(&mut self, bytes: &[u8], smoothing: Smoothing) -> Mesh {
+    fn merged(&mut self, bytes: &[u8], smoothing: SmoothNormals) -> Mesh {
         let [_, uvs, normals] = self.vertices.counts();
         let mut sorted = Vec::with_capacity(self.corners);
         let mut triangles = Vec::with_capacity(self.triangles);
@@ -190,13 +193,17 @@ impl Check {
         sorted.shrink_to_fit();
         sorted.sort_unstable_by_key(|corner| corner[3]);
         drop(vertex_of);
-        let Vertices {
+        let ObjVertices {
             positions,
             uvs,
             normals,
             tints,
         } = std::mem::take(&mut self.vertices);
-        fn pick<const N: usize>(sorted: &[[u32; 4]], part: usize, from: &[[f64; N]]) -> Column<N> {
+        fn pick<const N: usize>(
+            sorted: &[[u32; 4]],
+            part: usize,
+            from: &[[f64; N]],
+        ) -> VertexColumn<N> {
             sorted
                 .iter()
                 .map(|corner| from.get(corner[part] as usize).copied().unwrap_or([0.0; N]))
@@ -207,12 +214,12 @@ impl Check {
             uvs: if self.used[0] {
                 pick(&sorted, 1, &uvs)
             } else {
-                Column::default()
+                VertexColumn::default()
             },
             normals: if self.used[1] {
                 pick(&sorted, 2, &normals)
             } else {
-                Column::default()
+                VertexColumn::default()
             },
             colors: tints
                 .column()
@@ -225,7 +232,7 @@ impl Check {
     /// The corners of each face that shows, and its smoothing group.
     fn each_face(&self, bytes: &[u8], mut take: impl FnMut(&[Corner], u32)) {
         let (mut lines, mut words, mut so_far) =
-            (Lines::new(bytes), Vec::new(), CornerCounts::default());
+            (WordLines::new(bytes), Vec::new(), CornerCounts::default());
         let (total, mut corners, mut group) = (self.vertices.counts(), Vec::new(), 0);
         while lines.next(&mut words) {
             let (head, rest) = (&words[0], &words[1..]);

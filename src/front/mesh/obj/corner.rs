@@ -1,6 +1,6 @@
 //! The corners of faces of an OBJ, as indices.
 
-use crate::words::{Word, WordFault};
+use crate::words::{Word, WordError};
 
 /// The counts of positions, texture coordinates and normals.
 pub(super) type CornerCounts = [usize; 3];
@@ -17,7 +17,7 @@ pub(super) fn indices(
     corner: &Word<'_>,
     so_far: CornerCounts,
     total: CornerCounts,
-) -> Result<Corner, WordFault> {
+) -> Result<Corner, WordError> {
     if corner.bytes[0] == b'/' {
         return Err(corner.fault(
             format!("the corner `{}` has no vertex", corner.text()),
@@ -39,7 +39,7 @@ pub(super) fn indices(
     Ok(found)
 }
 
-fn resolve(index: &Word<'_>, entity: &str, so_far: usize, total: usize) -> Result<u32, WordFault> {
+fn resolve(index: &Word<'_>, entity: &str, so_far: usize, total: usize) -> Result<u32, WordError> {
     let number = index.integer()?;
     let distance = usize::try_from(number.unsigned_abs()).unwrap_or(usize::MAX);
     let resolved = if number < 0 {

@@ -8,7 +8,7 @@ use rtc_math::{Vec3, acos, to_u32, unit};
 
 /// The normals of the corners of all groups.
 #[derive(Default)]
-pub(super) struct Smoothing {
+pub(super) struct SmoothNormals {
     /// The groups and vertices that have a normal, in order.
     corners: Vec<(u32, u32)>,
     sums: Vec<Vec3>,
@@ -29,7 +29,7 @@ pub(super) fn group(rest: &[Word<'_>]) -> u32 {
     }
 }
 
-impl Smoothing {
+impl SmoothNormals {
     /// The maximum memory for the given number of corners.
     pub(super) fn at_most(corners: usize) -> u64 {
         // A list that grows by doubling, sums and normals.

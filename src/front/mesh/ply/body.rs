@@ -1,16 +1,16 @@
 //! The body of a PLY, number by number.
 
-use super::head::{NumberKind, PlyElement, PlyForm, PlyHead, PlyProperty};
-use crate::words::{Lines, Word, WordFault};
+use super::head::{PlyElement, PlyEncoding, PlyHeader, PlyNumberType, PlyProperty};
+use crate::words::{Word, WordError, WordLines};
 use std::ops::Range;
 
 /// The rest of a body.
 pub(super) struct PlyBody<'a> {
     bytes: &'a [u8],
-    form: PlyForm,
+    form: PlyEncoding,
     /// The offset of the next number; of a text, of the next line.
     at: usize,
-    lines: Lines<'a>,
+    lines: WordLines<'a>,
     words: Vec<Word<'a>>,
     /// The number of words read from the line.
     used: usize,
@@ -27,7 +27,7 @@ pub(super) struct PlyBody<'a> {
 
 impl<'a> PlyBody<'a> {
     /// The body of a file, in the format of its header.
-    pub(super) fn new(bytes: &'a [u8], head: &PlyHead<'_>) -> Self {
+    pub(super) fn new(bytes: &'a [u8], head: &PlyHeader<'_>) -> Self {
         let (body, form) = (head.start, head.form);
         let rows = head
             .elements
@@ -37,9 +37,9 @@ impl<'a> PlyBody<'a> {
         Self {
             bytes,
             form,
-            is_by_lines: form == PlyForm::Text && has_lines(&bytes[body..], rows),
+            is_by_lines: form == PlyEncoding::Text && has_lines(&bytes[body..], rows),
             at: body,
-            lines: Lines::from(bytes, body),
+            lines: WordLines::from(bytes, body),
             words: Vec::new(),
             used: 0,
             line: 0,
@@ -50,11 +50,11 @@ impl<'a> PlyBody<'a> {
     }
 
     /// The fewest bytes that a number takes.
-    pub(super) fn least(&self, kind: NumberKind) -> usize {
+    pub(super) fn least(&self, kind: PlyNumberType) -> usize {
         match self.form {
             // A digit, and a space before the next one.
-            PlyForm::Text => 2,
-            PlyForm::LittleEndian | PlyForm::BigEndian => kind.size(),
+            PlyEncoding::Text => 2,
+            PlyEncoding::LittleEndian | PlyEncoding::BigEndian => kind.size(),
         }
     }
 
@@ -77,13 +77,13 @@ impl<'a> PlyBody<'a> {
     /// The next number, of a type; `element` announced it.
     pub(super) fn number(
         &mut self,
-        kind: NumberKind,
+        kind: PlyNumberType,
         element: &PlyElement<'_>,
-    ) -> Result<f64, WordFault> {
+    ) -> Result<f64, WordError> {
         self.value = match self.form {
-            PlyForm::Text => self.word(element),
-            PlyForm::LittleEndian => self.binary(kind, element, false),
-            PlyForm::BigEndian => self.binary(kind, element, true),
+            PlyEncoding::Text => self.word(element),
+            PlyEncoding::LittleEndian => self.binary(kind, element, false),
+            PlyEncoding::BigEndian => self.binary(kind, element, true),
         }?;
         Ok(self.value)
     }
@@ -100,7 +100,7 @@ impl<'a> PlyBody<'a> {
         has_more
     }
 
-    fn word(&mut self, element: &PlyElement<'_>) -> Result<f64, WordFault> {
+    fn word(&mut self, element: &PlyElement<'_>) -> Result<f64, WordError> {
         if self.used == self.words.len() {
             self.used = 0;
             self.line += 1;
@@ -117,10 +117,10 @@ impl<'a> PlyBody<'a> {
 
     fn binary(
         &mut self,
-        kind: NumberKind,
+        kind: PlyNumberType,
         element: &PlyElement<'_>,
         is_big: bool,
-    ) -> Result<f64, WordFault> {
+    ) -> Result<f64, WordError> {
         let size = kind.size();
         let Some(bytes) = self.bytes.get(self.at..self.at + size) else {
             return Err(element.is_cut_off());
@@ -134,23 +134,23 @@ impl<'a> PlyBody<'a> {
         }
         let [a, b, c, d, ..] = eight;
         Ok(match kind {
-            NumberKind::I8 => f64::from(i8::from_le_bytes([a])),
-            NumberKind::U8 => f64::from(a),
-            NumberKind::I16 => f64::from(i16::from_le_bytes([a, b])),
-            NumberKind::U16 => f64::from(u16::from_le_bytes([a, b])),
-            NumberKind::I32 => f64::from(i32::from_le_bytes([a, b, c, d])),
-            NumberKind::U32 => f64::from(u32::from_le_bytes([a, b, c, d])),
-            NumberKind::F32 => f64::from(f32::from_le_bytes([a, b, c, d])),
-            NumberKind::F64 => f64::from_le_bytes(eight),
+            PlyNumberType::I8 => f64::from(i8::from_le_bytes([a])),
+            PlyNumberType::U8 => f64::from(a),
+            PlyNumberType::I16 => f64::from(i16::from_le_bytes([a, b])),
+            PlyNumberType::U16 => f64::from(u16::from_le_bytes([a, b])),
+            PlyNumberType::I32 => f64::from(i32::from_le_bytes([a, b, c, d])),
+            PlyNumberType::U32 => f64::from(u32::from_le_bytes([a, b, c, d])),
+            PlyNumberType::F32 => f64::from(f32::from_le_bytes([a, b, c, d])),
+            PlyNumberType::F64 => f64::from_le_bytes(eight),
         })
     }
 
     /// The length of a list.
     pub(super) fn count(
         &mut self,
-        kind: NumberKind,
+        kind: PlyNumberType,
         element: &PlyElement<'_>,
-    ) -> Result<u32, WordFault> {
+    ) -> Result<u32, WordError> {
         let number = self.number(kind, element)?;
         super::whole(number)
             .ok_or_else(|| self.fault("the length of a list is no whole number", "here"))
@@ -161,7 +161,7 @@ impl<'a> PlyBody<'a> {
         &mut self,
         property: &PlyProperty<'_>,
         element: &PlyElement<'_>,
-    ) -> Result<(), WordFault> {
+    ) -> Result<(), WordError> {
         let count = match property.length {
             Some(length) => self.count(length, element)?,
             None => 1,
@@ -178,14 +178,14 @@ impl<'a> PlyBody<'a> {
     }
 
     /// An error at the current line of a text.
-    pub(super) fn line_fault(&self, message: &str, label: &str) -> WordFault {
+    pub(super) fn line_fault(&self, message: &str, label: &str) -> WordError {
         let first = self.words.first().copied().unwrap_or(Word::START);
         first.fault(message, label)
     }
 
     /// An error at the last number read.
-    pub(super) fn fault(&self, message: &str, label: &str) -> WordFault {
-        WordFault::new(self.last.clone(), message, label)
+    pub(super) fn fault(&self, message: &str, label: &str) -> WordError {
+        WordError::new(self.last.clone(), message, label)
     }
 }
 

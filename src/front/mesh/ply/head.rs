@@ -1,11 +1,11 @@
 //! The head of a PLY: its form, and the elements with their properties, in the order of the body.
 
 use super::super::material_use::{SpannedName, name};
-use crate::words::{Lines, Word, WordFault};
+use crate::words::{Word, WordError, WordLines};
 
 /// The encoding of the numbers in the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum PlyForm {
+pub(super) enum PlyEncoding {
     Text,
     LittleEndian,
     BigEndian,
@@ -13,7 +13,7 @@ pub(super) enum PlyForm {
 
 /// The type of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum NumberKind {
+pub(super) enum PlyNumberType {
     I8,
     U8,
     I16,
@@ -38,13 +38,13 @@ pub(super) struct PlyElement<'a> {
 #[derive(Debug)]
 pub(super) struct PlyProperty<'a> {
     pub(super) name: Word<'a>,
-    pub(super) kind: NumberKind,
+    pub(super) kind: PlyNumberType,
     /// The type of the length, if it is a list.
-    pub(super) length: Option<NumberKind>,
+    pub(super) length: Option<PlyNumberType>,
 }
 
-impl NumberKind {
-    fn of(word: &Word<'_>) -> Result<Self, WordFault> {
+impl PlyNumberType {
+    fn of(word: &Word<'_>) -> Result<Self, WordError> {
         Ok(match word.bytes {
             b"char" | b"int8" => Self::I8,
             b"uchar" | b"uint8" => Self::U8,
@@ -98,7 +98,7 @@ impl PlyProperty<'_> {
 
 impl PlyElement<'_> {
     /// The file has fewer than declared.
-    pub(super) fn is_cut_off(&self) -> WordFault {
+    pub(super) fn is_cut_off(&self) -> WordError {
         let message = format!(
             "the file ends before the last of {} of `{}`",
             self.count,
@@ -109,16 +109,16 @@ impl PlyElement<'_> {
 }
 
 /// The header.
-pub(super) struct PlyHead<'a> {
+pub(super) struct PlyHeader<'a> {
     pub(super) elements: Vec<PlyElement<'a>>,
-    pub(super) form: PlyForm,
+    pub(super) form: PlyEncoding,
     /// The offset of the body.
     pub(super) start: usize,
     /// The pictures that comments name: the first, and how many.
     pub(super) textures: Option<(SpannedName, usize)>,
 }
 
-impl PlyHead<'_> {
+impl PlyHeader<'_> {
     /// The declared number of vertices.
     pub(super) fn vertices(&self) -> usize {
         let mut elements = self.elements.iter();
@@ -128,8 +128,8 @@ impl PlyHead<'_> {
 }
 
 /// Reads the head.
-pub(super) fn read(bytes: &[u8]) -> Result<PlyHead<'_>, WordFault> {
-    let (mut lines, mut words) = (Lines::new(bytes), Vec::new());
+pub(super) fn read(bytes: &[u8]) -> Result<PlyHeader<'_>, WordError> {
+    let (mut lines, mut words) = (WordLines::new(bytes), Vec::new());
     let (mut elements, mut form, mut textures) = (Vec::new(), None, None);
     while lines.next(&mut words) {
         // Each line declares the format, an element or a property of the last element.
@@ -152,7 +152,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PlyHead<'_>, WordFault> {
             (b"end_header", _) => {
                 let form = form
                     .ok_or_else(|| words[0].fault("the header has no `format`", "it ends here"))?;
-                return Ok(PlyHead {
+                return Ok(PlyHeader {
                     elements,
                     form,
                     start: end(&words[0], bytes),
@@ -179,16 +179,16 @@ fn end(word: &Word<'_>, bytes: &[u8]) -> usize {
     end + line.map_or(1, |line| line + 1).min(rest.len())
 }
 
-fn form_of(word: &Word<'_>) -> Result<PlyForm, WordFault> {
+fn form_of(word: &Word<'_>) -> Result<PlyEncoding, WordError> {
     match word.bytes {
-        b"ascii" => Ok(PlyForm::Text),
-        b"binary_little_endian" => Ok(PlyForm::LittleEndian),
-        b"binary_big_endian" => Ok(PlyForm::BigEndian),
+        b"ascii" => Ok(PlyEncoding::Text),
+        b"binary_little_endian" => Ok(PlyEncoding::LittleEndian),
+        b"binary_big_endian" => Ok(PlyEncoding::BigEndian),
         _ => Err(word.fault(format!("there is no format `{}`", word.text()), "unknown")),
     }
 }
 
-fn element<'a>(name: Word<'a>, promise: Word<'a>) -> Result<PlyElement<'a>, WordFault> {
+fn element<'a>(name: Word<'a>, promise: Word<'a>) -> Result<PlyElement<'a>, WordError> {
     let count = usize::try_from(promise.integer()?);
     Ok(PlyElement {
         name,
@@ -198,16 +198,16 @@ fn element<'a>(name: Word<'a>, promise: Word<'a>) -> Result<PlyElement<'a>, Word
     })
 }
 
-fn property<'a>(head: &Word<'a>, rest: &[Word<'a>]) -> Result<PlyProperty<'a>, WordFault> {
+fn property<'a>(head: &Word<'a>, rest: &[Word<'a>]) -> Result<PlyProperty<'a>, WordError> {
     match rest {
         [list, length, kind, name, ..] if list.bytes == b"list" => Ok(PlyProperty {
             name: *name,
-            kind: NumberKind::of(kind)?,
-            length: Some(NumberKind::of(length)?),
+            kind: PlyNumberType::of(kind)?,
+            length: Some(PlyNumberType::of(length)?),
         }),
         [kind, name, ..] => Ok(PlyProperty {
             name: *name,
-            kind: NumberKind::of(kind)?,
+            kind: PlyNumberType::of(kind)?,
             length: None,
         }),
         _ => Err(head.fault("a property has a type and a name", "this has not")),

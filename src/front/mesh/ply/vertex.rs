@@ -1,11 +1,11 @@
 //! The vertices of a PLY, each column in the precision of its properties.
 
-use super::super::ParseFault;
+use super::super::TextParseError;
 use super::super::tint::decoded;
 use super::body::PlyBody;
-use super::head::{NumberKind, PlyElement, PlyProperty};
+use super::head::{PlyElement, PlyNumberType, PlyProperty};
 use rtc_ir::Mesh;
-use rtc_math::Column;
+use rtc_math::VertexColumn;
 use rtc_source::{Budget, Resource};
 
 /// The values of a vertex that are kept, by the names of their properties: position, normal, both
@@ -56,15 +56,15 @@ enum ColumnBuilder<const N: usize> {
 
 impl<const N: usize> ColumnBuilder<N> {
     /// An empty column, in 32 bits if those hold all of its values; absent if one is missing.
-    fn new(first: usize, slots: &[Option<(usize, NumberKind)>], count: usize) -> Self {
+    fn new(first: usize, slots: &[Option<(usize, PlyNumberType)>], count: usize) -> Self {
         let kind = |value: usize| {
             let mut slots = slots.iter().flatten();
             slots.find(|(at, _)| *at == value).map(|(_, kind)| *kind)
         };
-        let kinds: Option<Vec<NumberKind>> = (first..first + N).map(kind).collect();
+        let kinds: Option<Vec<PlyNumberType>> = (first..first + N).map(kind).collect();
         match kinds {
             None => Self::Absent,
-            Some(kinds) if kinds.iter().all(|kind| *kind == NumberKind::F32) => {
+            Some(kinds) if kinds.iter().all(|kind| *kind == PlyNumberType::F32) => {
                 Self::Single(first, Vec::with_capacity(count))
             }
             Some(_) => Self::Double(first, Vec::with_capacity(count)),
@@ -88,9 +88,9 @@ impl<const N: usize> ColumnBuilder<N> {
         }
     }
 
-    fn finish(self) -> Column<N> {
+    fn finish(self) -> VertexColumn<N> {
         match self {
-            Self::Absent => Column::default(),
+            Self::Absent => VertexColumn::default(),
             Self::Single(_, vectors) => vectors.into(),
             Self::Double(_, vectors) => vectors.into(),
         }
@@ -103,8 +103,8 @@ pub(super) fn read(
     body: &mut PlyBody<'_>,
     mesh: &mut Mesh,
     budget: &Budget,
-) -> Result<(), ParseFault> {
-    let one = |fault| ParseFault::Faults(vec![fault]);
+) -> Result<(), TextParseError> {
+    let one = |fault| TextParseError::Faults(vec![fault]);
     let slots: Vec<_> = element.properties.iter().map(slot).collect();
     let has = |values: &[usize]| {
         let mut values = values.iter();
@@ -156,7 +156,7 @@ pub(super) fn read(
 }
 
 /// The value that a property is, and its type.
-fn slot(property: &PlyProperty<'_>) -> Option<(usize, NumberKind)> {
+fn slot(property: &PlyProperty<'_>) -> Option<(usize, PlyNumberType)> {
     let mut values = VALUES.iter();
     let at = values.position(|names| names.contains(&property.name.bytes));
     let at = at.filter(|_| property.length.is_none())?;
@@ -166,10 +166,10 @@ fn slot(property: &PlyProperty<'_>) -> Option<(usize, NumberKind)> {
 /// The values of the next vertex; without an alpha it is opaque.
 fn row(
     element: &PlyElement<'_>,
-    slots: &[Option<(usize, NumberKind)>],
+    slots: &[Option<(usize, PlyNumberType)>],
     body: &mut PlyBody<'_>,
-) -> Result<VertexRow, ParseFault> {
-    let one = |fault| ParseFault::Faults(vec![fault]);
+) -> Result<VertexRow, TextParseError> {
+    let one = |fault| TextParseError::Faults(vec![fault]);
     let mut row = [0.0; VALUES.len()];
     row[ALPHA] = 1.0;
     for (property, slot) in element.properties.iter().zip(slots) {
@@ -205,7 +205,7 @@ fn color(row: &VertexRow) -> [f32; 4] {
 }
 
 /// Which channel of a colour that is coded as sRGB a property is, and its type.
-pub(super) fn channel(property: &PlyProperty<'_>) -> Option<(usize, NumberKind)> {
+pub(super) fn channel(property: &PlyProperty<'_>) -> Option<(usize, PlyNumberType)> {
     let (at, kind) = slot(property)?;
     let channel = at.checked_sub(COLOR).filter(|channel| *channel < 4)?;
     Some((channel, kind))

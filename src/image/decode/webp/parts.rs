@@ -14,7 +14,7 @@ pub(super) struct CodedStreams<'a> {
 
 /// A chunk of a RIFF file.
 #[derive(Clone, Copy)]
-struct Chunk<'a> {
+struct RiffChunk<'a> {
     kind: &'a [u8; 4],
     /// The start of its contents.
     start: usize,
@@ -24,7 +24,7 @@ struct Chunk<'a> {
     end: usize,
 }
 
-impl<'a> Chunk<'a> {
+impl<'a> RiffChunk<'a> {
     fn at(bytes: &'a [u8], at: usize) -> Option<Self> {
         let rest = bytes.get(at..)?;
         let (kind, rest) = rest.split_first_chunk::<4>()?;
@@ -51,8 +51,8 @@ impl<'a> CodedStreams<'a> {
         let chunks = chunks(bytes);
         let frame = chunks.iter().find(|chunk| chunk.kind == b"ANMF");
         let within: Vec<_> = frame.map_or_else(Vec::new, |frame| {
-            let first = Chunk::at(bytes, frame.start.saturating_add(16));
-            let second = first.and_then(|first| Chunk::at(bytes, first.end));
+            let first = RiffChunk::at(bytes, frame.start.saturating_add(16));
+            let second = first.and_then(|first| RiffChunk::at(bytes, first.end));
             first.into_iter().chain(second).collect()
         });
         // Of an animation, only the first frame is read.
@@ -85,7 +85,7 @@ impl<'a> CodedStreams<'a> {
     }
 
     /// The streams of a picture of an animation.
-    fn moving(size: ImageSize, chunks: &[Chunk<'a>]) -> Self {
+    fn moving(size: ImageSize, chunks: &[RiffChunk<'a>]) -> Self {
         let part = |index: usize, kind: &[u8; 4]| {
             let chunk = chunks.get(index).filter(|chunk| chunk.kind == kind);
             chunk.map(|chunk| chunk.contents)
@@ -105,19 +105,19 @@ impl<'a> CodedStreams<'a> {
 }
 
 /// The chunks at the top: one, or more if the first says so.
-fn chunks(bytes: &[u8]) -> Vec<Chunk<'_>> {
-    let Some(first) = Chunk::at(bytes, 12) else {
+fn chunks(bytes: &[u8]) -> Vec<RiffChunk<'_>> {
+    let Some(first) = RiffChunk::at(bytes, 12) else {
         return Vec::new();
     };
     if first.kind != b"VP8X" {
         return vec![first];
     }
-    let length = Chunk::at(bytes, 0).map_or(0, |riff| riff.end - riff.start);
+    let length = RiffChunk::at(bytes, 0).map_or(0, |riff| riff.end - riff.start);
     let most = first.end.saturating_add(length.saturating_sub(12));
-    let behind = |chunk: &Chunk<'_>| {
+    let behind = |chunk: &RiffChunk<'_>| {
         Some(chunk.end)
             .filter(|end| *end < most)
-            .and_then(|end| Chunk::at(bytes, end))
+            .and_then(|end| RiffChunk::at(bytes, end))
     };
     std::iter::successors(behind(&first), behind).collect()
 }

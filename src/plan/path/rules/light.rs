@@ -1,17 +1,19 @@
 //! Rules on lights, light sampling and shadows.
 
 use super::PathRule;
-use crate::margin::{MARGIN, OrientedPlane, Sides};
-use crate::path::builder::{EnvironmentUse, LightUse, PathPlanBuilder, is_transmissive};
+use crate::margin::{MARGIN, OrientedPlane, VisibleSides};
+use crate::path::builder::{
+    PathPlanBuilder, RemainingEnvironment, RemainingLight, is_transmissive,
+};
 use crate::path::facts::is_delta;
 use crate::surface_bounds::{ShapeClass, SurfaceBounds};
 use rtc_image::Texels;
-use rtc_ir::{EntityKind, Field, ValuePath};
+use rtc_ir::{EntityField, EntityKind, ValuePath};
 use rtc_math::{Bounds, Vec3};
 use rtc_valid::{Alpha, Falloff, ImageId, Punctual, PunctualId};
 
 fn light_path(light: PunctualId) -> ValuePath {
-    ValuePath::new(EntityKind::Light, light.index(), Field::Whole)
+    ValuePath::new(EntityKind::Light, light.index(), EntityField::Whole)
 }
 
 pub(crate) const ZERO_INTENSITY: PathRule = PathRule {
@@ -22,7 +24,7 @@ pub(crate) const ZERO_INTENSITY: PathRule = PathRule {
     apply: |builder| {
         let lights = builder.punctual;
         let is_black = |light: &PunctualId| has_zero_intensity(&lights[*light]);
-        reduce_lights(builder, LightUse::Nothing, is_black)
+        reduce_lights(builder, RemainingLight::Nothing, is_black)
     },
 };
 
@@ -32,7 +34,7 @@ pub(crate) const BLACK_ENVIRONMENT: PathRule = PathRule {
            the scene.",
     reason: "the environment is black",
     apply: |builder| {
-        reduce_environment(builder, EnvironmentUse::Nothing, |builder, image| {
+        reduce_environment(builder, RemainingEnvironment::Nothing, |builder, image| {
             is_black(&builder.scene.images()[image].texels)
         })
     },
@@ -46,7 +48,7 @@ pub(crate) const CONSTANT_ENVIRONMENT: PathRule = PathRule {
            numbers does not change.",
     reason: "all texels of the environment's image are equal",
     apply: |builder| {
-        reduce_environment(builder, EnvironmentUse::Constant, |builder, image| {
+        reduce_environment(builder, RemainingEnvironment::Constant, |builder, image| {
             builder.textures.is_constant_image(image)
         })
     },
@@ -55,16 +57,20 @@ pub(crate) const CONSTANT_ENVIRONMENT: PathRule = PathRule {
 /// Reduces an environment whose image has a property; returns its path if that changed it.
 fn reduce_environment(
     builder: &mut PathPlanBuilder<'_>,
-    rest: EnvironmentUse,
+    rest: RemainingEnvironment,
     has: impl Fn(&PathPlanBuilder<'_>, ImageId) -> bool,
 ) -> Vec<ValuePath> {
     let image = builder.scene.environment().image;
-    let is_all = builder.environment == EnvironmentUse::All;
+    let is_all = builder.environment == RemainingEnvironment::All;
     if !(is_all && image.is_some_and(|image| has(builder, image))) {
         return Vec::new();
     }
     builder.environment = rest;
-    vec![ValuePath::new(EntityKind::Environment, 0, Field::Whole)]
+    vec![ValuePath::new(
+        EntityKind::Environment,
+        0,
+        EntityField::Whole,
+    )]
 }
 
 pub(crate) const OUT_OF_RANGE: PathRule = PathRule {
@@ -83,7 +89,7 @@ pub(crate) const OUT_OF_RANGE: PathRule = PathRule {
                 .filter(|(_, is_in_world)| **is_in_world);
             surface_bounds.all(|(bounds, _)| is_out_of_range(&lights[*light], bounds))
         };
-        reduce_lights(builder, LightUse::OnlyIndex, is_out)
+        reduce_lights(builder, RemainingLight::OnlyIndex, is_out)
     },
 };
 
@@ -102,7 +108,7 @@ pub(crate) const DELTA_ONLY: PathRule = PathRule {
         builder
             .used_materials()
             .map(|(material, _)| {
-                ValuePath::new(EntityKind::Material, material.index(), Field::Whole)
+                ValuePath::new(EntityKind::Material, material.index(), EntityField::Whole)
             })
             .collect()
     },
@@ -125,17 +131,21 @@ pub(crate) const SINGLE_CONVEX: PathRule = PathRule {
         }
         builder.shadows = false;
         let index = builder.scene.surfaces()[surface].index;
-        vec![ValuePath::new(EntityKind::Surface, index, Field::Whole)]
+        vec![ValuePath::new(
+            EntityKind::Surface,
+            index,
+            EntityField::Whole,
+        )]
     },
 };
 
 /// Reduces lights; returns the paths of the changed ones.
 fn reduce_lights(
     builder: &mut PathPlanBuilder<'_>,
-    rest: LightUse,
+    rest: RemainingLight,
     which: impl Fn(&PunctualId) -> bool,
 ) -> Vec<ValuePath> {
-    let left = |light: &PunctualId| builder.lights[*light] == LightUse::All;
+    let left = |light: &PunctualId| builder.lights[*light] == RemainingLight::All;
     let out: Vec<_> = (builder.lights.ids()).filter(left).filter(which).collect();
     out.iter().for_each(|light| builder.lights[*light] = rest);
     out.into_iter().map(light_path).collect()
@@ -175,7 +185,7 @@ fn casts_no_self_shadow(builder: &PathPlanBuilder<'_>, surface: usize) -> bool {
 fn is_off_plane(light: &Punctual, plane: &OrientedPlane) -> bool {
     match light {
         Punctual::Directional(sun) => sun.direction.dot(plane.normal).abs() > 4.0 * MARGIN,
-        Punctual::Point(light) => plane.sides(&point(light.position)) != Sides::BOTH,
+        Punctual::Point(light) => plane.sides(&point(light.position)) != VisibleSides::BOTH,
     }
 }
 
@@ -245,9 +255,9 @@ fn is_outside_cone(aabb: &Bounds, apex: Vec3, (axis, cosine): (Vec3, f64), margi
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::surface_bounds::Extent;
+    use crate::surface_bounds::SurfaceExtent;
     use rtc_math::{Positive, cos, sin};
-    use rtc_profile::Profile;
+    use rtc_profile::LightProfile;
     use rtc_valid::{DirectionalLight, PointLight};
 
     #[test]
@@ -284,19 +294,19 @@ mod tests {
     #[test]
     fn a_range_ends_before_a_box_by_a_margin_that_grows_with_both_coordinates() {
         let bounds = SurfaceBounds {
-            extent: Extent::Within(Bounds {
+            extent: SurfaceExtent::Within(Bounds {
                 min: Vec3::new(0.0625, -0.125, -0.125),
                 max: Vec3::splat(0.125),
             }),
             class: ShapeClass::Other,
         };
         let is_out = |margin: f64, outer: f64| {
-            let cone = Profile::Cone {
+            let cone = LightProfile::Cone {
                 axis: Vec3::Z,
                 inner: 1.0,
                 outer,
             };
-            [Profile::Uniform, cone].map(|profile| {
+            [LightProfile::Uniform, cone].map(|profile| {
                 let light = PointLight {
                     position: Vec3::X * -0.125,
                     intensity: Vec3::ONE,

@@ -3,15 +3,15 @@
 use super::PathRule;
 use crate::MAX_PAIRS;
 use crate::effect::Effect;
-use crate::margin::Margins;
-use crate::path::builder::{LightUse, PathPlanBuilder};
+use crate::margin::BoxMargins;
+use crate::path::builder::{PathPlanBuilder, RemainingLight};
 use crate::projection::ScreenRect;
-use rtc_ir::{EntityKind, Field, ValuePath};
+use rtc_ir::{EntityField, EntityKind, ValuePath};
 use rtc_math::{Bounds, Vec3};
 use rtc_valid::{Falloff, Punctual, Standard};
 
 fn depth() -> ValuePath {
-    ValuePath::new(EntityKind::Settings, 0, Field::MaxDepth)
+    ValuePath::new(EntityKind::Settings, 0, EntityField::MaxDepth)
 }
 
 /// Whether a scattered ray may hit an emissive surface or an environment that is not black.
@@ -29,7 +29,7 @@ pub(crate) const NO_EMISSION: PathRule = PathRule {
            first hit: none is continued.",
     reason: "there is no light",
     apply: |builder| {
-        let has_light = builder.lights.contains(&LightUse::All) || may_hit_emitter(builder);
+        let has_light = builder.lights.contains(&RemainingLight::All) || may_hit_emitter(builder);
         end_paths(builder, !has_light)
     },
 };
@@ -93,7 +93,8 @@ pub(crate) const CULL_SHADOW: PathRule = PathRule {
 
 /// Whether the sampling probabilities of punctual lights depend on the size of the scene.
 fn depends_on_scene_size(builder: &PathPlanBuilder<'_>) -> bool {
-    let is_chosen = |(_, light_use): &(&Punctual, &LightUse)| **light_use != LightUse::Nothing;
+    let is_chosen =
+        |(_, light_use): &(&Punctual, &RemainingLight)| **light_use != RemainingLight::Nothing;
     let chosen = || {
         builder
             .punctual
@@ -101,7 +102,7 @@ fn depends_on_scene_size(builder: &PathPlanBuilder<'_>) -> bool {
             .zip(&builder.lights)
             .filter(is_chosen)
     };
-    let depends_on_size = |(light, _): (&Punctual, &LightUse)| match light {
+    let depends_on_size = |(light, _): (&Punctual, &RemainingLight)| match light {
         Punctual::Directional(_) => true,
         Punctual::Point(light) => matches!(light.falloff, Falloff::None),
     };
@@ -112,7 +113,8 @@ fn depends_on_scene_size(builder: &PathPlanBuilder<'_>) -> bool {
 /// that is unknown.
 fn missed_by_shadow_rays(builder: &PathPlanBuilder<'_>) -> Option<Vec<usize>> {
     let (seen, unseen) = split(builder);
-    let is_in_world = |(_, light_use): &(&Punctual, &LightUse)| **light_use == LightUse::All;
+    let is_in_world =
+        |(_, light_use): &(&Punctual, &RemainingLight)| **light_use == RemainingLight::All;
     let lights = || {
         builder
             .punctual
@@ -168,7 +170,7 @@ fn remove_surfaces(builder: &mut PathPlanBuilder<'_>, surfaces: Vec<usize>) -> V
         .iter()
         .for_each(|surface| builder.surfaces[*surface] = false);
     let index = |surface: usize| builder.scene.surfaces()[surface].index;
-    let place = |surface| ValuePath::new(EntityKind::Surface, index(surface), Field::Whole);
+    let place = |surface| ValuePath::new(EntityKind::Surface, index(surface), EntityField::Whole);
     surfaces.into_iter().map(place).collect()
 }
 

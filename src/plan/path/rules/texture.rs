@@ -3,7 +3,7 @@
 use super::PathRule;
 use crate::Layer;
 use crate::path::builder::PathPlanBuilder;
-use rtc_ir::{EntityKind, Field, ValuePath};
+use rtc_ir::{EntityField, EntityKind, ValuePath};
 use rtc_math::{UnitInterval, Vec3};
 use rtc_valid::{Map, MaterialId, Standard};
 
@@ -77,7 +77,7 @@ pub(crate) const CONSTANT: PathRule = PathRule {
                 changed.push(ValuePath::new(
                     EntityKind::Material,
                     index.index(),
-                    Field::Whole,
+                    EntityField::Whole,
                 ));
             }
         }

@@ -3,7 +3,7 @@
 use super::*;
 use crate::accel::simd::baseline;
 use crate::lanes::Ray4;
-use crate::sampler::Key;
+use crate::sampler::PathVertexKey;
 use crate::shape::geometry::Intersect;
 use crate::shape::sphere::{Sphere, TexturedSphere};
 use crate::shape::torus::Torus;
@@ -24,10 +24,10 @@ struct Case {
     sphere: Sphere,
     torus: Torus,
     ray: Ray,
-    key: Key,
+    key: PathVertexKey,
 }
 
-fn vector(key: Key, first: u64) -> Vec3 {
+fn vector(key: PathVertexKey, first: u64) -> Vec3 {
     let uniform = |k: u64| key.uniform(first + k) * 2.0 - 1.0;
     Vec3::new(uniform(0), uniform(1), uniform(2))
 }
@@ -35,7 +35,7 @@ fn vector(key: Key, first: u64) -> Vec3 {
 impl Case {
     fn new(family: usize, index: u64) -> Self {
         let (_, size, distance) = FAMILIES[family];
-        let key = Key::new([u32::try_from(family).unwrap(), 7], index);
+        let key = PathVertexKey::new([u32::try_from(family).unwrap(), 7], index);
         let center = vector(key, 0) * distance;
         let away = vector(key, 3).normalize() * distance * (1.0 + key.uniform(6));
         let origin = center + away;

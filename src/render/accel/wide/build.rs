@@ -10,7 +10,7 @@ use crate::accel::conservative_ray::QuantizationFrame;
 use crate::accel::lanes::{
     ITEM, LINKS, ROWS_AFTER, TRIANGLES, TriangleRow, WIDTH, WideNode, place,
 };
-use crate::accel::pages::Pages;
+use crate::accel::pages::PagedRows;
 use crate::accel::simd::SimdLevel;
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
@@ -24,7 +24,7 @@ const ALONE: usize = 4096;
 
 /// The builder of a BVH.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Builders {
+pub(crate) enum BvhBuilders {
     /// This thread. It must be so where others wait until the BVH is there: a thread that is helped
     /// may meanwhile be handed work which waits for that too, and would wait for itself.
     One,
@@ -36,7 +36,7 @@ impl WideBvh {
     /// Builds the BVH of some triangles, each known by its number, with corners that may be wrong
     /// by `error_bound`; `None` if there is none.
     pub(crate) fn build(
-        builders: Builders,
+        builders: BvhBuilders,
         simd: SimdLevel,
         count: usize,
         error_bound: f64,
@@ -51,8 +51,8 @@ impl WideBvh {
         let bounds = |item| Bounds::of(corners(item).iter().copied()).grown(error_bound);
         let all = || (0..count).into_par_iter();
         let whole = match builders {
-            Builders::One => (0..count).map(bounds).fold(Bounds::EMPTY, Bounds::union),
-            Builders::All => all().map(bounds).reduce(|| Bounds::EMPTY, Bounds::union),
+            BvhBuilders::One => (0..count).map(bounds).fold(Bounds::EMPTY, Bounds::union),
+            BvhBuilders::All => all().map(bounds).reduce(|| Bounds::EMPTY, Bounds::union),
         };
         let mean = || {
             let centers = (0..count).map(|item| bounds(item).center() / f64::from(count));
@@ -61,17 +61,17 @@ impl WideBvh {
         // Quantize the boxes to f32 in a cube around the geometry, rounded outward.
         let frame = QuantizationFrame::around(whole, mean, error_bound);
         let item = |item| TriangleRow::of_box(item, frame.rounded_outward(bounds(item)));
-        let mut triangles = Pages::zeroed(count as usize + ROWS_AFTER);
+        let mut triangles = PagedRows::zeroed(count as usize + ROWS_AFTER);
         let rows = &mut triangles.rows_mut()[..count as usize];
         match builders {
-            Builders::One => rows.iter_mut().zip(0..).for_each(|(row, n)| *row = item(n)),
-            Builders::All => rows
+            BvhBuilders::One => rows.iter_mut().zip(0..).for_each(|(row, n)| *row = item(n)),
+            BvhBuilders::All => rows
                 .par_iter_mut()
                 .zip(all())
                 .for_each(|(row, n)| *row = item(n)),
         }
         // Build the nodes, and merge the branches.
-        let leaves = Leaves {
+        let leaves = LeafBuilder {
             builders,
             frame,
             corners,
@@ -82,7 +82,7 @@ impl WideBvh {
         Some(Self {
             simd,
             frame,
-            nodes: Pages::merged(nodes),
+            nodes: PagedRows::merged(nodes),
             triangles,
             root,
             unit: frame.unit().filter(|_| is_exact),
@@ -91,13 +91,13 @@ impl WideBvh {
 }
 
 /// The source of leaves, and their builder.
-struct Leaves<C> {
-    builders: Builders,
+struct LeafBuilder<C> {
+    builders: BvhBuilders,
     frame: QuantizationFrame,
     corners: C,
 }
 
-impl<C: Fn(u32) -> [Vec3; 3]> Leaves<C> {
+impl<C: Fn(u32) -> [Vec3; 3]> LeafBuilder<C> {
     /// Makes some items a leaf in place; returns whether it has their exact corners.
     fn fill(&self, items: &mut [TriangleRow]) -> bool {
         let numbers: ArrayVec<u32, TRIANGLES> = items.iter().map(BoxedItem::number).collect();
@@ -126,12 +126,12 @@ struct BuildBranch {
 
 /// A branch that is done.
 struct GrownBranch {
-    nodes: Pages<WideNode>,
+    nodes: PagedRows<WideNode>,
     is_exact: bool,
 }
 
 /// A range deferred to later, and the address of its link.
-struct LeftPart<'items> {
+struct DeferredRange<'items> {
     part: BuildRange<'items>,
     depth: usize,
     node: usize,
@@ -141,7 +141,7 @@ struct LeftPart<'items> {
 /// The link to the root, and all branches: links count the nodes of all, in order.
 fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
     items: &mut [TriangleRow],
-    leaves: &Leaves<C>,
+    leaves: &LeafBuilder<C>,
 ) -> (u32, Vec<GrownBranch>) {
     let alone = ALONE.max(items.len() / 64);
     // Build the top of the hierarchy, and leave small ranges for later.
@@ -156,14 +156,14 @@ fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
         Some(part)
     });
     // Build these ranges, in parallel if requested.
-    let grow = |left: LeftPart<'_>| {
+    let grow = |left: DeferredRange<'_>| {
         let mut branch = BuildBranch::new();
         let link = branch.grow(left.part, left.depth, leaves, &mut Some);
         (left.node, left.lane, link, branch.grown())
     };
     let grown: Vec<_> = match leaves.builders {
-        Builders::One => left.into_iter().map(grow).collect(),
-        Builders::All => left.into_par_iter().map(grow).collect(),
+        BvhBuilders::One => left.into_iter().map(grow).collect(),
+        BvhBuilders::All => left.into_par_iter().map(grow).collect(),
     };
     // Append the branches, and renumber the links into them.
     let mut nodes = top.nodes.len();
@@ -195,7 +195,7 @@ impl BuildBranch {
 
     fn grown(self) -> GrownBranch {
         GrownBranch {
-            nodes: Pages::put_aside(&self.nodes),
+            nodes: PagedRows::put_aside(&self.nodes),
             is_exact: self.is_exact,
         }
     }
@@ -206,8 +206,8 @@ impl BuildBranch {
         &mut self,
         part: BuildRange<'items>,
         depth: usize,
-        leaves: &Leaves<C>,
-        take: &mut impl FnMut(LeftPart<'items>) -> Option<LeftPart<'items>>,
+        leaves: &LeafBuilder<C>,
+        take: &mut impl FnMut(DeferredRange<'items>) -> Option<DeferredRange<'items>>,
     ) -> u32 {
         let part = match part.may_hold_copies() {
             true => part.without_copies(&leaves.corners),
@@ -221,13 +221,13 @@ impl BuildBranch {
         let here = self.nodes.len();
         self.nodes.push(node(&children));
         for (lane, part) in children.into_iter().enumerate() {
-            let left = LeftPart {
+            let left = DeferredRange {
                 part,
                 depth: depth + 1,
                 node: here,
                 lane,
             };
-            if let Some(LeftPart { part, depth, .. }) = take(left) {
+            if let Some(DeferredRange { part, depth, .. }) = take(left) {
                 let link = self.grow(part, depth, leaves, take);
                 self.nodes[here][LINKS + lane] = f32::from_bits(link);
             }

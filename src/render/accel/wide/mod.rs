@@ -9,12 +9,12 @@ mod traverse;
 
 use crate::accel::conservative_ray::QuantizationFrame;
 use crate::accel::lanes::{TRIANGLES, TriangleRow, WIDTH, WideLeaf, WideNode, place};
-use crate::accel::pages::Pages;
+use crate::accel::pages::PagedRows;
 use crate::accel::simd::SimdLevel;
 use arrayvec::ArrayVec;
-pub(crate) use build::{Builders, MOST};
+pub(crate) use build::{BvhBuilders, MOST};
 use rtc_math::Vec3;
-pub(crate) use traverse::Visitor;
+pub(crate) use traverse::TriangleVisitor;
 
 /// Below this depth the heuristic chooses; above it the middle, which needs at most 12 more.
 const HEURISTIC_DEPTH: usize = 16;
@@ -34,9 +34,9 @@ const NONE: u32 = u32::MAX;
 pub(crate) struct WideBvh {
     simd: SimdLevel,
     frame: QuantizationFrame,
-    nodes: Pages<WideNode>,
+    nodes: PagedRows<WideNode>,
     /// The triangles of a leaf together.
-    triangles: Pages<TriangleRow>,
+    triangles: PagedRows<TriangleRow>,
     root: u32,
     /// What 1 of the cube is in space, if leaves hold all corners exactly.
     unit: Option<f64>,

@@ -1,7 +1,7 @@
 //! Splits a list of boxes into two or eight with the surface area heuristic over bins (Wald, "On
 //! fast construction of SAH-based bounding volume hierarchies", 2007).
 
-use super::{Builders, HEURISTIC_DEPTH};
+use super::{BvhBuilders, HEURISTIC_DEPTH};
 use crate::accel::lanes::{TRIANGLES, TriangleRow, WIDTH};
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
@@ -164,7 +164,11 @@ impl<'items> BuildRange<'items> {
 
     /// Its parts, at most eight: the one with the largest area, which is hit most often, is split
     /// next, or, deep down, the one with the most items.
-    pub(super) fn into_children(self, builders: Builders, depth: usize) -> ArrayVec<Self, WIDTH> {
+    pub(super) fn into_children(
+        self,
+        builders: BvhBuilders,
+        depth: usize,
+    ) -> ArrayVec<Self, WIDTH> {
         let is_deep = depth >= HEURISTIC_DEPTH;
         let weight = |part: &Self| match part.items.len() {
             0..=TRIANGLES => 0.0,
@@ -190,7 +194,7 @@ impl<'items> BuildRange<'items> {
     }
 
     /// Two parts of it, neither empty; it has two items at least.
-    fn split(self, builders: Builders, by_heuristic: bool) -> [Self; 2] {
+    fn split(self, builders: BvhBuilders, by_heuristic: bool) -> [Self; 2] {
         let size = self.centers.max - self.centers.min;
         let count = bins_of(self.items.len());
         let scale = Lanes::splat(count as f32 * 0.9999) / size.max(Lanes::splat(1e-30));
@@ -209,11 +213,11 @@ impl<'items> BuildRange<'items> {
     /// Sorts the items into `count` bins.
     fn fill(
         &self,
-        builders: Builders,
+        builders: BvhBuilders,
         count: usize,
         place: &(impl Fn(&TriangleRow) -> Lanes + Sync),
     ) -> Bins {
-        if builders == Builders::One || self.items.len() <= 2 * CHUNK {
+        if builders == BvhBuilders::One || self.items.len() <= 2 * CHUNK {
             return binned(self.items, count, place);
         }
         self.items

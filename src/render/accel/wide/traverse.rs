@@ -22,12 +22,13 @@ struct Traversal<'traverse, S: Simd> {
 }
 
 /// The callbacks of a traversal, for the triangles that the ray may hit.
-pub(crate) trait Visitor {
+pub(crate) trait TriangleVisitor {
     /// Whether triangles that the ray certainly misses are skipped. Otherwise all triangles are
     /// visited whose boxes the ray may hit.
     const CULLS: bool = true;
 
-    /// Whether certain hits before the end of the ray are reported to [`Visitor::accepts_certain`].
+    /// Whether certain hits before the end of the ray are reported to
+    /// [`TriangleVisitor::accepts_certain`].
     const IS_CERTAIN: bool = false;
 
     /// Visits a candidate and returns the new far bound of t; a value below 0 ends the traversal.
@@ -39,7 +40,7 @@ pub(crate) trait Visitor {
     }
 }
 
-impl<F: FnMut(Candidate<'_>) -> f64> Visitor for F {
+impl<F: FnMut(Candidate<'_>) -> f64> TriangleVisitor for F {
     #[inline(always)]
     fn visit(&mut self, candidate: Candidate<'_>) -> f64 {
         self(candidate)
@@ -56,12 +57,18 @@ enum TraversalStep {
 impl WideBvh {
     /// Has the triangles visited that the ray may hit before `t_max`, nearer ones roughly first.
     #[inline]
-    pub(crate) fn traverse(&self, ray: &Ray, t_max: f64, visitor: &mut impl Visitor) {
+    pub(crate) fn traverse(&self, ray: &Ray, t_max: f64, visitor: &mut impl TriangleVisitor) {
         at_level!(self.simd, simd => self.traverse_one(simd, ray, t_max, visitor));
     }
 
     #[inline(always)]
-    fn traverse_one<S: Simd, V: Visitor>(&self, simd: S, ray: &Ray, t_max: f64, visitor: &mut V) {
+    fn traverse_one<S: Simd, V: TriangleVisitor>(
+        &self,
+        simd: S,
+        ray: &Ray,
+        t_max: f64,
+        visitor: &mut V,
+    ) {
         if let Some(conservative_ray) = self.conservative_ray(ray, t_max, visitor) {
             let mut traversal = self.start::<S, V>(simd, conservative_ray, t_max);
             while traversal.step(simd, visitor) == TraversalStep::GoesOn {}
@@ -71,7 +78,7 @@ impl WideBvh {
     /// The conservative ray of a ray; `None` if it meets nothing, or where arithmetic cannot decide
     /// and all triangles have been visited.
     #[inline(always)]
-    fn conservative_ray<V: Visitor>(
+    fn conservative_ray<V: TriangleVisitor>(
         &self,
         ray: &Ray,
         t_max: f64,
@@ -93,7 +100,7 @@ impl WideBvh {
 
     /// A conservative ray at the root.
     #[inline(always)]
-    fn start<S: Simd, V: Visitor>(
+    fn start<S: Simd, V: TriangleVisitor>(
         &self,
         simd: S,
         conservative_ray: ConservativeRay,
@@ -120,7 +127,7 @@ impl WideBvh {
     /// Has all triangles visited, while they may count.
     #[cold]
     #[inline(never)]
-    fn visit_all(&self, visitor: &mut impl Visitor) {
+    fn visit_all(&self, visitor: &mut impl TriangleVisitor) {
         let unit = self.unit;
         let nodes = self.nodes.rows().iter();
         let links = nodes.flat_map(|node| node[LINKS..].iter().map(|link| link.to_bits()));
@@ -147,7 +154,7 @@ impl WideBvh {
 impl<S: Simd> Traversal<'_, S> {
     /// Goes to one node or one leaf.
     #[inline(always)]
-    fn step<V: Visitor>(&mut self, simd: S, visitor: &mut V) -> TraversalStep {
+    fn step<V: TriangleVisitor>(&mut self, simd: S, visitor: &mut V) -> TraversalStep {
         if self.link & LEAF == 0 {
             let node = &self.nodes[self.link as usize];
             let (hit_children, enter) = self.boxes.meet(simd, node, self.t_far);
@@ -169,7 +176,7 @@ impl<S: Simd> Traversal<'_, S> {
     }
 
     #[inline(always)]
-    fn visit_leaf<V: Visitor>(&mut self, simd: S, visitor: &mut V) -> TraversalStep {
+    fn visit_leaf<V: TriangleVisitor>(&mut self, simd: S, visitor: &mut V) -> TraversalStep {
         let leaf = leaf_at(self.rows, self.link);
         let all = 0b1111 >> (3 - (self.link & 3));
         // Test the triangles of the leaf against the ray.

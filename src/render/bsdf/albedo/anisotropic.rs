@@ -1,7 +1,7 @@
 //! The albedo of anisotropic microfacets: a table over both widths α, the cosine, and the azimuth.
 
 use super::super::ggx::Ggx;
-use super::{Split, interpolate, squared_fraction, stored};
+use super::{SchlickAlbedo, interpolate, squared_fraction, stored};
 use rtc_math::Vec3;
 use std::sync::LazyLock;
 
@@ -19,17 +19,17 @@ pub(super) static STORED: [u8; 2 * 2 * WIDTHS * WIDTHS * COSINES * TURNS] =
     *include_bytes!("anisotropic.bin");
 
 /// The albedo seen from a direction.
-pub(crate) fn albedo(surface: Ggx, w: Vec3) -> Split {
+pub(crate) fn albedo(surface: Ggx, w: Vec3) -> SchlickAlbedo {
     let [x, y] = [w.x * w.x, w.y * w.y];
     let turn = if x + y > 0.0 { x / (x + y) } else { 0.0 };
     look_up(surface, w.z, turn)
 }
 
 /// Its mean over the hemisphere, weighted by the cosine.
-pub(crate) fn mean(surface: Ggx) -> Split {
+pub(crate) fn mean(surface: Ggx) -> SchlickAlbedo {
     static MEANS: LazyLock<Vec<[f32; 2]>> = LazyLock::new(means);
     let [e0, e90] = interpolate(&MEANS, surface.widths().map(|width| (width.sqrt(), WIDTHS)));
-    Split { e0, e90 }
+    SchlickAlbedo { e0, e90 }
 }
 
 /// For each pair of widths, by the midpoint rule over interpolated entries: ∫ 2μ·E(μ) dμ, μ = x².
@@ -45,7 +45,7 @@ fn means() -> Vec<[f32; 2]> {
             let x = step(k, STEPS);
             for part in 0..PARTS {
                 let cosine = rtc_math::cos(step(part, PARTS) * std::f64::consts::FRAC_PI_2);
-                let Split { e0, e90 } = look_up(surface, x * x, cosine * cosine);
+                let SchlickAlbedo { e0, e90 } = look_up(surface, x * x, cosine * cosine);
                 let weight = 4.0 * x * x * x / f64::from(STEPS * PARTS);
                 sum = [sum[0] + weight * e0, sum[1] + weight * e90];
             }
@@ -58,7 +58,7 @@ fn means() -> Vec<[f32; 2]> {
         .collect()
 }
 
-fn look_up(surface: Ggx, cosine: f64, turn: f64) -> Split {
+fn look_up(surface: Ggx, cosine: f64, turn: f64) -> SchlickAlbedo {
     static TABLE: LazyLock<Vec<[f32; 2]>> = LazyLock::new(|| stored(&STORED));
     let [x, y] = surface.widths();
     let axes = [
@@ -68,5 +68,5 @@ fn look_up(surface: Ggx, cosine: f64, turn: f64) -> Split {
         (turn, TURNS),
     ];
     let [e0, e90] = interpolate(&TABLE, axes);
-    Split { e0, e90 }
+    SchlickAlbedo { e0, e90 }
 }

@@ -1,7 +1,7 @@
 //! The albedo of a rough dielectric after single scattering, reflected and transmitted: tables over
 //! the index of refraction, the roughness and the cosine.
 
-use super::{Split, interpolate, stored};
+use super::{SchlickAlbedo, interpolate, stored};
 use std::sync::LazyLock;
 
 /// Entries along the index, denser towards 1: entry i is at 1 + 2·(i/(n − 1))², and 3 includes
@@ -23,7 +23,7 @@ pub(super) static STORED: [u8; 7 * 2 * INDICES * ROUGHNESSES * COSINES] =
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct InsideAlbedo {
     total: f64,
-    split: Split,
+    split: SchlickAlbedo,
 }
 
 impl InsideAlbedo {
@@ -36,16 +36,16 @@ impl InsideAlbedo {
 
 /// The reflected light, and the light that would be refracted without reflection, by the terms of
 /// f0 and f90.
-pub(crate) fn outside(ior: f64, roughness: f64, cosine: f64) -> [Split; 2] {
+pub(crate) fn outside(ior: f64, roughness: f64, cosine: f64) -> [SchlickAlbedo; 2] {
     let [r0, r90, t0, t90, ..] = look_up(ior, roughness, cosine);
-    let split = |e0, e90| Split { e0, e90 };
+    let split = |e0, e90| SchlickAlbedo { e0, e90 };
     [split(r0, r90), split(t0, t90)]
 }
 
 /// The reflected and transmitted light from inside.
 pub(crate) fn inside(ior: f64, roughness: f64, cosine: f64) -> InsideAlbedo {
     let [.., total, e0, e90] = look_up(ior, roughness, cosine);
-    let split = Split { e0, e90 };
+    let split = SchlickAlbedo { e0, e90 };
     InsideAlbedo { total, split }
 }
 

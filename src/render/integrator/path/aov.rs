@@ -1,10 +1,10 @@
 //! The first vertex of a path.
 
 use super::state::PathState;
-use super::{PathTracer, Strategy};
+use super::{PathTracer, SamplingStrategy};
 use crate::film::heartbeat::PixelObserver;
 use crate::film::pixel::SampleId;
-use crate::integrator::aov::{CameraHit, First, FirstHit, FirstHits};
+use crate::integrator::aov::{CameraHit, FindFirstHit, FirstHitDetails, FirstHitFinder};
 use crate::light::Lights;
 use crate::shape::geometry::Intersect;
 use crate::world::World;
@@ -12,10 +12,10 @@ use rtc_math::Vec3;
 use rtc_plan::PathFeatures;
 
 /// Finds the first hits of paths, with all that surfaces can show.
-pub(crate) type FirstHitsOfPaths<'world, S> =
-    FirstHits<PathTracer<'world, S, { PathFeatures::EVERYTHING.0 }>>;
+pub(crate) type PathFirstHitFinder<'world, S> =
+    FirstHitFinder<PathTracer<'world, S, { PathFeatures::EVERYTHING.0 }>>;
 
-impl<'world, S: Intersect> FirstHitsOfPaths<'world, S> {
+impl<'world, S: Intersect> PathFirstHitFinder<'world, S> {
     pub(crate) fn new(
         world: &'world World<S>,
         lights: &'world Lights<'world, S>,
@@ -23,12 +23,12 @@ impl<'world, S: Intersect> FirstHitsOfPaths<'world, S> {
     ) -> Self {
         Self(PathTracer {
             knows_all: true,
-            ..PathTracer::new(world, lights, Strategy::Mis, on_pixel)
+            ..PathTracer::new(world, lights, SamplingStrategy::Mis, on_pixel)
         })
     }
 }
 
-impl<'run, S: Intersect, const F: u32> FirstHit<'run> for PathTracer<'run, S, F> {
+impl<'run, S: Intersect, const F: u32> FindFirstHit<'run> for PathTracer<'run, S, F> {
     fn first_hit(&mut self, id: &SampleId) -> CameraHit {
         let sobol = self.numbers(id);
         self.counts.camera += 1;
@@ -38,7 +38,7 @@ impl<'run, S: Intersect, const F: u32> FirstHit<'run> for PathTracer<'run, S, F>
             let (frame, _) = vertex
                 .point
                 .frame::<F>(vertex.at, vertex.shading_attributes, wo);
-            First {
+            FirstHitDetails {
                 albedo: vertex.point.base_color(),
                 normal: frame.to_world(Vec3::Z),
                 point: vertex.at.point,

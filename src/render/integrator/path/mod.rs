@@ -13,22 +13,22 @@ mod visibility;
 use super::Integrator;
 use crate::camera::{image_point, lens_at, ray_through};
 use crate::film::heartbeat::{Heartbeat, PixelObserver};
-use crate::film::pixel::{Sample, SampleId, Stream};
-use crate::film::{Background, Counts};
+use crate::film::pixel::{PixelSample, SampleId, SampleStream};
+use crate::film::{Background, RayCounts};
 use crate::light::Lights;
 use crate::ray::Ray;
-use crate::sampler::sobol::{Sobol, SobolPair};
+use crate::sampler::sobol::{SobolPair, SobolPath};
 use crate::shape::geometry::Intersect;
 use crate::world::World;
 use crate::world::settings::Mode;
-pub(crate) use aov::FirstHitsOfPaths;
+pub(crate) use aov::PathFirstHitFinder;
 use rtc_math::Vec3;
-use rtc_plan::{Effect, EnvironmentUse, PathFeatures};
+use rtc_plan::{Effect, PathFeatures, RemainingEnvironment};
 use state::PathState;
 
 /// The sampling strategy. All strategies have the same expected value; only the noise differs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Strategy {
+pub enum SamplingStrategy {
     /// Both, weighted by the balance heuristic (Veach, Guibas, 1995).
     #[default]
     Mis,
@@ -44,7 +44,7 @@ pub(crate) struct PathTracer<'world, S, const F: u32> {
     lights: &'world Lights<'world, S>,
     /// Whether rough surfaces keep the light that bounces between their facets.
     multiple_scattering: bool,
-    strategy: Strategy,
+    strategy: SamplingStrategy,
     /// Whether vertices have all shading attributes, not only those that their materials need.
     knows_all: bool,
     /// The background for camera rays that hit nothing.
@@ -59,14 +59,14 @@ pub(crate) struct PathTracer<'world, S, const F: u32> {
     planned: PathFeatures,
     /// Tells of the pixel under way, and whether to continue with it.
     heartbeat: Heartbeat<'world>,
-    counts: Counts,
+    counts: RayCounts,
 }
 
 impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     pub(crate) fn new(
         world: &'world World<S>,
         lights: &'world Lights<'world, S>,
-        strategy: Strategy,
+        strategy: SamplingStrategy,
         on_pixel: &'world PixelObserver<'world>,
     ) -> Self {
         let plan = world.plan.paths.as_ref();
@@ -79,11 +79,12 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             knows_all: false,
             background: Background::default(),
             clamp: None,
-            has_environment: plan.is_none_or(|plan| plan.environment != EnvironmentUse::Nothing),
+            has_environment: plan
+                .is_none_or(|plan| plan.environment != RemainingEnvironment::Nothing),
             max_bounces: world.plan.max_depth.saturating_sub(useless),
             planned: plan.map_or(PathFeatures::EVERYTHING, |plan| plan.features),
             heartbeat: Heartbeat::new(on_pixel),
-            counts: Counts::default(),
+            counts: RayCounts::default(),
         }
     }
 
@@ -111,18 +112,18 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
 
     /// The numbers of a sample. In a picture of a given number of samples a pixel shares its
     /// sequence with its neighbours; samples beyond that number come from a sequence of its own.
-    fn numbers(&self, id: &SampleId) -> Sobol {
+    fn numbers(&self, id: &SampleId) -> SobolPath {
         let (pixel, index, seeds) = (id.pixel, id.index, id.stream.seeds());
         match (id.stream, self.world.settings.mode) {
-            (Stream::Picture(_), Mode::Path(samples)) if index < samples => {
-                Sobol::in_picture(pixel, index, seeds, samples)
+            (SampleStream::Picture(_), Mode::Path(samples)) if index < samples => {
+                SobolPath::in_picture(pixel, index, seeds, samples)
             }
-            _ => Sobol::new(pixel, index, seeds),
+            _ => SobolPath::new(pixel, index, seeds),
         }
     }
 
     /// The ray from the camera that a path of a pixel begins with.
-    fn camera_ray(&mut self, pixel: [u32; 2], sobol: &Sobol) -> Ray {
+    fn camera_ray(&mut self, pixel: [u32; 2], sobol: &SobolPath) -> Ray {
         let camera = self.world.camera.of(pixel);
         let target = image_point(camera, pixel, sobol.pair(SobolPair::FILM));
         if camera.lens_radius == 0.0 {
@@ -137,7 +138,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     }
 
     /// The radiance along one path.
-    fn radiance(&mut self, ray: Ray, sobol: Sobol) -> Vec3 {
+    fn radiance(&mut self, ray: Ray, sobol: SobolPath) -> Vec3 {
         self.counts.camera += 1;
         let mut state = PathState::new(ray, sobol);
         loop {
@@ -187,9 +188,9 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
 }
 
 impl<'world, S: Intersect, const F: u32> Integrator<'world> for PathTracer<'world, S, F> {
-    type Sample = Sample;
+    type Sample = PixelSample;
 
-    fn sample(&mut self, id: &SampleId) -> Sample {
+    fn sample(&mut self, id: &SampleId) -> PixelSample {
         if id.index > 0 {
             self.counts.add(Effect::Supersampling);
         }
@@ -200,13 +201,13 @@ impl<'world, S: Intersect, const F: u32> Integrator<'world> for PathTracer<'worl
         let is_shown = self.background == Background::Environment || hit;
         // Drop samples that overflowed.
         let is_shown = is_shown && radiance.is_finite();
-        Sample {
+        PixelSample {
             radiance: if is_shown { radiance } else { Vec3::ZERO },
             hit,
         }
     }
 
-    fn counts(&self) -> &Counts {
+    fn counts(&self) -> &RayCounts {
         &self.counts
     }
 

@@ -2,10 +2,10 @@
 
 use super::state::PathState;
 use super::vertex::PathVertex;
-use super::{PathTracer, Strategy};
-use crate::bsdf::Lobes;
+use super::{PathTracer, SamplingStrategy};
+use crate::bsdf::BsdfLobes;
 use crate::bsdf::standard::StandardParameters;
-use crate::light::Incident;
+use crate::light::IncidentLight;
 use crate::material::point::{MaterialPoint, ShadingFrame};
 use crate::sampler::sobol::SobolPair;
 use crate::shape::geometry::Intersect;
@@ -13,9 +13,9 @@ use rtc_math::{Vec3, exp};
 use rtc_plan::{Effect, PathFeatures};
 
 /// The BSDF at a vertex, in its frame of shading.
-struct Shading<'vertex, const F: u32> {
+struct VertexBsdf<'vertex, const F: u32> {
     frame: &'vertex ShadingFrame,
-    bsdf: &'vertex Lobes<F>,
+    bsdf: &'vertex BsdfLobes<F>,
     /// The direction to the viewer in the frame.
     wo: Vec3,
 }
@@ -71,9 +71,9 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         let multiple = self.multiple_scattering;
         let standard = point.standard::<F>(&frame, coat, state.channel, multiple);
         let wo = frame.to_local(wo);
-        let bsdf = Lobes::<F>::new(&standard, wo);
+        let bsdf = BsdfLobes::<F>::new(&standard, wo);
         self.count_shading(vertex, &standard, &bsdf);
-        let shading = Shading {
+        let shading = VertexBsdf {
             frame: &frame,
             bsdf: &bsdf,
             wo,
@@ -108,11 +108,11 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         &mut self,
         state: &mut PathState,
         vertex: &PathVertex<'_, 'world>,
-        Shading {
+        VertexBsdf {
             frame,
             bsdf,
             wo: local,
-        }: &Shading<'_, F>,
+        }: &VertexBsdf<'_, F>,
     ) -> bool {
         let (PathVertex { at, point, hit, .. }, wo) = (vertex, -state.ray.direction);
         let Some(sample) = bsdf.sample(state.pair(SobolPair::direction), || {
@@ -161,7 +161,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         &mut self,
         vertex: &PathVertex<'_, '_>,
         standard: &StandardParameters,
-        bsdf: &Lobes<F>,
+        bsdf: &BsdfLobes<F>,
     ) {
         let material = vertex.point.material;
         let mut count = |effect: Effect, is_there: bool| {
@@ -190,10 +190,10 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         &mut self,
         state: &PathState,
         vertex: &PathVertex<'_, 'world>,
-        Shading { frame, bsdf, wo }: &Shading<'_, F>,
+        VertexBsdf { frame, bsdf, wo }: &VertexBsdf<'_, F>,
     ) -> Vec3 {
         let at = vertex.at;
-        let Some(Incident {
+        let Some(IncidentLight {
             wi,
             radiance,
             pdf,
@@ -215,7 +215,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             return Vec3::ZERO;
         }
         let (f, weight) = match (pdf, self.strategy) {
-            (Some(light_pdf), Strategy::Mis) => {
+            (Some(light_pdf), SamplingStrategy::Mis) => {
                 self.counts.add(Effect::Mis);
                 let value = bsdf.evaluate(local);
                 (value.f, balance_heuristic(light_pdf, value.pdf))
@@ -237,15 +237,15 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         }
         let Some(pdf) = pdf else { return 1.0 };
         match self.strategy {
-            Strategy::Mis => {
+            SamplingStrategy::Mis => {
                 let light_pdf = light_pdf();
                 if light_pdf > 0.0 {
                     self.counts.add(Effect::Mis);
                 }
                 balance_heuristic(pdf, light_pdf)
             }
-            Strategy::Nee if light_pdf() > 0.0 => 0.0,
-            Strategy::Nee | Strategy::BsdfSampling => 1.0,
+            SamplingStrategy::Nee if light_pdf() > 0.0 => 0.0,
+            SamplingStrategy::Nee | SamplingStrategy::BsdfSampling => 1.0,
         }
     }
 }

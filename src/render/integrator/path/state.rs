@@ -1,7 +1,7 @@
 //! The state of a path between two vertices.
 
 use crate::ray::Ray;
-use crate::sampler::sobol::{Sobol, SobolPair};
+use crate::sampler::sobol::{SobolPair, SobolPath};
 use crate::world::{NO_PRIMITIVE, SurfacePrimitive};
 use rtc_math::Vec3;
 
@@ -22,7 +22,7 @@ pub(super) struct PathState {
     pub(super) radiance: Vec3,
     /// The part of it from the first vertex, after a bounce.
     pub(super) radiance_of_first: Vec3,
-    pub(super) sobol: Sobol,
+    pub(super) sobol: SobolPath,
     /// The number of bounces so far.
     pub(super) bounces: u32,
     /// The density of the ray's direction in BSDF sampling; `None` if light sampling could not have
@@ -38,7 +38,7 @@ pub(super) struct PathState {
 
 impl PathState {
     /// A path that begins with a ray.
-    pub(super) fn new(ray: Ray, sobol: Sobol) -> Self {
+    pub(super) fn new(ray: Ray, sobol: SobolPath) -> Self {
         Self {
             ray,
             from: NO_PRIMITIVE,

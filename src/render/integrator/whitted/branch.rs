@@ -1,38 +1,38 @@
 //! The ray tree of a camera ray: reflected and refracted rays, on a stack until they are traced.
 
-use super::Tracer;
+use super::WhittedTracer;
 use super::shade::ShadingPoint;
 use crate::bsdf::fresnel::{normal_reflectance, schlick};
 use crate::bsdf::optics::{reflect, refract};
 use crate::integrator::Integrator;
 use crate::material::phong::PhongMaterial;
 use crate::ray::{Interaction, Ray};
-use crate::sampler::{Key, PhongLobeSampler, is_above};
+use crate::sampler::{PathVertexKey, PhongLobeSampler, is_above};
 use crate::shape::geometry::Intersect;
 use rtc_math::Vec3;
-use rtc_plan::{Effect, Features, Rule};
+use rtc_plan::{Effect, Rule, WhittedFeatures};
 
 /// A path in progress.
 #[derive(Clone, Copy)]
-pub(super) struct Branch {
+pub(super) struct RayBranch {
     pub(super) ray: Ray,
     /// The weight of the radiance along the ray.
     pub(super) beta: f64,
     pub(super) bounces_left: u32,
-    pub(super) key: Key,
-    pub(super) kind: BranchKind,
+    pub(super) key: PathVertexKey,
+    pub(super) kind: RayBranchKind,
 }
 
 /// The kind of the last bounce of a path.
 #[derive(Clone, Copy)]
-pub(super) enum BranchKind {
+pub(super) enum RayBranchKind {
     Mirrored,
     Refracted,
 }
 
 /// Pending work: a path, or the rest of a glossy lobe.
-pub(super) enum Pending {
-    Ray(Branch),
+pub(super) enum PendingWork {
+    Ray(RayBranch),
     Glossy(Box<GlossyBatch>),
 }
 
@@ -46,12 +46,12 @@ pub(super) struct GlossyBatch {
     next: u32,
     count: u32,
     /// The path of each direction, except for its ray.
-    path: Branch,
+    path: RayBranch,
 }
 
-impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
+impl<'world, S: Intersect, const F: u32> WhittedTracer<'world, S, F> {
     /// Adds the reflected and refracted paths from here to the pending ones.
-    pub(super) fn branch(&mut self, path: &Branch, shading_point: &ShadingPoint<'_>) {
+    pub(super) fn branch(&mut self, path: &RayBranch, shading_point: &ShadingPoint<'_>) {
         if path.bounces_left == 0 || path.beta == 0.0 {
             return;
         }
@@ -73,14 +73,14 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
                 &shading_point.interaction,
                 refracted,
                 kt * (1.0 - reflected_part),
-                BranchKind::Refracted,
+                RayBranchKind::Refracted,
             );
         }
     }
 
     fn push_mirror(
         &mut self,
-        path: &Branch,
+        path: &RayBranch,
         shading_point: &ShadingPoint<'_>,
         mirror: Vec3,
         weight: f64,
@@ -88,13 +88,13 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
         let PhongMaterial {
             n, glossy_samples, ..
         } = shading_point.material;
-        if !Self::can(Features::SAMPLED) || glossy_samples.get() == 1 || weight == 0.0 {
+        if !Self::can(WhittedFeatures::SAMPLED) || glossy_samples.get() == 1 || weight == 0.0 {
             self.push_ray(
                 path,
                 &shading_point.interaction,
                 mirror,
                 weight,
-                BranchKind::Mirrored,
+                RayBranchKind::Mirrored,
             );
             return;
         }
@@ -115,7 +115,7 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
             path,
             weight / f64::from(above.max(1)),
             ray,
-            BranchKind::Mirrored,
+            RayBranchKind::Mirrored,
         ) else {
             return;
         };
@@ -127,19 +127,19 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
             count: glossy_samples.get(),
             path,
         };
-        self.pending.push(Pending::Glossy(Box::new(fan)));
+        self.pending.push(PendingWork::Glossy(Box::new(fan)));
     }
 
     fn push_ray(
         &mut self,
-        path: &Branch,
+        path: &RayBranch,
         from: &Interaction,
         direction: Vec3,
         weight: f64,
-        kind: BranchKind,
+        kind: RayBranchKind,
     ) {
         let path = self.next(path, weight, from.ray(direction), kind);
-        self.pending.extend(path.map(Pending::Ray));
+        self.pending.extend(path.map(PendingWork::Ray));
     }
 
     /// Whether a path of a weight is followed.
@@ -148,15 +148,21 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
     }
 
     /// The path one bounce further, or `None` if its weight is 0.
-    fn next(&self, path: &Branch, weight: f64, ray: Ray, kind: BranchKind) -> Option<Branch> {
+    fn next(
+        &self,
+        path: &RayBranch,
+        weight: f64,
+        ray: Ray,
+        kind: RayBranchKind,
+    ) -> Option<RayBranch> {
         let beta = (path.beta * weight).min(f64::MAX);
         let should_continue = self.is_nonzero(beta);
-        let key = if Self::can(Features::SAMPLED) {
+        let key = if Self::can(WhittedFeatures::SAMPLED) {
             path.key.child(kind as u64)
         } else {
-            Key::UNUSED
+            PathVertexKey::UNUSED
         };
-        should_continue.then(|| Branch {
+        should_continue.then(|| RayBranch {
             ray,
             beta,
             bounces_left: path.bounces_left - 1,
@@ -167,27 +173,27 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
 
     /// The next path to follow: refracted before reflected, and the directions of a lobe one by
     /// one.
-    pub(super) fn next_branch(&mut self) -> Option<Branch> {
+    pub(super) fn next_branch(&mut self) -> Option<RayBranch> {
         let path = loop {
             if !self.should_continue() {
                 self.pending.clear();
                 return None;
             }
             match self.pending.pop()? {
-                Pending::Ray(path) => break path,
-                Pending::Glossy(mut fan) => {
+                PendingWork::Ray(path) => break path,
+                PendingWork::Glossy(mut fan) => {
                     let Some(path) = fan.take(|| self.should_continue()) else {
                         continue;
                     };
                     self.counts.add(Effect::GlossyReflection);
-                    self.pending.push(Pending::Glossy(fan));
+                    self.pending.push(PendingWork::Glossy(fan));
                     break path;
                 }
             }
         };
         match path.kind {
-            BranchKind::Mirrored => self.counts.mirror += 1,
-            BranchKind::Refracted => self.counts.refracted += 1,
+            RayBranchKind::Mirrored => self.counts.mirror += 1,
+            RayBranchKind::Refracted => self.counts.refracted += 1,
         }
         Some(path)
     }
@@ -195,14 +201,14 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
 
 impl GlossyBatch {
     /// The path along the next direction above the surface.
-    fn take(&mut self, mut should_continue: impl FnMut() -> bool) -> Option<Branch> {
+    fn take(&mut self, mut should_continue: impl FnMut() -> bool) -> Option<RayBranch> {
         while self.next < self.count && should_continue() {
             let k = self.next;
             self.next += 1;
             let direction = self.lobe.direction(k);
             if is_above(direction, self.normals) {
                 let key = self.path.key.child(u64::from(k));
-                return Some(Branch {
+                return Some(RayBranch {
                     ray: self.from.ray(direction),
                     key,
                     ..self.path

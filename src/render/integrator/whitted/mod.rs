@@ -13,28 +13,28 @@ mod pixel;
 mod shade;
 
 use crate::accel::ray_cone_cache::RayConeCache;
-use crate::camera::grid::Grid;
-use crate::film::Counts;
+use crate::camera::grid::SampleGrid;
+use crate::film::RayCounts;
 use crate::film::heartbeat::{Heartbeat, PixelObserver};
 use crate::ray::Ray;
-use crate::sampler::Key;
+use crate::sampler::PathVertexKey;
 use crate::shape::geometry::Intersect;
 use crate::shape::geometry::{AttributeRequest, ShadingAttributes};
 use crate::texture::bilinear::{TextureFrame, look_up};
-use crate::texture::{Texture, TexturePlace};
+use crate::texture::{Texture, TextureLookupPoint};
 use crate::world::settings::Mode;
 use crate::world::{Hit, World};
-use branch::{Branch, BranchKind, Pending};
+use branch::{PendingWork, RayBranch, RayBranchKind};
 use pixel::PixelState;
 use rtc_math::Vec3;
-use rtc_plan::{Effect, Features, Plan, Rule};
+use rtc_plan::{Effect, Plan, Rule, WhittedFeatures};
 use shade::{OUTLINE, ShadingPoint};
 
-/// Follows camera rays through a world with the [`Features`] `F`; reuse one for many rays, it keeps
-/// its memory.
-pub(crate) struct Tracer<'world, S, const F: u32> {
+/// Follows camera rays through a world with the [`WhittedFeatures`] `F`; reuse one for many rays,
+/// it keeps its memory.
+pub(crate) struct WhittedTracer<'world, S, const F: u32> {
     pub(crate) world: &'world World<S>,
-    pending: Vec<Pending>,
+    pending: Vec<PendingWork>,
     /// Tells of the pixel under way, and whether to continue with it.
     pub(crate) heartbeat: Heartbeat<'world>,
     /// Whether the current path has a weight of 0: then its hits are irrelevant for a plan.
@@ -43,7 +43,7 @@ pub(crate) struct Tracer<'world, S, const F: u32> {
     steps: bool,
     /// Whether points of soft lights are spread without bias for any number of them.
     pub(crate) spread: bool,
-    grid: Grid,
+    grid: SampleGrid,
     pixel: PixelState,
     /// The number of bounces of the current path.
     bounces: u32,
@@ -51,14 +51,14 @@ pub(crate) struct Tracer<'world, S, const F: u32> {
     /// Whether samples are taken four at a time where they can be.
     by_four: bool,
     /// The rays traced so far.
-    pub(crate) counts: Counts,
+    pub(crate) counts: RayCounts,
 }
 
-impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
+impl<'world, S: Intersect, const F: u32> WhittedTracer<'world, S, F> {
     /// A tracer of the world, watched by `on_pixel`.
     #[must_use]
     pub(crate) fn new(world: &'world World<S>, on_pixel: &'world PixelObserver<'world>) -> Self {
-        let (heartbeat, counts) = (Heartbeat::new(on_pixel), Counts::default());
+        let (heartbeat, counts) = (Heartbeat::new(on_pixel), RayCounts::default());
         Self {
             world,
             pending: Vec::new(),
@@ -85,14 +85,14 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
 
     /// Whether this tracer can do it: known at compile time.
     #[inline]
-    pub(crate) const fn can(feature: Features) -> bool {
-        Features(F).contains(feature)
+    pub(crate) const fn can(feature: WhittedFeatures) -> bool {
+        WhittedFeatures(F).contains(feature)
     }
 
     /// Whether a rule that decides hit by hit applies: always, but for the naive tracer.
     #[inline]
     pub(crate) fn applies(&self, rule: Rule) -> bool {
-        !Self::can(Features::UNPRUNED) || self.world.plan.rules.contains(rule)
+        !Self::can(WhittedFeatures::UNPRUNED) || self.world.plan.rules.contains(rule)
     }
 
     /// Reports a difference of the plan under verification, if there is one and `is_fault` finds
@@ -103,7 +103,7 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
         what: &'static str,
         is_fault: impl FnOnce(&Plan) -> bool,
     ) {
-        if Self::can(Features::UNPRUNED)
+        if Self::can(WhittedFeatures::UNPRUNED)
             && !self.weightless
             && let Some(verify) = &self.world.verify
             && is_fault(&verify.plan)
@@ -117,20 +117,20 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
     /// It is compiled once for pictures, progressive pictures and layers, so that the functions
     /// called at every hit are inlined into it.
     #[inline(never)]
-    pub(crate) fn radiance(&mut self, ray: Ray, key: Key) -> Vec3 {
+    pub(crate) fn radiance(&mut self, ray: Ray, key: PathVertexKey) -> Vec3 {
         self.counts.camera += 1;
         let depth = self.world.plan.max_depth;
         let mut sum = Vec3::ZERO;
-        let mut path = Branch {
+        let mut path = RayBranch {
             ray,
             beta: 1.0,
             bounces_left: depth,
             key,
-            kind: BranchKind::Mirrored,
+            kind: RayBranchKind::Mirrored,
         };
         // Follow the branches of the path, from the camera ray on.
         loop {
-            if Self::can(Features::UNPRUNED) {
+            if Self::can(WhittedFeatures::UNPRUNED) {
                 self.weightless = path.beta == 0.0;
             }
             let bounces = depth - path.bounces_left;
@@ -145,12 +145,12 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
                 let value = self.local(&shading_point) * path.beta;
                 self.verify_hit(bounces, &shading_point, value);
                 sum += value;
-                if Self::can(Features::BOUNCE) {
+                if Self::can(WhittedFeatures::BOUNCE) {
                     // Push the reflected and refracted rays.
                     self.branch(&path, &shading_point);
                 }
             }
-            if !Self::can(Features::BOUNCE) || self.pending.is_empty() {
+            if !Self::can(WhittedFeatures::BOUNCE) || self.pending.is_empty() {
                 return sum;
             }
             match self.next_branch() {
@@ -163,7 +163,7 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
     /// Whether the first hits are shown as in a cartoon.
     #[inline]
     fn is_cartoon(&self) -> bool {
-        Self::can(Features::GOOCH) && self.world.settings.toon
+        Self::can(WhittedFeatures::GOOCH) && self.world.settings.toon
     }
 
     /// Checks whether a ray after this many bounces hits something that the plan removed.
@@ -178,7 +178,7 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
 
     /// The surface that a ray hits, with the maps of its material applied.
     #[inline(always)]
-    fn shading_point(&mut self, ray: &Ray, key: Key) -> Option<ShadingPoint<'world>> {
+    fn shading_point(&mut self, ray: &Ray, key: PathVertexKey) -> Option<ShadingPoint<'world>> {
         let hit = self.closest_hit(ray)?;
         Some(self.shading_point_of(ray, hit, key))
     }
@@ -202,7 +202,7 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
         &mut self,
         ray: &Ray,
         hit: Hit,
-        key: Key,
+        key: PathVertexKey,
     ) -> ShadingPoint<'world> {
         // Compute the interaction on the surface.
         let surface = &self.world.surfaces[hit.surface];
@@ -219,7 +219,7 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
             key,
         };
         // Apply texture maps and interpolated normals.
-        if Self::can(Features::MAPS)
+        if Self::can(WhittedFeatures::MAPS)
             && (material.maps.is_some() || surface.shape.has_shading_normals())
         {
             let shading_attributes = surface.shape.shading_attributes(
@@ -251,7 +251,7 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
         let Some(maps) = shading_point.material.maps.as_deref() else {
             return;
         };
-        let place = TexturePlace {
+        let place = TextureLookupPoint {
             uv: shading_attributes.uv,
             point: shading_point.interaction.point,
         };
@@ -282,7 +282,7 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
 
     fn local(&mut self, shading_point: &ShadingPoint<'_>) -> Vec3 {
         match &self.world.settings.mode {
-            Mode::Gooch(parameters) if Self::can(Features::GOOCH) => {
+            Mode::Gooch(parameters) if Self::can(WhittedFeatures::GOOCH) => {
                 self.gooch(shading_point, parameters)
             }
             Mode::Phong | Mode::Gooch(_) | Mode::Path(_) => self.phong(shading_point),

@@ -1,18 +1,18 @@
 //! The samples of a pixel, and their checks during plan validation.
 
-use super::Tracer;
-use crate::camera::grid::{Cell, Grid};
+use super::WhittedTracer;
+use crate::camera::grid::{SampleGrid, SubSample};
 use crate::camera::{camera_ray, image_point, lens_at};
 use crate::film::heartbeat::Heartbeat;
-use crate::film::pixel::{Sample, SampleId, Stream};
-use crate::film::{Counts, Seeds};
+use crate::film::pixel::{PixelSample, SampleId, SampleStream};
+use crate::film::{RayCounts, SamplingSeeds};
 use crate::integrator::Integrator;
 use crate::lanes::LANES;
 use crate::ray::Ray;
-use crate::sampler::Key;
+use crate::sampler::PathVertexKey;
 use crate::sampler::sequence::Sequence;
 use crate::shape::geometry::Intersect;
-use rtc_plan::{Effect, Features, PixelClass};
+use rtc_plan::{Effect, PixelClass, WhittedFeatures};
 
 /// The state that the samples of a pixel share.
 #[derive(Clone, Copy, Default)]
@@ -20,23 +20,23 @@ pub(super) struct PixelState {
     /// The column and the row of the cell of the next sample, and its point of the lens.
     place: [u32; 3],
     /// The cell of the previous sample, where a cell has several points of the lens.
-    cell: Option<Cell>,
+    cell: Option<SubSample>,
     /// The previous sample, if samples are checked for being equal.
-    last: Option<Sample>,
+    last: Option<PixelSample>,
     /// Whether all samples are validated to be equal.
     pub(super) is_uniform: bool,
 }
 
-impl<'run, S: Intersect, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
-    type Sample = Sample;
+impl<'run, S: Intersect, const F: u32> Integrator<'run> for WhittedTracer<'run, S, F> {
+    type Sample = PixelSample;
 
     #[inline(always)]
     fn begin(&mut self, first: &SampleId) {
-        if !Self::can(Features::CAMERA) {
+        if !Self::can(WhittedFeatures::CAMERA) {
             self.pixel = PixelState::default();
             return;
         }
-        let several = matches!(first.stream, Stream::Picture(_)) && self.grid.samples() > 1;
+        let several = matches!(first.stream, SampleStream::Picture(_)) && self.grid.samples() > 1;
         let class = || self.world.plan.pixel_classes.class_of(first.pixel);
         self.pixel = PixelState {
             place: self.grid.place_of(first.index),
@@ -46,26 +46,26 @@ impl<'run, S: Intersect, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
     }
 
     #[inline(always)]
-    fn sample(&mut self, id: &SampleId) -> Sample {
+    fn sample(&mut self, id: &SampleId) -> PixelSample {
         let (ray, seed) = match id.stream {
-            Stream::Picture(seeds) => (self.ray_of_picture(id.pixel, seeds), seeds.path),
-            Stream::Replicate { number, .. } => (self.ray_of_replicate(id, number), number),
+            SampleStream::Picture(seeds) => (self.ray_of_picture(id.pixel, seeds), seeds.path),
+            SampleStream::Replicate { number, .. } => (self.ray_of_replicate(id, number), number),
         };
-        let key = if Self::can(Features::SAMPLED) {
-            Key::new(id.pixel, id.index.into()).seeded(seed)
+        let key = if Self::can(WhittedFeatures::SAMPLED) {
+            PathVertexKey::new(id.pixel, id.index.into()).seeded(seed)
         } else {
-            Key::UNUSED
+            PathVertexKey::UNUSED
         };
         let sample = self.trace(ray, key);
         self.verify_sample(id.pixel, &sample);
-        if Self::can(Features::UNPRUNED) {
+        if Self::can(WhittedFeatures::UNPRUNED) {
             self.pixel.last = Some(sample);
         }
         sample
     }
 
     #[inline(always)]
-    fn samples(&mut self, first: &SampleId) -> Option<[Sample; LANES]> {
+    fn samples(&mut self, first: &SampleId) -> Option<[PixelSample; LANES]> {
         self.four_samples(first)
     }
 
@@ -74,7 +74,7 @@ impl<'run, S: Intersect, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
         self.pixel.is_uniform
     }
 
-    fn counts(&self) -> &Counts {
+    fn counts(&self) -> &RayCounts {
         &self.counts
     }
 
@@ -93,13 +93,13 @@ impl<'run, S: Intersect, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
 /// Makes the samples of replicates independent of the random numbers of their paths.
 const REPLICATE: u64 = u64::MAX - 2;
 
-impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
+impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
     /// The ray of the next sample of the grid of cells and points of the lens.
     #[inline(always)]
-    pub(super) fn ray_of_picture(&mut self, pixel: [u32; 2], seeds: Seeds) -> Ray {
+    pub(super) fn ray_of_picture(&mut self, pixel: [u32; 2], seeds: SamplingSeeds) -> Ray {
         let camera = self.world.camera.of(pixel);
-        if !Self::can(Features::CAMERA) {
-            return Grid::MIDDLE
+        if !Self::can(WhittedFeatures::CAMERA) {
+            return SampleGrid::MIDDLE
                 .cell(camera, pixel, [0; 2], seeds)
                 .ray(camera, 0);
         }
@@ -131,7 +131,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     /// The ray of a sample of a sequence without end.
     fn ray_of_replicate(&self, id: &SampleId, number: u64) -> Ray {
         let camera = self.world.camera.of(id.pixel);
-        let sequence = Sequence::new(Key::new(id.pixel, number).child(REPLICATE));
+        let sequence = Sequence::new(PathVertexKey::new(id.pixel, number).child(REPLICATE));
         camera_ray(
             lens_at(camera, || sequence.lens(id.index)),
             image_point(camera, id.pixel, sequence.film(id.index)),
@@ -139,12 +139,12 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     }
 
     #[inline(always)]
-    fn trace(&mut self, ray: Ray, key: Key) -> Sample {
+    fn trace(&mut self, ray: Ray, key: PathVertexKey) -> PixelSample {
         let hits = self.counts.hits;
         let radiance = self.radiance(ray, key);
         self.weightless = false;
         self.counts.unnumbered += u64::from(radiance.is_nan());
-        Sample {
+        PixelSample {
             radiance,
             hit: self.counts.hits > hits,
         }
@@ -152,9 +152,9 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
 
     /// Checks whether a sample contradicts the plan under verification.
     #[inline(always)]
-    fn verify_sample(&self, pixel: [u32; 2], sample: &Sample) {
+    fn verify_sample(&self, pixel: [u32; 2], sample: &PixelSample) {
         self.verify(Effect::Supersampling, "samples of a pixel differ", |plan| {
-            let differs = |last: Sample| last.radiance != sample.radiance;
+            let differs = |last: PixelSample| last.radiance != sample.radiance;
             self.pixel.last.is_some_and(differs)
                 && plan.pixel_classes.class_of(pixel) == PixelClass::Uniform
         });

@@ -1,18 +1,18 @@
 //! Local shading: direct illumination with Phong's or Gooch's model.
 
-use super::Tracer;
+use super::WhittedTracer;
 use crate::bsdf::optics::highlight;
 use crate::integrator::Integrator;
 use crate::light::course::CourseLight;
 use crate::material::phong::PhongMaterial;
 use crate::ray::Interaction;
-use crate::sampler::{DiscPoints, Key};
+use crate::sampler::{DiscPoints, PathVertexKey};
 use crate::shape::geometry::Intersect;
 use crate::world::CourseLightId;
 use crate::world::settings::Gooch;
 use crate::world::small_scene::SmallScene;
-use rtc_math::{Basis, NonNegative, Vec3};
-use rtc_plan::{Effect, Features, Rule};
+use rtc_math::{NonNegative, OrthonormalBasis, Vec3};
+use rtc_plan::{Effect, Rule, WhittedFeatures};
 
 /// A point seen from one side.
 pub(crate) struct ShadingPoint<'world> {
@@ -31,7 +31,7 @@ pub(crate) struct ShadingPoint<'world> {
     /// The index of the surface in the scene.
     pub(crate) surface: usize,
     /// Names the point for sampling.
-    pub(crate) key: Key,
+    pub(crate) key: PathVertexKey,
 }
 
 impl ShadingPoint<'_> {
@@ -43,14 +43,14 @@ impl ShadingPoint<'_> {
 
 /// Whether something may hide a light from a point.
 #[derive(Clone, Copy)]
-struct Hidden {
+struct Occlusion {
     /// The light.
     light: CourseLightId,
     maybe: bool,
 }
 
 /// A light as seen from a point.
-struct Incidence {
+struct LightIncidence {
     /// N·L.
     n_dot_l: f64,
     /// R·V.
@@ -60,7 +60,7 @@ struct Incidence {
 /// The colour of the outlines of a cartoon.
 pub(super) const OUTLINE: Vec3 = Vec3::splat(0.1);
 
-impl Incidence {
+impl LightIncidence {
     /// As in a cartoon: N·L falls in steps, and a highlight is there or not. The numbers are those
     /// of a program for the course's JSON years.
     fn stepped(self) -> Self {
@@ -102,18 +102,18 @@ impl ShadingPoint<'_> {
 
     /// `None` if the light is exactly at the point: it has no direction then, and adds its ambient
     /// term only.
-    fn incidence(&self, light: Vec3) -> Option<Incidence> {
+    fn incidence(&self, light: Vec3) -> Option<LightIncidence> {
         let to_light = (light - self.interaction.point).try_normalize()?;
         let n_dot_l = self.normal.dot(to_light);
         let reflected = self.normal * (2.0 * n_dot_l) - to_light;
-        Some(Incidence {
+        Some(LightIncidence {
             n_dot_l,
             r_dot_v: reflected.dot(self.to_viewer),
         })
     }
 }
 
-impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
+impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
     /// `Σ c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)ⁿ)]`, the mean over the points of a
     /// soft light; an ambient term that is added once precedes the sum, as `ka·C` times the
     /// colour of the ambient light.
@@ -141,12 +141,13 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
             }
             let mut term = ambient;
             // Add the direct light, averaged over the points of a soft light.
-            if Self::can(Features::LIGHT) && plan.direct {
-                let shadowed = Hidden {
+            if Self::can(WhittedFeatures::LIGHT) && plan.direct {
+                let shadowed = Occlusion {
                     light: index,
                     maybe: plan.shadowed[shading_point.surface],
                 };
-                if !Self::can(Features::SAMPLED) || light.radius.get() == 0.0 || samples == 1 {
+                if !Self::can(WhittedFeatures::SAMPLED) || light.radius.get() == 0.0 || samples == 1
+                {
                     term += self.direct(shading_point, light.position, shadowed);
                 } else {
                     let key = shading_point.key.child(index.index() as u64);
@@ -173,9 +174,14 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     }
 
     /// The contribution of one point of a light, for a light of colour 1.
-    fn direct(&mut self, shading_point: &ShadingPoint<'_>, light: Vec3, shadowed: Hidden) -> Vec3 {
+    fn direct(
+        &mut self,
+        shading_point: &ShadingPoint<'_>,
+        light: Vec3,
+        shadowed: Occlusion,
+    ) -> Vec3 {
         let diffuse = shading_point.color * shading_point.material.kd.get();
-        let shines = Self::can(Features::HIGHLIGHT)
+        let shines = Self::can(WhittedFeatures::HIGHLIGHT)
             && (shading_point.ks > 0.0 || !self.applies(Rule::HighlightKs));
         if diffuse == Vec3::ZERO && !shines && self.applies(Rule::ShadowUnlit) {
             return Vec3::ZERO;
@@ -189,7 +195,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         {
             return Vec3::ZERO;
         }
-        let incidence = if Self::can(Features::GOOCH) && self.steps {
+        let incidence = if Self::can(WhittedFeatures::GOOCH) && self.steps {
             incidence.stepped()
         } else {
             incidence
@@ -211,13 +217,14 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         shading_point: &ShadingPoint<'_>,
         light: Vec3,
         n_dot_l: f64,
-        shadowed: Hidden,
+        shadowed: Occlusion,
     ) -> bool {
-        let faces = n_dot_l > 0.0 && (!Self::can(Features::MAPS) || shading_point.is_before(light));
+        let faces =
+            n_dot_l > 0.0 && (!Self::can(WhittedFeatures::MAPS) || shading_point.is_before(light));
         if !faces && self.applies(Rule::ShadowFacing) {
             return false;
         }
-        let sees = !Self::can(Features::SHADOW) || self.sees(shading_point, light, shadowed);
+        let sees = !Self::can(WhittedFeatures::SHADOW) || self.sees(shading_point, light, shadowed);
         self.verify(
             Effect::Shadows,
             "a shadow ray left out is blocked",
@@ -232,7 +239,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     }
 
     /// Whether a point of a light is visible from a point.
-    fn sees(&mut self, shading_point: &ShadingPoint<'_>, light: Vec3, shadowed: Hidden) -> bool {
+    fn sees(&mut self, shading_point: &ShadingPoint<'_>, light: Vec3, shadowed: Occlusion) -> bool {
         if !shadowed.maybe {
             return true;
         }
@@ -289,7 +296,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
             let warm = Vec3::new(y, y, 0.0) + tone * beta;
             sum +=
                 cool * (0.5 * (1.0 - incidence.n_dot_l)) + warm * (0.5 * (1.0 + incidence.n_dot_l));
-            if Self::can(Features::HIGHLIGHT)
+            if Self::can(WhittedFeatures::HIGHLIGHT)
                 && (shading_point.ks > 0.0 || !self.applies(Rule::HighlightKs))
             {
                 sum += light.color * (shading_point.ks * highlight(incidence.r_dot_v, n));
@@ -307,7 +314,7 @@ fn on_soft_light(
     points: DiscPoints,
 ) -> impl Iterator<Item = Vec3> {
     let towards = (light.position - from).try_normalize().unwrap_or(Vec3::Z);
-    let basis = Basis::around(towards);
+    let basis = OrthonormalBasis::around(towards);
     let (center, radius) = (light.position, light.radius.get());
     (0..count).map(move |k| {
         let [x, y] = points.point(k);

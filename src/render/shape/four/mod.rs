@@ -5,10 +5,10 @@
 mod plane;
 mod torus;
 
-use super::plane::{Axis, Plane};
+use super::plane::{Plane, PlaneAxis};
 use super::sphere::{AMPLIFIED, FAR, Sphere};
 use super::torus::Torus;
-use crate::lanes::{LANES, Ray4, Vectors, lanes_of};
+use crate::lanes::{FourVectors, LANES, Ray4, lanes_of};
 use crate::ray::{Interaction, OFFSET};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
@@ -22,7 +22,7 @@ pub enum Shape4<'a> {
     /// A torus.
     Torus(&'a Torus),
     /// A plane along an axis.
-    Plane(&'a Plane, Axis),
+    Plane(&'a Plane, PlaneAxis),
 }
 
 impl Shape4<'_> {
@@ -60,10 +60,10 @@ impl Shape4<'_> {
 /// Interactions of four rays.
 #[derive(Clone, Copy)]
 pub(crate) struct Interactions<S: Simd> {
-    pub(crate) point: Vectors<S>,
-    pub(crate) normal: Vectors<S>,
+    pub(crate) point: FourVectors<S>,
+    pub(crate) normal: FourVectors<S>,
     pub(crate) offset: f64x4<S>,
-    pub(crate) back: Vectors<S>,
+    pub(crate) back: FourVectors<S>,
 }
 
 impl<S: Simd> Interactions<S> {
@@ -72,12 +72,12 @@ impl<S: Simd> Interactions<S> {
     fn new(
         simd: S,
         rays: &Ray4<S>,
-        point: Vectors<S>,
-        normal: Vectors<S>,
+        point: FourVectors<S>,
+        normal: FourVectors<S>,
         anchor: Vec3,
         extent: f64,
     ) -> Self {
-        let sizes = point.abs().plus(Vectors::splat(simd, anchor.abs()));
+        let sizes = point.abs().plus(FourVectors::splat(simd, anchor.abs()));
         let size = normal.abs().dot(sizes) + f64x4::splat(simd, extent);
         let direction = rays.direction;
         Self {
@@ -92,10 +92,10 @@ impl<S: Simd> Interactions<S> {
     #[inline(always)]
     pub(crate) fn each(simd: S, all: &[Interaction; LANES]) -> Self {
         Self {
-            point: Vectors::each(simd, all.map(|at| at.point)),
-            normal: Vectors::each(simd, all.map(|at| at.normal)),
+            point: FourVectors::each(simd, all.map(|at| at.point)),
+            normal: FourVectors::each(simd, all.map(|at| at.normal)),
             offset: f64x4::simd_from(simd, all.map(|at| at.offset)),
-            back: Vectors::each(simd, all.map(|at| at.back)),
+            back: FourVectors::each(simd, all.map(|at| at.back)),
         }
     }
 
@@ -112,7 +112,7 @@ impl<S: Simd> Interactions<S> {
 
     /// As [`Interaction::start`].
     #[inline(always)]
-    pub(crate) fn start(&self, simd: S, direction: Vectors<S>) -> Vectors<S> {
+    pub(crate) fn start(&self, simd: S, direction: FourVectors<S>) -> FourVectors<S> {
         let zero = f64x4::splat(simd, 0.0);
         let is_below = direction.dot(self.normal).simd_lt(zero);
         let side = is_below.select(-self.offset, self.offset);
@@ -129,7 +129,7 @@ fn intersect<S: Simd>(simd: S, sphere: &Sphere, rays: &Ray4<S>, active: mask64x4
     let number = |x: f64| f64x4::splat(simd, x);
     let (zero, none) = (number(0.0), number(f64::INFINITY));
     // Skip rays whose line misses the sphere or that leave it behind.
-    let f = rays.origin.minus(Vectors::splat(simd, sphere.center));
+    let f = rays.origin.minus(FourVectors::splat(simd, sphere.center));
     let d = rays.direction;
     let (f2, b) = (f.dot(f), -f.dot(d));
     let r2 = number(sphere.radius * sphere.radius);
@@ -185,7 +185,7 @@ fn intersect<S: Simd>(simd: S, sphere: &Sphere, rays: &Ray4<S>, active: mask64x4
 #[inline(always)]
 fn interactions<S: Simd>(simd: S, sphere: &Sphere, rays: &Ray4<S>, t: f64x4<S>) -> Interactions<S> {
     let number = |x: f64| f64x4::splat(simd, x);
-    let center = Vectors::splat(simd, sphere.center);
+    let center = FourVectors::splat(simd, sphere.center);
     let step = rays.direction.times(t);
     let local = rays.origin.minus(center).plus(step);
     let length = local.length();
@@ -210,13 +210,13 @@ mod tests {
     use super::*;
     use crate::accel::simd::baseline;
     use crate::ray::Ray;
-    use crate::sampler::Key;
+    use crate::sampler::PathVertexKey;
     use crate::shape::geometry::Intersect;
 
     /// Rays from near and far, at the sphere and past it, from its surface and along it.
     fn rays(index: u64) -> [Ray; LANES] {
         [0, 1, 2, 3].map(|lane| {
-            let key = Key::new([7, lane], index);
+            let key = PathVertexKey::new([7, lane], index);
             let vector = |k: u64| {
                 Vec3::new(key.uniform(k), key.uniform(k + 1), key.uniform(k + 2)) * 2.0 - 1.0
             };

@@ -2,8 +2,8 @@
 //! [`Plane::interaction`]. Other planes use the scalar code.
 
 use super::Interactions;
-use crate::lanes::{Ray4, Vectors, lanes_of, two_difference};
-use crate::shape::plane::{Axis, Plane};
+use crate::lanes::{FourVectors, Ray4, lanes_of, two_difference};
+use crate::shape::plane::{Plane, PlaneAxis};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
 
@@ -12,7 +12,7 @@ use fearless_simd::{Simd, f64x4, mask64x4};
 pub(super) fn intersect<S: Simd>(
     simd: S,
     plane: &Plane,
-    axis: Axis,
+    axis: PlaneAxis,
     rays: &Ray4<S>,
     active: mask64x4<S>,
 ) -> f64x4<S> {
@@ -30,7 +30,7 @@ pub(super) fn intersect<S: Simd>(
 pub(super) fn interactions<S: Simd>(
     simd: S,
     plane: &Plane,
-    axis: Axis,
+    axis: PlaneAxis,
     rays: &Ray4<S>,
     t: f64x4<S>,
 ) -> Interactions<S> {
@@ -41,7 +41,7 @@ pub(super) fn interactions<S: Simd>(
     let is_on = near.along(axis.index).simd_eq(anchor) & !has_zero;
     let distance = distance(simd, plane, axis, near);
     let step = distance / f64x4::splat(simd, plane.normal.square);
-    let moved = near.plus(Vectors::splat(simd, plane.normal.raw).times(step));
+    let moved = near.plus(FourVectors::splat(simd, plane.normal.raw).times(step));
     let mut point = near.select(is_on, moved);
     let doubted = !is_on & distance.simd_eq(zero);
     if doubted.any_true() {
@@ -49,13 +49,13 @@ pub(super) fn interactions<S: Simd>(
             point.put(lane, plane.interaction(&rays.lane(lane), t[lane]).point);
         }
     }
-    let normal = Vectors::splat(simd, plane.normal());
+    let normal = FourVectors::splat(simd, plane.normal());
     Interactions::new(simd, rays, point, normal, plane.anchor, 0.0)
 }
 
 /// N·(anchor − p), but for the sign of a 0.
 #[inline(always)]
-fn distance<S: Simd>(simd: S, plane: &Plane, axis: Axis, p: Vectors<S>) -> f64x4<S> {
+fn distance<S: Simd>(simd: S, plane: &Plane, axis: PlaneAxis, p: FourVectors<S>) -> f64x4<S> {
     let sign = f64x4::splat(simd, axis.sign);
     let anchor = f64x4::splat(simd, plane.anchor[axis.index]);
     let (step, error) = two_difference(anchor, p.along(axis.index));

@@ -2,7 +2,7 @@
 //! continues without effect until all have.
 
 use super::Interactions;
-use crate::lanes::{Ray4, Vectors, lanes_of};
+use crate::lanes::{FourVectors, Ray4, lanes_of};
 use crate::shape::torus::{MAX_STEPS, NEARLY_ONE, ON_SURFACE, ROUNDING, TOUCH, Torus};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
@@ -18,7 +18,7 @@ pub(super) fn intersect<S: Simd>(
 ) -> f64x4<S> {
     let number = |x: f64| f64x4::splat(simd, x);
     let none = number(f64::INFINITY);
-    let f = rays.origin.minus(Vectors::splat(simd, torus.center));
+    let f = rays.origin.minus(FourVectors::splat(simd, torus.center));
     let d = rays.direction;
     let length2 = d.dot(d);
     let nearest = -f.dot(d) / length2;
@@ -55,14 +55,14 @@ pub(super) fn interactions<S: Simd>(
 ) -> Interactions<S> {
     let number = |x: f64| f64x4::splat(simd, x);
     let (center, axis) = (
-        Vectors::splat(simd, torus.center),
-        Vectors::splat(simd, torus.axis),
+        FourVectors::splat(simd, torus.center),
+        FourVectors::splat(simd, torus.axis),
     );
     let local = rays.origin.minus(center).plus(rays.direction.times(t));
     let beside = local.minus(axis.times(local.dot(axis)));
     let (is_beside, outward) = beside.normalized();
     let ring = outward
-        .select(is_beside, Vectors::splat(simd, Vec3::ZERO))
+        .select(is_beside, FourVectors::splat(simd, Vec3::ZERO))
         .times(number(torus.major));
     let out = local.minus(ring);
     let (has_normal, mut normal) = out.normalized();
@@ -79,12 +79,12 @@ pub(super) fn interactions<S: Simd>(
 
 /// A point of each ray and its signed distance from the surface.
 #[derive(Clone, Copy)]
-struct Probe<S: Simd> {
+struct TorusProbe<S: Simd> {
     s: f64x4<S>,
     distance: f64x4<S>,
 }
 
-impl<S: Simd> Probe<S> {
+impl<S: Simd> TorusProbe<S> {
     /// Selects `self` in the lanes of a mask, and `other` elsewhere.
     #[inline(always)]
     fn select(self, mask: mask64x4<S>, other: Self) -> Self {
@@ -104,9 +104,9 @@ impl<S: Simd> Probe<S> {
 struct TorusRays<S: Simd> {
     square: f64x4<S>,
     height: f64x4<S>,
-    off: Vectors<S>,
+    off: FourVectors<S>,
     rise: f64x4<S>,
-    turn: Vectors<S>,
+    turn: FourVectors<S>,
     major: f64,
     minor: f64,
 }
@@ -114,8 +114,8 @@ struct TorusRays<S: Simd> {
 impl<S: Simd> TorusRays<S> {
     /// The rays through points nearest to the centre along steps of length 1.
     #[inline(always)]
-    fn new(simd: S, torus: &Torus, from: Vectors<S>, step: Vectors<S>) -> Self {
-        let axis = Vectors::splat(simd, torus.axis);
+    fn new(simd: S, torus: &Torus, from: FourVectors<S>, step: FourVectors<S>) -> Self {
+        let axis = FourVectors::splat(simd, torus.axis);
         Self {
             square: from.dot(from),
             height: from.dot(axis),
@@ -129,7 +129,7 @@ impl<S: Simd> TorusRays<S> {
 
     /// The points at `s`.
     #[inline(always)]
-    fn at(&self, simd: S, s: f64x4<S>) -> Probe<S> {
+    fn at(&self, simd: S, s: f64x4<S>) -> TorusProbe<S> {
         let number = |x: f64| f64x4::splat(simd, x);
         let minor = number(self.minor);
         let z = (self.height + self.rise * s).abs();
@@ -137,7 +137,7 @@ impl<S: Simd> TorusRays<S> {
         let is_high = z.simd_gt(off);
         let (large, small) = (is_high.select(z, off), is_high.select(off, z));
         let square = small * small + (large - minor) * (large + minor);
-        Probe {
+        TorusProbe {
             s,
             distance: square / ((off * off + z * z).sqrt() + minor),
         }
@@ -145,7 +145,7 @@ impl<S: Simd> TorusRays<S> {
 
     /// The points at `s`, with the distances that `TorusRay::start_distance` has.
     #[inline(always)]
-    fn start(&self, simd: S, s: f64x4<S>) -> Probe<S> {
+    fn start(&self, simd: S, s: f64x4<S>) -> TorusProbe<S> {
         let number = |x: f64| f64x4::splat(simd, x);
         let mut probe = self.at(simd, s);
         let is_on = probe.distance.abs().simd_le(number(ON_SURFACE));
@@ -227,12 +227,12 @@ impl<S: Simd> TorusRays<S> {
 
     /// As `TorusRay::derivative`.
     #[inline(always)]
-    fn derivative(&self, simd: S) -> Cubic<S> {
+    fn derivative(&self, simd: S) -> DepressedCubic<S> {
         let number = |x: f64| f64x4::splat(simd, x);
         let (w, x) = (self.off, self.turn);
         let k = self.square + number((self.major - self.minor) * (self.major + self.minor));
         let square = 2.0 * self.major * self.major;
-        Cubic {
+        DepressedCubic {
             linear: k - number(square) * x.dot(x),
             constant: number(-square) * w.dot(x),
         }
@@ -243,8 +243,8 @@ impl<S: Simd> TorusRays<S> {
     fn root(
         &self,
         simd: S,
-        mut last: Probe<S>,
-        mut other: Probe<S>,
+        mut last: TorusProbe<S>,
+        mut other: TorusProbe<S>,
         mut active: mask64x4<S>,
     ) -> f64x4<S> {
         let number = |x: f64| f64x4::splat(simd, x);
@@ -273,7 +273,12 @@ impl<S: Simd> TorusRays<S> {
 
 /// As `fraction_of` of one torus.
 #[inline(always)]
-fn fraction_of<S: Simd>(simd: S, last: Probe<S>, other: Probe<S>, before: Probe<S>) -> f64x4<S> {
+fn fraction_of<S: Simd>(
+    simd: S,
+    last: TorusProbe<S>,
+    other: TorusProbe<S>,
+    before: TorusProbe<S>,
+) -> f64x4<S> {
     let one = f64x4::splat(simd, 1.0);
     let along = (last.s - other.s) / (before.s - other.s);
     let up = (last.distance - other.distance) / (before.distance - other.distance);
@@ -296,12 +301,12 @@ fn clamp<S: Simd>(x: f64x4<S>, low: f64x4<S>, high: f64x4<S>) -> f64x4<S> {
 
 /// `s³ + linear·s + constant`.
 #[derive(Clone, Copy)]
-struct Cubic<S: Simd> {
+struct DepressedCubic<S: Simd> {
     linear: f64x4<S>,
     constant: f64x4<S>,
 }
 
-impl<S: Simd> Cubic<S> {
+impl<S: Simd> DepressedCubic<S> {
     #[inline(always)]
     fn value(&self, s: f64x4<S>) -> f64x4<S> {
         (s * s + self.linear) * s + self.constant

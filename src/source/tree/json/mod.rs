@@ -3,7 +3,7 @@
 mod text;
 
 use super::pointer::PointerStep;
-use super::{NodeId, Syntax, SyntaxTree, TreeNode, keys};
+use super::{NodeId, NodeSyntax, SyntaxTree, TreeNode, keys};
 use crate::FileId;
 use rtc_math::to_u32;
 
@@ -95,13 +95,13 @@ impl JsonScanner<'_> {
             match self.peek() {
                 None => return Err(self.error("the text ends too early")),
                 Some(b'[') => {
-                    self.open(Syntax::List)?;
+                    self.open(NodeSyntax::List)?;
                     if self.peek() == Some(b']') {
                         return Ok(());
                     }
                 }
                 Some(b'{') => {
-                    self.open(Syntax::Map)?;
+                    self.open(NodeSyntax::Map)?;
                     if self.peek() == Some(b'}') {
                         return Ok(());
                     }
@@ -123,10 +123,10 @@ impl JsonScanner<'_> {
             };
             let syntax = self.tree.nodes[parent as usize].syntax;
             match (self.peek(), syntax) {
-                (Some(b']'), Syntax::List) | (Some(b'}'), Syntax::Map) => self.close(),
+                (Some(b']'), NodeSyntax::List) | (Some(b'}'), NodeSyntax::Map) => self.close(),
                 (Some(b','), _) => {
                     self.at += 1;
-                    if syntax == Syntax::Map {
+                    if syntax == NodeSyntax::Map {
                         self.peek();
                         self.key()?;
                     }
@@ -138,7 +138,7 @@ impl JsonScanner<'_> {
         }
     }
 
-    fn push(&mut self, syntax: Syntax, link: u32, end: usize, is_key: bool) {
+    fn push(&mut self, syntax: NodeSyntax, link: u32, end: usize, is_key: bool) {
         let (parent, slot) = match self.open.last_mut() {
             Some((parent, count)) => {
                 let slot = *count;
@@ -157,7 +157,7 @@ impl JsonScanner<'_> {
         self.at = end;
     }
 
-    fn open(&mut self, syntax: Syntax) -> Result<(), JsonError> {
+    fn open(&mut self, syntax: NodeSyntax) -> Result<(), JsonError> {
         if self.open.len() == MAX_DEPTH {
             return Err(self.error("lists and objects lie too deep in each other"));
         }
@@ -175,7 +175,7 @@ impl JsonScanner<'_> {
         let after = to_u32(self.tree.nodes.len());
         let node = &mut self.tree.nodes[index as usize];
         (node.end, node.link) = (to_u32(self.at), after);
-        if node.syntax == Syntax::Map {
+        if node.syntax == NodeSyntax::Map {
             keys::close(&mut self.tree, NodeId(index));
         }
     }
@@ -202,18 +202,18 @@ impl JsonScanner<'_> {
             let link = self
                 .tree
                 .unescape_with(|value| text::resolve(inside, value));
-            self.push(Syntax::Unescaped, link, end, is_key);
+            self.push(NodeSyntax::Unescaped, link, end, is_key);
         } else {
-            self.push(Syntax::Quoted, 0, end, is_key);
+            self.push(NodeSyntax::Quoted, 0, end, is_key);
         }
         Ok(())
     }
 
     fn literal(&mut self) -> Result<(), JsonError> {
         let literals = [
-            ("null", Syntax::Null),
-            ("true", Syntax::Bool),
-            ("false", Syntax::Bool),
+            ("null", NodeSyntax::Null),
+            ("true", NodeSyntax::Bool),
+            ("false", NodeSyntax::Bool),
         ];
         let rest = &self.bytes[self.at..];
         let Some((literal, syntax)) = literals
@@ -247,7 +247,7 @@ impl JsonScanner<'_> {
             self.digits()?;
         }
         let end = std::mem::replace(&mut self.at, start);
-        self.push(Syntax::Number, 0, end, false);
+        self.push(NodeSyntax::Number, 0, end, false);
         Ok(())
     }
 

@@ -1,12 +1,12 @@
 //! Detects missing and surplus commas in brackets.
 
 use super::super::SyntaxTree;
-use super::Mistake;
+use super::YamlError;
 use super::typo::{span, typo};
 
 /// A missing comma before the position of a syntax error: a value ends before it and another begins
 /// there.
-pub(super) fn missing(tree: &SyntaxTree<'_>, at: usize) -> Option<Mistake<'static>> {
+pub(super) fn missing(tree: &SyntaxTree<'_>, at: usize) -> Option<YamlError<'static>> {
     let source = tree.source;
     let (before, rest) = source.split_at_checked(at)?;
     // For an unquoted key, the error is at the colon after it.
@@ -52,7 +52,7 @@ pub(super) fn is_closed(tree: &SyntaxTree<'_>, bracket: usize) -> bool {
 }
 
 /// The second of two commas without a value between them, in a closed bracket.
-pub(super) fn doubled(tree: &SyntaxTree<'_>, bracket: usize) -> Option<Mistake<'static>> {
+pub(super) fn doubled(tree: &SyntaxTree<'_>, bracket: usize) -> Option<YamlError<'static>> {
     if !is_closed(tree, bracket) {
         return None;
     }

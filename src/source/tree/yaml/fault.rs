@@ -1,7 +1,7 @@
 //! Converts errors of the YAML parser to messages for the author of the text.
 
 use super::super::{NodeId, SyntaxTree};
-use super::{Mistake, comma, lookalike, typo};
+use super::{YamlError, comma, lookalike, typo};
 use crate::Span;
 use granit_parser::{ErrorKind, ScanError};
 use rtc_math::to_u32;
@@ -11,7 +11,7 @@ pub(super) fn syntax(
     tree: &SyntaxTree<'_>,
     bracket: Option<NodeId>,
     error: &ScanError,
-) -> Mistake<'static> {
+) -> YamlError<'static> {
     // Position of the error, and the innermost open bracket.
     let at = tree
         .source
@@ -26,7 +26,7 @@ pub(super) fn syntax(
         tree.slice(span.start - tree.base..to_u32(at))
             .is_some_and(|text| text.contains('\n'))
     };
-    let unclosed = |bracket: Span, runs_into| Mistake::Unclosed {
+    let unclosed = |bracket: Span, runs_into| YamlError::Unclosed {
         bracket,
         runs_into,
         comment: comment_after(tree, bracket),
@@ -42,7 +42,7 @@ pub(super) fn syntax(
     }
     // Unclosed brackets, missing commas, other typos, or the parser's message.
     match bracket {
-        _ if matches!(kind, ErrorKind::RecursionLimitExceeded) => Mistake::TooDeep { span: here },
+        _ if matches!(kind, ErrorKind::RecursionLimitExceeded) => YamlError::TooDeep { span: here },
         _ if matches!(kind, ErrorKind::UnclosedFlowCollection { .. }) => unclosed(here, None),
         Some(bracket) if ends_early(kind) => unclosed(bracket, None),
         Some(bracket)
@@ -59,7 +59,7 @@ pub(super) fn syntax(
                 return typo;
             }
             let (message, label, hint) = message_of(kind);
-            Mistake::Syntax {
+            YamlError::Syntax {
                 message,
                 label: label.to_owned(),
                 hint,

@@ -2,7 +2,7 @@
 //! languages: word processors, web pages and JSON with comments contain them.
 
 use super::super::SyntaxTree;
-use super::Mistake;
+use super::YamlError;
 use super::typo::{span, typo};
 
 /// The name of a character that looks like an ASCII character, and that character.
@@ -28,7 +28,11 @@ fn ascii_lookalike(c: char) -> Option<(&'static str, &'static str)> {
 
 /// An error in an unquoted scalar that has such a character where only a YAML indicator makes
 /// sense.
-pub(super) fn in_word(tree: &SyntaxTree<'_>, start: usize, end: usize) -> Option<Mistake<'static>> {
+pub(super) fn in_word(
+    tree: &SyntaxTree<'_>,
+    start: usize,
+    end: usize,
+) -> Option<YamlError<'static>> {
     let word = tree.source.get(start..end)?;
     if word.is_ascii() {
         return comment(tree, start, word).filter(|_| word.contains('\n') || word.contains('"'));
@@ -47,7 +51,7 @@ pub(super) fn in_word(tree: &SyntaxTree<'_>, start: usize, end: usize) -> Option
 const PROSE: usize = 2;
 
 /// The same for the line of a syntax error, or the line before it.
-pub(super) fn near(tree: &SyntaxTree<'_>, at: usize) -> Option<Mistake<'static>> {
+pub(super) fn near(tree: &SyntaxTree<'_>, at: usize) -> Option<YamlError<'static>> {
     let (first, lines) = lines_around(tree, at)?;
     if lines.is_ascii() {
         return None;
@@ -57,7 +61,7 @@ pub(super) fn near(tree: &SyntaxTree<'_>, at: usize) -> Option<Mistake<'static>>
 
 /// A comment in the syntax of another language, in the line of a syntax error or the line before
 /// it.
-pub(super) fn comment_near(tree: &SyntaxTree<'_>, at: usize) -> Option<Mistake<'static>> {
+pub(super) fn comment_near(tree: &SyntaxTree<'_>, at: usize) -> Option<YamlError<'static>> {
     let (mut from, lines) = lines_around(tree, at)?;
     for line in lines.split_inclusive('\n') {
         let mut is_quoted = false;
@@ -100,7 +104,7 @@ fn found(
     start: usize,
     text: &str,
     matters: impl Fn(&str) -> bool,
-) -> Option<Mistake<'static>> {
+) -> Option<YamlError<'static>> {
     let is_indicator = |c: Option<char>| {
         c.is_none_or(|c| matches!(c, ':' | ',' | '[' | ']' | '{' | '}' | '\n' | '\r'))
     };
@@ -138,7 +142,7 @@ fn lookalike(
     c: char,
     name: &str,
     ascii: &'static str,
-) -> Mistake<'static> {
+) -> YamlError<'static> {
     let span = span(tree, at, at + c.len_utf8());
     let what = match ascii {
         " " | "" => "where YAML takes a space of ASCII",
@@ -154,7 +158,7 @@ fn lookalike(
 }
 
 /// The comment at the start of a text in the syntax of another language.
-fn comment(tree: &SyntaxTree<'_>, at: usize, text: &str) -> Option<Mistake<'static>> {
+fn comment(tree: &SyntaxTree<'_>, at: usize, text: &str) -> Option<YamlError<'static>> {
     // The line is inspected only if a comment starts here, so that the time stays linear in the
     // length of the line.
     let opener = ["//", "/*"]

@@ -4,7 +4,7 @@ use crate::Span;
 
 /// The missing separator of two list items.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Separator {
+pub enum MissingSeparator {
     /// A dash instead of these spaces.
     Dash(Span),
     /// `}, {`.
@@ -13,7 +13,7 @@ pub enum Separator {
 
 /// An error in a YAML text. All except tags and duplicate keys prevent a tree.
 #[derive(Debug)]
-pub enum Mistake<'t> {
+pub enum YamlError<'t> {
     /// The file is UTF-16.
     Utf16 {
         /// Its first two bytes.
@@ -86,7 +86,7 @@ pub enum Mistake<'t> {
         is_same: bool,
         /// The missing separator before the second occurrence, if a new list item begins with it;
         /// all other duplicate keys in the map then belong to that item.
-        separator: Option<Separator>,
+        separator: Option<MissingSeparator>,
     },
     /// Any other syntax error.
     Syntax {

@@ -10,9 +10,9 @@ mod text;
 mod typo;
 
 pub use layout::{FormatTextFault, layout};
-pub use mistake::{Mistake, Separator};
+pub use mistake::{MissingSeparator, YamlError};
 
-use super::{NodeId, Syntax, SyntaxTree, TreeNode, inside_quotes, keys};
+use super::{NodeId, NodeSyntax, SyntaxTree, TreeNode, inside_quotes, keys};
 use crate::{FileId, Span};
 use granit_parser::{Event, Parser, ScalarStyle, StructureStyle};
 use rtc_math::to_u32;
@@ -28,7 +28,7 @@ pub const MAX_DEPTH: usize = 128;
 pub fn parse<'s>(
     file: FileId,
     bytes: &'s [u8],
-    report: &mut dyn FnMut(Mistake<'_>),
+    report: &mut dyn FnMut(YamlError<'_>),
 ) -> Option<SyntaxTree<'s>> {
     // Decode the text.
     let (source, base) = match text(file, bytes) {
@@ -87,10 +87,10 @@ struct TreeBuilder<'s, 'k> {
     last_end: u32,
     /// Whether a mistake was reported that prevents a tree.
     has_failed: bool,
-    report: &'k mut dyn FnMut(Mistake<'_>),
+    report: &'k mut dyn FnMut(YamlError<'_>),
 }
 
-type StepResult = Result<(), Mistake<'static>>;
+type StepResult = Result<(), YamlError<'static>>;
 
 impl<'s> TreeBuilder<'s, '_> {
     fn event(&mut self, event: Event<'s>, start: u32, end: u32) -> StepResult {
@@ -106,16 +106,16 @@ impl<'s> TreeBuilder<'s, '_> {
             self.alias(anchor, start, end)
         } else if let Event::SequenceStart(style, anchor, tag) = event {
             self.tag(tag.is_some(), start, end);
-            self.start(Syntax::List, style, anchor, start, end)
+            self.start(NodeSyntax::List, style, anchor, start, end)
         } else if let Event::MappingStart(style, anchor, tag) = event {
             self.tag(tag.is_some(), start, end);
-            self.start(Syntax::Map, style, anchor, start, end)
+            self.start(NodeSyntax::Map, style, anchor, start, end)
         } else if matches!(event, Event::SequenceEnd | Event::MappingEnd) {
             self.end(end);
             Ok(())
         } else if matches!(event, Event::DocumentStart(..)) && self.ended {
             let span = self.span(start, end);
-            Err(Mistake::TwoDocuments { span })
+            Err(YamlError::TwoDocuments { span })
         } else {
             self.ended |= matches!(event, Event::DocumentEnd);
             Ok(())
@@ -129,7 +129,7 @@ impl<'s> TreeBuilder<'s, '_> {
     fn tag(&mut self, tagged: bool, start: u32, end: u32) {
         if tagged {
             let span = self.span(start, end.max(start + 1));
-            (self.report)(Mistake::Tag { span });
+            (self.report)(YamlError::Tag { span });
         }
     }
 
@@ -149,18 +149,18 @@ impl<'s> TreeBuilder<'s, '_> {
         style: ScalarStyle,
         start: u32,
         end: u32,
-    ) -> Result<(Syntax, u32), Mistake<'static>> {
+    ) -> Result<(NodeSyntax, u32), YamlError<'static>> {
         if value.len() > MAX_WORD {
             let at = start + self.tree.base;
             return Err(too_long(self.tree.file, at as usize));
         }
         let is_written = |range: Range<u32>| self.tree.slice(range) == Some(value.as_ref());
         let syntax = match style {
-            ScalarStyle::Plain if start == end || is_written(start..end) => Syntax::Word,
+            ScalarStyle::Plain if start == end || is_written(start..end) => NodeSyntax::Word,
             ScalarStyle::SingleQuoted | ScalarStyle::DoubleQuoted
                 if is_written(inside_quotes(start, end)) =>
             {
-                Syntax::Quoted
+                NodeSyntax::Quoted
             }
             ScalarStyle::Plain
             | ScalarStyle::SingleQuoted
@@ -168,7 +168,7 @@ impl<'s> TreeBuilder<'s, '_> {
             | ScalarStyle::Literal
             | ScalarStyle::Folded => {
                 return Ok((
-                    Syntax::Unescaped,
+                    NodeSyntax::Unescaped,
                     self.tree.unescape_with(|text| text.push_str(&value)),
                 ));
             }
@@ -176,7 +176,13 @@ impl<'s> TreeBuilder<'s, '_> {
         Ok((syntax, 0))
     }
 
-    fn push_scalar(&mut self, (syntax, link): (Syntax, u32), anchor: usize, start: u32, end: u32) {
+    fn push_scalar(
+        &mut self,
+        (syntax, link): (NodeSyntax, u32),
+        anchor: usize,
+        start: u32,
+        end: u32,
+    ) {
         self.last_end = end;
         self.push(
             TreeNode {
@@ -195,7 +201,7 @@ impl<'s> TreeBuilder<'s, '_> {
             .binary_search_by_key(&anchor, |(anchor, _)| *anchor);
         let target = self.anchors[at.expect("the parser refuses aliases without an anchor")].1;
         if self.open.iter().any(|open| open.node == target) {
-            return Err(Mistake::SelfAlias {
+            return Err(YamlError::SelfAlias {
                 span: self.span(start, end),
                 anchor: self.span(self.tree.node(target).start, start),
             });
@@ -206,7 +212,7 @@ impl<'s> TreeBuilder<'s, '_> {
                 start,
                 end,
                 link: target.0,
-                syntax: Syntax::Alias,
+                syntax: NodeSyntax::Alias,
             },
             0,
         );
@@ -215,7 +221,7 @@ impl<'s> TreeBuilder<'s, '_> {
 
     fn start(
         &mut self,
-        syntax: Syntax,
+        syntax: NodeSyntax,
         style: StructureStyle,
         anchor: usize,
         start: u32,
@@ -223,7 +229,7 @@ impl<'s> TreeBuilder<'s, '_> {
     ) -> StepResult {
         if self.open.len() >= MAX_DEPTH {
             let span = self.span(start, end.max(start + 1));
-            return Err(Mistake::TooDeep { span });
+            return Err(YamlError::TooDeep { span });
         }
         self.last_end = end;
         let node = self.push(
@@ -251,7 +257,7 @@ impl<'s> TreeBuilder<'s, '_> {
         let link = to_u32(self.tree.nodes.len());
         let node = &mut self.tree.nodes[id.0 as usize];
         (node.end, node.link) = (self.last_end, link);
-        if node.syntax == Syntax::Map {
+        if node.syntax == NodeSyntax::Map {
             self.keys(id, flow);
         }
     }
@@ -277,7 +283,7 @@ impl<'s> TreeBuilder<'s, '_> {
         for at in known..self.tree.duplicate_keys().len() {
             let (first, second) = self.tree.duplicate_keys()[at];
             let separator = self.separator(map, flow, [first, second]);
-            (self.report)(Mistake::DuplicateKey {
+            (self.report)(YamlError::DuplicateKey {
                 key: self.tree.text(second).unwrap_or_default(),
                 first: self.tree.span(first),
                 second: self.tree.span(second),
@@ -298,17 +304,17 @@ impl<'s> TreeBuilder<'s, '_> {
         map: NodeId,
         flow: bool,
         [first, second]: [NodeId; 2],
-    ) -> Option<Separator> {
+    ) -> Option<MissingSeparator> {
         let parent = self.open.last()?.node;
         let pairs = self.tree.pairs(map).take_while(|(key, _)| *key != second);
         let is_item = self.tree.is_list(parent) && first.0 == map.0 + 1 && pairs.count() > 1;
         if !is_item || flow {
-            return is_item.then_some(Separator::Braces);
+            return is_item.then_some(MissingSeparator::Braces);
         }
         let start = self.tree.node(second).start;
         let before = Span::new(self.tree.file, start.checked_sub(2)?, start);
         (self.tree.slice(before.start..before.end)? == "  ").then(|| {
-            Separator::Dash(Span {
+            MissingSeparator::Dash(Span {
                 start: before.start + self.tree.base,
                 end: before.end + self.tree.base,
                 ..before
@@ -329,7 +335,7 @@ impl<'s> TreeBuilder<'s, '_> {
         if self.tree.nodes.is_empty() {
             let end = to_u32(self.tree.source.len()) + self.tree.base;
             let span = Span::new(self.tree.file, end, end);
-            (self.report)(Mistake::Empty { span });
+            (self.report)(YamlError::Empty { span });
             return None;
         }
         (!self.has_failed).then_some(self.tree)

@@ -1,7 +1,7 @@
 //! Checks that bytes are text fit to parse: UTF-8, no control characters, no scalar that is too
 //! long.
 
-use super::Mistake;
+use super::YamlError;
 use crate::{FileId, Span};
 use rtc_math::to_u32;
 
@@ -9,7 +9,7 @@ use rtc_math::to_u32;
 pub(super) const MAX_WORD: usize = 1 << 20;
 
 /// The text of a file, without its byte order mark, and its offset in the file.
-pub(super) fn text(file: FileId, bytes: &[u8]) -> Result<(&str, u32), Mistake<'static>> {
+pub(super) fn text(file: FileId, bytes: &[u8]) -> Result<(&str, u32), YamlError<'static>> {
     let text = decode(file, bytes)?;
     let body = text.strip_prefix('\u{feff}').unwrap_or(text);
     let base = text.len() - body.len();
@@ -19,14 +19,14 @@ pub(super) fn text(file: FileId, bytes: &[u8]) -> Result<(&str, u32), Mistake<'s
     }
 }
 
-fn decode(file: FileId, bytes: &[u8]) -> Result<&str, Mistake<'static>> {
+fn decode(file: FileId, bytes: &[u8]) -> Result<&str, YamlError<'static>> {
     if looks_like_utf16(bytes) {
         let span = Span::new(file, 0, to_u32(bytes.len().min(2)));
-        return Err(Mistake::Utf16 { span });
+        return Err(YamlError::Utf16 { span });
     }
     std::str::from_utf8(bytes).map_err(|error| {
         let at = error.valid_up_to();
-        Mistake::NotUtf8 {
+        YamlError::NotUtf8 {
             byte: bytes.get(at).copied().unwrap_or_default(),
             span: Span::new(file, to_u32(at), to_u32(at + 1)),
         }
@@ -43,7 +43,7 @@ fn looks_like_utf16(bytes: &[u8]) -> bool {
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Class {
+enum CharacterClass {
     Ordinary,
     Separator,
     Control,
@@ -51,38 +51,40 @@ enum Class {
     MaybeControl,
 }
 
-const CLASSES: [Class; 256] = classes();
+const CLASSES: [CharacterClass; 256] = classes();
 
-const fn classes() -> [Class; 256] {
-    let mut classes = [Class::Ordinary; 256];
+const fn classes() -> [CharacterClass; 256] {
+    let mut classes = [CharacterClass::Ordinary; 256];
     let mut control = 0;
     while control < 0x20 {
-        classes[control] = Class::Control;
+        classes[control] = CharacterClass::Control;
         control += 1;
     }
-    classes[0x7f] = Class::Control;
-    classes[0xc2] = Class::MaybeControl;
+    classes[0x7f] = CharacterClass::Control;
+    classes[0xc2] = CharacterClass::MaybeControl;
     let separators = b"\t\n\r,:[]{}";
     let mut at = 0;
     while at < separators.len() {
-        classes[separators[at] as usize] = Class::Separator;
+        classes[separators[at] as usize] = CharacterClass::Separator;
         at += 1;
     }
     classes
 }
 
 /// The first character that YAML does not allow, or the start of a scalar that is too long.
-fn unfit(file: FileId, text: &str, base: usize) -> Option<Mistake<'static>> {
+fn unfit(file: FileId, text: &str, base: usize) -> Option<YamlError<'static>> {
     let bytes = text.as_bytes();
     let mut word_start = 0;
     // In chunks, so that a scalar of many chunks is found after two of them.
     for (piece, start) in bytes.chunks(MAX_WORD).zip((0..).step_by(MAX_WORD)) {
         for (at, byte) in (start..).zip(piece) {
             match CLASSES[usize::from(*byte)] {
-                Class::Ordinary => {}
-                Class::Separator => word_start = at + 1,
-                Class::Control => return Some(control(file, base + at, 1, u32::from(*byte))),
-                Class::MaybeControl => match bytes.get(at + 1).copied() {
+                CharacterClass::Ordinary => {}
+                CharacterClass::Separator => word_start = at + 1,
+                CharacterClass::Control => {
+                    return Some(control(file, base + at, 1, u32::from(*byte)));
+                }
+                CharacterClass::MaybeControl => match bytes.get(at + 1).copied() {
                     Some(0x85) | None => {}
                     Some(second) if second >= 0xa0 => {}
                     Some(second) => return Some(control(file, base + at, 2, u32::from(second))),
@@ -96,17 +98,17 @@ fn unfit(file: FileId, text: &str, base: usize) -> Option<Mistake<'static>> {
     None
 }
 
-fn control(file: FileId, at: usize, length: usize, character: u32) -> Mistake<'static> {
-    Mistake::Control {
+fn control(file: FileId, at: usize, length: usize, character: u32) -> YamlError<'static> {
+    YamlError::Control {
         character,
         span: Span::new(file, to_u32(at), to_u32(at + length)),
     }
 }
 
 /// The error for a scalar of more than one MiB at `at`.
-pub(super) fn too_long(file: FileId, at: usize) -> Mistake<'static> {
+pub(super) fn too_long(file: FileId, at: usize) -> YamlError<'static> {
     let at = to_u32(at);
-    Mistake::TooLong {
+    YamlError::TooLong {
         span: Span::new(file, at, at + 1),
     }
 }

@@ -2,13 +2,17 @@
 //! error, with the suggested text.
 
 use super::super::SyntaxTree;
-use super::Mistake;
+use super::YamlError;
 use crate::Span;
 use granit_parser::ErrorKind;
 use rtc_math::to_u32;
 
 /// The typo that explains a syntax error, if one is found.
-pub(super) fn find(tree: &SyntaxTree<'_>, at: usize, kind: &ErrorKind) -> Option<Mistake<'static>> {
+pub(super) fn find(
+    tree: &SyntaxTree<'_>,
+    at: usize,
+    kind: &ErrorKind,
+) -> Option<YamlError<'static>> {
     let text = SourceText { tree };
     let is_tab = matches!(
         kind,
@@ -37,7 +41,7 @@ struct SourceText<'t, 's> {
 
 impl SourceText<'_, '_> {
     /// A tab in the indentation of this line or a later one.
-    fn tab(&self, at: usize) -> Option<Mistake<'static>> {
+    fn tab(&self, at: usize) -> Option<YamlError<'static>> {
         let line = self.line(at);
         let found = self.after(line).find('\t')? + line;
         let rest = self.after(found);
@@ -54,7 +58,7 @@ impl SourceText<'_, '_> {
     }
 
     /// A backslash in double quotes, for example in a file path, that is taken for an escape.
-    fn backslash(&self, at: usize) -> Option<Mistake<'static>> {
+    fn backslash(&self, at: usize) -> Option<YamlError<'static>> {
         let line = self.after(at + 1).split(['\n', '\r']).next()?;
         let inside = line.split('"').next()?;
         if !inside.contains('\\') || inside.contains('\'') || inside.len() == line.len() {
@@ -71,7 +75,7 @@ impl SourceText<'_, '_> {
     }
 
     /// A line without a colon, or without a space after it.
-    fn colon(&self, at: usize) -> Option<Mistake<'static>> {
+    fn colon(&self, at: usize) -> Option<YamlError<'static>> {
         let line = self.line(at);
         let words = self.after(line).lines().next()?;
         let first = line + words.len() - words.trim_start_matches([' ', '-']).len();
@@ -98,7 +102,7 @@ impl SourceText<'_, '_> {
 
     /// A quote that is never closed: the last quote before the error that opens and does not close
     /// in its line.
-    fn quote(&self, at: usize) -> Option<Mistake<'static>> {
+    fn quote(&self, at: usize) -> Option<YamlError<'static>> {
         let mut end = self.line(at);
         while end > 0 {
             let start = self.line(end - 1);
@@ -110,7 +114,7 @@ impl SourceText<'_, '_> {
                 if let Some(open) = open {
                     let is_last = !line.get(open..)?.contains([',', '}', ']', '#']);
                     let close = self.span(start + line.len(), start + line.len());
-                    return Some(Mistake::Syntax {
+                    return Some(YamlError::Syntax {
                         message: "a quote is never closed".to_owned(),
                         label: "opened here".to_owned(),
                         hint: "close it with the same kind of quote",
@@ -126,7 +130,7 @@ impl SourceText<'_, '_> {
     }
 
     /// A dash without a space, in the line before.
-    fn dash(&self, at: usize) -> Option<Mistake<'static>> {
+    fn dash(&self, at: usize) -> Option<YamlError<'static>> {
         let line = self.line(at);
         let start = self.line(line.checked_sub(1)?);
         let before = self.tree.source.get(start..line)?;
@@ -147,17 +151,17 @@ impl SourceText<'_, '_> {
 
     /// A line whose indentation differs slightly from that of the lines above to which it seems to
     /// belong.
-    fn indentation(&self, at: usize) -> Option<Mistake<'static>> {
+    fn indentation(&self, at: usize) -> Option<YamlError<'static>> {
         // Compare with the siblings above.
         let line = self.line(at);
-        let found_text = Indented::of(self.after(line).lines().next()?)?;
+        let found_text = IndentedLine::of(self.after(line).lines().next()?)?;
         let lines = self.tree.source.get(..line)?.lines().rev();
         let mut above = lines
-            .filter_map(Indented::of)
+            .filter_map(IndentedLine::of)
             .take(MAX_LINES_BACK)
             .peekable();
         // A key without a value in its line has the following lines as its value.
-        let is_value_of = |before: &Indented<'_>| {
+        let is_value_of = |before: &IndentedLine<'_>| {
             before.words.ends_with(':') && found_text.spaces > before.spaces
         };
         let is_value = is_value_of(above.peek()?);
@@ -221,8 +225,8 @@ pub(super) fn typo(
     hint: &'static str,
     span: Span,
     replacement: (Span, String),
-) -> Mistake<'static> {
-    Mistake::Syntax {
+) -> YamlError<'static> {
+    YamlError::Syntax {
         message,
         label,
         hint,
@@ -236,7 +240,7 @@ pub(super) fn typo(
 const MAX_LINES_BACK: usize = 200;
 
 /// An indented line.
-struct Indented<'t> {
+struct IndentedLine<'t> {
     /// The number of characters before its first key, including the dash of an item and the space
     /// after it.
     spaces: usize,
@@ -245,7 +249,7 @@ struct Indented<'t> {
     words: &'t str,
 }
 
-impl<'t> Indented<'t> {
+impl<'t> IndentedLine<'t> {
     /// The line, unless it is empty or a comment.
     fn of(line: &'t str) -> Option<Self> {
         let words = line.trim();

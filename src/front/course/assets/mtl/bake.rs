@@ -7,14 +7,14 @@ use super::cache::MapPlacement;
 use crate::over_limit;
 use rtc_diag::{Diagnostic, clip_path, codes};
 use rtc_ir::{
-    Image, ImageId, Lowered, Map, Material, MaterialId, Pixels, Sampled, Scene, Standard, Texture,
-    TextureId,
+    Image, ImageId, LoweredScene, Map, Material, MaterialId, Pixels, Sampled, Scene, Standard,
+    Texture, TextureId,
 };
 use rtc_source::{Resource, Span};
 use std::collections::BTreeMap;
 
 /// A texture to bake once its images are loaded.
-pub(crate) struct TextureBake {
+pub(crate) struct PendingTextureBake {
     pub(super) material: MaterialId,
     pub(super) baked: BakedMap,
     pub(super) placement: MapPlacement,
@@ -71,9 +71,9 @@ impl ScaledImage<'_> {
 /// Bakes the textures. `image_of` maps pending images to loaded ones; without its images a texture
 /// is left out.
 pub(crate) fn bake(
-    bakes: Vec<TextureBake>,
+    bakes: Vec<PendingTextureBake>,
     image_of: &BTreeMap<u32, Option<ImageId>>,
-    lowered: &mut Lowered,
+    lowered: &mut LoweredScene,
     loader: &mut AssetLoader<'_>,
 ) {
     let loaded = |image: ImageId| image_of.get(&image.0).copied().flatten();

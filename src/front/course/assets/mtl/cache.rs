@@ -2,14 +2,14 @@
 
 use super::super::mesh::MeshFile;
 use super::super::{AssetTarget, PendingAsset};
-use super::bake::TextureBake;
+use super::bake::PendingTextureBake;
 use super::{LoadedLibrary, phong, standard};
 use crate::mesh::mtl::{MtlMap, MtlMaterial, MtlValue};
 use crate::mesh::{SpannedName, WordSpan};
-use rtc_diag::{Diagnostic, Severity, Sink, codes};
+use rtc_diag::{Diagnostic, DiagnosticSink, Severity, codes};
 use rtc_ir::{
-    Bump, EntityKind, Field, Image, ImageId, Lowered, Map, Material, MaterialId, Mode, Phong,
-    Pixels, Sampled, Texture, TextureId, ValuePath, Wrap,
+    Bump, EntityField, EntityKind, Image, ImageId, LoweredScene, Map, Material, MaterialId, Mode,
+    Phong, Pixels, Sampled, Texture, TextureId, ValuePath, Wrap,
 };
 use rtc_source::Span;
 use std::collections::BTreeMap;
@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 pub(crate) struct MtlCache {
     pub(crate) pending_assets: Vec<PendingAsset>,
     /// The textures to bake once the images are loaded.
-    pub(crate) bakes: Vec<TextureBake>,
+    pub(crate) bakes: Vec<PendingTextureBake>,
     images: BTreeMap<(String, bool), ImageId>,
     textures: BTreeMap<(u32, Option<bool>), TextureId>,
     /// Statements without effect: the span of the first, the reason, and their number.
@@ -52,7 +52,7 @@ impl MtlCache {
         &mut self,
         loaded: &LoadedLibrary,
         material: &MtlMaterial,
-        lowered: &mut Lowered,
+        lowered: &mut LoweredScene,
     ) -> MaterialId {
         if material.is_transparency_1 && !phong::is_glass(material) {
             let at = material.opacity.as_ref().map(|opacity| opacity.at);
@@ -65,13 +65,16 @@ impl MtlCache {
                 Material::Phong(self.phong(loaded, material, lowered))
             }
         };
-        let Lowered {
+        let LoweredScene {
             scene,
             source_spans,
         } = lowered;
         scene.materials.push(material_ir);
         let bump = material.bump.as_ref().map(|bump| bump.at);
-        for (field, at) in [(Field::Whole, Some(material.at)), (Field::Bump, bump)] {
+        for (field, at) in [
+            (EntityField::Whole, Some(material.at)),
+            (EntityField::Bump, bump),
+        ] {
             let span = at.map(|at| at.span(loaded.file));
             source_spans.record(ValuePath::new(EntityKind::Material, index, field), span);
         }
@@ -83,7 +86,7 @@ impl MtlCache {
         loaded: &LoadedLibrary,
         material: &MtlMaterial,
         index: u32,
-        lowered: &mut Lowered,
+        lowered: &mut LoweredScene,
     ) -> Material {
         for (at, what) in standard::unsupported(material) {
             self.add_unsupported(at.span(loaded.file), what);
@@ -97,7 +100,7 @@ impl MtlCache {
         &mut self,
         loaded: &LoadedLibrary,
         material: &MtlMaterial,
-        lowered: &mut Lowered,
+        lowered: &mut LoweredScene,
     ) -> Phong {
         for (at, what) in beyond_phong(material) {
             self.add_unsupported(at.span(loaded.file), format!("{what} only in path tracing"));
@@ -123,10 +126,10 @@ impl MtlCache {
         &mut self,
         mesh: &MeshFile,
         texture: &SpannedName,
-        lowered: &mut Lowered,
+        lowered: &mut LoweredScene,
     ) -> MaterialId {
         let loaded = LoadedLibrary {
-            library: crate::mesh::mtl::Library::default(),
+            library: crate::mesh::mtl::MtlLibrary::default(),
             file: mesh.file,
             path: mesh.path.clone(),
         };
@@ -153,7 +156,7 @@ impl MtlCache {
     }
 
     /// Reports statements without effect, and statements that programs interpret in two ways.
-    pub(super) fn report(&mut self, sink: &mut Sink) {
+    pub(super) fn report(&mut self, sink: &mut DiagnosticSink) {
         if let Some((span, why, count)) = self.unsupported.take() {
             let message = match count {
                 1 => format!("a statement of the MTL has no effect: {why}"),
@@ -176,7 +179,7 @@ impl MtlCache {
         &mut self,
         map: &MapReference<'_>,
         has_opacity: bool,
-        lowered: &mut Lowered,
+        lowered: &mut LoweredScene,
     ) -> ImageId {
         let key = (map.path.clone(), has_opacity);
         if let Some(known) = self.images.get(&key) {
@@ -207,7 +210,7 @@ impl MtlCache {
         &mut self,
         image: ImageId,
         wrap: Option<Wrap>,
-        lowered: &mut Lowered,
+        lowered: &mut LoweredScene,
     ) -> TextureId {
         let textures = &mut lowered.scene.textures;
         let clamps = wrap.map(|wrap| wrap == Wrap::Clamp);
@@ -229,7 +232,7 @@ impl MtlCache {
         &mut self,
         map: &MapReference<'_>,
         image: ImageId,
-        lowered: &mut Lowered,
+        lowered: &mut LoweredScene,
     ) -> Map {
         let placement = MapPlacement::of(map.map);
         Map {

@@ -1,12 +1,12 @@
 //! Converts an MTL material to the `standard` material, for path tracing.
 
-use super::bake::{BakedMap, TextureBake};
+use super::bake::{BakedMap, PendingTextureBake};
 use super::cache::{MapPlacement, MtlCache};
 use super::phong::{is_glass, opacity, weight};
 use super::{LoadedLibrary, phong};
 use crate::mesh::WordSpan;
 use crate::mesh::mtl::{MtlMap, MtlMaterial, MtlValue};
-use rtc_ir::{Alpha, ImageId, Lowered, MaterialId, Standard};
+use rtc_ir::{Alpha, ImageId, LoweredScene, MaterialId, Standard};
 use rtc_tables::{PhongTerms, fit_phong};
 use std::f64::consts::TAU;
 
@@ -157,7 +157,7 @@ impl MtlCache {
         loaded: &LoadedLibrary,
         m: &MtlMaterial,
         material: MaterialId,
-        lowered: &mut Lowered,
+        lowered: &mut LoweredScene,
     ) -> Standard {
         // Add the images.
         let mut image = |map: &Option<MtlValue<MtlMap>>, has_opacity: bool| -> Option<ImageId> {
@@ -179,7 +179,7 @@ impl MtlCache {
         // Textures that combine several images.
         let mut bake = |map: &Option<MtlValue<MtlMap>>, baked: BakedMap| {
             let Some(map) = map else { return };
-            self.bakes.push(TextureBake {
+            self.bakes.push(PendingTextureBake {
                 material,
                 baked,
                 placement: MapPlacement::of(&map.value),

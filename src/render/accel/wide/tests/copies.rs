@@ -5,7 +5,7 @@ use super::*;
 /// How many triangles of a BVH a ray along −z visits, and the lowest of them.
 fn visited(count: u32, corners: impl Fn(u32) -> [Vec3; 3] + Sync) -> (usize, Option<u32>) {
     let wide = WideBvh::build(
-        Builders::All,
+        BvhBuilders::All,
         SimdLevel::best(),
         count as usize,
         0.0,

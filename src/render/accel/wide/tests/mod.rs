@@ -4,7 +4,7 @@ mod copies;
 
 use super::*;
 use crate::ray::Ray;
-use crate::sampler::Key;
+use crate::sampler::PathVertexKey;
 use crate::shape::triangle::{Triangle, WatertightRay};
 use rayon::prelude::*;
 
@@ -27,7 +27,7 @@ const FAMILIES: [(&str, f64, f64, f64); 8] = [
 fn triangles(family: usize) -> Vec<Triangle> {
     let (name, scale, place, _) = FAMILIES[family];
     let one = |index: u64| {
-        let key = Key::new([u32::try_from(family).unwrap(), 7], index);
+        let key = PathVertexKey::new([u32::try_from(family).unwrap(), 7], index);
         let frame =
             |k: u64| Vec3::new(key.uniform(k), key.uniform(k + 1), key.uniform(k + 2)) * 2.0 - 1.0;
         let (a, width) = (frame(0), if name == "slivers" { 1e-7 } else { 0.3 });
@@ -47,7 +47,7 @@ fn triangles(family: usize) -> Vec<Triangle> {
 /// A ray at the inside, an edge or a corner of one of the triangles.
 fn aimed(family: usize, triangles: &[Triangle], index: u64) -> Ray {
     let (name, scale, place, distance) = FAMILIES[family];
-    let key = Key::new([u32::try_from(family).unwrap(), 11], index);
+    let key = PathVertexKey::new([u32::try_from(family).unwrap(), 11], index);
     let [a, b, c] = *triangles[(index / 3) as usize % triangles.len()].vertices();
     let (u, v) = (key.uniform(0), key.uniform(1));
     let target = [
@@ -81,13 +81,13 @@ fn ray_count(usual: u64) -> u64 {
 
 fn built(all: &[Triangle]) -> WideBvh {
     let corners = |item: u32| *all[item as usize].vertices();
-    WideBvh::build(Builders::All, SimdLevel::best(), all.len(), 0.0, corners).unwrap()
+    WideBvh::build(BvhBuilders::All, SimdLevel::best(), all.len(), 0.0, corners).unwrap()
 }
 
 /// Visits all triangles whose boxes are hit.
 struct Boxed<F>(F);
 
-impl<F: FnMut(u32) -> f64> Visitor for Boxed<F> {
+impl<F: FnMut(u32) -> f64> TriangleVisitor for Boxed<F> {
     const CULLS: bool = false;
 
     fn visit(&mut self, candidate: Candidate<'_>) -> f64 {
@@ -102,7 +102,7 @@ struct Sure {
     certain: Vec<u32>,
 }
 
-impl Visitor for Sure {
+impl TriangleVisitor for Sure {
     const IS_CERTAIN: bool = true;
 
     fn visit(&mut self, candidate: Candidate<'_>) -> f64 {
@@ -160,7 +160,7 @@ fn all_levels_visit_the_same_in_the_same_order() {
     let mut expected: Option<Vec<Visits>> = None;
     for level in SimdLevel::NAMES.into_iter().filter_map(SimdLevel::named) {
         let corners = |item: u32| *all[item as usize].vertices();
-        let wide = WideBvh::build(Builders::All, level, all.len(), 0.0, corners).unwrap();
+        let wide = WideBvh::build(BvhBuilders::All, level, all.len(), 0.0, corners).unwrap();
         let alone = |ray: &Ray| {
             let mut found = Sure::default();
             wide.traverse(ray, 2.0, &mut found);
@@ -176,14 +176,14 @@ fn all_levels_visit_the_same_in_the_same_order() {
 #[test]
 fn corners_are_exact_or_not_there() {
     let single = |item: u32| {
-        let key = Key::new([1, 9], item.into());
+        let key = PathVertexKey::new([1, 9], item.into());
         let number = |k: u64| f64::from((key.uniform(k) * 100.0 - 30.0) as f32);
         [0, 3, 6].map(|k| Vec3::new(number(k), number(k + 1), number(k + 2)))
     };
     let double = |item: u32| single(item).map(|corner| corner + Vec3::splat(0.1));
     let far = |item: u32| single(item).map(|corner| corner + Vec3::splat(1_048_576.0));
     let visited = |corners: &(dyn Fn(u32) -> [Vec3; 3] + Sync)| {
-        let wide = WideBvh::build(Builders::All, SimdLevel::best(), 900, 0.0, corners).unwrap();
+        let wide = WideBvh::build(BvhBuilders::All, SimdLevel::best(), 900, 0.0, corners).unwrap();
         let direction = corners(5)[0];
         let ray = Ray {
             origin: Vec3::ZERO,
@@ -296,8 +296,13 @@ fn the_walk_ends_where_it_is_told_to_and_visits_each_triangle_once() {
         1
     );
     assert!(
-        WideBvh::build(Builders::All, SimdLevel::best(), 0, 0.0, |_| [Vec3::ZERO;
-            3])
+        WideBvh::build(
+            BvhBuilders::All,
+            SimdLevel::best(),
+            0,
+            0.0,
+            |_| [Vec3::ZERO; 3]
+        )
         .is_none()
     );
 }
@@ -307,11 +312,11 @@ fn the_walk_ends_where_it_is_told_to_and_visits_each_triangle_once() {
 #[test]
 fn a_hierarchy_built_amid_the_work_of_all_threads_ends() {
     let corners = |item: u32| {
-        let key = Key::new([3, 17], item.into());
+        let key = PathVertexKey::new([3, 17], item.into());
         [0, 3, 6].map(|k| Vec3::new(key.uniform(k), key.uniform(k + 1), key.uniform(k + 2)))
     };
-    let one = WideBvh::build(Builders::One, SimdLevel::best(), 40_000, 0.0, corners).unwrap();
-    let all = WideBvh::build(Builders::All, SimdLevel::best(), 40_000, 0.0, corners).unwrap();
+    let one = WideBvh::build(BvhBuilders::One, SimdLevel::best(), 40_000, 0.0, corners).unwrap();
+    let all = WideBvh::build(BvhBuilders::All, SimdLevel::best(), 40_000, 0.0, corners).unwrap();
     assert_eq!(one.root, all.root);
     assert!(
         one.nodes
@@ -323,7 +328,7 @@ fn a_hierarchy_built_amid_the_work_of_all_threads_ends() {
     );
     let shared = std::sync::OnceLock::new();
     let requested = (0..64).into_par_iter().filter(|_| {
-        let build = || WideBvh::build(Builders::One, SimdLevel::best(), 20_000, 0.0, corners);
+        let build = || WideBvh::build(BvhBuilders::One, SimdLevel::best(), 20_000, 0.0, corners);
         shared.get_or_init(build).is_some()
     });
     assert_eq!(requested.count(), 64);
@@ -342,7 +347,7 @@ fn a_triangle_of_a_surface_takes_few_bytes() {
         [corner(half, half), corner(1, 0), corner(0, 1)]
     };
     let count = 2 * (SIDE * SIDE) as usize;
-    let wide = WideBvh::build(Builders::One, SimdLevel::best(), count, 0.0, corners).unwrap();
+    let wide = WideBvh::build(BvhBuilders::One, SimdLevel::best(), count, 0.0, corners).unwrap();
     let bytes = size_of_val(wide.triangles.rows()) + size_of_val(wide.nodes.rows());
     let each = bytes as f64 / count as f64;
     println!("{each:.1} bytes a triangle");

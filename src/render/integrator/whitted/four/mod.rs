@@ -1,19 +1,19 @@
 //! Four samples of a pixel at once, one per lane, for scenes whose ray trees do not branch.
 //!
-//! Each lane does the operations of [`Tracer::radiance`] for its ray in the same order, so the
-//! bytes are the same. Operations without a four-lane form run lane by lane. This is faster than
-//! one ray at a time only with AVX-512 (`docs/book/src/decisions/0006`).
+//! Each lane does the operations of [`WhittedTracer::radiance`] for its ray in the same order, so
+//! the bytes are the same. Operations without a four-lane form run lane by lane. This is faster
+//! than one ray at a time only with AVX-512 (`docs/book/src/decisions/0006`).
 
 mod shade;
 
-use super::Tracer;
+use super::WhittedTracer;
 #[cfg(target_arch = "x86_64")]
-use crate::accel::simd::Tokens;
+use crate::accel::simd::SimdTokens;
 use crate::camera::pinhole_rays;
-use crate::film::Seeds;
-use crate::film::pixel::{Sample, SampleId, Stream};
+use crate::film::SamplingSeeds;
+use crate::film::pixel::{PixelSample, SampleId, SampleStream};
 use crate::integrator::Integrator;
-use crate::lanes::{ALL, LANES, Ray4, Vectors, lanes_of};
+use crate::lanes::{ALL, FourVectors, LANES, Ray4, lanes_of};
 use crate::shape::four::Interactions;
 use crate::shape::geometry::Intersect;
 use crate::shape::tie::CLOSE;
@@ -23,10 +23,10 @@ use crate::world::{Hit, SurfaceId, World};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
 use rtc_math::Vec3;
-use rtc_plan::Features;
+use rtc_plan::WhittedFeatures;
 
 /// What four rays hit first.
-struct Hits<V: Simd> {
+struct FourHits<V: Simd> {
     /// Infinite for none.
     t: f64x4<V>,
     surfaces: [SurfaceId; LANES],
@@ -36,12 +36,12 @@ struct Hits<V: Simd> {
 }
 
 /// Points as their viewers see them.
-struct Points<V: Simd> {
+struct FourPoints<V: Simd> {
     at: Interactions<V>,
     /// The normal on the side of the viewer.
-    normal: Vectors<V>,
-    to_viewer: Vectors<V>,
-    color: Vectors<V>,
+    normal: FourVectors<V>,
+    to_viewer: FourVectors<V>,
+    color: FourVectors<V>,
     ka: f64x4<V>,
     kd: f64x4<V>,
     ks: f64x4<V>,
@@ -53,14 +53,14 @@ struct Points<V: Simd> {
     hit_lanes: u64,
 }
 
-impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
+impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
     /// Whether the integrator has all its features in lanes.
     const HAS_SHAPE4: bool = {
-        let others = Features::MAPS
-            .with(Features::UNPRUNED)
-            .with(Features::SAMPLED)
-            .with(Features::GOOCH);
-        S::HAS_SHAPE4 && Self::can(Features::CAMERA) && F & others.0 == 0
+        let others = WhittedFeatures::MAPS
+            .with(WhittedFeatures::UNPRUNED)
+            .with(WhittedFeatures::SAMPLED)
+            .with(WhittedFeatures::GOOCH);
+        S::HAS_SHAPE4 && Self::can(WhittedFeatures::CAMERA) && F & others.0 == 0
     };
 
     /// Whether samples of a world are taken four at a time.
@@ -72,15 +72,15 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     }
 
     /// The next four samples of a picture.
-    pub(super) fn four_samples(&mut self, id: &SampleId) -> Option<[Sample; LANES]> {
+    pub(super) fn four_samples(&mut self, id: &SampleId) -> Option<[PixelSample; LANES]> {
         if !Self::HAS_SHAPE4 || !self.by_four || self.pixel.is_uniform {
             return None;
         }
-        let Stream::Picture(seeds) = id.stream else {
+        let SampleStream::Picture(seeds) = id.stream else {
             return None;
         };
         #[cfg(target_arch = "x86_64")]
-        if let Tokens::Avx512(simd) = self.world.simd.tokens() {
+        if let SimdTokens::Avx512(simd) = self.world.simd.tokens() {
             return Some(simd.vectorize(
                 #[inline(always)]
                 || {
@@ -94,7 +94,12 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
 
     /// The rays of the next four samples.
     #[inline(always)]
-    fn rays_of_picture<V: Simd>(&mut self, simd: V, pixel: [u32; 2], seeds: Seeds) -> Ray4<V> {
+    fn rays_of_picture<V: Simd>(
+        &mut self,
+        simd: V,
+        pixel: [u32; 2],
+        seeds: SamplingSeeds,
+    ) -> Ray4<V> {
         let camera = self.world.camera.of(pixel);
         if !self.grid.starts_at_eye(camera, seeds) {
             // Written out: `map` of an array is not inlined here.
@@ -112,10 +117,10 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
 
     /// What four camera rays see.
     #[inline(always)]
-    fn radiances<V: Simd>(&mut self, simd: V, mut rays: Ray4<V>) -> [Sample; LANES] {
+    fn radiances<V: Simd>(&mut self, simd: V, mut rays: Ray4<V>) -> [PixelSample; LANES] {
         let depth = self.world.plan.max_depth;
         let number = |x: f64| f64x4::splat(simd, x);
-        let mut sum = Vectors::splat(simd, Vec3::ZERO);
+        let mut sum = FourVectors::splat(simd, Vec3::ZERO);
         let (mut beta, mut active, mut first) = (number(1.0), ALL, 0);
         self.counts.camera += LANES as u64;
         for bounce in 0..=depth {
@@ -136,7 +141,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
             let value = self.phong_of(simd, &points).times(beta);
             let hit_lanes = mask64x4::from_bitmask(simd, hits.hit_lanes);
             sum = sum.plus(value).select(hit_lanes, sum);
-            if !Self::can(Features::BOUNCE) || bounce == depth {
+            if !Self::can(WhittedFeatures::BOUNCE) || bounce == depth {
                 break;
             }
             // Weight the mirrored rays; lanes without weight end.
@@ -152,7 +157,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
             rays = mirrored(simd, &rays, &points);
             beta = weight;
         }
-        let sample = |lane: usize| Sample {
+        let sample = |lane: usize| PixelSample {
             radiance: sum.lane(lane),
             hit: first >> lane & 1 == 1,
         };
@@ -164,10 +169,10 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
 
     /// The closest hits of the rays of some lanes.
     #[inline(always)]
-    fn hits<V: Simd>(&mut self, simd: V, rays: &Ray4<V>, active: u64) -> Hits<V> {
+    fn hits<V: Simd>(&mut self, simd: V, rays: &Ray4<V>, active: u64) -> FourHits<V> {
         let world = self.world;
         let none = f64x4::splat(simd, f64::INFINITY);
-        let mut hits = Hits {
+        let mut hits = FourHits {
             t: none,
             surfaces: [SurfaceId::NONE; LANES],
             prims: [0; LANES],
@@ -219,10 +224,15 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
 
     /// The points that rays hit, if any.
     #[inline(always)]
-    fn points<V: Simd>(&self, simd: V, rays: &Ray4<V>, hits: &Hits<V>) -> Option<Points<V>> {
+    fn points<V: Simd>(
+        &self,
+        simd: V,
+        rays: &Ray4<V>,
+        hits: &FourHits<V>,
+    ) -> Option<FourPoints<V>> {
         let number = |x: f64| f64x4::splat(simd, x);
         let mut rest = hits.hit_lanes;
-        let mut all: Option<Points<V>> = None;
+        let mut all: Option<FourPoints<V>> = None;
         while rest != 0 {
             // Take the lanes that hit one surface together.
             let surface = hits.surfaces[rest.trailing_zeros() as usize];
@@ -238,11 +248,11 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
                 None => interactions(simd, shape, rays, hits, same),
             };
             let is_back = rays.direction.dot(at.normal).simd_gt(number(0.0));
-            let of_surface = Points {
+            let of_surface = FourPoints {
                 at,
                 normal: at.normal.negated().select(is_back, at.normal),
                 to_viewer: rays.direction.negated(),
-                color: Vectors::splat(simd, material.color),
+                color: FourVectors::splat(simd, material.color),
                 ka: number(material.ka.get()),
                 kd: number(material.kd.get()),
                 ks: number(material.ks.get()),
@@ -260,7 +270,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     }
 }
 
-impl<V: Simd> Hits<V> {
+impl<V: Simd> FourHits<V> {
     /// Replaces the hit of a lane.
     fn put(&mut self, lane: usize, hit: Option<Hit>) {
         let bit = 1 << lane;
@@ -281,7 +291,7 @@ impl<V: Simd> Hits<V> {
     }
 }
 
-impl<V: Simd> Points<V> {
+impl<V: Simd> FourPoints<V> {
     /// Selects `self` in some lanes, and `others` elsewhere.
     #[inline(always)]
     fn select(self, simd: V, lanes: u64, others: Self) -> Self {
@@ -308,7 +318,7 @@ impl<V: Simd> Points<V> {
 
 /// The rays reflected at points where the shading normal is the geometric normal.
 #[inline(always)]
-fn mirrored<V: Simd>(simd: V, rays: &Ray4<V>, points: &Points<V>) -> Ray4<V> {
+fn mirrored<V: Simd>(simd: V, rays: &Ray4<V>, points: &FourPoints<V>) -> Ray4<V> {
     let number = |x: f64| f64x4::splat(simd, x);
     let (d, n) = (rays.direction, points.normal);
     let along = d.minus(n.times(number(2.0) * d.dot(n)));
@@ -323,7 +333,7 @@ fn mirrored<V: Simd>(simd: V, rays: &Ray4<V>, points: &Points<V>) -> Ray4<V> {
 fn roots<V: Simd, S: Intersect>(
     shape: &S,
     rays: &Ray4<V>,
-    hits: &mut Hits<V>,
+    hits: &mut FourHits<V>,
     lanes: u64,
 ) -> f64x4<V> {
     let mut roots = f64x4::splat(hits.t.simd, f64::INFINITY);
@@ -345,7 +355,7 @@ fn interactions<V: Simd, S: Intersect>(
     simd: V,
     shape: &S,
     rays: &Ray4<V>,
-    hits: &Hits<V>,
+    hits: &FourHits<V>,
     lanes: u64,
 ) -> Interactions<V> {
     let at = |lane: usize| shape.interaction(&rays.lane(lane), hits.t[lane], hits.prims[lane]);

@@ -1,10 +1,10 @@
 //! Phong's model in four lanes, with its shadow rays.
 
-use super::Points;
+use super::FourPoints;
 use crate::bsdf::optics::highlight;
-use crate::integrator::whitted::Tracer;
+use crate::integrator::whitted::WhittedTracer;
 use crate::lanes::pow::powers;
-use crate::lanes::{LANES, Ray4, Vectors, lanes_of};
+use crate::lanes::{FourVectors, LANES, Ray4, lanes_of};
 use crate::shape::geometry::Intersect;
 use crate::world::CourseLightId;
 use crate::world::END;
@@ -12,17 +12,17 @@ use crate::world::small_scene::SmallScene;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
 use rtc_math::Vec3;
-use rtc_plan::{Effect, Features};
+use rtc_plan::{Effect, WhittedFeatures};
 
-impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
-    /// As [`Tracer::phong`].
+impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
+    /// As [`WhittedTracer::phong`].
     #[inline(always)]
-    pub(super) fn phong_of<V: Simd>(&mut self, simd: V, points: &Points<V>) -> Vectors<V> {
+    pub(super) fn phong_of<V: Simd>(&mut self, simd: V, points: &FourPoints<V>) -> FourVectors<V> {
         let world = self.world;
-        let zero = Vectors::splat(simd, Vec3::ZERO);
+        let zero = FourVectors::splat(simd, Vec3::ZERO);
         let ambient = points.color.times(points.ka);
         let (mut sum, ambient) = match world.settings.ambient_light {
-            Some(light) => (Vectors::splat(simd, light).times_each(ambient), zero),
+            Some(light) => (FourVectors::splat(simd, light).times_each(ambient), zero),
             None => (zero, ambient),
         };
         for (index, light) in world.lights.course.entries() {
@@ -31,30 +31,30 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
                 continue;
             }
             let mut term = ambient;
-            if Self::can(Features::LIGHT) && plan.direct {
+            if Self::can(WhittedFeatures::LIGHT) && plan.direct {
                 term = self.with_direct(simd, points, term, index);
             }
-            sum = sum.plus(Vectors::splat(simd, light.color).times_each(term));
+            sum = sum.plus(FourVectors::splat(simd, light.color).times_each(term));
         }
         sum
     }
 
-    /// As `Tracer::direct`, added to `term`.
+    /// As `WhittedTracer::direct`, added to `term`.
     #[inline(always)]
     fn with_direct<V: Simd>(
         &mut self,
         simd: V,
-        points: &Points<V>,
-        term: Vectors<V>,
+        points: &FourPoints<V>,
+        term: FourVectors<V>,
         light: CourseLightId,
-    ) -> Vectors<V> {
+    ) -> FourVectors<V> {
         let number = |x: f64| f64x4::splat(simd, x);
         let zero = number(0.0);
         let place = self.world.lights.course[light].position;
         let diffuse = points.color.times(points.kd);
         let is_black = diffuse.x.simd_eq(zero) & diffuse.y.simd_eq(zero) & diffuse.z.simd_eq(zero);
         let mut shines = points.ks.simd_gt(zero).to_bitmask();
-        if !Self::can(Features::HIGHLIGHT) {
+        if !Self::can(WhittedFeatures::HIGHLIGHT) {
             shines = 0;
         }
         // Exclude lanes that reflect no light.
@@ -63,7 +63,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
             .add_several(Effect::DirectLight, lit.count_ones());
 
         // Exclude lanes that face away from the light, or are in its shadow.
-        let to_light = Vectors::splat(simd, place).minus(points.at.point);
+        let to_light = FourVectors::splat(simd, place).minus(points.at.point);
         let inverse = number(1.0) / to_light.length();
         let has_way = inverse.simd_gt(zero) & inverse.simd_lt(number(f64::INFINITY));
         let to_light = to_light.times(inverse);
@@ -72,7 +72,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         lit &= has_way.to_bitmask();
         if self.world.settings.shadows {
             lit &= is_before.to_bitmask();
-            if Self::can(Features::SHADOW) && lit != 0 {
+            if Self::can(WhittedFeatures::SHADOW) && lit != 0 {
                 lit = self.unshadowed(simd, points, light, lit);
             }
         }
@@ -90,7 +90,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
             let reflected = points.normal.times(number(2.0) * n_dot_l).minus(to_light);
             let gloss = points.ks * highlights(reflected.dot(points.to_viewer), points.n, shines);
             let shines = mask64x4::from_bitmask(simd, shines);
-            let whole = Vectors {
+            let whole = FourVectors {
                 x: direct.x + gloss,
                 y: direct.y + gloss,
                 z: direct.z + gloss,
@@ -101,13 +101,13 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
             .select(mask64x4::from_bitmask(simd, lit), term)
     }
 
-    /// As `Tracer::towards`, from the points of some lanes.
+    /// As `WhittedTracer::towards`, from the points of some lanes.
     #[inline(always)]
     fn towards_each<V: Simd>(
         &mut self,
         small_scene: &SmallScene,
         light: CourseLightId,
-        from: Vectors<V>,
+        from: FourVectors<V>,
         active: u64,
     ) -> [u64; LANES] {
         let lights = &self.world.lights.course;
@@ -122,7 +122,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     fn unshadowed<V: Simd>(
         &mut self,
         simd: V,
-        points: &Points<V>,
+        points: &FourPoints<V>,
         light: CourseLightId,
         active: u64,
     ) -> u64 {
@@ -156,7 +156,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
         }
         // Trace the shadow rays against the remaining occluders.
         let target = world.lights.course[light].position;
-        let to = Vectors::splat(simd, target);
+        let to = FourVectors::splat(simd, target);
         let origin = points.at.start(simd, to.minus(points.at.point));
         let direction = to.minus(origin);
         let rays = Ray4 { origin, direction };
@@ -192,7 +192,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
 /// The ends of rays to one point, as [`crate::world::segment`] says; 0 where both ends are equal
 /// within rounding.
 #[inline(always)]
-fn ends<V: Simd>(simd: V, rays: &Ray4<V>, to: Vectors<V>) -> f64x4<V> {
+fn ends<V: Simd>(simd: V, rays: &Ray4<V>, to: FourVectors<V>) -> f64x4<V> {
     let number = |x: f64| f64x4::splat(simd, x);
     let size = rays.origin.abs().plus(to.abs()).sum();
     let length = rays.direction.length();

@@ -9,7 +9,7 @@ mod tests;
 mod tokens;
 mod write;
 
-use super::{Mistake, parse};
+use super::{YamlError, parse};
 use crate::FileId;
 
 /// Why a text is not formatted.
@@ -29,7 +29,7 @@ pub enum FormatTextFault {
 pub fn layout(
     file: FileId,
     bytes: &[u8],
-    report: &mut dyn FnMut(Mistake<'_>),
+    report: &mut dyn FnMut(YamlError<'_>),
 ) -> Result<String, FormatTextFault> {
     let tree = parse(file, bytes, report).ok_or(FormatTextFault::Mistakes)?;
     let source = tree.source.replace("\r\n", "\n").replace('\r', "\n");
