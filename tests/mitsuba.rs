@@ -4,8 +4,8 @@
 use crate::repo::root;
 use crate::small::{WHOLE, film};
 use rtc::internals::diag::DiagnosticSink;
-use rtc::internals::ir::{Camera, Light, Mode, Scene, Shape};
-use rtc::internals::math::Vec3;
+use rtc::internals::ir::{Camera, Light, Material, Mode, Scene, Shape};
+use rtc::internals::math::{ComplexIndex, Vec3};
 use rtc::internals::pipeline::{Options, load};
 use rtc::internals::source::{Loader, SourceMap};
 use std::fs;
@@ -324,4 +324,92 @@ fn the_crop_of_a_film_is_that_part_of_the_picture() {
     };
     let [a, b] = [corner(&whole, 5.0, 3.0), corner(&part, 0.0, 0.0)];
     assert!((a - b).length() < 1e-12, "{a:?} {b:?}");
+}
+
+#[test]
+fn a_metal_reflects_by_its_complex_index_at_all_angles() {
+    let metal = |angle: f64, bsdf: &str| {
+        let body = format!(
+            r#"<emitter type="constant"/>
+            <shape type="rectangle">
+                <transform name="to_world"><scale value="50"/><rotate x="1" angle="{angle}"/></transform>
+                {bsdf}
+            </shape>"#
+        );
+        picture(&body)
+    };
+    // Gold by its name, without the light that is scattered several times, and by numbers.
+    let index = ComplexIndex {
+        eta: Vec3::new(0.143042, 0.375313, 1.44205),
+        k: Vec3::new(3.983, 2.38556, 1.60336),
+    };
+    for bsdf in [
+        r#"<bsdf type="conductor"><string name="material" value="Au"/></bsdf>"#,
+        r#"<bsdf type="conductor">
+            <rgb name="eta" value="0.143042, 0.375313, 1.44205"/>
+            <rgb name="k" value="3.983, 2.38556, 1.60336"/>
+        </bsdf>"#,
+    ] {
+        for angle in [0.0, 80.0] {
+            let pixels = metal(angle, bsdf);
+            let normal = Vec3::new(
+                0.0,
+                f64::to_radians(-angle).sin(),
+                f64::to_radians(angle).cos(),
+            );
+            // A pixel by the direction through its centre: the view is 10° wide.
+            let side = f64::to_radians(5.0).tan() / 4.0;
+            for (index_of_pixel, pixel) in pixels.iter().enumerate() {
+                let [x, y] = [index_of_pixel % 8, index_of_pixel / 8].map(|at| at as f64 - 3.5);
+                let ray = Vec3::new(x * side, -y * side, -1.0).normalize();
+                let known = index.reflectance(ray.dot(normal).abs());
+                let difference = (Vec3::from_array(*pixel) - known).abs().max_element();
+                assert!(difference < 2e-3, "{pixel:?} {known}");
+            }
+        }
+    }
+    // A mirror without an index, with a tint that grazing light keeps.
+    let mirror = r#"<bsdf type="conductor">
+        <rgb name="specular_reflectance" value="0.2, 0.5, 0.8"/>
+    </bsdf>"#;
+    assert_all_near(&metal(80.0, mirror), [0.2, 0.5, 0.8], 1e-9);
+}
+
+#[test]
+fn a_metal_is_the_same_in_every_format_that_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.xml");
+    let text = r#"<scene version="3.0.0"><sensor type="perspective"/>
+        <emitter type="constant"/>
+        <shape type="sphere">
+            <bsdf type="roughconductor">
+                <string name="distribution" value="ggx"/>
+                <float name="alpha" value="0.04"/>
+                <string name="material" value="Cu"/>
+                <rgb name="specular_reflectance" value="0.5, 0.75, 1"/>
+            </bsdf>
+        </shape>
+    </scene>"#;
+    fs::write(&path, text).unwrap();
+    let (scene, codes) = read(&path);
+    assert_eq!(codes, Vec::<&str>::new());
+    for name in ["again.xml", "again.gltf", "again.yaml"] {
+        let output = Command::new(env!("CARGO_BIN_EXE_rtc"))
+            .args(["compile", "scene.xml", "-o", name])
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{output:?}");
+        let (again, _) = read(&folder.path().join(name));
+        let [one, other] = [&scene, &again].map(|scene| match &scene.materials[0] {
+            Material::Standard(standard) => (**standard).clone(),
+            Material::Phong(phong) => panic!("{phong:?}"),
+        });
+        assert!(
+            one.conductor.is_some() && one.conductor == other.conductor,
+            "{name}"
+        );
+        assert_eq!(one.base_color, other.base_color, "{name}");
+        assert!((one.roughness - other.roughness).abs() < 1e-9, "{name}");
+    }
 }

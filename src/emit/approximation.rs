@@ -1,6 +1,8 @@
-//! The approximation of the Phong model by the glTF material.
+//! The approximation of the Phong model by the glTF material, and of the metals of that material by
+//! Schlick's approximation.
 
 use rtc_ir::{Map, Phong, Standard, TextureId};
+use rtc_math::{ComplexIndex, Vec3};
 use rtc_tables::{PhongTerms, fit_phong};
 
 /// The glTF material with which path tracing approximates a Phong material. The index of refraction
@@ -38,5 +40,22 @@ pub(super) fn approximate_phong(phong: &Phong) -> Standard {
         // A refractive solid is one-sided; everything else is two-sided.
         double_sided: !refracts,
         ..default
+    }
+}
+
+/// A material whose metal has no index, but its reflectance along the normal as base colour: for
+/// targets that have Schlick's approximation only.
+pub(super) fn without_index(standard: &Standard) -> Standard {
+    let Some(conductor) = standard.conductor else {
+        return standard.clone();
+    };
+    let reflectance = ComplexIndex::from(conductor).reflectance(1.0);
+    // The diffuse part has the base colour itself.
+    let metal = Vec3::ONE.lerp(reflectance, standard.metallic);
+    let [r, g, b, alpha] = standard.base_color;
+    Standard {
+        base_color: [r * metal.x, g * metal.y, b * metal.z, alpha],
+        conductor: None,
+        ..standard.clone()
     }
 }

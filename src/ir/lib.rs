@@ -59,7 +59,7 @@ pub use origin::{EntityField, EntityKind, SourceSpans, ValuePath};
 pub use rtc_math::{SetStep, SharedList, VertexColumn};
 pub use settings::{Ambient, Gooch, Mode, PathSettings, Pattern, Settings};
 pub use shape::*;
-pub use standard::{Alpha, Map, Standard};
+pub use standard::{Alpha, Conductor, Map, Standard};
 pub use texture::{Filter, Procedural, Sampled, Texture, TextureId, Wrap};
 
 use arbitrary::Arbitrary;

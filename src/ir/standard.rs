@@ -2,6 +2,7 @@
 
 use super::TextureId;
 use arbitrary::Arbitrary;
+use rtc_math::{ComplexIndex, Vec3};
 use rtc_tables::{camel_case, parameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -65,6 +66,27 @@ pub enum Alpha {
     Blend,
 }
 
+/// The complex index of refraction η + i·k of a metal, over that of the medium outside.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub struct Conductor {
+    /// η at red, green and blue, each at least 0.
+    #[schemars(inner(range(min = 0.0)))]
+    pub eta: [f64; 3],
+    /// k at red, green and blue, each at least 0.
+    #[schemars(inner(range(min = 0.0)))]
+    pub k: [f64; 3],
+}
+
+impl From<Conductor> for ComplexIndex {
+    fn from(Conductor { eta, k }: Conductor) -> Self {
+        Self {
+            eta: Vec3::from_array(eta),
+            k: Vec3::from_array(k),
+        }
+    }
+}
+
 /// The Rust type of a parameter of each kind of the table.
 macro_rules! stored {
     (fraction) => { f64 };
@@ -78,6 +100,7 @@ macro_rules! stored {
     (fraction_color) => { [f64; 3] };
     (fractions) => { [f64; 4] };
     (some_fractions) => { Option<[f64; 4]> };
+    (conductor) => { Option<Conductor> };
     (flag) => { bool };
     (alpha) => { Alpha };
     (map) => { Option<Map> };
@@ -103,6 +126,13 @@ macro_rules! setter {
         $(#[$about])*
         #[must_use]
         pub fn $field(self, $field: [f64; 4]) -> Self {
+            Self { $field: Some($field), ..self }
+        }
+    };
+    (conductor, $(#[$about:meta])* $field:ident) => {
+        $(#[$about])*
+        #[must_use]
+        pub fn $field(self, $field: Conductor) -> Self {
             Self { $field: Some($field), ..self }
         }
     };

@@ -12,6 +12,7 @@
 //! - Ranges as types: [`Positive`], [`NonNegative`], [`UnitInterval`], [`Weight`]. A value of such
 //!   a
 //!   type needs no further check.
+//! - [`ComplexIndex`]: the Fresnel equations of conductors.
 //! - Mesh data: [`VertexColumn`], a shared list of vectors in the precision of its source.
 //! - Hashes and angles for sampling: [`mix`], [`cos_sin_revolutions`], [`golden_revolutions`].
 //! - Sets in postfix notation ([`SetStep`], [`evaluate_set`]), which CSG solids use; procedural
@@ -33,6 +34,7 @@
 mod basis;
 mod bounds;
 mod column;
+mod complex_index;
 mod count;
 mod direction;
 mod double;
@@ -52,6 +54,7 @@ mod weight;
 pub use basis::{CameraBasisError, camera_basis, fallback_up, view_basis};
 pub use bounds::Bounds;
 pub use column::{SharedList, VertexColumn};
+pub use complex_index::ComplexIndex;
 pub use count::to_u32;
 pub use direction::{length, unit, unit_scale};
 pub use double::DoubleDouble;

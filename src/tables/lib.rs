@@ -5,6 +5,7 @@
 //! - [`shapes!`] has one row per shape: its type, its key in the IR, and the rules for its values.
 //! - [`parameters!`] and the other macros of the material have one row per parameter, layer and
 //!   extension.
+//! - [`METALS`] has the complex indices of refraction of conductors.
 //! - [`fit_phong`] computes the parameters of the glTF material ([`PhongFit`]) closest to the terms
 //!   of
 //!   a Phong material ([`PhongTerms`]). Exporters and front ends use it.
@@ -31,7 +32,9 @@
 //! - All stages list shapes and parameters in the order of the table.
 //! - A table contains no code of a stage; it depends on no other room.
 
+mod metal;
 mod shape;
 mod standard;
 
+pub use metal::{METALS, Metal};
 pub use standard::{PhongFit, PhongTerms, camel_bytes, fit_phong};

@@ -44,6 +44,9 @@ macro_rules! parameters {
             unlit: flag = false, "is_default";
             /// The index of refraction, at least 1; 0 mirrors all light.
             ior: ior = 1.5, "never";
+            /// The complex index of refraction of the metal at red, green and blue: the base colour
+            /// is then a factor of the reflectance by the Fresnel equations.
+            conductor: conductor = None, "Option::is_none";
             /// The dispersion of the index: 20 over the Abbe number.
             dispersion: non_negative = 0.0, "is_zero";
             /// How much of light is mirrored that no metal mirrors.

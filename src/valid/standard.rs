@@ -4,7 +4,7 @@ use super::check::{Checker, EntityCounts, LARGEST};
 use super::texture::{self, Map};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
-use rtc_math::{NonNegative, Positive, UnitInterval, Vec3, shortest};
+use rtc_math::{ComplexIndex, NonNegative, Positive, UnitInterval, Vec3, shortest};
 use rtc_tables::{camel_case, parameters};
 use std::any::Any;
 
@@ -21,6 +21,7 @@ macro_rules! validated {
     (fraction_color) => { Vec3 };
     (fractions) => { [UnitInterval; 4] };
     (some_fractions) => { Option<[UnitInterval; 4]> };
+    (conductor) => { Option<ComplexIndex> };
     (flag) => { bool };
     (alpha) => { Alpha };
     (map) => { Option<Map> };
@@ -243,6 +244,19 @@ impl ParameterCheck<'_, '_> {
             Some(values) => self.fractions(values, name).map(Some),
             None => Some(None),
         }
+    }
+
+    fn conductor(
+        &mut self,
+        index: &Option<ir::Conductor>,
+        name: &str,
+    ) -> Option<Option<ComplexIndex>> {
+        let Some(index) = index else {
+            return Some(None);
+        };
+        let ir::Conductor { eta, k } = index;
+        let [eta, k] = [eta, k].map(|values| self.color(values, name));
+        Some(Some(ComplexIndex { eta: eta?, k: k? }))
     }
 
     fn pair(&mut self, values: &[f64; 2], name: &str) -> Option<[NonNegative; 2]> {

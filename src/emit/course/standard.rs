@@ -2,7 +2,7 @@
 
 use super::material::exists;
 use super::{SceneWriter, quoted};
-use rtc_ir::{Alpha, Filter, Map, Sampled, Scene, Standard, Texture, Wrap};
+use rtc_ir::{Alpha, Conductor, Filter, Map, Sampled, Scene, Standard, Texture, Wrap};
 use rtc_math::shortest;
 use rtc_tables::{camel_case, parameters};
 
@@ -97,6 +97,14 @@ impl ParameterWriter<'_, '_> {
 
     fn some_fractions(&mut self, values: &Option<[f64; 4]>) -> WrittenValue {
         Ok(self.text.list(values.unwrap_or_default()))
+    }
+
+    fn conductor(&mut self, index: &Option<Conductor>) -> WrittenValue {
+        let Some(Conductor { eta, k }) = index else {
+            return Ok("none".to_owned());
+        };
+        let [eta, k] = [eta, k].map(|numbers| self.text.list(*numbers));
+        Ok(format!("{{eta: {eta}, k: {k}}}"))
     }
 
     #[expect(clippy::unused_self, reason = "a row of the table like the others")]

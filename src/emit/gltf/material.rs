@@ -3,11 +3,11 @@
 
 use super::document::{self, GltfIndex, PbrMetallicRoughness, TextureInfo};
 use super::writer::{GltfWriter, extras};
-use crate::approximation::approximate_phong;
+use crate::approximation::{approximate_phong, without_index};
 use rtc_diag::codes;
 use rtc_ir::{
-    Alpha, Bump, EntityField, EntityKind, Map, Material, MaterialId, MeshId, Phong, Standard,
-    ValuePath,
+    Alpha, Bump, Conductor, EntityField, EntityKind, Map, Material, MaterialId, MeshId, Phong,
+    Standard, ValuePath,
 };
 use rtc_tables as standard;
 use serde_json::{Map as JsonObject, Value, json};
@@ -30,7 +30,10 @@ impl GltfWriter<'_> {
         }
         let path = ValuePath::new(EntityKind::Material, id.0 as usize, EntityField::Whole);
         let (mut standard, rtc_extras) = match &self.scene.materials[id.0 as usize] {
-            Material::Standard(standard) => ((**standard).clone(), JsonObject::new()),
+            Material::Standard(standard) => {
+                let rtc_extras = self.conductor(standard, path);
+                (without_index(standard), rtc_extras)
+            }
             Material::Phong(phong) => {
                 let rtc_extras = self.phong(phong, key.1[0], path);
                 (approximate_phong(phong), rtc_extras)
@@ -232,6 +235,18 @@ pub(super) fn strength(color: [f64; 3]) -> f64 {
 }
 
 impl GltfWriter<'_> {
+    /// The index of a metal and its colour for `extras.rtc`.
+    fn conductor(&mut self, standard: &Standard, path: ValuePath) -> JsonObject<String, Value> {
+        let Some(Conductor { eta, k }) = standard.conductor else {
+            return JsonObject::new();
+        };
+        self.reporter
+            .in_extras("the complex index of a metal", path);
+        let [r, g, b, _] = standard.base_color;
+        let conductor = json!({ "eta": eta, "k": k, "baseColor": [r, g, b] });
+        JsonObject::from_iter([("conductor".to_owned(), conductor)])
+    }
+
     /// The weights and maps of the Phong model for `extras.rtc`.
     pub(super) fn phong(
         &mut self,

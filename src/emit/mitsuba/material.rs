@@ -1,12 +1,13 @@
 //! Writes materials: diffuse materials and perfect mirrors are exact; others are approximated.
 
 use super::MitsubaWriter;
+use crate::approximation::without_index;
 use crate::export::{called, enumeration};
 use crate::path_tracer::{
     SurfaceMaterial, TextureChannel, TexturedFactor, absorption, is_glass, missing_features,
     opacity,
 };
-use rtc_ir::{EntityField, EntityKind, Standard, ValuePath};
+use rtc_ir::{Conductor, EntityField, EntityKind, Standard, ValuePath};
 use rtc_math::shortest;
 use std::collections::BTreeSet;
 
@@ -28,6 +29,14 @@ impl MitsubaWriter<'_> {
             let path = ValuePath::new(EntityKind::Material, index, EntityField::Whole);
             let material = variant.standard(scene);
             let (plugin, message) = MitsubaPlugin::of(&material);
+            let material = match plugin {
+                MitsubaPlugin::Conductor(_) => material,
+                MitsubaPlugin::Black
+                | MitsubaPlugin::Diffuse
+                | MitsubaPlugin::Mirror
+                | MitsubaPlugin::Glass(_)
+                | MitsubaPlugin::Layered => without_index(&material),
+            };
             if reported.insert(index) {
                 self.report_material(&material, message, path);
             }
@@ -150,7 +159,7 @@ impl MitsubaWriter<'_> {
         let inner = depth + 1;
         self.line(
             depth,
-            &format!(r#"<bsdf type="{}"{id}>"#, plugin.shape_name()),
+            &format!(r#"<bsdf type="{}"{id}>"#, plugin.shape_name(material)),
         );
         let color = TexturedFactor::color(material, variant.has_colors);
         match plugin {
@@ -158,6 +167,12 @@ impl MitsubaWriter<'_> {
             MitsubaPlugin::Diffuse => self.slot(inner, "reflectance", color, path)?,
             MitsubaPlugin::Mirror => {
                 self.value(inner, "string", "material", "none");
+                self.slot(inner, "specular_reflectance", color, path)?;
+            }
+            MitsubaPlugin::Conductor(Conductor { eta, k }) => {
+                self.rgb(inner, "eta", eta);
+                self.rgb(inner, "k", k);
+                self.roughness(inner, material);
                 self.slot(inner, "specular_reflectance", color, path)?;
             }
             MitsubaPlugin::Glass(_) => {
@@ -184,6 +199,10 @@ impl MitsubaWriter<'_> {
         let ior = shortest(material.ior.max(LEAST_IOR));
         self.value(depth, "float", "int_ior", &ior);
         self.value(depth, "float", "ext_ior", "1");
+        self.roughness(depth, material);
+    }
+
+    fn roughness(&mut self, depth: usize, material: &Standard) {
         if material.roughness > 0.0 {
             let alpha = material.roughness * material.roughness;
             self.value(depth, "float", "alpha", &shortest(alpha));
@@ -276,12 +295,14 @@ fn principled_color(material: &Standard, color: [f64; 3]) -> [f64; 3] {
 }
 
 /// The Mitsuba plugin of a material.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq)]
 pub(super) enum MitsubaPlugin {
     /// What reflects nothing.
     Black,
     Diffuse,
     Mirror,
+    /// A metal with its index.
+    Conductor(Conductor),
     /// The name of the plugin.
     Glass(&'static str),
     Layered,
@@ -308,6 +329,8 @@ impl MitsubaPlugin {
             && is_bare
         {
             (Self::Diffuse, None)
+        } else if let Some(conductor) = material.conductor.filter(|_| metal == 1.0 && is_bare) {
+            (Self::Conductor(conductor), None)
         } else if metal == 1.0 && rough == 0.0 && is_bare {
             let message = "a coloured mirror is written without Schlick's rise towards white";
             (Self::Mirror, (!is_white).then_some(message))
@@ -336,12 +359,16 @@ impl MitsubaPlugin {
     pub(super) fn color(self, material: &Standard, color: [f64; 3]) -> [f64; 3] {
         match self {
             Self::Layered => principled_color(material, color),
-            Self::Black | Self::Diffuse | Self::Mirror | Self::Glass(_) => color,
+            Self::Black | Self::Diffuse | Self::Mirror | Self::Conductor(_) | Self::Glass(_) => {
+                color
+            }
         }
     }
 
-    fn shape_name(self) -> &'static str {
+    fn shape_name(self, material: &Standard) -> &'static str {
         match self {
+            Self::Conductor(_) if material.roughness > 0.0 => "roughconductor",
+            Self::Conductor(_) => "conductor",
             Self::Black | Self::Diffuse => "diffuse",
             Self::Mirror => "conductor",
             Self::Glass(plugin) => plugin,

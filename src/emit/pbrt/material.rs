@@ -4,12 +4,13 @@
 //! transmits light a mix of that and a dielectric.
 
 use super::{PbrtWriter, numbers, string};
+use crate::approximation::without_index;
 use crate::export::{called, enumeration};
 use crate::path_tracer::{
     SurfaceMaterial, TextureChannel, TexturedFactor, absorption, is_glass, missing_features,
     radiance,
 };
-use rtc_ir::{EntityField, EntityKind, Scene, Shape, Standard, ValuePath};
+use rtc_ir::{Conductor, EntityField, EntityKind, Scene, Shape, Standard, ValuePath};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
 use std::rc::Rc;
@@ -149,8 +150,20 @@ impl PbrtWriter<'_> {
 
     fn metal(&mut self, id: &str, material: &Standard, path: ValuePath) -> Option<()> {
         let normals = self.normals(material, path)?;
-        let color = TexturedFactor::color(material, false);
-        let color = self.slot("reflectance", color, path)?;
+        let prefix = match material.clearcoat > 0.0 {
+            true => "conductor.",
+            false => "",
+        };
+        let color = match index(material) {
+            Some(Conductor { eta, k }) => {
+                let part = |name, values| numbers("rgb", &format!("{prefix}{name}"), values);
+                part("eta", eta) + &part("k", k)
+            }
+            None => {
+                let colored = without_index(material);
+                self.slot("reflectance", TexturedFactor::color(&colored, false), path)?
+            }
+        };
         if material.clearcoat == 0.0 {
             let roughness = self.roughness("", material, path)?;
             self.named(id, "conductor", &(color + &roughness + &normals));
@@ -298,6 +311,12 @@ fn is_metal(material: &Standard) -> bool {
     material.metallic == 1.0 && material.metallic_roughness_map.is_none()
 }
 
+/// The index of a metal whose reflectance has no other factor: pbrt has none.
+fn index(material: &Standard) -> Option<Conductor> {
+    let is_white = material.base_color[..3] == [1.0; 3] && material.base_color_map.is_none();
+    material.conductor.filter(|_| is_white)
+}
+
 /// Whether a material has a mirror image only, by its colour.
 fn is_reflector(material: &Standard) -> bool {
     let is_black = material.base_color[..3] == [0.0; 3];
@@ -327,6 +346,9 @@ fn approximation(material: &Standard) -> Option<&'static str> {
                 false => "pbrt uses Fresnel's formula, not Schlick's, for transmissive surfaces",
             },
         );
+    }
+    if is_metal(material) && is_bare && index(material).is_some() {
+        return None;
     }
     if is_metal(material) && is_bare {
         return match (material.roughness > 0.0, is_white) {

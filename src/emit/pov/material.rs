@@ -2,6 +2,7 @@
 //! of the standard material what POV-Ray's finish has.
 
 use super::{PovWriter, vector};
+use crate::approximation::without_index;
 use crate::export::{called, enumeration, used_materials};
 use crate::picture::{ColorCoding, TexturePicture};
 use crate::sidecar;
@@ -36,7 +37,7 @@ impl PovWriter<'_> {
         for (index, material, path) in used_materials(self.scene) {
             let text = match material {
                 Material::Phong(phong) => self.phong(phong, path)?,
-                Material::Standard(standard) => self.standard(standard, path)?,
+                Material::Standard(standard) => self.standard(&without_index(standard), path)?,
             };
             self.line(&format!("#declare M{index} = {text}"));
         }

@@ -1,7 +1,9 @@
 //! Colours and spectra as linear Rec. 709.
 
 use rtc_color::srgb_decoded;
-use rtc_math::{exp, pow};
+use rtc_ir::Conductor;
+use rtc_math::{ComplexIndex, exp, pow};
+use rtc_tables::METALS;
 
 /// A spectrum by pairs of a wavelength in nanometres and a value, as linear Rec. 709; `None` if the
 /// wavelengths do not ascend.
@@ -134,34 +136,43 @@ fn linear([x, y, z]: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// The complex index of refraction of a metal, η and k at the wavelengths of the primaries.
-pub(crate) type ComplexIndex = ([f64; 3], [f64; 3]);
+/// The index of a metal by its symbol, as Mitsuba and pbrt write it: `Au`, `Ni_palik`.
+pub(crate) fn metal(name: &str) -> Option<Conductor> {
+    let symbol = name.strip_suffix("_palik").unwrap_or(name);
+    let symbol = if symbol == "Fe_alpha" { "Fe" } else { symbol };
+    let known = METALS.iter().find(|metal| metal.symbol == symbol)?;
+    let (eta, k) = (known.eta, known.k);
+    Some(Conductor { eta, k })
+}
 
-/// Metals by the names of Mitsuba: the indices that are usual for RGB renderers, from the tables of
-/// Rakić et al. 1998 and Palik 1985.
-pub(crate) fn metal(name: &str) -> Option<ComplexIndex> {
-    Some(match name {
-        "Ag" => ([0.155, 0.117, 0.138], [4.828, 3.122, 2.147]),
-        "Al" => ([1.657, 0.880, 0.521], [9.224, 6.270, 4.837]),
-        "Au" => ([0.143, 0.375, 1.442], [3.983, 2.386, 1.603]),
-        "Cr" => ([3.110, 3.180, 2.230], [3.310, 3.330, 3.130]),
-        "CuZn" => ([0.444, 0.527, 1.094], [3.695, 2.765, 1.829]),
-        "Cu" => ([0.200, 0.924, 1.102], [3.912, 2.452, 2.142]),
-        "Fe" | "Fe_alpha" => ([2.870, 2.950, 2.650], [3.350, 2.930, 2.810]),
-        "Ni" => ([1.990, 1.930, 1.650], [4.220, 3.650, 2.810]),
-        "Ti" => ([2.740, 2.540, 2.270], [3.810, 3.430, 3.040]),
-        "W" => ([3.550, 3.480, 3.340], [2.860, 2.760, 2.620]),
-        _ => return None,
+/// The index of copper, for metals that are not known.
+pub(crate) fn copper() -> Conductor {
+    metal("Cu").unwrap_or(Conductor {
+        eta: [1.0; 3],
+        k: [1.0; 3],
     })
 }
 
-/// The reflectance of a metal in air along its normal: ((η − 1)² + k²) / ((η + 1)² + k²).
-pub(crate) fn normal_reflectance((eta, k): ComplexIndex) -> [f64; 3] {
-    std::array::from_fn(|channel| {
-        let (eta, k) = (eta[channel], k[channel]);
-        let square = |x: f64| x * x;
-        (square(eta - 1.0) + square(k)) / (square(eta + 1.0) + square(k))
-    })
+/// The index of a mirror, which reflects all light at all angles.
+pub(crate) const MIRROR: Conductor = Conductor {
+    eta: [0.0; 3],
+    k: [1.0; 3],
+};
+
+/// The index with the real part η whose reflectance along the normal is closest to a value R:
+/// R = ((η − 1)² + k²) / ((η + 1)² + k²).
+pub(crate) fn of_reflectance(eta: [f64; 3], reflectance: [f64; 3]) -> Conductor {
+    let k = std::array::from_fn(|channel| {
+        let (eta, r) = (eta[channel], reflectance[channel].clamp(0.0, 0.9999));
+        let square = (r * (eta + 1.0) * (eta + 1.0) - (eta - 1.0) * (eta - 1.0)) / (1.0 - r);
+        square.max(0.0).sqrt()
+    });
+    Conductor { eta, k }
+}
+
+/// The reflectance of a metal in air along its normal.
+pub(crate) fn normal_reflectance(index: Conductor) -> [f64; 3] {
+    ComplexIndex::from(index).reflectance(1.0).to_array()
 }
 
 /// Indices of refraction by the names of Mitsuba.

@@ -22,12 +22,13 @@ pub(crate) struct SpannedText {
     pub(crate) span: Span,
 }
 
-/// The settings of a scene that is path traced.
+/// The settings of a scene that is path traced, with one scattering between microfacets, as other
+/// renderers have it.
 pub(crate) fn traced(samples: u32, max_depth: u32) -> Settings {
     Settings {
         mode: Mode::Path(PathSettings {
             samples,
-            multiple_scattering: true,
+            multiple_scattering: false,
         }),
         shadows: true,
         max_depth,

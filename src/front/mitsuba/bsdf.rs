@@ -1,19 +1,20 @@
 //! BSDFs and textures as the standard material.
 //!
-//! `diffuse`, `dielectric` and `mask` are exact, up to the quantization of images. For the others
-//! the closest standard material is used, with a warning that describes the difference: Schlick's
-//! approximation replaces the Fresnel equations of metals, and GGX replaces Beckmann.
+//! `diffuse`, `dielectric`, `conductor` and `mask` are exact, up to the quantization of images. For
+//! the others the closest standard material is used, with a warning that describes the difference:
+//! GGX replaces Beckmann.
 
 use super::xml::{PluginNode, Value};
 use super::{AssetTarget, Lowering};
 use crate::exchange::SpannedText;
 use crate::exchange::checkerboard::checkerboard;
-use crate::exchange::color::{metal, named_ior, normal_reflectance};
+use crate::exchange::color::{MIRROR, copper, metal, named_ior};
 use crate::exchange::material::{matte, opaque};
 use crate::exchange::transform::AffineTransform;
+use rtc_diag::clip;
 use rtc_ir::{
-    Alpha, EntityKind, Filter, Map, Material, MaterialId, Sampled, Standard, Texture, TextureId,
-    Wrap,
+    Alpha, Conductor, EntityKind, Filter, Map, Material, MaterialId, Sampled, Standard, Texture,
+    TextureId, Wrap,
 };
 use rtc_source::Span;
 
@@ -194,34 +195,38 @@ impl<'run> Lowering<'run> {
         alpha.clamp(0.0, 1.0).sqrt()
     }
 
+    /// A metal, or a mirror without an index.
     fn conductor(&mut self, node: &'run PluginNode, roughness: f64, flip: bool) -> Standard {
-        let complex = node.color("eta").zip(node.color("k"));
-        let name = node
-            .string("material")
-            .map_or("none", |name| name.text.as_str());
-        let reflectance = match (complex, name) {
-            (Some(complex), _) => normal_reflectance(complex),
-            (None, "none") => [1.0; 3],
-            (None, name) => match metal(name) {
-                Some(complex) => normal_reflectance(complex),
-                None => {
-                    let message = format!("the metal `{name}` is unknown: copper replaces it");
-                    self.approximate(node.plugin.span, message);
-                    metal("Cu").map_or([1.0; 3], normal_reflectance)
-                }
-            },
-        };
-        if reflectance != [1.0; 3] {
-            let message = "Schlick's approximation replaces the Fresnel equations of metals";
-            self.approximate(node.plugin.span, message);
+        for name in ["eta", "k"] {
+            if node.child(name).is_some() {
+                let message = format!("a texture of `{name}` is left out");
+                self.approximate(node.plugin.span, message);
+            }
         }
+        let given = [node.color("eta"), node.color("k")];
+        let name = node.string("material").map(|name| name.text.as_str());
+        let conductor = match (given, name) {
+            ([None, None], None | Some("none")) => MIRROR,
+            ([None, None], Some(name)) => metal(name).unwrap_or_else(|| {
+                let message = format!("the metal `{}` is unknown: copper replaces it", clip(name));
+                self.approximate(node.plugin.span, message);
+                copper()
+            }),
+            ([eta, k], _) => {
+                let least = |part: [f64; 3]| part.map(|channel| channel.max(0.0));
+                Conductor {
+                    eta: least(eta.unwrap_or(MIRROR.eta)),
+                    k: least(k.unwrap_or(MIRROR.k)),
+                }
+            }
+        };
         let tint = self.channel(node, "specular_reflectance", [1.0; 3], flip);
-        let color = std::array::from_fn(|channel| reflectance[channel] * tint.color[channel]);
         Standard {
-            base_color: opaque(color),
+            base_color: opaque(tint.color),
             base_color_map: tint.map,
             metallic: 1.0,
             roughness,
+            conductor: Some(conductor),
             ..matte([1.0; 3])
         }
     }

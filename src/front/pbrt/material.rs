@@ -1,6 +1,6 @@
 //! Materials as the standard material.
 //!
-//! `diffuse`, `dielectric` and grey mirrors are exact, up to the quantization of pictures. For the
+//! `diffuse`, `dielectric`, `conductor` and mirrors are exact, up to the quantization of pictures. For the
 //! others the closest standard material is used, with a warning that says how it differs. Both pbrt
 //! and the standard material have the distribution of Trowbridge and Reitz (GGX).
 
@@ -8,9 +8,10 @@ use super::Lowering;
 use super::parameter::Parameters;
 use super::texture::ColorWithMap;
 use crate::exchange::SpannedText;
+use crate::exchange::color::{MIRROR, normal_reflectance, of_reflectance};
 use crate::exchange::material::{matte, opaque};
 use rtc_diag::{clip, codes};
-use rtc_ir::{Alpha, EntityKind, Map, Material, MaterialId, Standard};
+use rtc_ir::{Alpha, Conductor, EntityKind, Map, Material, MaterialId, Standard};
 use rtc_math::ln;
 use rtc_source::{Resource, Span};
 use std::rc::Rc;
@@ -120,7 +121,7 @@ impl Lowering<'_> {
                 }
                 self.diffuse(parameters, "Kd")
             }
-            "mirror" => self.mirror(plugin, parameters),
+            "mirror" => self.mirror(parameters),
             "conductor" | "metal" => self.metal(plugin, parameters),
             "coatedconductor" => self.coated_conductor(plugin, parameters),
             "coateddiffuse" => self.coated_diffuse(plugin, parameters),
@@ -156,48 +157,46 @@ impl Lowering<'_> {
     }
 
     /// A mirror that reflects `Kr` at all angles.
-    fn mirror(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Standard {
-        let ColorWithMap { color, map } = self.channel(parameters, "Kr", [0.9; 3]);
-        let most = greatest(color);
-        if color.iter().any(|channel| *channel != most) || map.is_some() {
-            let message = "a coloured mirror is white at grazing angles";
-            self.approximate(plugin.span, message);
+    fn mirror(&mut self, parameters: &Parameters) -> Standard {
+        let tint = self.channel(parameters, "Kr", [0.9; 3]);
+        Standard {
+            roughness: 0.0,
+            ..metallic((tint, Some(MIRROR)))
         }
-        reflector(color, most, map)
     }
 
     fn metal(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Standard {
         let default = if plugin.text == "metal" { 0.01 } else { 0.0 };
         let alpha = self.alpha(plugin, parameters, ROUGHNESS, default);
-        let ColorWithMap { color, map } = self.conductor_color(plugin, parameters, ["eta", "k"]);
+        let conductor = self.conductor_index(plugin, parameters, ["eta", "k"]);
         parameters.skip(&["Kr"]);
-        rough(
-            Standard {
-                base_color: opaque(color),
-                base_color_map: map,
-                metallic: 1.0,
-                ..matte([1.0; 3])
-            },
-            alpha,
-        )
+        rough(metallic(conductor), alpha)
     }
 
-    /// The colour of a conductor along its normal.
-    fn conductor_color(
+    /// The factor of a conductor's reflectance, and its index: with `reflectance` the one that
+    /// pbrt derives from it.
+    fn conductor_index(
         &mut self,
         plugin: &SpannedText,
         parameters: &Parameters,
         names: [&'static str; 2],
-    ) -> ColorWithMap {
-        if parameters.get("reflectance").is_some() {
-            return self.channel(parameters, "reflectance", [1.0; 3]);
+    ) -> (ColorWithMap, Option<Conductor>) {
+        let white = |map| ColorWithMap {
+            color: [1.0; 3],
+            map,
+        };
+        if parameters.get("reflectance").is_none() {
+            let conductor = self.conductor(parameters, names);
+            return (white(None), Some(conductor));
         }
-        let message = "Schlick's approximation replaces the Fresnel equations of metals";
-        self.approximate(plugin.span, message);
-        ColorWithMap {
-            color: self.conductor(parameters, names),
-            map: None,
+        let channel = self.channel(parameters, "reflectance", [1.0; 3]);
+        if channel.map.is_some() {
+            let message = "Schlick's approximation replaces the Fresnel equations of this metal";
+            self.approximate(plugin.span, message);
+            return (channel, None);
         }
+        let conductor = of_reflectance([1.0; 3], channel.color);
+        (white(None), Some(conductor))
     }
 
     fn coated_conductor(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Standard {
@@ -218,7 +217,7 @@ impl Lowering<'_> {
         let coat = self.alpha(plugin, parameters, names, 0.0);
         let names = ["conductor.eta", "conductor.k"];
         // The index of refraction gives the colour of the metal.
-        let ColorWithMap { color, map } = self.conductor_color(plugin, parameters, names);
+        let conductor = self.conductor_index(plugin, parameters, names);
         parameters.skip(&[
             "interface.eta",
             "thickness",
@@ -230,12 +229,9 @@ impl Lowering<'_> {
         // The coat has the geometric mean of its two roughnesses.
         rough(
             Standard {
-                base_color: opaque(color),
-                base_color_map: map,
-                metallic: 1.0,
                 clearcoat: 1.0,
                 clearcoat_roughness: (coat[0] * coat[1]).sqrt().sqrt(),
-                ..matte([1.0; 3])
+                ..metallic(conductor)
             },
             alpha,
         )
@@ -632,15 +628,29 @@ fn rough(standard: Standard, [u, v]: [f64; 2]) -> Standard {
     }
 }
 
-/// A surface that reflects `color` along its normal and `most` at grazing angles, and nothing else.
-fn reflector(color: [f64; 3], most: f64, map: Option<Map>) -> Standard {
+/// A metal by the factor of its reflectance and its index; without one the factor is the
+/// reflectance along the normal, by Schlick's approximation.
+fn metallic((tint, conductor): (ColorWithMap, Option<Conductor>)) -> Standard {
     Standard {
-        roughness: 0.0,
-        ior: 0.0,
-        specular: most.clamp(0.0, 1.0),
-        specular_color: relative(color, most),
-        specular_color_map: map,
-        ..matte([0.0; 3])
+        base_color: opaque(tint.color),
+        base_color_map: tint.map,
+        metallic: 1.0,
+        conductor,
+        ..matte([1.0; 3])
+    }
+}
+
+/// A metal by Schlick's approximation instead of its index.
+fn without_index(standard: &Standard) -> Standard {
+    let Some(conductor) = standard.conductor else {
+        return standard.clone();
+    };
+    let [r, g, b] = normal_reflectance(conductor);
+    let base = standard.base_color;
+    Standard {
+        base_color: [base[0] * r, base[1] * g, base[2] * b, base[3]],
+        conductor: None,
+        ..standard.clone()
     }
 }
 
@@ -671,7 +681,11 @@ fn covering(standard: Standard, share: f64) -> Standard {
 fn mixed(first: &Standard, second: &Standard, amount: f64) -> Standard {
     let number = |a: f64, b: f64| a * (1.0 - amount) + b * amount;
     let triple = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|c| number(a[c], b[c]));
-    let shown = if amount > 0.5 { second } else { first };
+    let (first, second) = match first.conductor == second.conductor {
+        true => (first.clone(), second.clone()),
+        false => (without_index(first), without_index(second)),
+    };
+    let shown = if amount > 0.5 { &second } else { &first };
     Standard {
         base_color: std::array::from_fn(|c| number(first.base_color[c], second.base_color[c])),
         metallic: number(first.metallic, second.metallic),

@@ -4,10 +4,11 @@ use super::Lowering;
 use super::parameter::{ParameterType, ParameterValues, Parameters};
 use crate::exchange::SpannedText;
 use crate::exchange::color::{
-    ComplexIndex, emitted, emitted_spectrum, from_spectrum, from_xyz, integrated, interpolated,
-    metal, normal_reflectance, of_unit_luminance, planck,
+    copper, emitted, emitted_spectrum, from_spectrum, from_xyz, integrated, interpolated, metal,
+    normal_reflectance, of_reflectance, of_unit_luminance, planck,
 };
 use rtc_diag::clip;
+use rtc_ir::Conductor;
 use rtc_source::{FileKind, Resource};
 use std::rc::Rc;
 
@@ -19,9 +20,6 @@ const SPECTRA: FileKind = FileKind {
 
 /// The largest spectrum, in bytes.
 const MAX_SPECTRUM: usize = 1 << 20;
-
-/// The default metal for one without a spectrum.
-const DEFAULT_METAL: &str = "Cu";
 
 /// The glasses of version 4 by name: the index of refraction at 589 nm and the Abbe number, from
 /// the data sheets of Schott.
@@ -46,7 +44,7 @@ enum IndexSpectrum {
     Primaries([f64; 3]),
     Pairs(Rc<[(f64, f64)]>),
     /// The spectrum of a metal by name.
-    Metal(ComplexIndex),
+    Metal(Conductor),
 }
 
 impl Lowering<'_> {
@@ -124,29 +122,36 @@ impl Lowering<'_> {
         }
     }
 
-    /// The reflectance of a conductor along its normal, by `eta` and `k`; that of copper without
-    /// them.
+    /// The index of a conductor by `eta` and `k`; that of copper without them. Of spectra it is the
+    /// one with their reflectance along the normal.
     pub(super) fn conductor(
         &mut self,
         parameters: &Parameters,
         [eta, k]: [&'static str; 2],
-    ) -> [f64; 3] {
+    ) -> Conductor {
         let (eta, k) = (self.index(parameters, eta), self.index(parameters, k));
-        let copper = || metal(DEFAULT_METAL).unwrap_or(([1.0; 3], [1.0; 3]));
         if let (Some(IndexSpectrum::Pairs(eta)), Some(IndexSpectrum::Pairs(k))) = (&eta, &k) {
-            return integrated(|nm| {
+            let reflectance = integrated(|nm| {
                 let (eta, k) = (interpolated(eta, nm), interpolated(k, nm));
-                normal_reflectance(([eta; 3], [k; 3]))[0]
+                let [eta, k] = [eta, k].map(|number| [number.max(0.0); 3]);
+                normal_reflectance(Conductor { eta, k })[0]
             });
+            let eta = from_spectrum(eta).unwrap_or([1.0; 3]);
+            return of_reflectance(eta, reflectance);
         }
-        let values = |index: Option<IndexSpectrum>, part: fn(ComplexIndex) -> [f64; 3]| match index
-        {
-            Some(IndexSpectrum::Primaries(values)) => values,
-            Some(IndexSpectrum::Pairs(pairs)) => from_spectrum(&pairs).unwrap_or([1.0; 3]),
-            Some(IndexSpectrum::Metal(metal)) => part(metal),
-            None => part(copper()),
+        let values = |index: Option<IndexSpectrum>, part: fn(Conductor) -> [f64; 3]| {
+            let values = match index {
+                Some(IndexSpectrum::Primaries(values)) => values,
+                Some(IndexSpectrum::Pairs(pairs)) => from_spectrum(&pairs).unwrap_or([1.0; 3]),
+                Some(IndexSpectrum::Metal(metal)) => part(metal),
+                None => part(copper()),
+            };
+            values.map(|channel| channel.max(0.0))
         };
-        normal_reflectance((values(eta, |metal| metal.0), values(k, |metal| metal.1)))
+        Conductor {
+            eta: values(eta, |metal| metal.eta),
+            k: values(k, |metal| metal.k),
+        }
     }
 
     fn index(&mut self, parameters: &Parameters, name: &'static str) -> Option<IndexSpectrum> {
@@ -258,7 +263,7 @@ fn pairs(text: &str) -> Option<Vec<(f64, f64)>> {
 }
 
 /// The metal of `metal-Au-eta`, or of a file as `spds/Au.eta.spd`.
-fn metal_name(text: &str) -> Option<ComplexIndex> {
+fn metal_name(text: &str) -> Option<Conductor> {
     let name = text.rsplit('/').next()?;
     let name = name.strip_prefix("metal-").unwrap_or(name);
     metal(name.split(['-', '.']).next()?)

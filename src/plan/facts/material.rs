@@ -28,8 +28,12 @@ pub fn standard(material: &Material) -> Standard {
 fn phong_of_standard(standard: &Standard) -> Phong {
     let [r, g, b, _] = standard.base_color.map(UnitInterval::get);
     let roughness = standard.roughness.get();
+    // The colour of a metal along its normal; that of the diffuse part is not changed by an index.
+    let metal = standard.conductor.map_or(Vec3::ONE, |index| {
+        Vec3::ONE.lerp(index.reflectance(1.0), standard.metallic.get())
+    });
     Phong {
-        color: Vec3::new(r, g, b),
+        color: Vec3::new(r, g, b) * metal,
         ka: NonNegative::ZERO,
         kd: standard.metallic.complement().into(),
         ks: standard.metallic.into(),

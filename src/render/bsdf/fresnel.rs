@@ -1,8 +1,8 @@
-//! The Fresnel reflectance of a smooth interface: Schlick's approximation, the dielectric equations
-//! for transmissive materials, or thin-film interference.
+//! The Fresnel reflectance of a smooth interface: Schlick's approximation, the equations of
+//! dielectrics for transmissive materials and of conductors, or thin-film interference.
 
 use super::thin_film::ThinFilm;
-use rtc_math::Vec3;
+use rtc_math::{ComplexIndex, Vec3};
 
 /// The reflectance at normal incidence of a boundary between air and a medium with the index given.
 ///
@@ -54,6 +54,17 @@ pub(super) fn dielectric_curve(cosine: f64, ior: f64) -> f64 {
     ((whole - normal) / (1.0 - normal)).clamp(0.0, 1.0)
 }
 
+/// How a reflectance grows from normal to grazing incidence.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Curve {
+    /// Schlick's approximation.
+    Schlick,
+    /// That of a dielectric of this index.
+    Dielectric(f64),
+    /// That of a conductor, times a factor.
+    Conductor(ComplexIndex, Vec3),
+}
+
 /// A reflectance over the angle: from `f0` at normal to `f90` at grazing incidence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Fresnel {
@@ -61,8 +72,8 @@ pub(super) struct Fresnel {
     pub(super) f0: Vec3,
     /// At grazing incidence.
     pub(super) f90: Vec3,
-    /// The index, if the curve between is that of a dielectric; else it is Schlick's.
-    pub(super) ior: Option<f64>,
+    /// The curve between.
+    pub(super) curve: Curve,
     /// The film on it, and the fraction of the surface it covers.
     pub(super) film: Option<(ThinFilm, f64)>,
 }
@@ -72,11 +83,12 @@ impl Fresnel {
     #[must_use]
     #[inline]
     pub(super) fn at(&self, cosine: f64) -> Vec3 {
-        let curve = match self.ior {
-            None => schlick(cosine),
-            Some(ior) => dielectric_curve(cosine, ior),
+        let between = |curve: f64| self.f0 + (self.f90 - self.f0) * curve;
+        let bare = match &self.curve {
+            Curve::Schlick => between(schlick(cosine)),
+            Curve::Dielectric(ior) => between(dielectric_curve(cosine, *ior)),
+            Curve::Conductor(index, tint) => index.reflectance(cosine) * *tint,
         };
-        let bare = self.f0 + (self.f90 - self.f0) * curve;
         match &self.film {
             None => bare,
             Some((film, fraction)) => bare.lerp(film.reflectance(self.f0, cosine), *fraction),
@@ -87,6 +99,9 @@ impl Fresnel {
     /// incidence were that of the bare surface.
     #[must_use]
     pub(super) fn mean(&self) -> Vec3 {
+        if let (Curve::Conductor(index, tint), None) = (&self.curve, &self.film) {
+            return index.mean_reflectance() * *tint;
+        }
         let f0 = self.at(1.0);
         f0 + (self.f90 - f0) / 21.0
     }
@@ -108,7 +123,7 @@ mod tests {
         let fresnel = Fresnel {
             f0: Vec3::splat(0.2),
             f90: Vec3::ONE,
-            ior: None,
+            curve: Curve::Schlick,
             film: None,
         };
         let n = 10_000;
@@ -125,7 +140,7 @@ mod tests {
         let glass = |ior: f64| Fresnel {
             f0: Vec3::splat(normal_reflectance(ior)),
             f90: Vec3::ONE,
-            ior: Some(ior),
+            curve: Curve::Dielectric(ior),
             film: None,
         };
         for k in 1..=10 {

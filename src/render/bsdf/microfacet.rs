@@ -2,12 +2,12 @@
 
 use super::albedo::dielectric;
 use super::compensation::{Compensation, grazing_share};
-use super::fresnel::{Fresnel, refracted_cosine};
+use super::fresnel::{Curve, Fresnel, refracted_cosine};
 use super::ggx::Ggx;
 use super::standard::StandardParameters;
 use super::thin_film::ThinFilm;
 use super::{BsdfEvaluation, LAYERS, MICROFACETS, TRANSMISSION, can};
-use rtc_math::Vec3;
+use rtc_math::{ComplexIndex, Vec3};
 
 /// The boundary seen from one side, with z towards that side.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +19,10 @@ pub(super) struct Microfacet<const F: u32> {
     f0: Vec3,
     f90: f64,
     /// The reflectance of the metallic part at normal incidence; at grazing incidence it is 1.
+    /// Where the metal has an index, this is a factor.
     metal: Vec3,
+    /// Its index, of which `metal` is a factor.
+    conductor: Option<ComplexIndex>,
     metallic: f64,
     /// The thin film on both, and the fraction of the surface it covers.
     film: Option<(ThinFilm, f64)>,
@@ -85,6 +88,7 @@ impl<const F: u32> Microfacet<F> {
         f0: Vec3::ZERO,
         f90: 0.0,
         metal: Vec3::ZERO,
+        conductor: None,
         metallic: 0.0,
         film: None,
         tint: Vec3::ZERO,
@@ -139,6 +143,7 @@ impl<const F: u32> Microfacet<F> {
             f0: standard.dielectric_f0(),
             f90: standard.specular,
             metal: standard.base_color,
+            conductor: standard.conductor,
             metallic: standard.metallic,
             film,
             tint: standard.base_color * standard.transmitting(),
@@ -160,18 +165,29 @@ impl<const F: u32> Microfacet<F> {
         Fresnel {
             f0: self.f0,
             f90: Vec3::splat(self.f90),
-            ior: self.ior.filter(|_| can::<F>(TRANSMISSION)),
+            curve: match self.ior.filter(|_| can::<F>(TRANSMISSION)) {
+                Some(ior) => Curve::Dielectric(ior),
+                None => Curve::Schlick,
+            },
             film: self.film(),
         }
     }
 
     #[inline]
     fn metal(&self) -> Fresnel {
-        Fresnel {
-            f0: self.metal,
-            f90: Vec3::ONE,
-            ior: None,
-            film: self.film(),
+        match self.conductor {
+            None => Fresnel {
+                f0: self.metal,
+                f90: Vec3::ONE,
+                curve: Curve::Schlick,
+                film: self.film(),
+            },
+            Some(index) => Fresnel {
+                f0: index.reflectance(1.0) * self.metal,
+                f90: self.metal,
+                curve: Curve::Conductor(index, self.metal),
+                film: self.film(),
+            },
         }
     }
 

@@ -1,7 +1,7 @@
 //! The parameters of the glTF material at one point, after all texture lookups.
 
 use super::fresnel::normal_reflectance;
-use rtc_math::Vec3;
+use rtc_math::{ComplexIndex, Vec3};
 use rtc_plan::Layer;
 
 /// The material of glTF 2.0 and its KHR extensions at one point, but for emission, alpha and the
@@ -18,6 +18,8 @@ pub struct StandardParameters {
     pub roughness: f64,
     /// The index of refraction inside, at least 1, or 0 for an infinite one (`KHR_materials_ior`).
     pub ior: f64,
+    /// The index of the metallic part, whose base colour then is a factor.
+    pub conductor: Option<ComplexIndex>,
     /// The strength of the dielectric reflection (`KHR_materials_specular`).
     pub specular: f64,
     /// The colour of the dielectric reflection at normal incidence, each channel at least 0.
@@ -98,6 +100,7 @@ impl Default for StandardParameters {
             metallic: 0.0,
             roughness: 1.0,
             ior: 1.5,
+            conductor: None,
             specular: 1.0,
             specular_color: Vec3::ONE,
             transmission: 0.0,

@@ -88,6 +88,7 @@ impl<'world> MaterialPoint<'world> {
             metallic: 0.0,
             roughness: 0.0,
             ior: 0.0,
+            conductor: self.material.conductor,
             specular: 1.0,
             specular_color: Vec3::ONE,
             transmission: if can::<F>(TRANSMISSION) {

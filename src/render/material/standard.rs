@@ -3,7 +3,7 @@
 use crate::bsdf::standard::*;
 use crate::shape::geometry::AttributeRequest;
 use crate::texture::sampled::{Map, UvSets};
-use rtc_math::{Vec3, Weight};
+use rtc_math::{ComplexIndex, Vec3, Weight};
 
 /// A prepared material: constants are numbers, everything else has a map.
 #[derive(Clone, Debug)]
@@ -21,6 +21,8 @@ pub(crate) struct StandardMaterial {
     pub(crate) emission: MappedColor,
     pub(crate) reflection: BaseReflectance,
     pub(crate) transmission: MappedNumber,
+    /// The index of the metal, if it has one.
+    pub(crate) conductor: Option<ComplexIndex>,
     /// The index of refraction, and those of red, green and blue if they differ.
     pub(crate) ior: f64,
     pub(crate) dispersed: Option<[f64; 3]>,

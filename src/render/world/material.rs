@@ -189,6 +189,7 @@ pub(super) fn standard(
         emission,
         reflection: slots.reflection(m),
         transmission: slots.number(m.transmission, m.transmission_map.as_ref(), 0),
+        conductor: m.conductor,
         ior: m.ior.get(),
         dispersed: (m.dispersion.get() > 0.0).then(|| dispersed(m.ior.get(), m.dispersion.get())),
         bounds_a_volume: m.thickness.get() > 0.0,

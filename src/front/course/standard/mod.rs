@@ -27,7 +27,9 @@ use rtc_source::tree::NodeId;
 use rtc_tables::{camel_case, parameters};
 use serde_json::Value as Json;
 use texture::MapOrFile;
-use value::{AlphaMode, Fraction, FractionColor, Range, Refraction, RefractionOrNone, Rgba};
+use value::{
+    AlphaMode, ConductorIndex, Fraction, FractionColor, Range, Refraction, RefractionOrNone, Rgba,
+};
 
 /// The value of `type` that selects this material.
 pub(super) const KEYWORD: &str = "standard";
@@ -67,6 +69,9 @@ macro_rules! written {
     (some_fractions) => {
         Rgba
     };
+    (conductor) => {
+        ConductorIndex
+    };
     (flag) => {
         bool
     };
@@ -89,6 +94,9 @@ macro_rules! requirement {
     (some_fractions, $default:expr) => {
         FieldRequirement::Optional
     };
+    (conductor, $default:expr) => {
+        FieldRequirement::Optional
+    };
     (flag, $default:expr) => {
         FieldRequirement::Default(|| Decode::json(&$default))
     };
@@ -106,6 +114,9 @@ macro_rules! lowered {
         Some($written.value.0)
     };
     (some_fractions, $written:expr, $lowering:expr) => {
+        Some($written.value.0)
+    };
+    (conductor, $written:expr, $lowering:expr) => {
         Some($written.value.0)
     };
     (flag, $written:expr, $lowering:expr) => {

@@ -7,8 +7,10 @@ use super::super::record::{keys, record};
 use super::super::schema::SchemaDefinitions;
 use super::super::value::{Color, tuple};
 use super::Alpha;
+use rtc_ir::Conductor;
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
+use std::sync::LazyLock;
 
 ranged! {
     /// The index of a set of texture coordinates.
@@ -151,5 +153,55 @@ impl Decode for AlphaMode {
     fn json(&self) -> Json {
         let keyword = ALPHA_MODES.iter().find(|(_, alpha, _)| *alpha == self.0);
         keyword.map_or(Json::Null, |(keyword, ..)| json!(keyword))
+    }
+}
+
+/// The complex index of a conductor: the name of a metal, or numbers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ConductorIndex(pub(super) Conductor);
+
+/// The metals that have a name.
+static METALS: LazyLock<Vec<(&str, Conductor, &str)>> = LazyLock::new(|| {
+    let named = rtc_tables::METALS.iter().filter_map(|metal| {
+        let rtc_tables::Metal {
+            symbol,
+            name,
+            eta,
+            k,
+        } = *metal;
+        let meaning: &str = format!("The metal {symbol}.").leak();
+        Some((name?, Conductor { eta, k }, meaning))
+    });
+    named.collect()
+});
+
+record! {
+    /// The complex index of refraction η + i·k of a conductor.
+    struct ComplexNumbers, "complex index" {
+        /// η at red, green and blue.
+        eta: Spanned<Color>, required, keys!["eta"];
+        /// k at red, green and blue.
+        k: Spanned<Color>, required, keys!["k"];
+    }
+}
+
+impl Decode for ConductorIndex {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
+        if context.tree.is_map(node) {
+            let ComplexNumbers { eta, k } = ComplexNumbers::decode(node, context)?;
+            let [eta, k] = [eta, k].map(|written| written.value.0);
+            return Some(Self(Conductor { eta, k }));
+        }
+        keyword(node, &METALS, context).map(Self)
+    }
+
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
+        let mut schema = keyword_schema(&METALS);
+        let variants = schema["anyOf"].as_array_mut();
+        let numbers = ComplexNumbers::schema(definitions);
+        variants
+            .into_iter()
+            .for_each(|variants| variants.push(numbers.clone()));
+        schema
     }
 }

@@ -9,8 +9,8 @@ use super::texture::LoweredTextures;
 use super::uv::TexCoordSets;
 use rtc_diag::codes;
 use rtc_ir::{
-    self as ir, Alpha, Bump, EntityField, EntityKind, Map, MaterialId, Phong, Scene, SourceSpans,
-    Standard, ValuePath,
+    self as ir, Alpha, Bump, Conductor, EntityField, EntityKind, Map, MaterialId, Phong, Scene,
+    SourceSpans, Standard, ValuePath,
 };
 use rtc_math::to_u32;
 use rtc_source::tree::SyntaxTree;
@@ -249,6 +249,7 @@ impl MaterialReader<'_, '_, '_, '_> {
             extension(fields, "clearcoat").and_then(|coat| coat.object("clearcoatNormalTexture"));
         standard.clearcoat_normal_scale = number(coat, "scale", 1.0);
         self.iridescence(fields, &mut standard);
+        conductor(fields, &mut standard);
         standard
     }
 
@@ -304,6 +305,19 @@ impl MaterialReader<'_, '_, '_, '_> {
         ];
         standard.iridescence_thickness_map = self.map(extension, "iridescenceThicknessTexture");
     }
+}
+
+/// The index of a metal in `extras.rtc`, with the base colour, which viewers see otherwise.
+fn conductor(fields: ObjectFields<'_, '_>, standard: &mut Standard) {
+    let extension = fields.rtc_extras().and_then(|rtc| rtc.object("conductor"));
+    let Some(extension) = extension else { return };
+    let Some((eta, k)) = extension.vector("eta").zip(extension.vector("k")) else {
+        return;
+    };
+    standard.conductor = Some(Conductor { eta, k });
+    let [r, g, b, alpha] = standard.base_color;
+    let [r, g, b] = extension.vector_or("baseColor", [r, g, b]);
+    standard.base_color = [r, g, b, alpha];
 }
 
 /// The object of a `KHR_materials_*` extension.

@@ -136,8 +136,16 @@ static PHOTOMETRY: ObjectSchema = rtc_object(&[
     required("candela", Numbers(&[], FACTOR)),
 ]);
 
-/// Phong's model.
-static MATERIAL: ObjectSchema = rtc_object(&[optional("phong", One(&PHONG))]);
+/// Phong's model, or the index of a metal with its base colour.
+static MATERIAL: ObjectSchema = rtc_object(&[
+    optional("phong", One(&PHONG)),
+    optional("conductor", One(&CONDUCTOR)),
+]);
+static CONDUCTOR: ObjectSchema = rtc_object(&[
+    required("eta", Numbers(&[3], FACTOR)),
+    required("k", Numbers(&[3], FACTOR)),
+    optional("baseColor", Numbers(&[3], FACTOR)),
+]);
 static PHONG: ObjectSchema = rtc_object(&[
     required("color", Numbers(&[3], FACTOR)),
     optional("ka", Number(FACTOR)),

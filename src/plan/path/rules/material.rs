@@ -9,7 +9,8 @@ use rtc_valid::{Alpha, Map, MaterialId, Standard};
 
 pub(crate) const ZERO: PathRule = PathRule {
     name: "P-WEIGHT-ZERO",
-    text: "Transmission, specular reflection, emission and layers of weight 0 contribute nothing. \
+    text: "Transmission, specular reflection, emission and layers of weight 0 contribute nothing, \
+           nor does the index of a metal where none is. \
            The weight is 0 if the factor is 0, or if the texture is 0 in the used channel \
            everywhere on the surfaces.",
     reason: "its textures are 0 everywhere on the surfaces",
@@ -38,6 +39,10 @@ fn without_zeros(builder: &PathPlanBuilder<'_>, index: MaterialId, m: &Standard)
     }
     if is_nonzero(m.specular) && is_zero(&m.specular_map, 3) {
         new.specular = UnitInterval::ZERO;
+    }
+    let metals = m.metallic_roughness_map.as_ref();
+    if m.metallic == UnitInterval::ZERO || builder.is_zero(index, metals, 2..3) {
+        new.conductor = None;
     }
     if m.emissive != Vec3::ZERO && are_zero(&m.emissive_map) {
         new.emissive = Vec3::ZERO;
