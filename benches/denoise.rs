@@ -21,7 +21,7 @@ use rtc::internals::passes::{IntegratorChoice, ViewAndLight};
 use rtc::internals::pipeline::{Input, Options, OutputTransform, PictureSetup, RenderObserver};
 use rtc::internals::plan::{Plan, RuleSet};
 use rtc::internals::render::{AnyWorld, RenderSelection, SamplingSeeds};
-use rtc::internals::study::{LEVELS, PictureErrors, RenderOrder, probe};
+use rtc::internals::study::{LEVELS, PictureErrors, RenderRequest, probe};
 use std::path::Path;
 
 /// The paths a pixel of a picture, and of the plain one it is to be as good as.
@@ -33,7 +33,7 @@ const ALLOWED: f64 = 1.02;
 /// A scene, ready to be rendered with so many paths a pixel.
 struct Case {
     world: AnyWorld,
-    order: RenderOrder,
+    order: RenderRequest,
     paths: u32,
 }
 
@@ -156,7 +156,7 @@ impl Tally {
             .world
             .denoised(few.paths, &few.job(seed), &|_| true, &|| ())
             .unwrap();
-        let order = RenderOrder { seed, ..few.order };
+        let order = RenderRequest { seed, ..few.order };
         let rays = picture.film.counts.rays();
         let (film, probed) = probe(&few.world, &order, picture, few.paths, &|_| true).unwrap();
         let [plain, more] = [few, many].map(|case| case.shown(&case.plain(seed)));

@@ -1,7 +1,7 @@
 //! What accuracy costs in a scene.
 
 use super::clock::Stopwatch;
-use super::scene::SceneTask;
+use super::scene::SceneRun;
 use super::{Error, Options, Scene};
 use cpu_time::ThreadTime;
 use rtc_ir as ir;
@@ -109,7 +109,7 @@ impl Scene {
     }
 }
 
-impl SceneTask<'_> {
+impl SceneRun<'_> {
     fn cost(
         mut self,
         effort: Effort,

@@ -1,6 +1,6 @@
 //! Scenes as files of other programs.
 
-use super::scene::SceneTask;
+use super::scene::SceneRun;
 use super::{Diagnostic, Error, Options, Scene};
 use rtc_pipeline::{ExportFormat, ExportedFiles, RenderObserver, sidecar_folder};
 use std::path::Path;
@@ -39,7 +39,7 @@ impl Scene {
     }
 }
 
-impl SceneTask<'_> {
+impl SceneRun<'_> {
     fn export(mut self, name: &str) -> Result<Export, Error> {
         let refused = |reason: &str| Error::Refused(format!("`{name}` can't be written: {reason}"));
         let format = ExportFormat::of(name).ok_or_else(|| {

@@ -211,8 +211,8 @@ impl Scene {
         self.run().render(options, is_stopped)
     }
 
-    pub(super) fn run(&self) -> SceneTask<'_> {
-        SceneTask {
+    pub(super) fn run(&self) -> SceneRun<'_> {
+        SceneRun {
             input: Input::clone(&self.input),
             scene: self,
         }
@@ -220,7 +220,7 @@ impl Scene {
 }
 
 /// One check or one render of a scene, with the diagnostics of reading and its own.
-pub(super) struct SceneTask<'a> {
+pub(super) struct SceneRun<'a> {
     pub(super) input: Input,
     scene: &'a Scene,
 }
@@ -228,7 +228,7 @@ pub(super) struct SceneTask<'a> {
 /// A film, the quality of its pixels if it grew towards a goal, and its error if that is known.
 type RenderedFilm = (Film, Vec<PixelQuality>, Option<f64>);
 
-impl SceneTask<'_> {
+impl SceneRun<'_> {
     fn check(mut self) -> Vec<Diagnostic> {
         if let Some(loaded) = &self.scene.loaded {
             self.input.unstage();

@@ -35,7 +35,7 @@ pub(super) struct PlanReport {
     counter: SampledPaths,
     planned: u64,
     unpruned: u64,
-    rows: Vec<EffectReportRow>,
+    rows: Vec<EffectStatusRow>,
 }
 
 /// The samples of the picture whose rays were counted.
@@ -89,7 +89,7 @@ fn saved(
 }
 
 /// The status of one effect, with its cost.
-struct EffectReportRow {
+struct EffectStatusRow {
     status: EffectStatus,
     /// `file:line` of the values that decided.
     places: Vec<String>,
@@ -101,7 +101,7 @@ struct EffectReportRow {
     saves: u64,
 }
 
-impl EffectReportRow {
+impl EffectStatusRow {
     /// The row of a status, with the rays that it takes and saves.
     fn new(
         status: &EffectStatus,
@@ -176,7 +176,7 @@ impl PlanReport {
             } else {
                 0
             };
-            Ok(EffectReportRow::new(
+            Ok(EffectStatusRow::new(
                 status,
                 [costs, saves],
                 validated,
@@ -200,7 +200,7 @@ impl PlanReport {
     /// The verdicts of a plan as a table, without counts.
     pub(super) fn statuses(validated: &ValidatedScene, input: &Input) -> String {
         let plan = Plan::new(&validated.scene, RuleSet::ALL);
-        let row = |status: &EffectStatus| EffectReportRow::new(status, [0; 2], validated, input);
+        let row = |status: &EffectStatus| EffectStatusRow::new(status, [0; 2], validated, input);
         let lines = plan.statuses.iter().map(|status| row(status).lines(""));
         lines.collect()
     }
@@ -249,7 +249,7 @@ impl PlanReport {
     }
 
     fn object(&self) -> Value {
-        let row = |row: &EffectReportRow| {
+        let row = |row: &EffectStatusRow| {
             json!({
                 "effect": row.status.effect.name(),
                 "of": row.of,

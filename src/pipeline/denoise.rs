@@ -2,7 +2,7 @@
 
 use super::{PictureSetup, RayCounter, RenderError, RenderSubject, Renderer};
 use rtc_render::{Film, PixelObserver, RenderSelection};
-use rtc_study::{ProbedError, RenderOrder, probe};
+use rtc_study::{ProbedError, RenderRequest, probe};
 use rtc_valid::{Mode, ValidScene};
 
 /// A picture rendered with the settings of its scene.
@@ -58,7 +58,7 @@ impl Renderer {
     fn denoised(
         &self,
         samples: u32,
-        (job, order): (&RenderSelection, &RenderOrder),
+        (job, order): (&RenderSelection, &RenderRequest),
         (on_pixel, counter): (&PixelObserver<'_>, &RayCounter),
     ) -> Option<Traced> {
         self.threads.install(|| {

@@ -77,7 +77,7 @@ use rtc_render::{
 };
 use rtc_source::{EditedFiles, FileId, SourceMap};
 use rtc_study::{
-    self as study, CheckpointSink, RenderCallbacks, RenderOrder, Stopped, TargetResult,
+    self as study, CheckpointSink, RenderCallbacks, RenderRequest, Stopped, TargetResult,
 };
 use rtc_valid::{self as valid, Surface, ValidScene};
 use std::collections::{BTreeMap, BTreeSet};
@@ -361,7 +361,7 @@ impl Renderer {
     pub fn approach(
         &mut self,
         scene: &Scene,
-        order: &RenderOrder,
+        order: &RenderRequest,
         watch: &RenderCallbacks<'_>,
         keep: Option<CheckpointSink<'_>>,
     ) -> Result<TargetResult, Stopped> {

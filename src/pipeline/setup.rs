@@ -15,7 +15,7 @@ use rtc_passes::{self as passes, Framing, Overrides};
 use rtc_plan::{self as plan, Plan, Rule, RuleSet};
 use rtc_render::{Aov, Crop, RayCounts, RenderSelection, RenderStep, SimdLevel};
 use rtc_study::{
-    PixelQuality, Progress, RenderCallbacks, RenderGoal, RenderOrder, TargetResult, with_quality,
+    PixelQuality, Progress, RenderCallbacks, RenderGoal, RenderRequest, TargetResult, with_quality,
 };
 use rtc_valid::ValidScene;
 use serde_json::Value;
@@ -508,9 +508,9 @@ impl PictureSetup {
         subject: &RenderSubject,
         crop: Crop,
         time: Option<Duration>,
-    ) -> RenderOrder {
+    ) -> RenderRequest {
         let mode = &subject.validated.scene.settings().mode;
-        RenderOrder {
+        RenderRequest {
             goal: RenderGoal { time, ..self.goal },
             crop,
             background: self.look.background(),

@@ -14,7 +14,7 @@ use rtc_ir::{LoweredScene, Material, Mode, Scene, SourceSpans};
 use rtc_plan::{Plan, RuleSet};
 use rtc_render::{Background, RenderSelection, Values};
 use rtc_source::{Budget, FileId, Loader, SourceMap};
-use rtc_study::{ProgressiveRender, RenderGoal, RenderOrder};
+use rtc_study::{ProgressiveRender, RenderGoal, RenderRequest};
 use rtc_valid as valid;
 use std::path::Path;
 
@@ -142,7 +142,7 @@ pub fn part(bytes: &[u8]) {
 
 /// Checks that the progressive state survives reading and saving.
 fn has_grown(mut part: RenderShard) {
-    let order = RenderOrder {
+    let order = RenderRequest {
         goal: RenderGoal::default(),
         crop: part.window(),
         background: Background::default(),

@@ -13,7 +13,7 @@ mod listing;
 pub use folder::Folder;
 
 use super::loader::{FileIdentity, OpenedFile};
-use listing::Listings;
+use listing::FolderListings;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
@@ -28,7 +28,7 @@ pub struct FileSearch {
     has_parent: bool,
     /// The folder that the user allows, canonical.
     allowed: Option<PathBuf>,
-    listings: Listings,
+    listings: FolderListings,
 }
 
 /// A kind of file that scenes refer to.
@@ -165,7 +165,7 @@ impl FileSearch {
             folders: folder.cloned().into_iter().chain(given).collect(),
             has_parent: false,
             allowed,
-            listings: Listings::default(),
+            listings: FolderListings::default(),
         }
     }
 

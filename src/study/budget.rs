@@ -6,7 +6,7 @@ use super::progressive::ProgressiveRender;
 use super::rounds::next_round;
 use super::subject::Stopped;
 use super::target::{
-    Progress, RenderCallbacks, RenderOrder, TAIL, TargetResult, first_round, light_samples,
+    Progress, RenderCallbacks, RenderRequest, TAIL, TargetResult, first_round, light_samples,
     new_render,
 };
 use super::target::{set_sampling, tail_of};
@@ -49,7 +49,7 @@ struct TimedRender<'run, 'watch> {
 pub(super) fn render_within(
     world: &mut AnyWorld,
     scene: &Scene,
-    order: &RenderOrder,
+    order: &RenderRequest,
     watch: &RenderCallbacks<'_>,
     time: Duration,
 ) -> Result<TargetResult, Stopped> {
@@ -119,7 +119,7 @@ impl TimedRender<'_, '_> {
     }
 
     /// Finds the best number of light samples, if that takes a small fraction of the time.
-    fn choose_lights(&mut self, scene: &Scene, order: &RenderOrder) -> Result<(), Stopped> {
+    fn choose_lights(&mut self, scene: &Scene, order: &RenderRequest) -> Result<(), Stopped> {
         /// The maximum number of samples for this search, at one light sample each.
         const SAMPLES: f64 = 1e5;
         const MAX_FRACTION: f64 = 0.1;
@@ -136,7 +136,7 @@ impl TimedRender<'_, '_> {
     }
 
     /// Reserves the time that the output of the picture takes after the last sample.
-    fn reserve_output_time(&mut self, order: &RenderOrder) {
+    fn reserve_output_time(&mut self, order: &RenderRequest) {
         let start = self.elapsed();
         let undersampled = order.undersampled(self.world);
         let noise = FilmNoise::of(&self.progressive.film, &undersampled);
@@ -148,7 +148,7 @@ impl TimedRender<'_, '_> {
 
     /// Doubles the samples of all pixels until each has those of a first round, then adds samples
     /// where they reduce the error most, until the error or the time is reached.
-    fn rounds(&mut self, scene: &Scene, order: &RenderOrder) -> Result<TargetResult, Stopped> {
+    fn rounds(&mut self, scene: &Scene, order: &RenderRequest) -> Result<TargetResult, Stopped> {
         // Set up the round sizes.
         let [first, pilot] = first_round(scene, order, self.world);
         let (start, before) = (self.elapsed(), self.progressive.film.samples());
@@ -189,7 +189,7 @@ impl TimedRender<'_, '_> {
 
     /// The coarse picture: pixels without a sample get the value of the sampled pixel of their
     /// block, above and to the left.
-    fn coarse(&self, order: &RenderOrder, complete_after: Duration) -> TargetResult {
+    fn coarse(&self, order: &RenderRequest, complete_after: Duration) -> TargetResult {
         let film = &self.progressive.film;
         let width = film.crop().width as usize;
         // Find the finest complete block of each pixel.

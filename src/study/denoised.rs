@@ -2,7 +2,7 @@
 //! error estimate.
 
 use super::probe::probe;
-use super::target::{RenderGoal, RenderOrder};
+use super::target::{RenderGoal, RenderRequest};
 use rtc_color::Tone;
 use rtc_render::{AnyWorld, Crop, Film, PixelObserver, RenderSelection, Values};
 use rtc_valid::Mode;
@@ -28,7 +28,7 @@ pub(super) fn film(
     };
     // Render the whole picture in linear values, and denoise it.
     let camera = world.scene().camera();
-    let order = RenderOrder {
+    let order = RenderRequest {
         goal: RenderGoal::default(),
         crop: Crop {
             x: 0,

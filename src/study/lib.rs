@@ -105,7 +105,7 @@ pub use spread::ErrorSpread;
 pub use statistics::{Estimate, PowerLaw, SplitMix64, median};
 pub use subject::Stopped;
 pub use target::{
-    Progress, RenderCallbacks, RenderGoal, RenderOrder, SampleStatistics, TargetResult, approach,
+    Progress, RenderCallbacks, RenderGoal, RenderRequest, SampleStatistics, TargetResult, approach,
     approach_keeping,
 };
 pub use versus::{DifferentTile, SceneComparison, versus};

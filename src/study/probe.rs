@@ -7,7 +7,7 @@
 
 use super::metrics::LEVELS;
 use super::statistics::fisher_quantile;
-use super::target::{RenderOrder, TAIL};
+use super::target::{RenderRequest, TAIL};
 use rtc_image::around;
 use rtc_math::{GAMMA, fraction, mix};
 use rtc_render::{AnyWorld, DenoisedFilm, Film, PixelObserver, ProgressiveFilm};
@@ -62,7 +62,7 @@ const MIN_FREEDOM: f64 = 8.0;
 #[must_use]
 pub fn probe(
     world: &AnyWorld,
-    order: &RenderOrder,
+    order: &RenderRequest,
     mut picture: DenoisedFilm,
     samples: u32,
     on_pixel: &PixelObserver<'_>,
@@ -135,7 +135,7 @@ fn best(last: u32, found: impl Fn(u32) -> Vec<ProbeResult>) -> (u32, Vec<ProbeRe
 
 /// The probability of each pixel to be probed: a mixture of uniform and of the squared change of
 /// the displayed value by denoising, summed over 3 × 3 pixels.
-fn probabilities(picture: &DenoisedFilm, order: &RenderOrder) -> Vec<f64> {
+fn probabilities(picture: &DenoisedFilm, order: &RenderRequest) -> Vec<f64> {
     let (tone, exposure) = order.display;
     let shown = |pixel: &[f64; 3]| tone.display(pixel.map(|value| value * exposure));
     let Film { image, .. } = &picture.film;

@@ -3,7 +3,7 @@
 
 use super::batch::WorkBatch;
 use super::noise::ErrorBound;
-use super::target::{RenderOrder, SampleStatistics, TargetResult};
+use super::target::{RenderRequest, SampleStatistics, TargetResult};
 use super::undersampled::UndersampledBound;
 use rtc_render::{AnyWorld, FilmError, PixelObserver, ProgressiveFilm, Replicates, Tiles, Values};
 use std::time::Duration;
@@ -153,7 +153,7 @@ impl ProgressiveRender {
     ///
     /// # Errors
     /// If the bytes belong to another render or version, or are corrupt.
-    pub fn load(bytes: &[u8], order: &RenderOrder) -> Result<Self, FilmError> {
+    pub fn load(bytes: &[u8], order: &RenderRequest) -> Result<Self, FilmError> {
         /// The maximum number of rounds.
         const MAX_ROUNDS: u32 = 1 << 16;
         const MAX_LENGTH: u32 = 1 << 24;

@@ -35,7 +35,7 @@ pub struct RenderGoal {
 
 /// A render job with a goal.
 #[derive(Clone, Copy, Debug)]
-pub struct RenderOrder {
+pub struct RenderRequest {
     /// When to stop.
     pub goal: RenderGoal,
     /// The rendered part of the picture.
@@ -130,7 +130,7 @@ const FIRST_PILOT: u32 = 2;
 pub fn approach(
     world: &mut AnyWorld,
     scene: &Scene,
-    order: &RenderOrder,
+    order: &RenderRequest,
     watch: &RenderCallbacks<'_>,
 ) -> Result<TargetResult, Stopped> {
     approach_keeping(world, scene, order, watch, None)
@@ -143,7 +143,7 @@ pub fn approach(
 pub fn approach_keeping(
     world: &mut AnyWorld,
     scene: &Scene,
-    order: &RenderOrder,
+    order: &RenderRequest,
     watch: &RenderCallbacks<'_>,
     sink: Option<CheckpointSink<'_>>,
 ) -> Result<TargetResult, Stopped> {
@@ -166,7 +166,7 @@ pub fn approach_keeping(
 fn in_rounds(
     world: &mut AnyWorld,
     scene: &Scene,
-    order: &RenderOrder,
+    order: &RenderRequest,
     watch: &RenderCallbacks<'_>,
     mut checkpointer: Option<Checkpointer<'_>>,
 ) -> Result<TargetResult, Stopped> {
@@ -215,7 +215,7 @@ pub(super) fn tail_of(rounds: u32) -> f64 {
 }
 
 /// A render without samples yet.
-pub(super) fn new_render(light_samples: u32, order: &RenderOrder) -> ProgressiveRender {
+pub(super) fn new_render(light_samples: u32, order: &RenderRequest) -> ProgressiveRender {
     ProgressiveRender {
         film: order.film(),
         requested: Vec::new(),
@@ -226,7 +226,7 @@ pub(super) fn new_render(light_samples: u32, order: &RenderOrder) -> Progressive
 }
 
 /// The samples of each replicate and of the pilot of all pixels in the first round.
-pub(super) fn first_round(scene: &Scene, order: &RenderOrder, world: &AnyWorld) -> [u32; 2] {
+pub(super) fn first_round(scene: &Scene, order: &RenderRequest, world: &AnyWorld) -> [u32; 2] {
     let min = if not_applicable(Parameter::Paths, scene).is_none() {
         FIRST_PATHS
     } else {
@@ -240,7 +240,7 @@ pub(super) fn first_round(scene: &Scene, order: &RenderOrder, world: &AnyWorld) 
     [first, (first / 2).max(FIRST_PILOT)]
 }
 
-impl RenderOrder {
+impl RenderRequest {
     /// A film without samples.
     pub(super) fn film(&self) -> ProgressiveFilm {
         let mut film = ProgressiveFilm::new(self.crop, self.seed);
@@ -261,7 +261,7 @@ impl RenderOrder {
 /// Renders a mode without random sampling.
 fn render_unsampled(
     world: &AnyWorld,
-    order: &RenderOrder,
+    order: &RenderRequest,
     watch: &RenderCallbacks<'_>,
 ) -> Result<TargetResult, Stopped> {
     // Render the picture once.
@@ -315,7 +315,7 @@ pub(super) fn set_sampling(world: &mut AnyWorld, scene: &Scene, light_samples: u
 pub(super) fn light_samples(
     world: &mut AnyWorld,
     scene: &Scene,
-    order: &RenderOrder,
+    order: &RenderRequest,
     watch: &RenderCallbacks<'_>,
 ) -> Result<(u32, RayCounts), Stopped> {
     /// The number of tiles, and the samples per replicate in them.

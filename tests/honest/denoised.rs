@@ -6,12 +6,12 @@ use super::scenes::{order, references, world};
 use rtc::internals::color::Tone;
 use rtc::internals::image::Image;
 use rtc::internals::render::{AnyWorld, RenderSelection, SamplingSeeds};
-use rtc::internals::study::{LEVELS, ProbedError, RenderGoal, RenderOrder, probe};
+use rtc::internals::study::{LEVELS, ProbedError, RenderGoal, RenderRequest, probe};
 
 const SAMPLES: u32 = 16;
 
 /// A denoised picture of a seed in linear values, and its estimated error.
-fn denoised(world: &AnyWorld, order: &RenderOrder, seed: u64) -> (Image, ProbedError) {
+fn denoised(world: &AnyWorld, order: &RenderRequest, seed: u64) -> (Image, ProbedError) {
     let job = RenderSelection {
         seeds: SamplingSeeds {
             pixel: seed,
@@ -22,7 +22,7 @@ fn denoised(world: &AnyWorld, order: &RenderOrder, seed: u64) -> (Image, ProbedE
     };
     let picture = world.denoised(SAMPLES, &job, &|_| true, &|| ()).unwrap();
     // Probes with other seeds than the picture.
-    let order = RenderOrder {
+    let order = RenderRequest {
         seed: 1000 * seed,
         ..*order
     };

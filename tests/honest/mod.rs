@@ -15,7 +15,7 @@ mod scenes;
 use patterns::grains;
 use rtc::internals::ir::Scene;
 use rtc::internals::render::{Crop, Values};
-use rtc::internals::study::{RenderCallbacks, RenderGoal, RenderOrder, Stopped, approach};
+use rtc::internals::study::{RenderCallbacks, RenderGoal, RenderRequest, Stopped, approach};
 use scenes::{error, order, references, render, scene, world};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::time::Duration;
@@ -92,7 +92,7 @@ fn a_crop_of_a_first_round_is_a_part_of_the_whole() {
         time: None,
     };
     let picture = |crop| {
-        let order = RenderOrder {
+        let order = RenderRequest {
             crop,
             values: Values::Linear,
             keep_lights: true,

@@ -9,7 +9,7 @@ use rtc::internals::plan::{Plan, RuleSet};
 use rtc::internals::render::{AnyWorld, Background, Crop, Values};
 use rtc::internals::source::SourceMap;
 use rtc::internals::study::{
-    LEVELS, RenderCallbacks, RenderGoal, RenderOrder, SplitMix64, TargetResult, approach,
+    LEVELS, RenderCallbacks, RenderGoal, RenderRequest, SplitMix64, TargetResult, approach,
 };
 use std::fmt::Write as _;
 use std::path::Path;
@@ -146,7 +146,7 @@ pub(crate) fn world(scene: &Scene) -> AnyWorld {
 }
 
 /// All of the picture.
-pub(crate) fn order(scene: &Scene, goal: RenderGoal, seed: u64) -> RenderOrder {
+pub(crate) fn order(scene: &Scene, goal: RenderGoal, seed: u64) -> RenderRequest {
     let [width, height] = scene.camera.size;
     let crop = Crop {
         x: 0,
@@ -154,7 +154,7 @@ pub(crate) fn order(scene: &Scene, goal: RenderGoal, seed: u64) -> RenderOrder {
         width,
         height,
     };
-    RenderOrder {
+    RenderRequest {
         display: (Tone::Srgb, 1.0),
         goal,
         crop,

@@ -155,9 +155,7 @@ fn proposed(
             .flatten(),
     );
     if is_file(&schemas) {
-        items.extend(files(
-            document.path.parent().unwrap_or(Path::new(".")),
-        ));
+        items.extend(files(document.path.parent().unwrap_or(Path::new("."))));
     }
     items.extend(anchors(&document.text));
     items

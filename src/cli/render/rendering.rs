@@ -13,7 +13,7 @@ use rtc_pipeline::{
 use rtc_render::{Crop, Film, RayCounts};
 use rtc_study::{
     CheckpointSink, CoarsePicture, PixelQuality, ProgressiveRender, RenderCallbacks, RenderGoal,
-    RenderOrder, Stopped, TargetResult,
+    RenderRequest, Stopped, TargetResult,
 };
 use std::fs::File;
 use std::io::ErrorKind;
@@ -91,7 +91,7 @@ pub(super) struct ResumedRender<'a> {
 impl<'a> ResumedRender<'a> {
     fn into_keep(
         self,
-        order: &RenderOrder,
+        order: &RenderRequest,
         threads: usize,
         elapsed: &'a (dyn Fn() -> Duration + Sync),
     ) -> Result<CheckpointSink<'a>, RenderError> {

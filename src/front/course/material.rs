@@ -5,7 +5,7 @@ use super::glass::{Glass, glass_setting, make_opaque, report_index_without_weigh
 use super::keyword::{Keyword, KeywordTable, keyword_schema};
 use super::lower::Lowering;
 use super::number::{Count, NonNegative};
-use super::pattern::{FileOrPattern, PatternMap};
+use super::pattern::{FileOrPattern, PatternTexture};
 use super::reader::look_up;
 use super::record::{FieldResult, keys, record};
 use super::schema::SchemaDefinitions;
@@ -297,7 +297,11 @@ impl Lowering {
     }
 
     /// The texture of a pattern. Equal patterns are one texture.
-    pub(super) fn pattern(&mut self, pattern: &PatternMap, span: Option<Span>) -> ir::TextureId {
+    pub(super) fn pattern(
+        &mut self,
+        pattern: &PatternTexture,
+        span: Option<Span>,
+    ) -> ir::TextureId {
         let texture = ir::Texture::Procedural(pattern.lowered());
         let id = add_texture(&mut self.scene, texture);
         self.record_span(EntityKind::Texture, id.0 as usize, EntityField::Whole, span);

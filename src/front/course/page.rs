@@ -7,7 +7,7 @@ use super::light::Light;
 use super::material::PhongMaterial;
 use super::object::{KINDS, ObjectKind};
 use super::path_settings::PathParameters;
-use super::pattern::PatternMap;
+use super::pattern::PatternTexture;
 use super::record::{FieldDeclaration, FieldRequirement, Record};
 use super::sampling::SamplingMap;
 use super::schema::SchemaDefinitions;
@@ -49,7 +49,7 @@ pub fn page() -> String {
         ("`material`", &PhongMaterial::RECORD),
         ("`material` of `type: standard`", &StandardMaterial::RECORD),
         ("A texture of a `standard` material", &TextureMap::RECORD),
-        ("A pattern as a texture", &PatternMap::RECORD),
+        ("A pattern as a texture", &PatternTexture::RECORD),
     ] {
         section(title, record, &mut page);
     }

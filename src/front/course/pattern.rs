@@ -19,7 +19,7 @@ const OCTAVES: Octaves = Octaves(4);
 
 record! {
     /// A pattern as a texture. Its keyword alone is a texture with the defaults.
-    struct PatternMap, "pattern" {
+    struct PatternTexture, "pattern" {
         /// `checker`: cubes of the two colours in turn; `stripes`: slabs across the first axis;
         /// `noise`: gradient noise between the colours; `worley`: the distance to the nearest of
         /// random points, one in each cell.
@@ -122,7 +122,7 @@ impl Decode for ColorPair {
     }
 }
 
-impl PatternMap {
+impl PatternTexture {
     /// A pattern with the defaults, for its keyword.
     fn of(pattern: PatternKind) -> Self {
         Self {
@@ -156,13 +156,13 @@ impl PatternMap {
 /// The texture of a Phong material: an image file, or a pattern.
 pub(super) enum FileOrPattern {
     File(FileName),
-    Pattern(Box<PatternMap>),
+    Pattern(Box<PatternTexture>),
 }
 
 impl Decode for FileOrPattern {
     fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         if context.tree.is_map(node) {
-            return PatternMap::decode(node, context).map(|map| Self::Pattern(Box::new(map)));
+            return PatternTexture::decode(node, context).map(|map| Self::Pattern(Box::new(map)));
         }
         if let Some(pattern) = pattern_word(node, context) {
             return Some(Self::Pattern(Box::new(pattern)));
@@ -182,17 +182,17 @@ impl FileOrPattern {
         [
             FileName::schema(definitions),
             word,
-            PatternMap::schema(definitions),
+            PatternTexture::schema(definitions),
         ]
     }
 }
 
 /// The pattern that a keyword names.
-pub(super) fn pattern_word(node: NodeId, context: &DecodeContext<'_>) -> Option<PatternMap> {
+pub(super) fn pattern_word(node: NodeId, context: &DecodeContext<'_>) -> Option<PatternTexture> {
     let NodeContent::Word(word) = context.tree.shape(node) else {
         return None;
     };
     let mut words = PatternKind::KEYWORDS.iter();
     let (_, pattern, _) = words.find(|(known, ..)| known.eq_ignore_ascii_case(word))?;
-    Some(PatternMap::of(*pattern))
+    Some(PatternTexture::of(*pattern))
 }

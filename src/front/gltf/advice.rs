@@ -46,7 +46,7 @@ const BY_ALIAS: &[(&[&str], &str)] = rows! { alias:
     VALUE_MULTIPLE_OF => "pad each element up to such a size, and write that size";
     INVALID_GL_VALUE =>
         "write a value that the component type can hold, or use a larger component type";
-    ARRAY_LENGTH_NOT_IN_LIST => "add or remove numbers until their count is right";
+    ARRAY_LENGTH_NOT_IN_LIST => "write as many numbers as the property has, or export the asset again";
     ROTATION_NON_UNIT => "divide the four numbers by the length";
     CAMERA_XMAG_YMAG_ZERO =>
         "set `xmag` and `ymag` to half the width and half the height of the view";
@@ -72,7 +72,7 @@ const BY_ALIAS: &[(&[&str], &str)] = rows! { alias:
     UNEXPECTED_EXTENSION_OBJECT => "move it to an object that it extends, or remove it";
     NON_REQUIRED_EXTENSION => "copy the name from `extensionsUsed`";
     INVALID_EXTENSION_NAME_FORMAT => "write a prefix in capitals, an underscore and a name";
-    UNRESERVED_EXTENSION_PREFIX => "use a prefix that Khronos has registered, as `EXT`";
+    UNRESERVED_EXTENSION_PREFIX => "use a prefix that Khronos has registered, such as `EXT`; if another program reads the extension, this warning can stay";
     MULTIPLE_EXTENSIONS => "remove it, or remove the other extensions of the material";
     // Files, buffers and buffer views.
     BUFFER_DATA_URI_MIME_TYPE_INVALID =>
@@ -131,7 +131,7 @@ const BY_ALIAS: &[(&[&str], &str)] = rows! { alias:
     // Nodes, skins and animations.
     NODE_LOOP => "remove a node of the loop from the `children` of its parent";
     NODE_PARENT_OVERRIDE => "remove the node from the `children` of one parent, or copy it";
-    SCENE_NON_ROOT_NODE => "list its uppermost ancestor in its place";
+    SCENE_NON_ROOT_NODE => "remove it from this list, and list the root of its tree if it is not listed";
     NODE_MATRIX_NON_TRS =>
         "use `translation`, `rotation` and `scale`, or apply the matrix to the vertices";
     ACCESSOR_INVALID_IBM => "write 0, 0, 0, 1 as the last row of each matrix";
@@ -193,14 +193,14 @@ const BY_ALIAS: &[(&[&str], &str)] = rows! { alias:
 static BY_CODE: &[(&Code, &str)] = rows! { code:
     GLB_HEADER => "export the asset as glTF 2.0";
     GLB_EXTRA => "remove the chunk, unless another program needs it";
-    GLTF_NOT_JSON => "write JSON in UTF-8, without a byte order mark, comments or trailing commas";
+    GLTF_NOT_JSON => "complete or correct the JSON: UTF-8, all brackets closed, no comments, no trailing commas";
     GLTF_KEY_TWICE => "remove one of the two";
     GLTF_TYPE => "write a value of that type, or remove it if it is optional";
     GLTF_MISSING => "add the property: it has no default";
     GLTF_UNKNOWN => "correct its spelling, move it into `extras`, or remove it";
     GLTF_EMPTY => "add an element, or remove the property if it is optional";
     GLTF_VALUE => "write such a value, or remove the property if it is optional";
-    GLTF_CHOICE => "write one of these values, spelled exactly so";
+    GLTF_CHOICE => "write one of these values";
     GLTF_DUPLICATE => "remove the second";
     GLTF_REFERENCE => "write the index of an existing object, counted from 0, or add the object";
     GLTF_VERSION => "export the asset as glTF 2.0";

@@ -245,8 +245,8 @@ impl ContainerScan<'_> {
         }
         if end > declared {
             let message = format!(
-                "the {name} chunk ends {} bytes after the length in the header",
-                end - declared
+                "the {name} chunk ends at byte {end}, but the header says that the file has \
+                 {declared} bytes"
             );
             self.add(code, "GLB_CHUNK_TOO_BIG", header.clone(), message);
         }

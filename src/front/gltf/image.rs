@@ -317,7 +317,8 @@ fn admit<'a>(
     budget: &Budget,
 ) -> Result<ChargedFile<'a>, ImageRejection> {
     if format.ends_early(bytes) {
-        let message = "the image ends before its size".to_owned();
+        let message =
+            "the image is incomplete: its data are shorter than its header says".to_owned();
         return Err(ImageRejection::Fault((
             &codes::GLTF_IMAGE,
             "IMAGE_UNEXPECTED_EOS",

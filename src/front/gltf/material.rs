@@ -329,7 +329,7 @@ pub(super) fn check_variants(doc: &Document<'_>, report: &mut AssetReport<'_, '_
                 };
                 if !seen.insert(variant) {
                     let message =
-                        format!("the primitive has already a material for variant {variant}");
+                        format!("the primitive already has a material for variant {variant}");
                     report.add(
                         &codes::GLTF_DUPLICATE,
                         "KHR_MATERIALS_VARIANTS_NON_UNIQUE_VARIANT",

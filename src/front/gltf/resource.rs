@@ -182,7 +182,8 @@ impl<'m> ResourceReader<'m> {
             }
             Err(UriError::Reported) => None,
             Err(UriError::Outside(how)) => {
-                outside(text, how, at, report);
+                let hint = "copy the file beside the asset and use a relative path";
+                outside(text, (how, hint), at, report);
                 None
             }
         }
@@ -204,7 +205,7 @@ impl<'m> ResourceReader<'m> {
                     true => "it contains `..`",
                     false => "a link leaves it",
                 };
-                outside(path, how, at, report);
+                outside(path, (how, PERMIT_FOLDER), at, report);
                 return None;
             }
             Err(MissingFile::NoFolder) => {
@@ -265,12 +266,22 @@ fn remark_uri(is_glb: bool, at: NodeId, report: &mut AssetReport<'_, '_>) {
     }
 }
 
-fn outside(text: &str, how: &str, at: NodeId, report: &mut AssetReport<'_, '_>) {
-    let message = format!("`{}` leaves the folder of the asset: {how}", shown(text));
-    let hint = "put the file beside the asset and use a relative path, or pass its folder with \
-                `--asset-root FOLDER`"
-        .to_owned();
-    report.add_with_hint(&codes::GLTF_OUTSIDE, "IO_ERROR", at, message, hint);
+/// The advice for a file that is outside of the permitted folders.
+const PERMIT_FOLDER: &str = "put the file beside the asset and use a relative path, or permit its \
+    folder with `--asset-root FOLDER`";
+
+fn outside(text: &str, (how, hint): (&str, &str), at: NodeId, report: &mut AssetReport<'_, '_>) {
+    let message = format!(
+        "`{}` is outside of the folder of the asset: {how}",
+        shown(text)
+    );
+    report.add_with_hint(
+        &codes::GLTF_OUTSIDE,
+        "IO_ERROR",
+        at,
+        message,
+        hint.to_owned(),
+    );
 }
 
 /// True if a data URI has the media type of a buffer, or if the URI is no data URI.

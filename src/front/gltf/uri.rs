@@ -56,7 +56,7 @@ pub(super) fn parse(uri: &str) -> Result<Uri, UriError> {
             [first, rest @ ..]
                 if first.is_ascii_alphabetic() && rest.iter().all(|byte| in_scheme(*byte)) =>
             {
-                UriError::Outside("it names a scheme or a drive")
+                UriError::Outside("it is an address or names a drive, and is no relative path")
             }
             _ => UriError::Malformed("the text before the colon is not a scheme"),
         });

@@ -173,6 +173,20 @@ pub(super) enum ArcKind {
     Specialize,
 }
 
+impl ArcKind {
+    /// The keyword of the arc in a text of USD.
+    pub(super) fn keyword(self) -> &'static str {
+        match self {
+            Self::Root => "root",
+            Self::Inherit => "inherits",
+            Self::Variant => "variantSets",
+            Self::Reference => "references",
+            Self::Payload => "payload",
+            Self::Specialize => "specializes",
+        }
+    }
+}
+
 /// An attribute or a relationship.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PropertySpec {

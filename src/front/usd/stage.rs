@@ -139,13 +139,18 @@ impl Lowering<'_> {
             let Some(below) = self.open_layer(&sub.asset, layer) else {
                 continue;
             };
-            if open.contains(&below) || open.len() >= MAX_ARCS || found.len() >= MAX_LAYERS {
-                let message =
-                    "the layer is one of those above it, or there are too many: it is left out";
-                self.report(&codes::USD_ARC, sub.asset.span, message);
+            let reason = if open.contains(&below) {
+                "the sublayer includes itself".to_owned()
+            } else if open.len() >= MAX_ARCS {
+                format!("sublayers are nested more than {MAX_ARCS} deep")
+            } else if found.len() >= MAX_LAYERS {
+                format!("the stage has more than {MAX_LAYERS} sublayers")
+            } else {
+                self.stack_layers(below, time.after(sub.time), open, found);
                 continue;
-            }
-            self.stack_layers(below, time.after(sub.time), open, found);
+            };
+            let message = format!("{reason}: this one is left out");
+            self.report(&codes::USD_ARC, sub.asset.span, message);
         }
         open.pop();
     }
@@ -375,11 +380,8 @@ impl Lowering<'_> {
             path => Some(path.to_owned()),
         };
         let Some(path) = path else {
-            return self.nowhere(
-                node,
-                target.span,
-                "the layer that it names has no default prim",
-            );
+            let why = "its file has no `defaultPrim`, and it names no prim";
+            return self.nowhere((node, kind), target.span, why);
         };
         let is_within = |inner: &str| {
             inner
@@ -389,20 +391,24 @@ impl Lowering<'_> {
         let place = (stack, path.clone());
         let is_cycle =
             stack == node.stack && is_within(&node.path) || self.open_arcs.contains(&place);
-        if is_cycle || arcs >= MAX_ARCS {
-            return self.nowhere(node, target.span, "it leads back to itself, or too far");
+        if is_cycle {
+            return self.nowhere((node, kind), target.span, "it leads back to its own prim");
+        }
+        if arcs >= MAX_ARCS {
+            let why = format!("more than {MAX_ARCS} arcs lead from one to the next");
+            return self.nowhere((node, kind), target.span, &why);
         }
         self.open_arcs.push(place);
         let found = self.prim_index(stack, &path, known, arcs + 1);
         self.open_arcs.pop();
         let Some(mut found) = found else {
-            // A class without an opinion is none.
+            // A class that no layer defines may be inherited; it adds nothing.
             let may_be_missing = matches!(kind, ArcKind::Inherit | ArcKind::Specialize);
             if self.is_exhausted || may_be_missing {
                 return None;
             }
             let message = format!("there is no prim `{}`", clip_path(&path));
-            return self.nowhere(node, target.span, &message);
+            return self.nowhere((node, kind), target.span, &message);
         };
         found.kind = kind;
         found.depth = node.path.matches('/').count();
@@ -412,8 +418,15 @@ impl Lowering<'_> {
         Some(found)
     }
 
-    fn nowhere(&mut self, node: &PrimNode, span: Span, why: &str) -> Option<PrimNode> {
-        let message = format!("an arc of `{}` is left out: {why}", clip_path(&node.path));
+    /// Reports an arc that is left out.
+    fn nowhere(
+        &mut self,
+        (node, kind): (&PrimNode, ArcKind),
+        span: Span,
+        why: &str,
+    ) -> Option<PrimNode> {
+        let (arc, prim) = (kind.keyword(), clip_path(&node.path));
+        let message = format!("`{arc}` of the prim `{prim}` is left out: {why}");
         if self
             .reported
             .insert((span.file, span.start, message.clone()))

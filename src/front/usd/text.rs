@@ -95,14 +95,19 @@ impl<'a> TextReader<'a> {
     /// Reports a mistake at the place that is read.
     fn mistake<T>(&mut self, message: impl Into<String>) -> Option<T> {
         let start = self.at.min(self.bytes.len());
-        self.at = (start + 1).min(self.bytes.len());
+        self.mistake_at(start, message);
+        None
+    }
+
+    /// Records a mistake at this place; what follows is read on from where the reader stands.
+    fn mistake_at(&mut self, start: usize, message: impl Into<String>) {
+        let at = std::mem::replace(&mut self.at, (start + 1).min(self.bytes.len()));
         let span = self.span(start);
-        self.at = start;
+        self.at = at;
         self.mistakes.push((span, message.into()));
         if self.mistakes.len() >= MAX_MISTAKES {
             self.at = self.bytes.len();
         }
-        None
     }
 
     /// Charges memory in steps; the text ends where there is no more.
@@ -206,7 +211,7 @@ impl<'a> TextReader<'a> {
                 }
                 _ => {
                     self.at = start;
-                    self.mistake::<()>("nothing ends this string");
+                    self.mistake::<()>("the string has no closing quote");
                     self.at = if is_long {
                         self.bytes.len()
                     } else {
@@ -229,7 +234,15 @@ impl<'a> TextReader<'a> {
         let end = memchr::memmem::find(rest, mark);
         let end = end.filter(|end| is_long || !rest[..*end].contains(&b'\n'));
         let Some(end) = end else {
-            return self.mistake(format!("nothing ends this with `{}`", char::from(close)));
+            self.mistake_at(
+                start - mark.len(),
+                format!(
+                    "`{}` has no closing `{}`",
+                    char::from(open),
+                    char::from(close)
+                ),
+            );
+            return None;
         };
         let text = String::from_utf8_lossy(&rest[..end]).into_owned();
         self.at = start + end;
@@ -354,7 +367,10 @@ impl<'a> TextReader<'a> {
                         self.eat(b',');
                     }
                 }
-                Some(b'[' | b'(') => return self.mistake("the brackets are nested too deep"),
+                Some(b'[' | b'(') => {
+                    return self
+                        .mistake(format!("brackets are nested more than {MAX_BRACKETS} deep"));
+                }
                 _ => {
                     self.atom(&mut numbers, &mut texts)?;
                     if depth > 0 && !self.eat(b',') && !matches!(self.peek(), Some(b']' | b')')) {
@@ -374,10 +390,13 @@ impl<'a> TextReader<'a> {
 
     /// Skips a value of any kind.
     fn skip_value(&mut self) -> Option<()> {
-        let mut depth = 0_usize;
+        let (start, mut depth) = (self.at, 0_usize);
         loop {
             match self.peek() {
-                None => return self.mistake("nothing ends this value"),
+                None => {
+                    self.mistake_at(start, "a bracket of the value is never closed");
+                    return None;
+                }
                 Some(b'{' | b'[' | b'(') => {
                     self.at += 1;
                     depth += 1;
@@ -400,10 +419,11 @@ impl<'a> TextReader<'a> {
 
     /// The metadata behind an opening parenthesis.
     fn metadata(&mut self, owner: MetadataOwner<'_>) {
+        let opening = self.at - 1;
         loop {
             match self.peek() {
                 None => {
-                    self.mistake::<()>("nothing closes the `(` of this metadata");
+                    self.mistake_at(opening, "`(` is never closed");
                     return;
                 }
                 Some(b')') => {
@@ -430,7 +450,7 @@ impl<'a> TextReader<'a> {
             key = self.word();
         }
         if key.is_empty() {
-            return self.mistake("the name of a metadatum is expected here");
+            return self.mistake("the name of a metadata field is expected here");
         }
         self.expect(b'=')?;
         match owner {
@@ -544,7 +564,9 @@ impl<'a> TextReader<'a> {
         };
         let path = match self.peek() {
             Some(b'<') => self.path()?.text,
-            _ if asset.is_empty() => return self.mistake("a file or a path is expected here"),
+            _ if asset.is_empty() => {
+                return self.mistake("a file as `@file@` or a path as `</path>` is expected here");
+            }
             _ => String::new(),
         };
         let span = self.span(start);
@@ -587,11 +609,12 @@ impl<'a> TextReader<'a> {
 
     /// The statements of a prim, to its closing brace, or to the end of the file.
     fn body(&mut self, index: u32, depth: usize) {
+        let opening = self.at.saturating_sub(1);
         loop {
             match self.peek() {
                 None if depth == 0 => return,
                 None => {
-                    self.mistake::<()>("nothing closes the `{` of this prim");
+                    self.mistake_at(opening, "`{` is never closed");
                     return;
                 }
                 Some(b'}') if depth > 0 => {

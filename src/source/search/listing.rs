@@ -10,31 +10,33 @@ const MAX_NAMES: usize = 1 << 16;
 
 /// The listings of the folders read so far.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Listings(Arc<Mutex<BTreeMap<PathBuf, Arc<Listing>>>>);
+pub(super) struct FolderListings(Arc<Mutex<BTreeMap<PathBuf, Arc<FolderListing>>>>);
 
 /// The names in a folder.
 #[derive(Debug)]
-pub(super) struct Listing {
+pub(super) struct FolderListing {
     /// The names, sorted.
     pub(super) names: Vec<String>,
     /// The names by their lower-case form.
     by_lower: BTreeMap<String, Vec<String>>,
 }
 
-impl Listings {
+impl FolderListings {
     /// The listing of a path in a folder.
-    pub(super) fn of(&self, folder: &Folder, place: &Path) -> Arc<Listing> {
+    pub(super) fn of(&self, folder: &Folder, place: &Path) -> Arc<FolderListing> {
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(listing) = known.get(place) {
             return Arc::clone(listing);
         }
-        let listing = Arc::new(Listing::new(folder.names(place).take(MAX_NAMES).collect()));
+        let listing = Arc::new(FolderListing::new(
+            folder.names(place).take(MAX_NAMES).collect(),
+        ));
         known.insert(place.to_owned(), Arc::clone(&listing));
         listing
     }
 }
 
-impl Listing {
+impl FolderListing {
     fn new(mut names: Vec<String>) -> Self {
         names.sort_unstable();
         let mut by_lower: BTreeMap<String, Vec<String>> = BTreeMap::new();
@@ -65,7 +67,7 @@ mod tests {
         };
         for count in [100, 200, 400] {
             let folder = Folder::in_memory(&files(count), Path::new(""), None);
-            let listings = Listings::default();
+            let listings = FolderListings::default();
             let first = listings.of(&folder, Path::new("a"));
             for at in 0..count {
                 let again = listings.of(&folder, Path::new("a"));

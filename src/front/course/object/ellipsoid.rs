@@ -68,7 +68,7 @@ impl Ellipsoid {
             radius.value.0.iter().find(|radius| **radius < 0.0),
             radius.span,
         ) {
-            let message = || format!("the radius `{}` is not above 0", shortest(*negative));
+            let message = || format!("the radius `{}` is negative", shortest(*negative));
             context.report(&codes::RADIUS, span, message, |d| {
                 d.at(span, "must be above 0")
             });

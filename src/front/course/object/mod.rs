@@ -372,7 +372,7 @@ fn zero_size_field(shape: &ir::Shape) -> Option<&'static str> {
 fn report_negative(length: &Spanned<NonNegative>, name: &str, context: &mut DecodeContext<'_>) {
     if let Some(span) = length.span {
         let shown = shortest(length.value.0);
-        let message = || format!("the {name} `{shown}` is not above 0");
+        let message = || format!("the {name} `{shown}` is negative");
         context.report(&codes::RADIUS, span, message, |d| {
             d.at(span, "must be above 0")
         });

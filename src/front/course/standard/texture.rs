@@ -3,7 +3,7 @@
 use super::super::decode::{Decode, DecodeContext, Spanned};
 use super::super::keyword::{keyword, keyword_schema};
 use super::super::lower::Lowering;
-use super::super::pattern::{FileOrPattern, PatternMap, pattern_word};
+use super::super::pattern::{FileOrPattern, PatternTexture, pattern_word};
 use super::super::reader::look_up;
 use super::super::record::{FieldResult, keys, record};
 use super::super::rotation::PlaneRows;
@@ -38,14 +38,14 @@ record! {
 /// An image with its placement, the name of its file alone, or a pattern.
 pub(crate) enum MapOrFile {
     Image(TextureMap),
-    Pattern(Box<PatternMap>),
+    Pattern(Box<PatternTexture>),
 }
 
 impl Decode for MapOrFile {
     fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         if context.tree.is_map(node) {
             return if look_up("pattern", node, context).is_some() {
-                PatternMap::decode(node, context).map(|map| Self::Pattern(Box::new(map)))
+                PatternTexture::decode(node, context).map(|map| Self::Pattern(Box::new(map)))
             } else {
                 TextureMap::decode(node, context).map(Self::Image)
             };

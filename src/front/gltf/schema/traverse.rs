@@ -260,7 +260,8 @@ impl SchemaWalk<'_, '_, '_> {
         {
             Some(slot @ (ListElement::Unused | ListElement::Used)) => *slot = ListElement::Used,
             Some(ListElement::NoPart) => {
-                let message = format!("item {index} of `{target}` is no object");
+                let message =
+                    format!("`/{target}/{index}` is not an object, so nothing can refer to it");
                 self.report.add(
                     &codes::GLTF_REFERENCE,
                     "UNRESOLVED_REFERENCE",
