@@ -1,6 +1,6 @@
 //! The JSON report of `rtc info`; the table is printed from it, too.
 
-use rtc_front::gltf::{AnimationSummary, AssetSummary};
+use rtc_front::gltf::{AnimationSummary, AssetSummary, Inventory};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -147,6 +147,8 @@ pub(super) struct GltfAssetReport<'a> {
     extensions_used: &'a [String],
     /// The extensions that a reader must support.
     extensions_required: &'a [String],
+    #[serde(flatten)]
+    inventory: &'a Inventory,
     /// The animations.
     animations: Vec<AnimationReport<'a>>,
     /// The names of the cameras; empty for a camera without a name.
@@ -162,6 +164,10 @@ struct AnimationReport<'a> {
     name: &'a str,
     /// The number of animated properties.
     channels: usize,
+    /// The number of samplers.
+    samplers: usize,
+    /// The number of keyframes of all samplers.
+    keyframes: u64,
     /// The time of the last keyframe, in seconds.
     seconds: f64,
 }
@@ -171,6 +177,8 @@ impl<'a> GltfAssetReport<'a> {
         let animation = |animation: &'a AnimationSummary| AnimationReport {
             name: &animation.name,
             channels: animation.channels,
+            samplers: animation.samplers,
+            keyframes: animation.keyframes,
             seconds: animation.seconds,
         };
         let count = |(key, count): &(&str, usize)| ((*key).to_owned(), (*count).into());
@@ -180,6 +188,7 @@ impl<'a> GltfAssetReport<'a> {
             counts: asset.counts.iter().map(count).collect(),
             extensions_used: &asset.extensions,
             extensions_required: &asset.required,
+            inventory: &asset.inventory,
             animations: asset.animations.iter().map(animation).collect(),
             cameras: &asset.cameras,
             variants: &asset.variants,

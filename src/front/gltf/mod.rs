@@ -48,6 +48,7 @@ mod field;
 mod header;
 mod image;
 mod influences;
+mod inventory;
 mod layout;
 mod light;
 mod lower;
@@ -67,6 +68,7 @@ mod unused;
 mod uri;
 mod usage;
 
+pub use inventory::{Inventory, MaterialRow, MeshRow, SceneRow, TextureRow};
 pub(super) use lower::{SURFACE, empty, looking_at, pixel};
 pub use summary::{AnimationSummary, AssetSummary, summary};
 

@@ -1,10 +1,12 @@
 //! The summary of an asset for `rtc info`: what its JSON lists, without validation.
 
 use super::field::ObjectFields;
+use super::inventory::{Inventory, InventoryReader};
 use super::{parts, text};
 use rtc_diag::DiagnosticSink;
 use rtc_source::tree::json;
 use rtc_source::{FileId, SourceMap};
+use std::cell::Cell;
 
 /// The contents of an asset by its JSON.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -25,6 +27,8 @@ pub struct AssetSummary {
     pub cameras: Vec<String>,
     /// The names of the variants of materials.
     pub variants: Vec<String>,
+    /// A row for each scene, mesh, material and texture.
+    pub inventory: Inventory,
 }
 
 /// One animation.
@@ -34,6 +38,10 @@ pub struct AnimationSummary {
     pub name: String,
     /// The number of properties it animates.
     pub channels: usize,
+    /// The number of its samplers.
+    pub samplers: usize,
+    /// The number of keyframes of its samplers.
+    pub keyframes: u64,
     /// The time of its last keyframe in seconds, as its accessors say.
     pub seconds: f64,
 }
@@ -72,7 +80,15 @@ pub fn summary(file: FileId, map: &SourceMap) -> Option<AssetSummary> {
     let text = |key: &str| asset.and_then(|asset| asset.text(key)).unwrap_or_default();
     let variants = root.extension("KHR_materials_variants");
     let names = |fields: ObjectFields<'_, '_>| fields.text("name").unwrap_or_default();
+    let reader = InventoryReader {
+        tree: &tree,
+        map,
+        file,
+        parts: &parts,
+        read: Cell::new(0),
+    };
     Some(AssetSummary {
+        inventory: reader.inventory(),
         version: text("version"),
         generator: text("generator"),
         counts: COUNTED
@@ -95,9 +111,16 @@ fn animations(root: ObjectFields<'_, '_>) -> Vec<AnimationSummary> {
         .map(|accessor| accessor.numbers("max").and_then(|max| max.first().copied()))
         .map(Option::unwrap_or_default)
         .collect();
+    let counts: Vec<u64> = root
+        .objects("accessors")
+        .map(|accessor| accessor.integer("count").unwrap_or(0))
+        .collect();
+    let keyframes = |sampler: ObjectFields<'_, '_>| counts.get(sampler.index("input")?).copied();
     let animation = |animation: ObjectFields<'_, '_>| AnimationSummary {
         name: animation.text("name").unwrap_or_default(),
         channels: animation.objects("channels").count(),
+        samplers: animation.objects("samplers").count(),
+        keyframes: animation.objects("samplers").filter_map(keyframes).sum(),
         seconds: animation
             .objects("samplers")
             .filter_map(|sampler| ends.get(sampler.index("input")?).copied())
