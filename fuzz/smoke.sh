@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 seconds=${1:-20}
-targets=(scene_parser check ir_decode validate render_tiny gltf glb mesh image folder part arguments fix lsp ies mtl ply stl written pbrt usd)
+targets=(scene_parser check ir_decode validate render_tiny gltf glb mesh image folder part arguments fix lsp ies mtl ply stl written pbrt usd mitsuba)
 # Of the clock, for one input. The tables of the materials, made once a process, take 4 s of CPU time in such a build.
 patience=30
 

@@ -139,6 +139,11 @@ pub fn pbrt(input: &[u8]) {
     folder(&[b"== scene.pbrt\n", input].concat());
 }
 
+/// A scene of Mitsuba; what it names may follow behind lines `== NAME`.
+pub fn mitsuba(input: &[u8]) {
+    folder(&[b"== scene.xml\n", input].concat());
+}
+
 /// A stage of USD; what it names may follow behind lines `== NAME`.
 pub fn usd(input: &[u8]) {
     folder(&[b"== scene.usd\n", input].concat());

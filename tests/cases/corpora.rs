@@ -46,6 +46,7 @@ const TARGETS: &[Target] = &[
     ("written", run::written),
     ("pbrt", inputs::pbrt),
     ("usd", inputs::usd),
+    ("mitsuba", inputs::mitsuba),
 ];
 
 /// A trial for the seeds of each target, and for each file of its corpus.
