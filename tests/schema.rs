@@ -11,7 +11,7 @@
 )]
 use crate::repo::{files, root};
 use rtc::internals::diag::{DiagnosticSink, Severity};
-use rtc::internals::front::{self, course, gltf};
+use rtc::internals::front::{self, ForeignFormat, course, gltf, support_page};
 use rtc::internals::pipeline;
 use rtc::internals::source::{SourceMap, budget};
 use serde_json::{Value, json};
@@ -35,6 +35,7 @@ fn the_committed_schema_and_page_are_current() {
         ("course-format.md", course::page()),
         ("limits.md", budget::page()),
         ("gltf-extensions.md", gltf::extensions()),
+        ("support.md", support_page(&ForeignFormat::ALL)),
     ];
     for (name, current) in pages {
         let path = root("schema").join(name);

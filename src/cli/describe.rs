@@ -1,6 +1,6 @@
 //! The descriptions of rtc itself: `rtc schema`, `rtc completions`, `rtc man`.
 
-use super::args::{Cli, CompletionsArgs, ManArgs, SchemaArgs, SchemaFormat};
+use super::args::{Cli, CompletionsArgs, ManArgs, ReaderArg, SchemaArgs, SchemaFormat};
 use super::audit::AuditReport;
 use super::diff::DiffReport;
 use super::info::InfoReport;
@@ -9,7 +9,7 @@ use super::{Failure, output};
 use clap::CommandFactory;
 use rtc_codec as codec;
 use rtc_diag::json_schema;
-use rtc_front::{course, gltf};
+use rtc_front::{ForeignFormat, course, gltf, support_page};
 use rtc_source::budget;
 use rtc_study::Study;
 use schemars::JsonSchema;
@@ -17,6 +17,10 @@ use schemars::generate::SchemaSettings;
 
 /// Prints the JSON Schema of a format, or its page.
 pub(super) fn schema(args: &SchemaArgs) -> Result<(), Failure> {
+    if args.reader.is_some() && args.of != SchemaFormat::Support {
+        let message = "the name of a program belongs to `rtc schema support`";
+        return Err(Failure::Failed(message.to_owned()));
+    }
     let text = match args.of {
         SchemaFormat::Scene => format!("{:#}\n", course::schema()),
         SchemaFormat::Ir => format!("{:#}\n", codec::schema()),
@@ -28,8 +32,19 @@ pub(super) fn schema(args: &SchemaArgs) -> Result<(), Failure> {
         SchemaFormat::Page => course::page(),
         SchemaFormat::Limits => budget::page(),
         SchemaFormat::Extensions => gltf::extensions(),
+        SchemaFormat::Support => support(args.reader),
     };
     output::to_stdout(text.as_bytes())
+}
+
+/// The page about one format of another program, or about all.
+fn support(reader: Option<ReaderArg>) -> String {
+    match reader {
+        Some(ReaderArg::Mitsuba) => support_page(&[ForeignFormat::Mitsuba]),
+        Some(ReaderArg::Pbrt) => support_page(&[ForeignFormat::Pbrt]),
+        Some(ReaderArg::Usd) => support_page(&[ForeignFormat::Usd]),
+        None => support_page(&ForeignFormat::ALL),
+    }
 }
 
 /// The report of `rtc cost`: the study of one scene, or the comparison of two.

@@ -31,10 +31,12 @@ pub mod mesh;
 pub mod mitsuba;
 pub mod pbrt;
 pub mod pixels;
+mod support;
 pub mod usd;
 mod words;
 
 pub use foreign::foreign;
+pub use support::{ForeignFormat, SupportLevel, SupportRow, page as support_page};
 
 use rtc_diag::{Diagnostic, codes};
 use rtc_math::Vec3;

@@ -246,6 +246,20 @@ pub(super) struct SchemaArgs {
     /// The format
     #[arg(value_enum, default_value_t)]
     pub(super) of: SchemaFormat,
+    /// The program whose scenes `support` is about [default: all]
+    #[arg(value_enum)]
+    pub(super) reader: Option<ReaderArg>,
+}
+
+/// A program whose scenes are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum ReaderArg {
+    /// Scenes of Mitsuba
+    Mitsuba,
+    /// Scenes of pbrt
+    Pbrt,
+    /// Stages of USD
+    Usd,
 }
 
 #[derive(Debug, Args)]
@@ -303,6 +317,8 @@ pub(super) enum SchemaFormat {
     Limits,
     /// The supported glTF extensions, as a Markdown page
     Extensions,
+    /// What is read of the scenes of Mitsuba, pbrt and USD, as a Markdown page
+    Support,
 }
 
 #[cfg(test)]

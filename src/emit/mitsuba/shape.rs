@@ -5,7 +5,7 @@ use super::MitsubaWriter;
 use super::material::MitsubaPlugin;
 use crate::export::{called, joined};
 use crate::path_tracer::{
-    BasicShape, CornerColor, SurfaceMaterial, absorption, basic_shapes, radiance,
+    CornerColor, PathTracerShape, SurfaceMaterial, absorption, basic_shapes, radiance,
 };
 use rtc_ir::{Alpha, Disc, EntityField, EntityKind, Instance, Sphere, Standard, ValuePath};
 use rtc_math::{OrthonormalBasis, Vec3, shortest, unit};
@@ -24,18 +24,20 @@ impl MitsubaWriter<'_> {
         Some(())
     }
 
-    fn surface(&mut self, material: SurfaceMaterial, shape: &BasicShape<'_>) -> Option<()> {
+    fn surface(&mut self, material: SurfaceMaterial, shape: &PathTracerShape<'_>) -> Option<()> {
         if let Some(triangles) = shape.triangles() {
             let triangle_soup = self.triangle_soups.entry(material).or_default();
             triangle_soup.append(triangles);
         }
         match shape {
-            BasicShape::Sphere(sphere) => self.sphere(sphere, material),
-            BasicShape::Tube { ends, radius } => self.tube(*ends, *radius, material),
-            BasicShape::Disc(disc) => self.disc(disc, material),
-            BasicShape::Instance(instance) => self.instance(instance, material),
+            PathTracerShape::Sphere(sphere) => self.sphere(sphere, material),
+            PathTracerShape::Tube { ends, radius } => self.tube(*ends, *radius, material),
+            PathTracerShape::Disc(disc) => self.disc(disc, material),
+            PathTracerShape::Instance(instance) => self.instance(instance, material),
             // Triangles are collected, and meshes replace ellipsoids.
-            BasicShape::Quad(_) | BasicShape::Triangle(_) | BasicShape::Ellipsoid(_) => Some(()),
+            PathTracerShape::Quad(_)
+            | PathTracerShape::Triangle(_)
+            | PathTracerShape::Ellipsoid(_) => Some(()),
         }
     }
 

@@ -10,7 +10,7 @@ use rtc_ir::{
 use rtc_math::{Vec3, is_flat, shortest, to_u32, unit};
 
 /// A shape of a path tracer.
-pub(crate) enum BasicShape<'s> {
+pub(crate) enum PathTracerShape<'s> {
     Sphere(&'s Sphere),
     Ellipsoid(&'s Ellipsoid),
     /// A cylinder without caps, from the first point to the second.
@@ -25,7 +25,7 @@ pub(crate) enum BasicShape<'s> {
     Instance(&'s Instance),
 }
 
-impl BasicShape<'_> {
+impl PathTracerShape<'_> {
     /// The corners and triangles of a shape with corners.
     pub(crate) fn triangles(&self) -> Option<TriangleSoup> {
         let mut soup = TriangleSoup::default();
@@ -83,7 +83,7 @@ pub(crate) fn basic_shapes<'s>(
     scene: &'s Scene,
     renderer: &str,
     reporter: &mut ExportReporter<'_>,
-) -> Vec<(SurfaceMaterial, BasicShape<'s>)> {
+) -> Vec<(SurfaceMaterial, PathTracerShape<'s>)> {
     let around = around(scene);
     let mut shapes = Vec::with_capacity(scene.surfaces.len());
     for (index, surface) in scene.surfaces.iter().enumerate() {
@@ -113,15 +113,15 @@ fn report_finite(
 }
 
 /// The basic shapes of a shape: of a cylinder its side and its caps.
-fn parts(shape: &Shape, around: BoundingSphere) -> Vec<BasicShape<'_>> {
+fn parts(shape: &Shape, around: BoundingSphere) -> Vec<PathTracerShape<'_>> {
     match shape {
-        Shape::Sphere(sphere) => vec![BasicShape::Sphere(sphere)],
-        Shape::Ellipsoid(ellipsoid) => vec![BasicShape::Ellipsoid(ellipsoid)],
+        Shape::Sphere(sphere) => vec![PathTracerShape::Sphere(sphere)],
+        Shape::Ellipsoid(ellipsoid) => vec![PathTracerShape::Ellipsoid(ellipsoid)],
         Shape::Cylinder(cylinder) => {
             let [base, top] = ends(cylinder);
             let axis = unit(top - base).unwrap_or(Vec3::Z);
             let caps = [(base, -axis), (top, axis)].map(|(center, normal)| {
-                BasicShape::Disc(Disc {
+                PathTracerShape::Disc(Disc {
                     center: center.to_array(),
                     normal: normal.to_array(),
                     radius: cylinder.radius,
@@ -130,21 +130,21 @@ fn parts(shape: &Shape, around: BoundingSphere) -> Vec<BasicShape<'_>> {
             [tube(cylinder)].into_iter().chain(caps).collect()
         }
         Shape::InfiniteCylinder(cylinder) => vec![tube(&finite(cylinder, around))],
-        Shape::Disc(disc) => vec![BasicShape::Disc(disc.clone())],
-        Shape::Plane(plane) => vec![BasicShape::Quad(square(plane, around))],
+        Shape::Disc(disc) => vec![PathTracerShape::Disc(disc.clone())],
+        Shape::Plane(plane) => vec![PathTracerShape::Quad(square(plane, around))],
         Shape::Triangle(triangle) => {
             let corners = triangle.vertices.map(Vec3::from_array);
-            vec![BasicShape::Triangle(corners)]
+            vec![PathTracerShape::Triangle(corners)]
         }
-        Shape::Quad(quad) => vec![BasicShape::Quad(quad.vertices.map(Vec3::from_array))],
-        Shape::Instance(instance) => vec![BasicShape::Instance(instance)],
+        Shape::Quad(quad) => vec![PathTracerShape::Quad(quad.vertices.map(Vec3::from_array))],
+        Shape::Instance(instance) => vec![PathTracerShape::Instance(instance)],
         Shape::Cone(_) | Shape::Paraboloid(_) | Shape::Torus(_) | Shape::Csg(_) => Vec::new(),
     }
 }
 
 /// The side of a cylinder.
-fn tube(cylinder: &Cylinder) -> BasicShape<'static> {
-    BasicShape::Tube {
+fn tube(cylinder: &Cylinder) -> PathTracerShape<'static> {
+    PathTracerShape::Tube {
         ends: ends(cylinder),
         radius: cylinder.radius,
     }

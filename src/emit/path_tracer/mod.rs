@@ -5,7 +5,7 @@
 //! - [`PathTracerLight`]: lights as both have them.
 //! - [`SurfaceMaterial`]: a material as surfaces of one kind show it.
 //! - [`TexturedFactor`]: a value of a material, times a channel of a texture.
-//! - [`BasicShape`]: surfaces as shapes that both have.
+//! - [`PathTracerShape`]: surfaces as shapes that both have.
 //! - [`SidecarWriter`]: meshes and pictures beside the scene.
 
 mod basic_shape;
@@ -16,7 +16,7 @@ mod sidecar_writer;
 mod surface_material;
 mod textured_factor;
 
-pub(crate) use basic_shape::{BasicShape, TriangleSoup, basic_shapes, has_maps, is_basic};
+pub(crate) use basic_shape::{PathTracerShape, TriangleSoup, basic_shapes, has_maps, is_basic};
 pub(crate) use camera_frame::{CameraFrame, SQUARE};
 pub(crate) use light::{PathTracerLight, SpotEdge, SpotLight, lights};
 pub(crate) use settings::bounces;

@@ -3,7 +3,7 @@
 
 use super::{PbrtWriter, numbers, string};
 use crate::path_tracer::{
-    BasicShape, SurfaceMaterial, TexturedFactor, absorption, basic_shapes, opacity, radiance,
+    PathTracerShape, SurfaceMaterial, TexturedFactor, absorption, basic_shapes, opacity, radiance,
 };
 use crate::picture::TexturePicture;
 use rtc_ir::{Disc, Ellipsoid, EntityField, EntityKind, Instance, Sphere, Standard, ValuePath};
@@ -19,7 +19,7 @@ impl PbrtWriter<'_> {
         let shapes = basic_shapes(self.scene, "pbrt", &mut self.beside.reporter);
         let mut counts = InstanceCounts::new();
         for (material, shape) in &shapes {
-            if let BasicShape::Instance(instance) = shape {
+            if let PathTracerShape::Instance(instance) = shape {
                 *counts.entry((instance.mesh.0, *material)).or_default() += 1;
             }
         }
@@ -36,15 +36,15 @@ impl PbrtWriter<'_> {
     fn surface(
         &mut self,
         material: SurfaceMaterial,
-        shape: &BasicShape<'_>,
+        shape: &PathTracerShape<'_>,
         counts: &InstanceCounts,
     ) -> Option<()> {
         match shape {
-            BasicShape::Sphere(sphere) => self.sphere(sphere, material),
-            BasicShape::Ellipsoid(ellipsoid) => self.ellipsoid(ellipsoid, material),
-            BasicShape::Tube { ends, radius } => self.tube(*ends, *radius, material),
-            BasicShape::Disc(disc) => self.disc(disc, material),
-            BasicShape::Quad([a, b, c, d]) => {
+            PathTracerShape::Sphere(sphere) => self.sphere(sphere, material),
+            PathTracerShape::Ellipsoid(ellipsoid) => self.ellipsoid(ellipsoid, material),
+            PathTracerShape::Tube { ends, radius } => self.tube(*ends, *radius, material),
+            PathTracerShape::Disc(disc) => self.disc(disc, material),
+            PathTracerShape::Quad([a, b, c, d]) => {
                 // The corners of pbrt's patches are (0, 0), (1, 0), (0, 1) and (1, 1).
                 let corners = [a, b, d, c]
                     .into_iter()
@@ -52,12 +52,12 @@ impl PbrtWriter<'_> {
                 let corners = numbers("point3", "P", corners);
                 self.shape(material, None, &format!(r#""bilinearmesh"{corners}"#))
             }
-            BasicShape::Triangle(_) => {
+            PathTracerShape::Triangle(_) => {
                 let triangle_soup = self.triangle_soups.entry(material).or_default();
                 triangle_soup.append(shape.triangles().unwrap_or_default());
                 Some(())
             }
-            BasicShape::Instance(instance) => self.instance(instance, material, counts),
+            PathTracerShape::Instance(instance) => self.instance(instance, material, counts),
         }
     }
 
