@@ -290,3 +290,14 @@ fn the_names_of_version_3_mean_what_they_did() {
     assert_eq!(new, old);
     assert!(new.iter().any(|pixel| pixel[2] > 0.1));
 }
+
+#[test]
+fn the_crop_of_an_orthographic_camera_looks_along_its_axis() {
+    let text = b"Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8 \
+        \"float cropwindow\" [ 0.5 1 0 1 ]\nCamera \"orthographic\"\nWorldBegin\n";
+    let (scene, codes) = read_files(&[("a.pbrt", text)]);
+    assert_eq!(codes, Vec::<&str>::new());
+    let [eye, center] = [scene.camera.eye, scene.camera.center];
+    assert_eq!((eye, center), ([0.5, 0.0, 0.0], [0.5, 0.0, 1.0]));
+    assert_eq!(scene.camera.size, [4, 8]);
+}

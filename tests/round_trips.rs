@@ -113,6 +113,12 @@ doubleSided: true, baseColor: [1, 0.5, 1, 1], baseColorMap: p.png}}\n",
         ball!("doubleSided: true, baseColor: [0.9, 0.7, 0.4, 1], roughness: 0.5"),
     ),
     objects(
+        "gold by its index",
+        ball!(
+            "doubleSided: true, roughness: 0.4, conductor: {eta: [0.14, 0.37, 1.44], k: [3.98, 2.39, 1.6]}"
+        ),
+    ),
+    objects(
         "a coated surface",
         ball!("doubleSided: true, metallic: 0, roughness: 0.3, baseColor: [0.2, 0.5, 0.3, 1]"),
     ),
@@ -266,4 +272,21 @@ fn differences(case: &Case) -> Vec<String> {
 fn what_is_written_for_path_tracers_is_read_back_to_the_same_picture() {
     let differences: Vec<_> = CASES.iter().flat_map(differences).collect();
     assert!(differences.is_empty(), "{}", differences.join("\n"));
+}
+
+#[test]
+fn what_is_written_for_pbrt_again_has_the_spot_of_pbrt() {
+    let text = format!(
+        "{CAMERA}{HEAD}Lights: [{{type: spot, position: [0, 6, 2], \
+        direction: [0, -3, -1], innerAngle: 0.2, outerAngle: 0.5, intensity: [40, 40, 30]}}]\n\
+        Objects:\n{FLOOR}"
+    );
+    let files = [("scene.yaml".to_owned(), text.into_bytes())];
+    let scene = Scene::from_files("scene.yaml", files).unwrap();
+    let (first, warnings) = read_back(&scene, PBRT);
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    let (second, warnings) = read_back(&first, PBRT);
+    assert_eq!(warnings, [""; 0]);
+    let [a, b] = [&first, &second].map(mean);
+    assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
 }

@@ -305,3 +305,57 @@ fn a_scene_of_another_renderer_becomes_a_text_of_the_same_picture() {
         assert!(picture(&source) == picture("room.yaml"), "{source}");
     }
 }
+
+#[test]
+fn a_model_that_glows_is_written_in_the_light_of_the_studio() {
+    let folder = folder();
+    let asset = include_bytes!("models/emissive-switches-studio-off.glb");
+    fs::write(folder.path().join("x.glb"), asset).unwrap();
+    for (target, map) in [
+        ("x.xml", r#"<emitter type="envmap">"#),
+        ("x.pbrt", r#"LightSource "infinite" "string filename""#),
+        ("x.pov", "sky_sphere"),
+    ] {
+        let done = rtc(&folder, &["compile", "x.glb", "-o", target]);
+        assert_eq!(code(&done), 0, "{}", stderr(&done));
+        let text = fs::read_to_string(folder.path().join(target)).unwrap();
+        assert!(text.contains(map), "{target}: {text}");
+        let alone = ["compile", "x.glb", "--studio", "off", "-o", target];
+        assert_eq!(code(&rtc(&folder, &alone)), 0);
+        let text = fs::read_to_string(folder.path().join(target)).unwrap();
+        assert!(!text.contains(map), "{target}: {text}");
+    }
+}
+
+#[test]
+fn an_image_of_the_course_that_moves_by_half_a_texel_is_told() {
+    let scene = "\
+Camera: {eye: [0, 0, 5], center: [0, 0, 0], up: [0, 0.1, 0], right: [0.1, 0, 0], viewSize: [8, 8]}
+Lights: [{position: [0, 9, 9], color: [1, 1, 1]}]
+Objects:
+- {type: quad, v0: [-2, -2, 0], v1: [2, -2, 0], v2: [2, 2, 0], v3: [-2, 2, 0],
+   material: {ka: 0, kd: 1, ks: 0, n: 1, texture: p.png}}
+";
+    let folder = folder();
+    fs::write(
+        folder.path().join("p.png"),
+        crate::assets::png([200, 100, 50]),
+    )
+    .unwrap();
+    for (mode, is_told) in [("phong", true), ("path", false)] {
+        fs::write(
+            folder.path().join("scene.yaml"),
+            format!("RenderMode: {mode}\n{scene}"),
+        )
+        .unwrap();
+        for target in ["scene.xml", "scene.pbrt"] {
+            let done = rtc(&folder, &["compile", "scene.yaml", "-o", target]);
+            let reported = stderr(&done);
+            assert_eq!(
+                reported.contains("half texel"),
+                is_told,
+                "{target}: {reported}"
+            );
+        }
+    }
+}

@@ -335,13 +335,7 @@ impl MitsubaPlugin {
             let message = "a coloured mirror is written without Schlick's rise towards white";
             (Self::Mirror, (!is_white).then_some(message))
         } else {
-            let message = match metal > 0.0 {
-                true => {
-                    "`principled` approximates the metallic-roughness material, without the light \
-                     that a rough metal scatters several times"
-                }
-                false => "`principled` approximates the metallic-roughness material",
-            };
+            let message = "`principled` approximates the metallic-roughness material";
             (Self::Layered, Some(message))
         }
     }

@@ -137,7 +137,10 @@ pub(crate) fn missing_features(
     let has = |maps: &[&Option<Map>]| maps.iter().any(|map| map.is_some());
     let is_on_edges =
         |map: &Map| matches!(scene.textures[map.texture.0 as usize], Texture::Image(_));
-    let is_traced = matches!(scene.settings.mode, Mode::Path(_));
+    let (is_traced, scatters_again) = match &scene.settings.mode {
+        Mode::Path(path) => (true, path.multiple_scattering),
+        Mode::Phong | Mode::Depth | Mode::Normal | Mode::Gooch(_) => (false, true),
+    };
     let common = [
         (
             material.maps().any(|map| map.set != set),
@@ -167,6 +170,10 @@ pub(crate) fn missing_features(
                 &material.anisotropy_map,
             ]),
             "the maps of its layers",
+        ),
+        (
+            scatters_again && material.metallic > 0.0 && material.roughness > 0.0,
+            "the light that a rough metal scatters several times",
         ),
         (material.dispersion > 0.0, "its dispersion"),
         (material.iridescence > 0.0, "its thin film"),

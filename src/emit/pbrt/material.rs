@@ -351,14 +351,8 @@ fn approximation(material: &Standard) -> Option<&'static str> {
         return None;
     }
     if is_metal(material) && is_bare {
-        return match (material.roughness > 0.0, is_white) {
-            (true, _) => Some(
-                "`conductor` reflects by Fresnel's formula, without the light that a rough metal \
-                 scatters several times",
-            ),
-            (false, true) => None,
-            (false, false) => Some("`conductor` reflects by Fresnel's formula, not Schlick's"),
-        };
+        let is_exact = is_white && material.roughness == 0.0;
+        return (!is_exact).then_some("`conductor` reflects by Fresnel's formula, not Schlick's");
     }
     let has_coat = material.specular > 0.0;
     let is_exact = material.metallic == 0.0 && is_bare && !has_coat;

@@ -354,8 +354,12 @@ fn orthographic(
     from_camera: &AffineTransform,
     film: &CroppedFilm,
 ) -> Camera {
+    let placed = camera(from_camera, film, screen(parameters, film), (1.0, 1.0));
+    // All rays run along the axis, also where the middle of the picture is beside it.
+    let eye = Vec3::from_array(placed.center) - from_camera.vector(Vec3::Z);
     Camera {
+        eye: eye.to_array(),
         projection: Projection::Orthographic,
-        ..camera(from_camera, film, screen(parameters, film), (1.0, 1.0))
+        ..placed
     }
 }
