@@ -223,6 +223,13 @@ fn a_picture_is_told_as_an_object() {
         good["quality"]["samples"]["mean"].as_f64().unwrap() >= 1.0,
         "{good}"
     );
+    let by_word = last(render(&["--quality", "good"]));
+    let by_number = last(render(&["--target-error", "1.5"]));
+    assert_eq!(by_word["quality"], by_number["quality"]);
+    assert!(
+        by_word["quality"]["bound"].as_f64().unwrap() <= 1.5,
+        "{by_word}"
+    );
     assert_eq!(render(&["-q"]), "");
     let denoised = last(render(&["--integrator", "path", "--spp", "4", "--denoise"]));
     let quality = &denoised["quality"];

@@ -5,6 +5,7 @@ use super::{OutputTransformArgs, ReadArgs, ReporterArgs, StageArgs, WantedArgs};
 use clap::{Args, ValueEnum, ValueHint};
 use rtc_pipeline::ShardDivision;
 use rtc_plan::Rule;
+use rtc_study::RenderGoal;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -56,6 +57,15 @@ pub(crate) struct RenderArgs {
         help_heading = "Sampling",
     )]
     pub(crate) target_error: Option<f64>,
+    /// Choose the target error by a word: `--target-error` of 5, 1.5 or 0.5 grey levels
+    #[arg(
+        long,
+        value_enum,
+        value_name = "QUALITY",
+        conflicts_with_all = ["target_error", "supersampling", "aperture-samples", "spp"],
+        help_heading = "Sampling",
+    )]
+    pub(crate) quality: Option<QualityArg>,
     /// Finish within this time, counted from the start of the program
     ///
     /// A coarse picture comes first, then samples where they reduce the error most. The result
@@ -75,7 +85,7 @@ pub(crate) struct RenderArgs {
     /// picture to keep.
     #[arg(
         long,
-        conflicts_with_all = ["target_error", "time_budget", "part", "checkpoint", "strips", "verify_effects"],
+        conflicts_with_all = ["target_error", "quality", "time_budget", "part", "checkpoint", "strips", "verify_effects"],
         help_heading = "Sampling",
     )]
     pub(crate) denoise: bool,
@@ -86,7 +96,7 @@ pub(crate) struct RenderArgs {
         long,
         value_name = "LIMIT",
         value_parser = radiance,
-        conflicts_with_all = ["target_error", "time_budget", "denoise", "part", "checkpoint", "strips", "verify_effects"],
+        conflicts_with_all = ["target_error", "quality", "time_budget", "denoise", "part", "checkpoint", "strips", "verify_effects"],
         help_heading = "Sampling",
     )]
     pub(crate) clamp: Option<f64>,
@@ -232,6 +242,38 @@ pub(crate) struct PruningArgs {
     /// Also render without the plan's rules, and fail at the first pixel that differs
     #[arg(long, conflicts_with = "no_prune", help_heading = "Debugging")]
     pub(crate) verify_effects: bool,
+}
+
+/// A target error as a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum QualityArg {
+    /// For a first look: at most 5 grey levels
+    Draft,
+    /// For a page: at most 1.5 grey levels
+    Good,
+    /// To compare with: at most 0.5 grey levels
+    Reference,
+}
+
+impl QualityArg {
+    /// The target error in 8-bit grey levels.
+    fn levels(self) -> f64 {
+        match self {
+            Self::Draft => 5.0,
+            Self::Good => 1.5,
+            Self::Reference => 0.5,
+        }
+    }
+}
+
+impl RenderArgs {
+    /// The target of the render.
+    pub(crate) fn goal(&self) -> RenderGoal {
+        RenderGoal {
+            error: self.target_error.or(self.quality.map(QualityArg::levels)),
+            time: self.time_budget,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

@@ -112,10 +112,7 @@ impl RenderSetup {
             ));
         }
         // Find the goal and the format of the picture.
-        let goal = RenderGoal {
-            error: args.target_error,
-            time: args.time_budget,
-        };
+        let goal = args.goal();
         let rate = animation::rate(args, &output)?;
         let still = rate.map(|_| animation::still(&output));
         let picture = part.as_ref().map_or(output.as_path(), PartSetup::picture);

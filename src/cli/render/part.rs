@@ -4,6 +4,7 @@ use super::super::progress::{self, RenderProgress};
 use super::super::{Failure, args, interrupt::Interrupt, reporter, reporter::Reporter, typed};
 use super::{RenderSetup, beside_here, halted};
 use rtc_pipeline::{Input, RenderObserver, RenderSubject, ShardDivision, ShardPlan};
+use rtc_study::RenderGoal;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -69,7 +70,7 @@ impl PartSetup {
 
 /// Whether the picture has a target instead of a number of samples.
 fn has_goal(args: &args::RenderArgs) -> bool {
-    args.target_error.is_some() || args.time_budget.is_some()
+    args.goal() != RenderGoal::default()
 }
 
 impl RenderSetup {
