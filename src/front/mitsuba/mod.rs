@@ -1,7 +1,7 @@
 //! The scene format of Mitsuba (XML, versions 0.5 to 3) lowered to the IR.
 //!
 //! ```text
-//! bytes ─ xml ─▶ PluginNode tree ─ sensor, bsdf, emitter, shape ─▶ UnfinishedScene ─ assets ─▶ LoweredScene
+//! bytes ─ xml ─▶ PluginNode ─ sensor, bsdf, emitter, shape ─▶ … ─ assets ─▶ LoweredScene
 //! ```
 //!
 //! - [`xml`] reads the text. It resolves `<default>`, `<include>` and `<ref>`, converts the names
