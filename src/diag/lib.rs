@@ -35,7 +35,7 @@ pub use clip::{clip, clip_path, clip_words};
 pub use codes::{Code, Severity};
 pub use levels::{DiagnosticLevel, DiagnosticLevels, LevelSubject};
 pub use nearest::nearest;
-pub use print::{DiagnosticPrinter, Format, PrintOptions, json_schema, one};
+pub use print::{DiagnosticPrinter, Format, PrintOptions, each, json_schema, one};
 pub use sink::DiagnosticSink;
 
 use rtc_source::Span;
@@ -67,6 +67,23 @@ pub struct Replacement {
     pub text: String,
     /// Whether the replacement is a guess. Otherwise it has the same meaning as the original text.
     pub is_guess: bool,
+}
+
+impl Replacement {
+    /// What it does to the text that is written at its span, in a few words; `None` if a text is
+    /// long.
+    #[must_use]
+    pub fn summary(&self, written: &str) -> Option<String> {
+        /// The maximum length of a text, in bytes.
+        const MOST: usize = 60;
+        let [before, after] = [written, &self.text].map(str::trim);
+        let is_short = |text: &str| text.len() <= MOST && !text.contains('\n');
+        (is_short(before) && is_short(after)).then(|| match (before, after) {
+            ("", _) => format!("insert `{after}`"),
+            (_, "") => format!("remove `{before}`"),
+            _ => format!("replace `{before}` by `{after}`"),
+        })
+    }
 }
 
 /// One problem in the user's input.

@@ -1,7 +1,9 @@
 //! Pictures made small, and a contact sheet of many with their names beneath.
 
 use super::Image;
-use font8x8::{BASIC_FONTS, UnicodeFonts};
+use noto_sans_mono_bitmap::{
+    FontWeight, RasterHeight, RasterizedChar, get_raster, get_raster_width,
+};
 use rtc_color::quantize16;
 use std::ops::Range;
 
@@ -58,17 +60,20 @@ fn mean(image: &Image, columns: &Range<usize>, rows: &Range<usize>) -> [f64; 3] 
     sums.map(|sum| ((sum + count / 2) / count) as f64 / 65535.0)
 }
 
-/// The side of a glyph in pixels.
-const GLYPH: usize = 8;
+/// The width and height of a glyph in pixels.
+const GLYPH: [usize; 2] = [
+    get_raster_width(FontWeight::Regular, RasterHeight::Size16),
+    RasterHeight::Size16.val(),
+];
 
 /// The maximum width and height of a picture on a sheet in pixels, and the maximum length of its
 /// name.
 const PICTURE: [u32; 2] = [160, 120];
-const NAME: usize = 160 / GLYPH;
+const NAME: usize = 160 / GLYPH[0];
 
 /// The pixels of a cell, with a margin at its left and its top.
 const MARGIN: usize = 8;
-const CELL: [usize; 2] = [160 + MARGIN, 120 + 2 * MARGIN + GLYPH];
+const CELL: [usize; 2] = [160 + MARGIN, 120 + 2 * MARGIN + GLYPH[1]];
 
 /// The most cells of a row.
 const COLUMNS: usize = 8;
@@ -110,12 +115,17 @@ pub fn contact_sheet(pictures: &[(String, Option<Image>)]) -> Image {
             }
             None => (0..width * height).for_each(|at| put(at % width, at / width, [MISSING; 3])),
         }
-        // Write its name below in a bitmap font.
+        // Write its name below.
         for (column, letter) in shown_name(name).into_iter().enumerate() {
-            let glyph = BASIC_FONTS.get(letter).unwrap_or_default();
-            for (y, row) in glyph.into_iter().enumerate() {
-                let lit = (0..GLYPH).filter(|x| row >> x & 1 == 1);
-                lit.for_each(|x| put(column * GLYPH + x, height + MARGIN / 2 + y, [INK; 3]));
+            let Some(glyph) = glyph(letter) else {
+                continue;
+            };
+            for (y, row) in glyph.rows().enumerate() {
+                for (x, share) in row.iter().enumerate() {
+                    let ink = BEHIND + (INK - BEHIND) * f64::from(*share) / 255.0;
+                    let at = [column * GLYPH[0] + x, height + MARGIN / 2 + y];
+                    put(at[0], at[1], [ink; 3]);
+                }
             }
         }
     }
@@ -133,9 +143,14 @@ pub fn for_sheet(image: Image) -> Image {
     shrunk(image, PICTURE)
 }
 
+/// The glyph of a character, if the font has it.
+fn glyph(letter: char) -> Option<RasterizedChar> {
+    get_raster(letter, FontWeight::Regular, RasterHeight::Size16)
+}
+
 /// The last characters of a name, with those that the font lacks replaced.
 fn shown_name(name: &str) -> Vec<char> {
-    let known = |letter: char| match BASIC_FONTS.get(letter) {
+    let known = |letter: char| match glyph(letter) {
         Some(_) => letter,
         None => '?',
     };
@@ -223,7 +238,7 @@ mod tests {
             })
             .collect();
         let sheet = contact_sheet(&pictures);
-        assert_eq!([sheet.width, sheet.height], [8 * 168 + 8, 2 * 144 + 8]);
+        assert_eq!([sheet.width, sheet.height], [8 * 168 + 8, 2 * 152 + 8]);
         let count = |value: f64| {
             sheet
                 .pixels
@@ -232,15 +247,17 @@ mod tests {
                 .count()
         };
         assert_eq!([count(0.5), count(MISSING)], [8 * 160 * 120, 160 * 120]);
-        assert!(count(INK) > 9 * 16, "each name has two letters");
+        let is_written = |pixel: &&[f64; 3]| pixel[0] > 0.6;
+        let written = sheet.pixels.iter().filter(is_written).count();
+        assert!(written > 9 * 16, "each name has two letters");
         assert_eq!(contact_sheet(&[]).pixels.len(), (168 + 8) * 8);
     }
 
     #[test]
     fn long_names_lose_their_beginning() {
         let shown = |name: &str| shown_name(name).into_iter().collect::<String>();
-        assert_eq!(shown("a-name-of-20-letters"), "a-name-of-20-letters");
-        assert_eq!(shown("a-name-of-twenty-two-a"), "~ame-of-twenty-two-a");
+        assert_eq!(shown("a-name-of-22-letters-x"), "a-name-of-22-letters-x");
+        assert_eq!(shown("a-name-of-twenty-four-ab"), "~ame-of-twenty-four-ab");
         assert_eq!(shown("ж.png"), "?.png");
     }
 }

@@ -224,6 +224,11 @@ fn a_finding_is_mended_by_its_button_alone() {
         let text = finding["text"].as_str().unwrap().trim_end();
         assert!(refused.contains(text), "{text}\n---\n{refused}");
     }
+    let changes: Vec<_> = findings.iter().map(|own| &own["change"]).collect();
+    assert_eq!(
+        changes,
+        ["replace `Shadws` by `Shadows`", "replace `'3'` by `3`"]
+    );
     let stale = live.post("/fix", &json!({ "load": 0, "finding": 0 }));
     assert_eq!(stale.status, 409);
     let done = live.post("/fix", &json!({ "load": 1, "finding": 0 }));
@@ -305,6 +310,7 @@ fn what_can_not_be_shown_is_a_fault_of_usage() {
     let folder = folder();
     let code = |args: &[&str]| code(&rtc(&folder, &[&["preview"], args].concat()));
     assert_eq!(code(&["-"]), 2);
+    assert_eq!(code(&["nofile.yaml"]), 2);
     assert_eq!(code(&["ball.json", "--against", "none.png"]), 2);
     fs::write(folder.path().join("no.png"), "{}").unwrap();
     assert_eq!(code(&["ball.json", "--against", "no.png"]), 2);

@@ -177,7 +177,7 @@ pub(super) fn actions(
                 let (start, end) = (change.span.start as usize, change.span.end as usize);
                 let edit = TextEdit::new(lines.range(start, end), change.text.clone());
                 let written = document.text.get(start..end).unwrap_or_default();
-                let title = title(written, &change.text).unwrap_or_else(|| hint.text.clone());
+                let title = change.summary(written).unwrap_or_else(|| hint.text.clone());
                 quick_fix(document, title, !change.is_guess, edit, reported.clone())
             })
             .collect::<Vec<_>>()
@@ -186,19 +186,6 @@ pub(super) fn actions(
     // The sure ones first.
     fixes.sort_by_key(|fix| fix.is_preferred != Some(true));
     fixes
-}
-
-/// What a change does; `None` if its texts are long.
-fn title(written: &str, text: &str) -> Option<String> {
-    /// The maximum length of a text, in bytes.
-    const MOST: usize = 60;
-    let [before, after] = [written, text].map(str::trim);
-    let is_short = |text: &str| text.len() <= MOST && !text.contains('\n');
-    (is_short(before) && is_short(after)).then(|| match (before, after) {
-        ("", _) => format!("insert `{after}`"),
-        (_, "") => format!("remove `{before}`"),
-        _ => format!("replace `{before}` by `{after}`"),
-    })
 }
 
 fn quick_fix(

@@ -55,6 +55,11 @@ pub(super) fn run(args: &args::PreviewArgs, typed: &[OsString]) -> Result<(), Fa
         let message = "standard input can be read only once, so it has no preview; give a file";
         return Err(Failure::Failed(message.to_owned()));
     }
+    // A mistyped name; a file that is lost later is reported on the page.
+    if !args.file.is_file() {
+        let message = format!("there is no file `{}`", args.file.display());
+        return Err(Failure::Failed(message));
+    }
     // Prepare the session and the reference.
     Interrupt::listen()?;
     let against = ComparisonReference::new(args)?;

@@ -37,6 +37,8 @@ pub(super) struct ReportedDiagnostic {
     pub(super) text: String,
     /// The fix that its hint suggests in the scene's own file, and whether it is a guess.
     pub(super) fix: Option<(DiagnosticRef, bool)>,
+    /// What the fix does; empty if that is long.
+    pub(super) change: String,
 }
 
 /// The properties of the scene as it was last read.
@@ -333,7 +335,12 @@ impl PreviewData {
                 Some((_, true)) => "guess".into(),
                 Some((_, false)) => "sure".into(),
             };
-            json!({ "severity": diagnostic.severity, "text": diagnostic.text, "fix": fix })
+            json!({
+                "severity": diagnostic.severity,
+                "text": diagnostic.text,
+                "fix": fix,
+                "change": diagnostic.change,
+            })
         };
         json!({
             "version": self.version,

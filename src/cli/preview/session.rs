@@ -255,12 +255,15 @@ impl<'a> PreviewSession<'a> {
             true => Severity::Note,
             false => Severity::Warning,
         };
-        let diagnostics = found
+        let kept: Vec<&Diagnostic> = found
             .kept()
             .iter()
             .filter(|diagnostic| diagnostic.severity <= least)
+            .collect();
+        let diagnostics = diag::each(&kept, scene.input.map(), WIDTH)
+            .into_iter()
             .take(self.args.reporter.max_errors as usize)
-            .map(|diagnostic| reported(diagnostic, &scene.input))
+            .map(|(diagnostic, text)| reported(diagnostic, text, &scene.input))
             .collect();
         scene.input.restore_diagnostics(found);
         // Describe the camera relative to that of the scene.
@@ -342,18 +345,24 @@ impl<'a> PreviewSession<'a> {
     }
 }
 
-/// A diagnostic as the page shows it.
-fn reported(diagnostic: &Diagnostic, input: &Input) -> ReportedDiagnostic {
+/// A diagnostic as the page shows it, with its text.
+fn reported(diagnostic: &Diagnostic, text: String, input: &Input) -> ReportedDiagnostic {
     let changes = diagnostic
         .hints
         .iter()
         .filter_map(|hint| hint.replacement.as_ref());
-    let own = changes.filter(|change| input.is_own(change.span));
-    let is_guess = own.map(|change| change.is_guess).reduce(|a, b| a && b);
+    let own: Vec<_> = changes.filter(|change| input.is_own(change.span)).collect();
+    let is_guess = own.iter().map(|change| change.is_guess);
+    let is_guess = is_guess.reduce(|a, b| a && b);
+    let summaries = own.iter().filter_map(|change| {
+        let written = input.map().slice(change.span);
+        change.summary(&written)
+    });
     ReportedDiagnostic {
         severity: diagnostic.severity.name(),
-        text: diag::one(diagnostic, input.map(), WIDTH),
+        text,
         fix: is_guess.map(|is_guess| (pipeline::diagnostic_ref(diagnostic), is_guess)),
+        change: summaries.collect::<Vec<_>>().join("; "),
     }
 }
 

@@ -3,7 +3,7 @@
 
 use crate::parse;
 use rtc_ir::{Camera, EntityField, EntityKind, LoweredScene, ValuePath};
-use rtc_math::{Vec3, shortest, unit};
+use rtc_math::{Vec3, cross, shortest, unit};
 use rtc_passes::{SceneKind, StudioChoice, View, ViewAndLight};
 use rtc_pipeline::{Input, Options};
 use rtc_source::{SourceMap, Span};
@@ -73,10 +73,19 @@ impl ViewOverride {
         }
     }
 
-    /// The upward direction, as long as a pixel of a camera that looks so.
-    fn upward(&self, camera: &Camera) -> [f64; 3] {
+    /// The upward direction, as long as a pixel of a camera that looks so: along an axis of the
+    /// world, unless the view is rolled about its direction.
+    fn upward(&self, camera: &Camera, axis: Vec3) -> [f64; 3] {
+        /// The sine of an angle that rounding leaves.
+        const ROLL: f64 = 1e-4;
         let pixel = Vec3::from_array(camera.up).length();
-        let up = unit(Vec3::from_array(self.up)).unwrap_or(Vec3::Y);
+        let [eye, center, up] = [self.eye, self.center, self.up].map(Vec3::from_array);
+        let side = unit(cross(up, eye - center));
+        let is_rolled = side.is_none_or(|side| side.dot(axis).abs() > ROLL);
+        let up = match is_rolled {
+            true => unit(up).unwrap_or(Vec3::Y),
+            false => axis * up.dot(axis).signum(),
+        };
         rounded(up * pixel, pixel, UP_DIGITS)
     }
 
@@ -199,11 +208,12 @@ pub(super) fn written(
     let own = keys(&lowered, input.map(), input.name());
     let own = own.ok_or("the scene has no `eye`, `center` and `up` of its own")?;
     let before = lowered.scene.camera.clone();
+    let axis = before.upright();
     if !view_override.aim(&mut lowered) {
         return Err("it is no view");
     }
     let Camera { eye, center, .. } = lowered.scene.camera;
-    let up = view_override.upward(&lowered.scene.camera);
+    let up = view_override.upward(&lowered.scene.camera, axis);
     let mut edits: Vec<_> = own.into_iter().zip([eye, center, up]).collect();
     edits.sort_by_key(|(range, _)| range.start);
     let (mut new, mut from) = (String::with_capacity(text.len()), 0);
@@ -282,6 +292,28 @@ mod tests {
             Ok(text("[50, 0, 0]", "[0, 0, 0]", "[0, 0.25, 0]")),
             "a picture of the same angle from half as far has pixels half as large"
         );
+    }
+
+    #[test]
+    fn up_stays_upright_unless_the_view_is_rolled() {
+        let text = "Camera: {eye: [0, 0, 200], center: [0, 0, 0], up: [0, 0.5, 0], viewSize: \
+            [120, 90]}\nObjects: []\n";
+        let up_of = |eye: [f64; 3], up: [f64; 3]| {
+            let view_override = ViewOverride {
+                eye,
+                center: [0.0; 3],
+                up,
+            };
+            let path = Path::new("a.yaml");
+            let new = written(path, text, &Options::default(), &view_override).unwrap();
+            let up = new.split_once("up: [").unwrap().1;
+            up.split_once(']').unwrap().0.to_owned()
+        };
+        // From above by 45°, as the mouse turns a view.
+        let half = std::f64::consts::FRAC_1_SQRT_2;
+        let eye = [0.0, 200.0 * half, 200.0 * half];
+        assert_eq!(up_of(eye, [0.0, half, -half]), "0, 0.5, 0");
+        assert_ne!(up_of(eye, [0.3, half, -half]), "0, 0.5, 0");
     }
 
     /// A view from the mouse has 16 digits; digits below a hundredth of a pixel are not written.

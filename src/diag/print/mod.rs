@@ -52,17 +52,29 @@ impl Format {
 /// One diagnostic in the human format, without colours.
 #[must_use]
 pub fn one(found: &Diagnostic, map: &SourceMap, width: usize) -> String {
+    let mut each = each(&[found], map, width);
+    each.pop().map(|(_, text)| text).unwrap_or_default()
+}
+
+/// Each of some diagnostics in the human format, without colours; equal ones are folded into the
+/// first of them.
+#[must_use]
+pub fn each<'a>(
+    found: &[&'a Diagnostic],
+    map: &SourceMap,
+    width: usize,
+) -> Vec<(&'a Diagnostic, String)> {
     let options = PrintOptions {
         color: false,
         width,
         least: Severity::Note,
         max: 1,
     };
-    let alone = FoldedDiagnostic {
-        first: found,
-        others: Vec::new(),
+    let text = |fold: FoldedDiagnostic<'a>| {
+        let text = human::diagnostic(&fold, map, &options);
+        (fold.first, text)
     };
-    human::diagnostic(&alone, map, &options)
+    fold::equal(found).into_iter().map(text).collect()
 }
 
 /// The JSON Schema of one line of [`Format::Json`].

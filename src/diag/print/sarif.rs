@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 /// The whole log of the given results; `omitted` diagnostics were left out.
 pub(super) fn log(results: &[Value], omitted: usize) -> String {
-    let log = json!({
+    let mut log = json!({
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
         "version": "2.1.0",
         "runs": [{
@@ -22,8 +22,15 @@ pub(super) fn log(results: &[Value], omitted: usize) -> String {
             "properties": { "omitted": omitted },
         }],
     });
+    // The page of the project, once its packages name one.
+    if let Some(page) = PAGE.filter(|page| !page.is_empty()) {
+        log["runs"][0]["tool"]["driver"]["informationUri"] = page.into();
+    }
     format!("{}\n", text::clean_json(&log.to_string()))
 }
+
+/// The address of the project.
+const PAGE: Option<&str> = option_env!("CARGO_PKG_REPOSITORY");
 
 fn rule(code: &'static codes::Code) -> Value {
     json!({

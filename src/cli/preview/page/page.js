@@ -99,7 +99,7 @@ function paint(canvas, bitmap) {
 
 function showFindings() {
   const blocks = state.findings.map(block);
-  if (state.fault !== null) blocks.unshift(block({ text: state.fault, fix: null }));
+  if (state.fault !== null) blocks.unshift(block({ text: state.fault, fix: null, change: "" }));
   if (state.findings.filter((one) => one.fix === "sure").length > 1) blocks.push(fixAll());
   at("overlay").hidden = !state.isFailed;
   at("errors").replaceChildren(...(state.isFailed ? blocks : []));
@@ -107,7 +107,7 @@ function showFindings() {
   at("notes").replaceChildren(...(state.isFailed ? [] : blocks));
 }
 
-function block({ text, fix }, index) {
+function block({ text, fix, change }, index) {
   const finding = document.createElement("div");
   finding.className = "finding";
   const source = document.createElement("pre");
@@ -116,7 +116,8 @@ function block({ text, fix }, index) {
   finding.append(source);
   if (fix !== null) {
     const [title] = text.split("\n", 1);
-    finding.prepend(button(fix === "sure" ? "fix" : "fix (a guess)", title, index));
+    const label = change || "fix";
+    finding.append(button(fix === "sure" ? label : `${label} (a guess)`, title, index));
   }
   return finding;
 }
@@ -252,7 +253,7 @@ async function inspect() {
   const surface =
     found.surface === null
       ? "no surface"
-      : `surface ${found.surface}${place && `: ${place}`}, depth ${found.depth.toPrecision(5)}`;
+      : `surface ${found.surface}${place && `: ${place}`}, distance ${found.depth.toPrecision(5)}`;
   seen = `${x}, ${y}: value ${value}; ${surface}`;
   showPixel();
   send("/pixel", inspected);
@@ -280,6 +281,15 @@ function listen() {
   picture.addEventListener("wheel", onWheel, { passive: false });
   at("reset").addEventListener("click", reset);
   at("keep").addEventListener("click", () => act(at("keep"), "/keep", null));
+  at("save").addEventListener("click", () => {
+    const link = document.createElement("a");
+    link.download = `${document.title.split(" – ")[0].replace(/\.[^.]*$/, "")}.png`;
+    at("picture").toBlob((file) => {
+      link.href = URL.createObjectURL(file);
+      link.click();
+      URL.revokeObjectURL(link.href);
+    });
+  });
   at("copy").addEventListener("click", () => {
     at("command").select();
     navigator.clipboard?.writeText(at("command").value).catch(() => {});

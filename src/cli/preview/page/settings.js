@@ -51,8 +51,8 @@ function makeKnobs({ knobs, integrator }) {
     return line(knob, name, input, words === null ? own : words[own]);
   });
   if (integrator !== null) {
-    const input = select([["whitted", "Whitted's way"], ["path", "all paths"]]);
-    lines.push(line("integrator", "integrator", input, null));
+    const input = select([["whitted", "mirrors and glass alone"], ["path", "all ways of light"]]);
+    lines.push(line("integrator", "light by", input, null));
   }
   at("knobs").replaceChildren(...lines);
   const idle = knobs.filter((own) => own.idle !== null);
@@ -100,7 +100,13 @@ function makeRows(costs) {
   at("priced").hidden = costs === null;
   at("costs").textContent = costs?.report ?? "";
   at("advice").textContent = costs?.advice[0] ?? "";
-  at("rows").replaceChildren(...(costs?.rows ?? []).map(priced));
+  const rows = costs?.rows ?? [];
+  // What is dearer and worse than another is for those who want it all.
+  const isShown = ({ isFront, isBest, values }) =>
+    at("every").checked || isFront || isBest || Object.keys(values).length === 0;
+  const shown = rows.filter(isShown);
+  at("rows").replaceChildren(...shown.map(priced));
+  at("every").parentElement.hidden = !at("every").checked && shown.length === rows.length;
 }
 
 // A setting with what it takes and its error, and a button that has the picture in it.
@@ -137,6 +143,10 @@ function listenToSettings() {
   at("measure").addEventListener("click", measure);
   at("prices").addEventListener("toggle", () => {
     if (at("prices").open && state?.costs === null) measure();
+  });
+  at("every").addEventListener("change", () => {
+    madeRows = "";
+    showSettings();
   });
   at("own").addEventListener("click", () => choose({ values: {}, integrator: null }));
 }
