@@ -17,6 +17,10 @@ pub(super) fn folding(document: &OpenText, columns: Columns) -> Vec<FoldingRange
     if let Some(tree) = document.tree() {
         let mut fold = |start: usize, value: NodeId| {
             let (from, to) = tree.range(value);
+            let written = document.text.get(start..to).unwrap_or_default();
+            if !written.contains('\n') {
+                return;
+            }
             let written = document.text.get(from..to).unwrap_or_default();
             let end = lines.line(from + written.trim_end().len());
             let first = lines.line(start);

@@ -4,12 +4,13 @@
 
 use super::hover::{default, unit};
 use super::open_text::OpenText;
-use super::outline::{MOST, maps};
-use super::path_at::{PathStep, path_at};
+use super::outline::MOST;
 use super::protocol::{InlayHint, Range};
 use super::text::{Columns, TextLines};
+use super::traverse::{VisitedNode, traverse};
 use super::vocabulary::Vocabulary;
 use rtc_source::tree::{NodeId, SyntaxTree};
+use serde_json::{Map, Value};
 
 /// The longest text of a default or of what an alias names, in bytes.
 const LONGEST: usize = 40;
@@ -18,7 +19,6 @@ const LONGEST: usize = 40;
 struct HintMaker<'d> {
     tree: &'d SyntaxTree<'d>,
     lines: &'d TextLines<'d>,
-    vocabulary: &'d Vocabulary,
 }
 
 /// The hints of some lines.
@@ -32,24 +32,22 @@ pub(super) fn hints(
         return Vec::new();
     };
     let lines = document.lines(columns);
-    let (first, last) = (shown.start.line as usize, shown.end.line as usize);
-    let is_shown = |id: &NodeId| {
-        let (start, end) = tree.range(*id);
-        lines.line(start) <= last && first <= lines.line(end)
-    };
+    let bytes = lines.offset(shown.start)..lines.offset(shown.end);
     let maker = HintMaker {
         tree: &tree,
         lines: &lines,
-        vocabulary,
     };
     let settings: Vec<NodeId> = tree.pairs(tree.root()).map(|(_, value)| value).collect();
-    let defaults = settings.iter().filter(|id| is_shown(id));
-    let defaults = defaults.filter_map(|map| maker.unsaid(*map));
-    let aliases = tree.nodes().filter(is_shown);
-    let aliases = aliases.filter_map(|id| maker.alias(id));
-    let angles = maps(&tree).filter(|map| *map != tree.root() && is_shown(map));
-    let angles = angles.flat_map(|map| maker.angles(map));
-    defaults.chain(aliases).chain(angles).take(MOST).collect()
+    let mut hints = Vec::new();
+    traverse(&tree, vocabulary, &bytes, |visited| {
+        let VisitedNode { key, node, schemas } = *visited;
+        let has_unsaid = settings.contains(&node);
+        hints.extend(has_unsaid.then(|| maker.unsaid(node, schemas)).flatten());
+        hints.extend(maker.alias(node));
+        hints.extend(key.and_then(|_| maker.angle(node, schemas)));
+    });
+    hints.truncate(MOST);
+    hints
 }
 
 impl HintMaker<'_> {
@@ -61,26 +59,14 @@ impl HintMaker<'_> {
         }
     }
 
-    /// The path of a map. It may begin with its first key, to which the path of that byte leads.
-    fn steps(&self, map: NodeId) -> Vec<PathStep> {
-        let mut steps = path_at(self.tree, self.tree.range(map).0);
-        while steps.last().is_some_and(|step| step.node() != map) {
-            steps.pop();
-        }
-        steps
-    }
-
     /// The defaults that a map leaves unsaid, at the end of its first line.
-    fn unsaid(&self, map: NodeId) -> Option<InlayHint> {
+    fn unsaid(&self, map: NodeId, schemas: &[&Map<String, Value>]) -> Option<InlayHint> {
         /// The maximum number of defaults.
         const FIRST: usize = 4;
         if !self.tree.is_map(map) || self.tree.target(map) != map {
             return None;
         }
-        let keys = self
-            .vocabulary
-            .keys(self.tree, &self.steps(map))
-            .into_iter();
+        let keys = Vocabulary::keys_of(schemas).into_iter();
         let unsaid = keys.filter(|(name, _)| self.tree.get(map, name).is_none());
         let defaults = unsaid.filter_map(|(name, schema)| {
             let default = default(schema).filter(|own| own.len() <= LONGEST)?;
@@ -109,25 +95,23 @@ impl HintMaker<'_> {
         Some(self.hint(self.tree.range(id).1, label))
     }
 
-    /// The angles of a map in degrees.
-    fn angles(&self, map: NodeId) -> Vec<InlayHint> {
-        let steps = self.steps(map);
-        let angle = |(key, value): (NodeId, NodeId)| {
-            let numbers = self.numbers(value);
-            if numbers.iter().all(|number| *number == 0.0) {
-                return None;
-            }
-            let mut steps = steps.clone();
-            steps.push(PathStep::Key { map, key, value });
-            let is_angle = unit(&self.vocabulary.at(self.tree, &steps)) == Some("radians");
-            let degrees = numbers.iter().map(|number| {
-                let text = format!("{:.1}", number.to_degrees());
-                format!("{}°", text.trim_end_matches('0').trim_end_matches('.'))
-            });
-            let label = format!("= {}", degrees.collect::<Vec<_>>().join(", "));
-            is_angle.then(|| self.hint(self.tree.range(value).1, label))
+    /// An angle, or three, in degrees.
+    fn angle(&self, value: NodeId, schemas: &[&Map<String, Value>]) -> Option<InlayHint> {
+        let is_angle = unit(schemas) == Some("radians");
+        let numbers = if is_angle {
+            self.numbers(value)
+        } else {
+            Vec::new()
         };
-        self.tree.pairs(map).filter_map(angle).collect()
+        if numbers.iter().all(|number| *number == 0.0) {
+            return None;
+        }
+        let degrees = numbers.iter().map(|number| {
+            let text = format!("{:.1}", number.to_degrees());
+            format!("{}°", text.trim_end_matches('0').trim_end_matches('.'))
+        });
+        let label = format!("= {}", degrees.collect::<Vec<_>>().join(", "));
+        Some(self.hint(self.tree.range(value).1, label))
     }
 
     /// The number at a node, or the three of a list; empty for anything else.

@@ -88,7 +88,7 @@ pub(super) fn colors(document: &OpenText, columns: Columns) -> Vec<ColorInformat
 }
 
 /// The maps that are written in the text, each once.
-pub(super) fn maps(tree: &SyntaxTree<'_>) -> impl Iterator<Item = NodeId> {
+fn maps(tree: &SyntaxTree<'_>) -> impl Iterator<Item = NodeId> {
     let is_written = |id: &NodeId| tree.is_map(*id) && tree.target(*id) == *id;
     tree.nodes().filter(is_written)
 }

@@ -89,8 +89,13 @@ impl Vocabulary {
         tree: &SyntaxTree<'_>,
         to_map: &[PathStep],
     ) -> Vec<(&'v str, &'v Value)> {
+        Self::keys_of(&self.at(tree, to_map))
+    }
+
+    /// The keys of a map with some schemas.
+    pub(super) fn keys_of<'v>(schemas: &[&'v Map<String, Value>]) -> Vec<(&'v str, &'v Value)> {
         let mut keys: Vec<(&str, &Value)> = Vec::new();
-        for schema in self.at(tree, to_map) {
+        for schema in schemas {
             let properties = schema.get("properties").and_then(Value::as_object);
             for (name, property) in properties.into_iter().flatten() {
                 // A rule may forbid a key: its schema is `false`.
