@@ -3,10 +3,10 @@
 use super::reporter::ExportReporter;
 use rtc_diag::{clip, codes};
 use rtc_ir::{
-    EntityField, EntityKind, Material, PunctualKind, Scene, Settings, Shape, ShapeKind, Surface,
-    ValuePath,
+    EntityField, EntityKind, Environment, Image, Material, PunctualKind, Scene, Settings, Shape,
+    ShapeKind, Surface, ValuePath,
 };
-use rtc_math::shortest;
+use rtc_math::{Vec3, shortest};
 use rtc_source::{Budget, Resource};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
@@ -95,6 +95,33 @@ impl ExportReporter<'_> {
 pub(super) fn mean_over_directions(emitter: &PunctualKind) -> f64 {
     let solid_angle = emitter.profile().map_or(0.0, |all| all.solid_angle());
     solid_angle / (4.0 * PI)
+}
+
+/// The environment of a scene for another renderer.
+pub(super) struct ExportedEnvironment<'s> {
+    /// The radiance, or the factor of the map.
+    pub(super) radiance: [f64; 3],
+    /// The map of longitude and latitude, whose middle is −z, with its axes in the world.
+    pub(super) map: Option<(&'s Image, [Vec3; 3])>,
+    pub(super) path: ValuePath,
+}
+
+/// The environment of a scene, if it has one.
+pub(super) fn environment(scene: &Scene) -> Option<ExportedEnvironment<'_>> {
+    let Environment {
+        radiance,
+        image,
+        image_from_world,
+    } = scene.environment.as_ref()?;
+    let image = image.map(|image| &scene.images[image.0 as usize]);
+    // The rows of the rotation are the columns of its inverse.
+    let rows = image_from_world.map(|rows| rows.map(Vec3::from_array));
+    let axes = rows.unwrap_or([Vec3::X, Vec3::Y, Vec3::Z]);
+    Some(ExportedEnvironment {
+        radiance: *radiance,
+        map: image.map(|image| (image, axes)),
+        path: ValuePath::new(EntityKind::Environment, 0, EntityField::Whole),
+    })
 }
 
 /// The materials that surfaces use, with their indices and paths.

@@ -1,11 +1,11 @@
 //! Writes lights: suns, points without range and spots, whose profile is a picture, are exact.
 
 use super::MitsubaWriter;
-use crate::export::joined;
+use crate::export::{ExportedEnvironment, environment, joined};
 use crate::path_tracer::{PathTracerLight, SpotEdge, SpotLight, lights};
 use crate::picture;
 use rtc_image::{FileFormat, Image as Radiances, Picture};
-use rtc_ir::{EntityField, EntityKind, Environment, ValuePath};
+use rtc_ir::ValuePath;
 use rtc_math::{OrthonormalBasis, Vec3, cos, shortest, sin, unit};
 
 /// The side in pixels of the picture of the profile of a spot.
@@ -107,33 +107,27 @@ impl MitsubaWriter<'_> {
 
     /// The environment, as a constant or a map.
     pub(super) fn environment(&mut self) -> Option<()> {
-        let Some(Environment {
-            radiance,
-            image,
-            image_from_world,
-        }) = &self.scene.environment
-        else {
+        let Some(environment) = environment(self.scene) else {
             return Some(());
         };
-        self.shines |= *radiance != [0.0; 3];
-        let Some(image) = image else {
+        let ExportedEnvironment {
+            radiance,
+            map,
+            path,
+        } = environment;
+        self.shines |= radiance != [0.0; 3];
+        let Some((image, [x, y, z])) = map else {
             self.line(1, r#"<emitter type="constant">"#);
-            self.rgb(2, "radiance", *radiance);
+            self.rgb(2, "radiance", radiance);
             self.line(1, "</emitter>");
             return Some(());
         };
-        let path = ValuePath::new(EntityKind::Environment, 0, EntityField::Whole);
-        let image = &self.scene.images[image.0 as usize];
         let cost = u64::from(image.width) * u64::from(image.height) * 96;
         let beside = &mut self.beside;
         beside.reporter.charge(cost, beside.budget, path)?;
-        let encoded = picture::environment(image, *radiance).map(|bytes| (bytes, "exr"));
+        let encoded = picture::environment(image, radiance).map(|bytes| (bytes, "exr"));
         let file = beside.picture(&image.name, encoded, path)?;
-        // The middle of Mitsuba's map is +z, that of the IR is −z; the rows of the rotation are the
-        // columns of its inverse.
-        let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let rows = image_from_world.unwrap_or(identity);
-        let [x, y, z] = rows.map(Vec3::from_array);
+        // The middle of Mitsuba's map is +z.
         self.line(1, r#"<emitter type="envmap">"#);
         self.value(2, "string", "filename", &file);
         self.placed([-x, y, -z, Vec3::ZERO]);

@@ -2,8 +2,9 @@
 
 use super::equal_area;
 use super::{PbrtWriter, numbers, string};
+use crate::export::{ExportedEnvironment, environment};
 use crate::path_tracer::{PathTracerLight, SpotEdge, SpotLight, lights};
-use rtc_ir::{EntityField, EntityKind, Environment, ValuePath};
+use rtc_ir::ValuePath;
 use rtc_math::{Vec3, acos, cos};
 use std::f64::consts::TAU;
 
@@ -64,35 +65,30 @@ impl PbrtWriter<'_> {
 
     /// The environment, as a constant or a map.
     pub(super) fn environment(&mut self) -> Option<()> {
-        let Some(Environment {
-            radiance,
-            image,
-            image_from_world,
-        }) = &self.scene.environment
-        else {
+        let Some(environment) = environment(self.scene) else {
             return Some(());
         };
-        self.shines |= *radiance != [0.0; 3];
-        let Some(image) = image else {
-            let color = numbers("rgb", "L", *radiance);
+        let ExportedEnvironment {
+            radiance,
+            map,
+            path,
+        } = environment;
+        self.shines |= radiance != [0.0; 3];
+        let Some((image, [x, y, z])) = map else {
+            let color = numbers("rgb", "L", radiance);
             self.line(&format!(r#"LightSource "infinite"{color}"#));
             return Some(());
         };
         // Resample the map to a square of equal areas.
-        let path = ValuePath::new(EntityKind::Environment, 0, EntityField::Whole);
-        let image = &self.scene.images[image.0 as usize];
         let beside = &mut self.beside;
         beside
             .reporter
             .charge(equal_area::cost(image), beside.budget, path)?;
         let message = "the environment map is resampled: pbrt's maps are squares of equal areas";
         beside.reporter.unsupported(message, path);
-        let encoded = equal_area::encode(image, *radiance).map(|bytes| (bytes, "exr"));
+        let encoded = equal_area::encode(image, radiance).map(|bytes| (bytes, "exr"));
         let file = beside.picture(&image.name, encoded, path)?;
         // The pole of pbrt's map is +z, and its middle −x.
-        let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let rows = image_from_world.unwrap_or(identity);
-        let [x, y, z] = rows.map(Vec3::from_array);
         self.attributes(|writer| {
             writer.placed([z, x, y, Vec3::ZERO]);
             let map = string("string", "filename", &file);

@@ -2,12 +2,10 @@
 //! and points are, other than close to a point.
 
 use super::{PovWriter, vector};
-use crate::export::mean_over_directions;
+use crate::export::{ExportedEnvironment, environment, mean_over_directions};
 use crate::flat::around;
 use crate::picture;
-use rtc_ir::{
-    EntityField, EntityKind, Environment, Light, PointLight, Punctual, PunctualKind, ValuePath,
-};
+use rtc_ir::{EntityField, EntityKind, Light, PointLight, Punctual, PunctualKind, ValuePath};
 use rtc_math::{Vec3, shortest, unit};
 use std::f64::consts::PI;
 
@@ -106,27 +104,25 @@ impl PovWriter<'_> {
 
     /// The environment, as the sky; `None` if its picture exceeds the budget.
     pub(super) fn environment(&mut self) -> Option<()> {
-        let Some(Environment {
-            radiance,
-            image,
-            image_from_world,
-        }) = &self.scene.environment
-        else {
+        let Some(environment) = environment(self.scene) else {
             return Some(());
         };
-        let path = ValuePath::new(EntityKind::Environment, 0, EntityField::Whole);
-        self.shines |= *radiance != [0.0; 3];
-        let Some(image) = image else {
+        let ExportedEnvironment {
+            radiance,
+            map,
+            path,
+        } = environment;
+        self.shines |= radiance != [0.0; 3];
+        let Some((image, [x, y, z])) = map else {
             self.line(&format!(
                 "sky_sphere {{ pigment {{ rgb {} }} }}",
-                vector(*radiance)
+                vector(radiance)
             ));
             return Some(());
         };
-        let image = &self.scene.images[image.0 as usize];
         let cost = u64::from(image.width) * u64::from(image.height) * 96;
         self.reporter.charge(cost, self.budget, path)?;
-        let bytes = picture::environment(image, *radiance).ok()?;
+        let bytes = picture::environment(image, radiance).ok()?;
         let Some((file, _)) = self.beside(&image.name, (bytes, "exr")) else {
             let message = "the environment map is left out: it needs a file beside the text, as with \
                            `-o FILE`";
@@ -134,8 +130,6 @@ impl PovWriter<'_> {
             return Some(());
         };
         // POV-Ray's map has its left edge at +x, and longitude grows from +x to +z.
-        let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let [x, y, z] = image_from_world.unwrap_or(identity).map(Vec3::from_array);
         let columns = [z, y, -x, Vec3::ZERO];
         let columns = vector(columns.into_iter().flat_map(|column| column.to_array()));
         self.line(&format!(
