@@ -238,6 +238,8 @@ function onUp(event) {
 // The pixel that is looked at, and what is said of it.
 let inspected = null;
 let seen = "";
+// Its surface in the text, as `file:line`; empty if it has no place there.
+let place = "";
 
 async function inspect() {
   const [x, y] = ["x", "y"].map((id) => Number(at(id).value));
@@ -245,15 +247,17 @@ async function inspect() {
   const reply = await fetch(url("/pixel", { x, y }));
   if (!reply.ok) {
     seen = "there is no such pixel, or the picture is not finished";
+    place = "";
     return showPixel();
   }
   const found = await reply.json();
   const value = found.value.map((v) => v.toPrecision(4)).join(", ");
-  const place = [found.name, found.line && `(${found.line})`].filter(Boolean).join(" ");
+  place = found.line ?? "";
+  const named = [found.name, found.line && `(${found.line})`].filter(Boolean).join(" ");
   const surface =
     found.surface === null
       ? "no surface"
-      : `surface ${found.surface}${place && `: ${place}`}, distance ${found.depth.toPrecision(5)}`;
+      : `surface ${found.surface}${named && `: ${named}`}, distance ${found.depth.toPrecision(5)}`;
   seen = `${x}, ${y}: value ${value}; ${surface}`;
   showPixel();
   send("/pixel", inspected);
@@ -262,6 +266,7 @@ async function inspect() {
 function showPixel() {
   if (inspected === null) return;
   at("pixel").textContent = seen;
+  at("place").hidden = place === "";
   const isOfIt = state.pixel !== null && String(state.pixel.at) === String(inspected);
   const parts = isOfIt ? state.pixel.effects.map(([name, count]) => `${name} ${count}×`) : [];
   at("taken").textContent = isOfIt ? `took part: ${parts.join(", ") || "what is behind the scene alone"}` : "";
@@ -290,6 +295,7 @@ function listen() {
       URL.revokeObjectURL(link.href);
     });
   });
+  at("place").addEventListener("click", () => navigator.clipboard?.writeText(place).catch(() => {}));
   at("copy").addEventListener("click", () => {
     at("command").select();
     navigator.clipboard?.writeText(at("command").value).catch(() => {});
