@@ -70,6 +70,7 @@ fn full() -> Standard {
             "doubleSided" | "unlit" => json!(true),
             "ior" | "iridescenceIor" => json!(1.4),
             "iridescenceThickness" => json!([50.0, 1.0 / 3.0]),
+            "conductor" => json!({ "eta": [0.1, 0.4, 1.0 / 3.0], "k": [4.0, 2.5, 1.9] }),
             "baseColor" | "specularGlossiness" => json!([0.1, 0.2, 0.3, 0.7]),
             key if key.ends_with("Color") || key == "emissive" => json!([0.1, 0.2, 1.0 / 3.0]),
             key if key.ends_with("Map") => serde_json::to_value(&map).unwrap(),
