@@ -5,7 +5,7 @@ use crate::repo::root;
 use crate::small::{WHOLE, film};
 use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::{Camera, Light, Material, Mode, Scene, Shape};
-use rtc::internals::math::{ComplexIndex, Vec3};
+use rtc::internals::math::{ComplexIndex, PixelFilter, Vec3};
 use rtc::internals::pipeline::{Options, load};
 use rtc::internals::source::{Loader, SourceMap};
 use std::fs;
@@ -411,5 +411,90 @@ fn a_metal_is_the_same_in_every_format_that_is_written() {
         );
         assert_eq!(one.base_color, other.base_color, "{name}");
         assert!((one.roughness - other.roughness).abs() < 1e-9, "{name}");
+        // The filter of the pixels, too: that of Mitsuba's films is a Gaussian.
+        let filter = |scene: &Scene| match &scene.settings.mode {
+            Mode::Path(path) => path.filter,
+            mode => panic!("{mode:?}"),
+        };
+        assert!(!filter(&scene).is_pixel(), "{name}");
+        assert_eq!(filter(&scene), filter(&again), "{name}");
     }
+}
+
+#[test]
+fn an_edge_is_as_soft_as_the_filter_of_the_film() {
+    for (filter, known) in [
+        (
+            r#"<rfilter type="gaussian"/>"#,
+            PixelFilter::Gaussian {
+                deviation: 0.5,
+                radius: 2.0,
+            },
+        ),
+        (
+            r#"<rfilter type="tent"><float name="radius" value="1.5"/></rfilter>"#,
+            PixelFilter::Tent { radius: 1.5 },
+        ),
+        (r#"<rfilter type="catmullrom"/>"#, PixelFilter::CATMULL_ROM),
+    ] {
+        // A light that covers the left half of the picture.
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("scene.xml");
+        let text = format!(
+            r#"<scene version="3.0.0">
+                <sensor type="orthographic">
+                    <transform name="to_world">
+                        <lookat origin="0, 0, 10" target="0, 0, 0" up="0, 1, 0"/>
+                    </transform>
+                    <sampler type="independent"><integer name="sample_count" value="256"/></sampler>
+                    <film type="hdrfilm">
+                        <integer name="width" value="8"/><integer name="height" value="8"/>{filter}
+                    </film>
+                </sensor>
+                <shape type="rectangle">
+                    <transform name="to_world"><scale value="9"/><translate x="-9"/></transform>
+                    <emitter type="area"><rgb name="radiance" value="1"/></emitter>
+                </shape>
+            </scene>"#
+        );
+        fs::write(&path, text).unwrap();
+        let (scene, codes) = read(&path);
+        assert_eq!(codes, Vec::<&str>::new());
+        let pixels = film(&scene, &WHOLE, 1).image.pixels;
+        // The share of the filter to the left of the edge, which is between two columns.
+        let steps = 4000;
+        let place = |k: i32| (f64::from(k) + 0.5) / f64::from(steps) * 8.0 - 4.0;
+        let weight = |k: i32| known.weight(place(k));
+        let whole: f64 = (0..steps).map(weight).sum();
+        for column in 0..8 {
+            let edge = 3.5 - f64::from(column);
+            let left = (0..steps).filter(|k| place(*k) < edge).map(weight);
+            let share = left.sum::<f64>() / whole;
+            let shown = (0..8).map(|row| pixels[(8 * row + column) as usize][0]);
+            let mean = shown.sum::<f64>() / 8.0;
+            assert!(
+                (mean - share).abs() < 0.01,
+                "{filter} {column}: {mean}, not {share}"
+            );
+        }
+    }
+}
+
+#[test]
+fn files_are_found_in_the_folders_of_path() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("data")).unwrap();
+    let mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    fs::write(folder.path().join("data/corner.obj"), mesh).unwrap();
+    let path = folder.path().join("scene.xml");
+    let text = r#"<scene version="3.0.0">
+        <path value="nothing"/>
+        <path value="data"/>
+        <sensor type="perspective"/>
+        <emitter type="constant"/>
+        <shape type="obj"><string name="filename" value="corner.obj"/></shape>
+    </scene>"#;
+    fs::write(&path, text).unwrap();
+    let (scene, codes) = read(&path);
+    assert_eq!((scene.meshes[0].triangles.len(), codes), (1, Vec::new()));
 }

@@ -95,6 +95,7 @@ fn put_up(scene: &mut Scene, setup: &Value, samples: u32) {
     scene.settings.mode = Mode::Path(Paths {
         samples,
         multiple_scattering: false,
+        ..Paths::default()
     });
     scene.settings.max_depth = u32::try_from(setup["max_bounces"].as_u64().unwrap()).unwrap();
 }

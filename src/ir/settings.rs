@@ -2,6 +2,7 @@
 
 use super::standard::is_default;
 use arbitrary::Arbitrary;
+use rtc_math::PixelFilter;
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 
@@ -179,6 +180,9 @@ pub struct PathSettings {
     pub samples: u32,
     /// Whether rough surfaces keep the light that is scattered several times between microfacets.
     pub multiple_scattering: bool,
+    /// The reconstruction filter of the pixels.
+    #[serde(default, skip_serializing_if = "PixelFilter::is_pixel")]
+    pub filter: PixelFilter,
 }
 
 impl PathSettings {
@@ -192,6 +196,7 @@ impl Default for PathSettings {
         Self {
             samples: 64,
             multiple_scattering: true,
+            filter: PixelFilter::PIXEL,
         }
     }
 }

@@ -12,6 +12,7 @@
 //! - Ranges as types: [`Positive`], [`NonNegative`], [`UnitInterval`], [`Weight`]. A value of such
 //!   a
 //!   type needs no further check.
+//! - [`PixelFilter`]: the reconstruction filters of pixels.
 //! - [`ComplexIndex`]: the Fresnel equations of conductors.
 //! - Mesh data: [`VertexColumn`], a shared list of vectors in the precision of its source.
 //! - Hashes and angles for sampling: [`mix`], [`cos_sin_revolutions`], [`golden_revolutions`].
@@ -45,6 +46,7 @@ mod hash;
 mod id;
 mod number;
 mod onb;
+mod pixel_filter;
 mod rotation;
 mod set;
 mod solid_texture;
@@ -69,6 +71,7 @@ pub use hash::{GAMMA, fraction, mix};
 pub use id::{Id, IdTable};
 pub use number::{NonNegative, Positive, UnitInterval, shortest};
 pub use onb::OrthonormalBasis;
+pub use pixel_filter::PixelFilter;
 pub use rotation::{axis_and_angle, rotated_about, rotated_to_z};
 pub use set::{MAX_SET_OPERANDS, SetStep, evaluate_set, is_set_expression};
 pub use solid_texture::{GradientNoise, SolidTexture, TextureMapping, TexturePattern};

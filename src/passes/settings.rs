@@ -59,6 +59,7 @@ mod tests {
             mode: Mode::Path(PathSettings {
                 samples: 64,
                 multiple_scattering: true,
+                filter: rtc_math::PixelFilter::PIXEL,
             }),
             shadows: true,
             max_depth: 16,
@@ -92,6 +93,7 @@ mod tests {
         let mode = Mode::Path(PathSettings {
             samples: 9,
             multiple_scattering: false,
+            filter: rtc_math::PixelFilter::PIXEL,
         });
         let expected = Settings {
             mode,

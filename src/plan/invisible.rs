@@ -20,7 +20,7 @@ pub fn invisible_surfaces(scene: &ValidScene) -> Vec<usize> {
     if matches!(scene.settings().mode, Mode::Path(_)) || !is_perspective {
         return Vec::new();
     }
-    let projection = ScreenProjection::new(scene.camera(), is_pinhole(scene));
+    let projection = ScreenProjection::new(scene.camera(), is_pinhole(scene), 0.0);
     let is_outside = |bounds: &SurfaceBounds| match &bounds.extent {
         SurfaceExtent::Plane(plane) => projection.is_behind(plane),
         SurfaceExtent::Within(_) | SurfaceExtent::Anywhere => {

@@ -171,7 +171,7 @@ impl Plan {
         // Gather the facts, and project the bounds of all surfaces.
         let rules = rules_for_camera(scene, rules);
         let facts = SceneFacts::new(scene, rules);
-        let projection = ScreenProjection::new(scene.camera(), facts.is_pinhole());
+        let projection = ScreenProjection::new(scene.camera(), facts.is_pinhole(), 0.0);
         let screen_rects = facts
             .surface_bounds
             .iter()

@@ -49,12 +49,14 @@ pub(crate) struct ScreenProjection {
     steps: [f64; 2],
     /// The size of the picture in pixels.
     size: [f64; 2],
+    /// How far the rays of a pixel reach beyond it, in pixels.
+    beyond: f64,
     /// Whether rounding makes the projection useless everywhere.
     is_ill_conditioned: bool,
 }
 
 impl ScreenProjection {
-    pub(crate) fn new(camera: &Camera, pinhole: bool) -> Self {
+    pub(crate) fn new(camera: &Camera, pinhole: bool, beyond: f64) -> Self {
         // Compute the image plane from the camera axes.
         let (right, up) = (camera.right.length(), camera.up.length());
         let normal = cross(camera.right / right, camera.up / up);
@@ -95,6 +97,7 @@ impl ScreenProjection {
             reach,
             steps,
             size,
+            beyond,
             is_ill_conditioned,
         }
     }
@@ -121,7 +124,7 @@ impl ScreenProjection {
         let Camera {
             center, right, up, ..
         } = &self.camera;
-        let [x, y] = self.size.map(|side| side / 2.0 + 1.0);
+        let [x, y] = self.size.map(|side| side / 2.0 + 1.0 + self.beyond);
         let corner = |[x, y]: [f64; 2]| *center + *right * x + *up * y;
         let corners = [[-x, -y], [x, -y], [-x, y], [x, y]].map(corner);
         let away = |from: &Vec3, corner: &Vec3| {
@@ -202,7 +205,7 @@ impl ScreenProjection {
         (at, (error + skew) / across_step.min(upward_step))
     }
 
-    /// The pixels of a screen-space interval, expanded by one pixel.
+    /// The pixels of a screen-space interval, expanded by one pixel and by how far rays reach.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -210,10 +213,10 @@ impl ScreenProjection {
     )]
     fn rectangle(&self, low: [f64; 2], high: [f64; 2]) -> ScreenRect {
         let side = |axis: usize| {
-            let first = (low[axis] - 1.0 - MAX_ERROR)
+            let first = (low[axis] - 1.0 - self.beyond - MAX_ERROR)
                 .floor()
                 .clamp(0.0, self.size[axis]);
-            let last = (high[axis] + 1.0 + MAX_ERROR)
+            let last = (high[axis] + 1.0 + self.beyond + MAX_ERROR)
                 .ceil()
                 .clamp(0.0, self.size[axis]);
             [first as u32, last as u32]
@@ -267,7 +270,7 @@ mod tests {
     }
 
     fn pinhole(eye: [f64; 3], center: [f64; 3], steps: [f64; 2]) -> ScreenProjection {
-        ScreenProjection::new(&camera(eye, center, steps, 0.0), true)
+        ScreenProjection::new(&camera(eye, center, steps, 0.0), true, 0.0)
     }
 
     fn screen_rect(projection: &ScreenProjection, center: Vec3, reach: f64) -> ScreenRect {
@@ -330,7 +333,7 @@ mod tests {
         let mut projection = projection(0.0);
         projection.camera.eye += reach;
         projection.camera.center += reach;
-        let projection = ScreenProjection::new(&projection.camera, true);
+        let projection = ScreenProjection::new(&projection.camera, true, 0.0);
         assert_eq!(
             screen_rect(&projection, Vec3::ZERO, 1.0),
             ScreenRect::Unknown

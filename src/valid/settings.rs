@@ -5,7 +5,7 @@ use rtc_color::Tone;
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
 use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
-use rtc_math::Vec3;
+use rtc_math::{PixelFilter, Vec3};
 use rtc_source::Resource;
 use std::num::NonZeroU32;
 
@@ -86,6 +86,16 @@ pub struct PathSettings {
     pub samples: NonZeroU32,
     /// Whether rough surfaces keep the energy of multiple scattering between their facets.
     pub multiple_scattering: bool,
+    /// The reconstruction filter of the pixels: its numbers are in range.
+    pub filter: PixelFilter,
+}
+
+impl PathSettings {
+    /// How far the rays of a pixel reach beyond it, in pixels.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        (self.filter.radius() - 0.5).max(0.0)
+    }
 }
 
 /// The parameters of Gooch shading, finite.
@@ -173,14 +183,49 @@ fn valid_mode(mode: &ir::Mode, check: &mut Checker<'_>) -> Option<Mode> {
         ir::Mode::Path(ir::PathSettings {
             samples,
             multiple_scattering,
+            filter,
         }) => {
-            let samples = check.count(*samples, "samples", at(EntityField::Mode))?;
+            let samples = check.count(*samples, "samples", at(EntityField::Mode));
+            let filter = valid_filter(*filter, check);
+            let (samples, filter) = (samples?, filter?);
             Some(Mode::Path(PathSettings {
                 samples,
                 multiple_scattering: *multiple_scattering,
+                filter,
             }))
         }
     }
+}
+
+/// The filter, if its numbers are in range.
+fn valid_filter(filter: PixelFilter, check: &mut Checker<'_>) -> Option<PixelFilter> {
+    /// The range of radii and deviations, in pixels.
+    const RANGE: std::ops::RangeInclusive<f64> = 1e-3..=16.0;
+    let (are_in_range, others) = match filter {
+        PixelFilter::Box { .. } | PixelFilter::Tent { .. } => (true, ""),
+        PixelFilter::Gaussian { deviation, .. } => {
+            (RANGE.contains(&deviation), ", a deviation too")
+        }
+        PixelFilter::Mitchell { b, c, .. } => {
+            let is_fraction = |number: f64| (0.0..=1.0).contains(&number);
+            (is_fraction(b) && is_fraction(c), ", b and c from 0 to 1")
+        }
+        PixelFilter::Lanczos { window, radius } => {
+            let is_wide = window >= 1.0 && radius >= 1.0;
+            (
+                is_wide && RANGE.contains(&window),
+                ", of Lanczos it and the window at least 1",
+            )
+        }
+    };
+    if are_in_range && RANGE.contains(&filter.radius()) {
+        return Some(filter);
+    }
+    let message = "the numbers of a filter are out of range";
+    let hint = format!("a radius is from 0.001 to 16 pixels{others}");
+    let diagnostic = Diagnostic::new(&codes::BAD_FACTOR, message).hint(hint);
+    check.report(at(EntityField::Mode), "", diagnostic);
+    None
 }
 
 fn gooch(gooch: &ir::Gooch, check: &mut Checker<'_>) -> Option<Mode> {

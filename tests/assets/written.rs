@@ -128,6 +128,7 @@ fn settings() -> Settings {
         mode: Mode::Path(PathSettings {
             samples: 7,
             multiple_scattering: false,
+            ..PathSettings::default()
         }),
         shadows: true,
         max_depth: 5,

@@ -172,6 +172,7 @@ fn settings() -> impl Strategy<Value = Settings> {
         Mode::Path(PathSettings {
             samples,
             multiple_scattering: samples % 2 == 0,
+            ..PathSettings::default()
         })
     });
     let mode = prop_oneof![

@@ -40,6 +40,7 @@ fn traced(name: &str) -> AnyWorld {
     scene.settings.mode = Mode::Path(PathSettings {
         samples: SAMPLES,
         multiple_scattering: true,
+        ..PathSettings::default()
     });
     world(&scene)
 }

@@ -212,6 +212,7 @@ fn a_white_metal_of_any_roughness_vanishes_in_a_white_furnace() {
         scene.settings.mode = Mode::Path(PathSettings {
             samples: 64,
             multiple_scattering,
+            ..PathSettings::default()
         });
         scene.environment = sky(1.0);
         add_sphere(

@@ -35,6 +35,7 @@ fn scene(samples: u32) -> Scene {
         mode: Mode::Path(PathSettings {
             samples,
             multiple_scattering: false,
+            ..PathSettings::default()
         }),
         shadows: true,
         max_depth: 8,

@@ -27,6 +27,7 @@ pub(super) fn traced(surfaces: &[(Shape, Standard)]) -> Scene {
     scene.settings.mode = Mode::Path(PathSettings {
         samples: 4,
         multiple_scattering: false,
+        ..PathSettings::default()
     });
     for (shape, material) in surfaces {
         add(&mut scene, shape, material);

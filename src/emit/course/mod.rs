@@ -19,7 +19,7 @@ use files::FileNames;
 use rtc_ir::{
     Ambient, Display, Gooch, Light, Mode, PathSettings, Pattern, Scene, Settings, Shape, Surface,
 };
-use rtc_math::shortest;
+use rtc_math::{PixelFilter, shortest};
 use serde_json::Value as Json;
 use std::fmt::Write as _;
 
@@ -306,18 +306,40 @@ impl<'s> SceneWriter<'s> {
         let Mode::Path(PathSettings {
             samples,
             multiple_scattering,
+            filter,
         }) = mode
         else {
             return supersampling;
         };
         let side = samples.isqrt();
-        if *multiple_scattering && supersampling == 1 && side * side == *samples {
+        let is_default = *multiple_scattering && filter.is_pixel();
+        if is_default && supersampling == 1 && side * side == *samples {
             return side;
         }
         self.line(0, "PathParameters:");
         self.line(2, &format!("samples: {samples}"));
         self.line(2, &format!("multipleScattering: {multiple_scattering}"));
+        if !filter.is_pixel() {
+            self.line(2, &format!("filter: {}", filter_text(filter)));
+        }
         supersampling
+    }
+}
+
+/// A filter of pixels as the format has it.
+fn filter_text(filter: &PixelFilter) -> String {
+    match filter {
+        PixelFilter::Box { radius } => format!("{{box: {{radius: {radius}}}}}"),
+        PixelFilter::Tent { radius } => format!("{{tent: {{radius: {radius}}}}}"),
+        PixelFilter::Gaussian { deviation, radius } => {
+            format!("{{gaussian: {{deviation: {deviation}, radius: {radius}}}}}")
+        }
+        PixelFilter::Mitchell { b, c, radius } => {
+            format!("{{mitchell: {{b: {b}, c: {c}, radius: {radius}}}}}")
+        }
+        PixelFilter::Lanczos { window, radius } => {
+            format!("{{lanczos: {{window: {window}, radius: {radius}}}}}")
+        }
     }
 }
 

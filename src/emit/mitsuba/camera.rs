@@ -4,9 +4,9 @@
 use super::MitsubaWriter;
 use crate::export::joined;
 use crate::flat::{around, side};
-use crate::path_tracer::{CameraFrame, SQUARE};
+use crate::path_tracer::{CameraFrame, SQUARE, pixel_filter};
 use rtc_ir::{EntityField, EntityKind, Projection, ValuePath};
-use rtc_math::{Vec3, length, shortest};
+use rtc_math::{PixelFilter, Vec3, length, shortest};
 
 impl MitsubaWriter<'_> {
     /// Mitsuba's camera looks along its z axis, with y up and x to the left.
@@ -95,13 +95,44 @@ impl MitsubaWriter<'_> {
         self.line(2, "</transform>");
     }
 
+    fn filter(&mut self) {
+        let filter = pixel_filter(&self.scene.settings);
+        let (plugin, values) = match filter {
+            PixelFilter::Box { radius } => ("box", vec![("radius", radius)]),
+            PixelFilter::Tent { radius } => ("tent", vec![("radius", radius)]),
+            PixelFilter::Gaussian { deviation, .. } => ("gaussian", vec![("stddev", deviation)]),
+            PixelFilter::Mitchell { b, c, .. } => ("mitchell", vec![("A", b), ("B", c)]),
+            PixelFilter::Lanczos { radius, .. } => ("lanczos", vec![("lobes", radius)]),
+        };
+        // The radii that Mitsuba has.
+        let is_same = match filter {
+            PixelFilter::Box { .. } | PixelFilter::Tent { .. } => true,
+            PixelFilter::Gaussian { deviation, radius } => radius == 4.0 * deviation,
+            PixelFilter::Mitchell { radius, .. } => radius == 2.0,
+            PixelFilter::Lanczos { window, radius } => window == radius && radius.fract() == 0.0,
+        };
+        if !is_same {
+            let path = ValuePath::new(EntityKind::Settings, 0, EntityField::Mode);
+            let message = "Mitsuba's filter of this kind has another radius";
+            self.beside.reporter.unsupported(message, path);
+        }
+        self.line(3, &format!(r#"<rfilter type="{plugin}">"#));
+        for (name, value) in values {
+            match name {
+                "lobes" => self.value(4, "integer", name, &shortest(value.round())),
+                _ => self.value(4, "float", name, &shortest(value)),
+            }
+        }
+        self.line(3, "</rfilter>");
+    }
+
     fn film(&mut self, [width, height]: [u32; 2]) {
         self.line(2, r#"<film type="hdrfilm">"#);
         self.value(3, "integer", "width", &width.to_string());
         self.value(3, "integer", "height", &height.to_string());
         self.value(3, "string", "pixel_format", "rgb");
         self.value(3, "string", "component_format", "float32");
-        self.line(3, r#"<rfilter type="box"/>"#);
+        self.filter();
         self.line(2, "</film>");
         self.line(2, r#"<sampler type="$sampler">"#);
         self.value(3, "integer", "sample_count", "$spp");

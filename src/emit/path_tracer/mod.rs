@@ -19,7 +19,7 @@ mod textured_factor;
 pub(crate) use basic_shape::{PathTracerShape, TriangleSoup, basic_shapes, has_maps, is_basic};
 pub(crate) use camera_frame::{CameraFrame, SQUARE};
 pub(crate) use light::{PathTracerLight, SpotEdge, SpotLight, lights};
-pub(crate) use settings::bounces;
+pub(crate) use settings::{bounces, pixel_filter};
 pub(crate) use sidecar_writer::{BitmapTexture, CornerColor, SidecarWriter};
 pub(crate) use surface_material::{
     SurfaceMaterial, absorption, is_glass, missing_features, opacity, radiance, standard,

@@ -2,6 +2,7 @@
 
 use crate::reporter::ExportReporter;
 use rtc_ir::{Display, EntityField, EntityKind, Mode, PathSettings, Scene, Settings, ValuePath};
+use rtc_math::PixelFilter;
 
 impl ExportReporter<'_> {
     /// The number of samples of a pixel. Reports the settings that a renderer lacks.
@@ -11,6 +12,7 @@ impl ExportReporter<'_> {
             Mode::Path(PathSettings {
                 samples,
                 multiple_scattering: _,
+                filter: _,
             }) => *samples,
             Mode::Phong | Mode::Depth | Mode::Normal | Mode::Gooch(_) => {
                 let message = format!(
@@ -31,6 +33,14 @@ impl ExportReporter<'_> {
             self.unsupported(&message, path);
         }
         samples
+    }
+}
+
+/// The filter of the pixels.
+pub(crate) fn pixel_filter(settings: &Settings) -> PixelFilter {
+    match &settings.mode {
+        Mode::Path(path) => path.filter,
+        Mode::Phong | Mode::Depth | Mode::Normal | Mode::Gooch(_) => PixelFilter::PIXEL,
     }
 }
 

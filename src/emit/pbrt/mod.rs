@@ -15,14 +15,15 @@ mod texture;
 use super::ExportedScene;
 use super::export::joined;
 use super::path_tracer::{
-    SidecarWriter, SurfaceMaterial, TriangleSoup, absorption, bounces, has_maps, is_basic, standard,
+    SidecarWriter, SurfaceMaterial, TriangleSoup, absorption, bounces, has_maps, is_basic,
+    pixel_filter, standard,
 };
 use super::reporter::ExportReporter;
 use super::tessellate::{TargetFormat, with_meshes};
 use material::ShownMaterial;
 use rtc_diag::{DiagnosticSink, codes};
 use rtc_ir::{Scene, Shape, SourceSpans, Surface};
-use rtc_math::Vec3;
+use rtc_math::{PixelFilter, Vec3};
 use rtc_source::Budget;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -130,8 +131,29 @@ impl PbrtWriter<'_> {
         self.line(&format!(
             r#"Sampler "independent" "integer pixelsamples" [ {samples} ]"#
         ));
-        self.line(r#"PixelFilter "box""#);
+        let filter = match pixel_filter(&self.scene.settings) {
+            PixelFilter::Box { radius } => filter("box", radius, &[]),
+            PixelFilter::Tent { radius } => filter("triangle", radius, &[]),
+            PixelFilter::Gaussian { deviation, radius } => {
+                filter("gaussian", radius, &[("sigma", deviation)])
+            }
+            PixelFilter::Mitchell { b, c, radius } => {
+                filter("mitchell", radius, &[("B", b), ("C", c)])
+            }
+            PixelFilter::Lanczos { window, radius } => filter("sinc", radius, &[("tau", window)]),
+        };
+        self.line(&filter);
     }
+}
+
+/// A filter of the film.
+fn filter(kind: &str, radius: f64, others: &[(&str, f64)]) -> String {
+    let radii = [("xradius", radius), ("yradius", radius)];
+    let all = radii.iter().chain(others);
+    let parameters: String = all
+        .map(|(name, value)| numbers("float", name, [*value]))
+        .collect();
+    format!(r#"PixelFilter "{kind}"{parameters}"#)
 }
 
 /// A parameter with numbers.

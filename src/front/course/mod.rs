@@ -43,6 +43,7 @@ mod decode;
 mod display;
 mod environment;
 mod expression;
+mod filter;
 mod glass;
 mod ineffective;
 mod keyword;

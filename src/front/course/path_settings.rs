@@ -2,11 +2,13 @@
 
 use super::assets::AssetTarget;
 use super::decode::Spanned;
+use super::filter::FilterSetting;
 use super::lower::Lowering;
 use super::number::Count;
 use super::record::{FieldResult, keys, record};
 use super::settings::{Mode, Scene};
 use rtc_ir as ir;
+use rtc_math::PixelFilter;
 
 record! {
     /// The settings of path tracing.
@@ -17,6 +19,9 @@ record! {
         /// Whether light that bounces several times between the microfacets of a rough surface is
         /// kept (energy compensation).
         multiple_scattering: Spanned<bool>, default(true), keys!["multipleScattering"];
+        /// The reconstruction filter of the pixels: how the light around the middle of a pixel is
+        /// weighted.
+        filter: Spanned<FilterSetting>, default(FilterSetting(PixelFilter::PIXEL)), keys!["filter"];
     }
 }
 
@@ -63,6 +68,7 @@ impl Lowering {
             FieldResult::Read(paths) => ir::PathSettings {
                 samples: paths.value.samples.value.0,
                 multiple_scattering: paths.value.multiple_scattering.value,
+                filter: paths.value.filter.value.0,
             },
             FieldResult::Absent | FieldResult::Broken => {
                 settings.supersampling = 1;

@@ -13,6 +13,7 @@ pub(crate) mod texture;
 pub(crate) mod transform;
 
 use rtc_ir::{Mode, PathSettings, Settings};
+use rtc_math::PixelFilter;
 use rtc_source::Span;
 
 /// A string of a text and its span.
@@ -29,6 +30,7 @@ pub(crate) fn traced(samples: u32, max_depth: u32) -> Settings {
         mode: Mode::Path(PathSettings {
             samples,
             multiple_scattering: false,
+            filter: PixelFilter::PIXEL,
         }),
         shadows: true,
         max_depth,

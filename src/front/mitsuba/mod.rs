@@ -43,7 +43,7 @@ use rtc_ir::{
     EntityField, EntityKind, Image, ImageId, LoweredScene, MaterialId, Mesh, MeshId, Pixels, Scene,
     Settings, SourceSpans, ValuePath,
 };
-use rtc_source::{FileId, FileSearch, Loader, SourceMap, Span};
+use rtc_source::{FileId, FileKind, FileSearch, Loader, SourceMap, Span};
 use std::collections::{BTreeMap, BTreeSet};
 use xml::PluginNode;
 
@@ -114,6 +114,8 @@ struct Lowering<'run> {
     /// The material of backs that scatter no light.
     black: Option<MaterialId>,
     has_sensor: bool,
+    /// The folders of `<path>`.
+    paths: Vec<&'run str>,
 }
 
 impl<'run> Lowering<'run> {
@@ -146,6 +148,12 @@ impl<'run> Lowering<'run> {
             one_sided: Vec::new(),
             black: None,
             has_sensor: false,
+            paths: root
+                .children
+                .iter()
+                .filter(|node| node.tag == "path")
+                .map(|node| node.plugin.text.as_str())
+                .collect(),
         }
     }
 
@@ -157,7 +165,7 @@ impl<'run> Lowering<'run> {
         }
         for node in &root.children {
             match node.tag.as_str() {
-                "integrator" | "bsdf" | "texture" | "spectrum" => {}
+                "integrator" | "bsdf" | "texture" | "spectrum" | "path" => {}
                 // An area light that shapes refer to.
                 "emitter" if node.plugin.text == "area" => {}
                 "sensor" => self.sensor(node),
@@ -244,8 +252,29 @@ impl<'run> Lowering<'run> {
         }
     }
 
+    /// A file as the scene names it, below the first folder of `<path>` that has it.
+    fn located(&self, name: &SpannedText) -> SpannedText {
+        const ANY: FileKind = FileKind {
+            extensions: &[],
+            begins: |_| true,
+        };
+        let below = |folder: &&str| format!("{folder}/{}", name.text);
+        let has = |path: &String| {
+            let found = self.search.find(path, &ANY);
+            found.is_ok_and(|found| !found.elsewhere)
+        };
+        match self.paths.iter().map(below).find(has) {
+            Some(text) => SpannedText {
+                text,
+                span: name.span,
+            },
+            None => name.clone(),
+        }
+    }
+
     /// An image of one pixel that waits for its file.
     fn image(&mut self, path: &SpannedText, target: fn(ImageId) -> AssetTarget) -> ImageId {
+        let path = &self.located(path);
         if let Some(id) = self.images.get(&path.text) {
             return *id;
         }
@@ -268,6 +297,7 @@ impl<'run> Lowering<'run> {
 
     /// An empty mesh that waits for its file.
     fn mesh_file(&mut self, path: &SpannedText) -> MeshId {
+        let path = &self.located(path);
         if let Some(id) = self.meshes.get(&path.text) {
             return *id;
         }
@@ -287,6 +317,7 @@ impl<'run> Lowering<'run> {
 
     /// A mesh of a `.serialized` file.
     fn serialized_mesh(&mut self, path: &SpannedText, index: u32) -> Option<MeshId> {
+        let path = &self.located(path);
         let key = (path.text.clone(), index);
         if let Some(known) = self.serialized.get(&key) {
             return *known;

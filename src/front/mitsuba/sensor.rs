@@ -6,7 +6,7 @@ use crate::exchange::traced;
 use crate::exchange::transform::AffineTransform;
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{Camera, EntityKind, Lens, Mode, Projection, Settings};
-use rtc_math::{Vec3, cos, sin};
+use rtc_math::{PixelFilter, Vec3, cos, sin};
 
 /// The bounces of paths without a limit: Russian roulette ends almost all of them long before.
 const UNLIMITED: u32 = 100;
@@ -20,6 +20,12 @@ const FILM_DIAGONAL: f64 = 43.266_615_305_567_87;
 const FOCAL_LENGTH: f64 = 50.0;
 /// The points of a lens that a sample takes: one, as paths are many.
 const LENS_SAMPLES: u32 = 2;
+
+/// The filter of a film without one.
+const GAUSSIAN: PixelFilter = PixelFilter::Gaussian {
+    deviation: 0.5,
+    radius: 2.0,
+};
 
 /// The camera before a sensor is read.
 pub(super) fn default_camera() -> Camera {
@@ -36,7 +42,11 @@ pub(super) fn default_camera() -> Camera {
 
 /// The settings before an integrator and a sampler are read.
 pub(super) fn default_settings() -> Settings {
-    traced(SAMPLES, UNLIMITED)
+    let mut settings = traced(SAMPLES, UNLIMITED);
+    if let Mode::Path(path) = &mut settings.mode {
+        path.filter = GAUSSIAN;
+    }
+    settings
 }
 
 impl<'run> Lowering<'run> {
@@ -163,12 +173,49 @@ impl<'run> Lowering<'run> {
     fn film(&mut self, film: &PluginNode) -> [u32; 2] {
         let side = |name, default| film.count(name).unwrap_or(default).max(1);
         let filter = film.children.iter().find(|child| child.tag == "rfilter");
-        let filter_name = filter.map_or("gaussian", |filter| filter.plugin.text.as_str());
-        if filter_name != "box" {
-            let message = format!("the filter `{filter_name}` of the film is shown as `box`");
-            self.approximate(filter.map_or(film.span, |filter| filter.span), message);
+        let filter = filter.map_or(GAUSSIAN, |filter| self.filter(filter));
+        if let Mode::Path(path) = &mut self.settings().mode {
+            path.filter = filter;
         }
         [side("width", SIZE[0]), side("height", SIZE[1])]
+    }
+
+    fn filter(&mut self, node: &PluginNode) -> PixelFilter {
+        let number = |name, default| node.number(name).unwrap_or(default);
+        match node.plugin.text.as_str() {
+            "box" => PixelFilter::Box {
+                radius: number("radius", 0.5),
+            },
+            "tent" => PixelFilter::Tent {
+                radius: number("radius", 1.0),
+            },
+            "gaussian" => {
+                let deviation = number("stddev", 0.5);
+                let radius = 4.0 * deviation;
+                PixelFilter::Gaussian { deviation, radius }
+            }
+            "mitchell" => {
+                // Version 3 calls the two parameters A and B, older ones B and C.
+                let third = 1.0 / 3.0;
+                let [b, c] = match node.get("A").is_some() || node.get("C").is_none() {
+                    true => [number("A", third), number("B", third)],
+                    false => [number("B", third), number("C", third)],
+                };
+                PixelFilter::Mitchell { b, c, radius: 2.0 }
+            }
+            "catmullrom" => PixelFilter::CATMULL_ROM,
+            "lanczos" => {
+                let radius = number("lobes", 3.0);
+                PixelFilter::Lanczos {
+                    window: radius,
+                    radius,
+                }
+            }
+            _ => {
+                self.unsupported(node, "a Gaussian filter replaces it");
+                GAUSSIAN
+            }
+        }
     }
 
     /// A perspective camera or a thin lens. The image plane is at the focus distance.

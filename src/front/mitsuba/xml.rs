@@ -303,7 +303,7 @@ impl XmlReader<'_> {
                 "default" => self.default_value(file, child),
                 "include" => node.children.extend(self.include(file, child)),
                 "alias" => self.alias(file, child, &mut node),
-                "path" => {}
+                "path" => node.children.extend(self.search_path(file, child)),
                 "ref" | "shape" | "bsdf" | "emitter" | "luminaire" | "texture" | "sensor"
                 | "camera" | "integrator" | "film" | "sampler" | "rfilter" | "medium" | "phase"
                 | "volume" | "subsurface" => {
@@ -316,6 +316,23 @@ impl XmlReader<'_> {
             }
         }
         node
+    }
+
+    /// `<path value="…">`: a folder that is searched for files, as the plugin of its node.
+    fn search_path(&mut self, file: FileId, element: XmlElement<'_, '_>) -> Option<PluginNode> {
+        let Some(value) = self.attribute(file, element, "value") else {
+            self.missing(file, element, "`value`");
+            return None;
+        };
+        Some(PluginNode {
+            tag: "path".to_owned(),
+            plugin: value,
+            id: None,
+            name: None,
+            properties: Vec::new(),
+            children: Vec::new(),
+            span: span(file, &element),
+        })
     }
 
     /// `<alias id="…" as="…">`: another id for an element.

@@ -7,7 +7,7 @@ use crate::exchange::traced;
 use crate::exchange::transform::AffineTransform;
 use rtc_diag::{Diagnostic, clip, codes};
 use rtc_ir::{Camera, EntityKind, Lens, Mode, Projection, Settings};
-use rtc_math::{Vec3, cos, sin};
+use rtc_math::{PixelFilter, Vec3, cos, sin};
 use rtc_source::Span;
 
 /// The size of a film without one, in pixels.
@@ -59,6 +59,13 @@ pub(super) fn default_camera() -> Camera {
         projection: Projection::Perspective,
     }
 }
+
+/// The filter of a film without one, in version 4.
+const GAUSSIAN: PixelFilter = PixelFilter::Gaussian {
+    deviation: 0.5,
+    radius: 1.5,
+};
+const FILTERS: [&str; 5] = ["box", "gaussian", "mitchell", "sinc", "triangle"];
 
 /// The settings before an integrator and a sampler are read.
 pub(super) fn default_settings() -> Settings {
@@ -217,12 +224,63 @@ impl Lowering<'_> {
         }
     }
 
+    /// The filter of the film; that of version 3 is a box by default, of version 4 a Gaussian.
     fn filter(&mut self, filter: Option<&(SpannedText, Parameters)>) {
-        if let Some((plugin, _)) = filter
-            && plugin.text != "box"
-        {
-            let message = format!("the filter `{}` is shown as `box`", clip(&plugin.text));
-            self.approximate(plugin.span, message);
+        let filter = match filter {
+            None if self.is_version_3 => PixelFilter::PIXEL,
+            None => GAUSSIAN,
+            Some((plugin, parameters)) => self.pixel_filter(plugin, parameters),
+        };
+        if let Mode::Path(path) = &mut self.scene.settings.mode {
+            path.filter = filter;
+        }
+    }
+
+    fn pixel_filter(&mut self, plugin: &SpannedText, parameters: &Parameters) -> PixelFilter {
+        let is_old = self.is_version_3;
+        let number = |name, default| parameters.number(name).unwrap_or(default);
+        let mut radius = |default: f64| {
+            let names = match is_old {
+                true => ["xwidth", "ywidth"],
+                false => ["xradius", "yradius"],
+            };
+            let [x, y] = names.map(|name| number(name, default));
+            if x != y {
+                let message = "the filter is as wide along y as along x";
+                self.approximate(plugin.span, message);
+            }
+            x
+        };
+        match plugin.text.as_str() {
+            "box" => PixelFilter::Box {
+                radius: radius(0.5),
+            },
+            "triangle" => PixelFilter::Tent {
+                radius: radius(2.0),
+            },
+            // Version 3 has exp(−αx²).
+            "gaussian" if is_old => PixelFilter::Gaussian {
+                deviation: (0.5 / number("alpha", 2.0).max(1e-6)).sqrt(),
+                radius: radius(2.0),
+            },
+            "gaussian" => PixelFilter::Gaussian {
+                deviation: number("sigma", 0.5),
+                radius: radius(1.5),
+            },
+            "mitchell" => PixelFilter::Mitchell {
+                b: number("B", 1.0 / 3.0),
+                c: number("C", 1.0 / 3.0),
+                radius: radius(2.0),
+            },
+            "sinc" => PixelFilter::Lanczos {
+                window: number("tau", 3.0),
+                radius: radius(4.0),
+            },
+            _ => {
+                let instead = "a Gaussian one replaces it";
+                self.unsupported("filter", plugin, &FILTERS, instead);
+                GAUSSIAN
+            }
         }
     }
 

@@ -92,7 +92,7 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: RuleSet) -> Pa
     let is_pinhole = camera.lens.radius.get() == 0.0;
     let screen_rects: Vec<_> = match camera.projection {
         Projection::Perspective => {
-            let projection = ScreenProjection::new(camera, is_pinhole);
+            let projection = ScreenProjection::new(camera, is_pinhole, path.reach());
             surface_bounds
                 .iter()
                 .map(|bounds| projection.screen_rect(bounds))

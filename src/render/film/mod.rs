@@ -9,6 +9,7 @@
 
 mod bytes;
 mod counts;
+pub(crate) mod filter;
 pub(crate) mod growing;
 pub(crate) mod heartbeat;
 pub(crate) mod partial;

@@ -3,12 +3,14 @@
 use super::World;
 use crate::camera::grid::{Pattern, SampleGrid};
 use crate::camera::{Camera, Projection};
+use crate::film::filter::FilterSampler;
 use rtc_math::Vec3;
 use rtc_plan::Plan;
 use rtc_valid::{self as valid, ValidScene};
+use std::sync::Arc;
 
 /// The rules applied to the picture.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Settings {
     /// The kind of value of a pixel.
     pub(crate) mode: Mode,
@@ -22,6 +24,8 @@ pub(crate) struct Settings {
     /// Whether rough surfaces keep the light that bounces between their facets, where paths are
     /// traced.
     pub(crate) multiple_scattering: bool,
+    /// The filter of the pixels, where paths are traced; `None` for the pixel itself.
+    pub(crate) filter: Option<Arc<FilterSampler>>,
     /// The points of each soft light.
     pub(crate) light_samples: u32,
     /// The arrangement of the samples of a pixel, without path tracing.
@@ -132,6 +136,12 @@ pub(super) fn settings(scene: &ValidScene) -> Settings {
     };
     let points = camera(scene.camera()).lens_samples;
     let multiple_scattering = matches!(mode, valid::Mode::Path(path) if path.multiple_scattering);
+    let filter = match mode {
+        valid::Mode::Path(path) => FilterSampler::new(&path.filter).map(Arc::new),
+        valid::Mode::Phong | valid::Mode::Depth | valid::Mode::Normal | valid::Mode::Gooch(_) => {
+            None
+        }
+    };
     let mode = prepared_mode(mode);
     Settings {
         mode,
@@ -142,6 +152,7 @@ pub(super) fn settings(scene: &ValidScene) -> Settings {
             valid::Ambient::Once(color) => Some(color),
         },
         multiple_scattering,
+        filter,
         light_samples: light_samples.get(),
         grid: match mode {
             // A depth buffer has one ray through the middle of each pixel.

@@ -18,6 +18,7 @@ impl Dice {
             scene.settings.mode = Mode::Path(ir::PathSettings {
                 samples: 1 + self.roll(3),
                 multiple_scattering: self.chance(2),
+                ..ir::PathSettings::default()
             });
         }
         if self.chance(8) {

@@ -36,6 +36,7 @@ impl Dice {
         scene.settings.mode = Mode::Path(PathSettings {
             samples: self.pick(&[1, 3]),
             multiple_scattering: self.chance(2),
+            ..PathSettings::default()
         });
         scene.camera.projection = self.pick(&[
             ir::Projection::Perspective,

@@ -10,6 +10,7 @@ use rtc_ir::{
     Display, EntityField, EntityKind, Environment, Gooch, Image, ImageId, Mode, PathSettings,
     Pixels, Settings, ValuePath,
 };
+use rtc_math::PixelFilter;
 use rtc_source::Resource;
 use serde_json::Value as Json;
 
@@ -141,6 +142,33 @@ fn read(extras: ObjectFields<'_, '_>, settings: &mut Settings) {
     }
 }
 
+fn filter_of(extras: ObjectFields<'_, '_>) -> Option<PixelFilter> {
+    let kinds = ["box", "tent", "gaussian", "mitchell", "lanczos"];
+    let found = kinds
+        .into_iter()
+        .find_map(|kind| Some((kind, extras.object(kind)?)));
+    let (kind, numbers) = found?;
+    let number = |key| numbers.number_or(key, 0.0);
+    let radius = number("radius");
+    Some(match kind {
+        "box" => PixelFilter::Box { radius },
+        "tent" => PixelFilter::Tent { radius },
+        "gaussian" => PixelFilter::Gaussian {
+            deviation: number("deviation"),
+            radius,
+        },
+        "mitchell" => PixelFilter::Mitchell {
+            b: number("b"),
+            c: number("c"),
+            radius,
+        },
+        _ => PixelFilter::Lanczos {
+            window: number("window"),
+            radius,
+        },
+    })
+}
+
 fn mode_of(word: &str, extras: ObjectFields<'_, '_>) -> Option<Mode> {
     let parameters = extras.object(word);
     Some(match word {
@@ -165,6 +193,10 @@ fn mode_of(word: &str, extras: ObjectFields<'_, '_>) -> Option<Mode> {
                 multiple_scattering: scatters.map_or(default.multiple_scattering, |extras| {
                     extras.boolean("multipleScattering")
                 }),
+                filter: parameters
+                    .and_then(|extras| extras.object("filter"))
+                    .and_then(filter_of)
+                    .unwrap_or_default(),
             })
         }
         _ => return None,

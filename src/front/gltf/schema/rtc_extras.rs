@@ -90,6 +90,22 @@ static GOOCH: ObjectSchema = rtc_object(&[
 static PATH: ObjectSchema = rtc_object(&[
     required("samples", Integer(1, MAX_COUNT)),
     optional("multipleScattering", Boolean),
+    optional("filter", One(&FILTER)),
+]);
+/// The filter of the pixels: the first of these.
+static FILTER: ObjectSchema = rtc_object(&[
+    optional("box", One(&FILTER_NUMBERS)),
+    optional("tent", One(&FILTER_NUMBERS)),
+    optional("gaussian", One(&FILTER_NUMBERS)),
+    optional("mitchell", One(&FILTER_NUMBERS)),
+    optional("lanczos", One(&FILTER_NUMBERS)),
+]);
+static FILTER_NUMBERS: ObjectSchema = rtc_object(&[
+    required("radius", Number(POSITIVE)),
+    optional("deviation", Number(POSITIVE)),
+    optional("b", Number(FREE)),
+    optional("c", Number(FREE)),
+    optional("window", Number(POSITIVE)),
 ]);
 /// An exposure in stops, and a tone map or that of the mode.
 static DISPLAY: ObjectSchema = rtc_object(&[

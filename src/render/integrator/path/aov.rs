@@ -32,7 +32,9 @@ impl<'run, S: Intersect, const F: u32> FindFirstHit<'run> for PathTracer<'run, S
     fn first_hit(&mut self, id: &SampleId) -> CameraHit {
         let sobol = self.numbers(id);
         self.counts.camera += 1;
-        let mut state = PathState::new(self.camera_ray(id.pixel, &sobol), sobol);
+        // Layers have no weights, so negative lobes of a filter count as positive ones.
+        let (ray, _) = self.camera_ray(id.pixel, &sobol);
+        let mut state = PathState::new(ray, sobol);
         let first = self.at_closest_hit(&mut state, |tracer, state, vertex| {
             let wo = -state.ray.direction;
             let (frame, _) = vertex

@@ -122,19 +122,21 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         }
     }
 
-    /// The ray from the camera that a path of a pixel begins with.
-    fn camera_ray(&mut self, pixel: [u32; 2], sobol: &SobolPath) -> Ray {
+    /// The ray from the camera that a path of a pixel begins with, and the factor of its radiance
+    /// by the filter of the pixel.
+    fn camera_ray(&mut self, pixel: [u32; 2], sobol: &SobolPath) -> (Ray, f64) {
         let camera = self.world.camera.of(pixel);
-        let target = image_point(camera, pixel, sobol.pair(SobolPair::FILM));
+        let (place, factor) = match &self.world.settings.filter {
+            None => (sobol.pair(SobolPair::FILM), 1.0),
+            Some(filter) => filter.sample(sobol.pair(SobolPair::FILM)),
+        };
+        let target = image_point(camera, pixel, place);
         if camera.lens_radius == 0.0 {
-            return ray_through(camera, camera.eye, target);
+            return (ray_through(camera, camera.eye, target), factor);
         }
         self.counts.add(Effect::Lens);
-        ray_through(
-            camera,
-            lens_at(camera, || sobol.pair(SobolPair::LENS)),
-            target,
-        )
+        let lens_point = lens_at(camera, || sobol.pair(SobolPair::LENS));
+        (ray_through(camera, lens_point, target), factor)
     }
 
     /// The radiance along one path.
@@ -195,8 +197,8 @@ impl<'world, S: Intersect, const F: u32> Integrator<'world> for PathTracer<'worl
             self.counts.add(Effect::Supersampling);
         }
         let sobol = self.numbers(id);
-        let (ray, hits) = (self.camera_ray(id.pixel, &sobol), self.counts.hits);
-        let radiance = self.radiance(ray, sobol);
+        let ((ray, factor), hits) = (self.camera_ray(id.pixel, &sobol), self.counts.hits);
+        let radiance = self.radiance(ray, sobol) * factor;
         let hit = self.counts.hits > hits;
         let is_shown = self.background == Background::Environment || hit;
         // Drop samples that overflowed.
