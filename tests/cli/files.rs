@@ -243,7 +243,7 @@ fn a_contact_sheet_shows_what_this_call_made() {
     );
     assert_eq!(code(&made), 1, "{}", stderr(&made));
     let sheet = image::open(shelf.path().join("all.png")).unwrap().to_rgb8();
-    assert_eq!(sheet.dimensions(), (3 * 168 + 8, 144 + 8));
+    assert_eq!(sheet.dimensions(), (3 * 168 + 8, 152 + 8));
     // Each picture is in the middle of its cell.
     let middle = |cell: u32| sheet.get_pixel(cell * 168 + 8 + 80, 8 + 60).0;
     assert!(
