@@ -266,6 +266,7 @@ mod tests {
         ScreenProjection::new(
             &camera([0.0, 0.0, 100.0], [0.0; 3], [1.0; 2], radius),
             radius == 0.0,
+            0.0,
         )
     }
 
@@ -352,6 +353,7 @@ mod tests {
         let open = ScreenProjection::new(
             &camera([3.0, 0.0, 4.0], [3.0, 0.0, -4.0], [0.5, 0.25], 0.75),
             false,
+            0.0,
         );
         assert_eq!(open.lens(), span([1.5, -0.75, 4.0], [4.5, 0.75, 4.0]));
         let corners = [
