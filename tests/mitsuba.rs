@@ -498,3 +498,20 @@ fn files_are_found_in_the_folders_of_path() {
     let (scene, codes) = read(&path);
     assert_eq!((scene.meshes[0].triangles.len(), codes), (1, Vec::new()));
 }
+
+#[test]
+fn a_medium_of_a_shape_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.xml");
+    let text = r#"<scene version="3.0.0">
+        <sensor type="perspective"/>
+        <emitter type="constant"/>
+        <shape type="sphere">
+            <bsdf type="diffuse"/>
+            <medium type="homogeneous" name="interior"/>
+        </shape>
+    </scene>"#;
+    fs::write(&path, text).unwrap();
+    let (_, codes) = read(&path);
+    assert!(codes.contains(&"MI003"), "{codes:?}");
+}

@@ -5,11 +5,8 @@ use rtc_ir::Conductor;
 use rtc_math::{ComplexIndex, exp, pow};
 use rtc_tables::METALS;
 
-/// A spectrum by pairs of a wavelength in nanometres and a value, as linear Rec. 709; `None` if the
-/// wavelengths do not ascend.
-///
-/// Pairs are interpolated linearly, weighted by the colour matching functions, and divided by the
-/// integral of a constant spectrum, so that a constant 1 is white.
+/// A reflectance by pairs of a wavelength in nanometres and a value, as linear Rec. 709; `None` if
+/// the wavelengths do not ascend. Pairs are interpolated linearly.
 pub(crate) fn from_spectrum(pairs: &[(f64, f64)]) -> Option<[f64; 3]> {
     if !pairs.is_sorted_by(|a, b| a.0 < b.0) {
         return None;
@@ -17,10 +14,9 @@ pub(crate) fn from_spectrum(pairs: &[(f64, f64)]) -> Option<[f64; 3]> {
     Some(integrated(|wavelength| interpolated(pairs, wavelength)))
 }
 
-/// The integral of a spectrum times the colour matching functions over that of a constant one, as
-/// linear Rec. 709.
+/// The colour of a reflectance in the light of D65, as linear Rec. 709: a constant 1 is white.
 pub(crate) fn integrated(spectrum: impl Fn(f64) -> f64) -> [f64; 3] {
-    let (sum, white) = tristimulus(spectrum);
+    let (sum, white) = tristimulus(spectrum, daylight);
     let relative: [f64; 3] = std::array::from_fn(|channel| sum[channel] / white[channel]);
     linear(relative).map(|channel| channel.max(0.0))
 }
@@ -28,7 +24,7 @@ pub(crate) fn integrated(spectrum: impl Fn(f64) -> f64) -> [f64; 3] {
 /// The colour of emitted light, as linear Rec. 709 whose white is D65: a constant spectrum 1 has
 /// the luminance 1, and is reddish.
 pub(crate) fn emitted(spectrum: impl Fn(f64) -> f64) -> [f64; 3] {
-    let (sum, white) = tristimulus(spectrum);
+    let (sum, white) = tristimulus(spectrum, |_| 1.0);
     from_xyz(sum.map(|channel| channel / white[1])).map(|channel| channel.max(0.0))
 }
 
@@ -38,12 +34,17 @@ pub(crate) fn emitted_spectrum(pairs: &[(f64, f64)]) -> Option<[f64; 3]> {
     is_sorted.then(|| emitted(|wavelength| interpolated(pairs, wavelength)))
 }
 
-/// The sums of a spectrum and of a constant one, times the colour matching functions.
-fn tristimulus(spectrum: impl Fn(f64) -> f64) -> ([f64; 3], [f64; 3]) {
+/// The sums of a spectrum and of a constant one, times an illuminant and the colour matching
+/// functions.
+fn tristimulus(
+    spectrum: impl Fn(f64) -> f64,
+    illuminant: impl Fn(usize) -> f64,
+) -> ([f64; 3], [f64; 3]) {
     let (mut sum, mut white) = ([0.0; 3], [0.0; 3]);
-    for step in 0..=94 {
-        let wavelength = 360.0 + 5.0 * f64::from(step);
-        let matching = matching(wavelength);
+    for (step, nanometres) in (360..=830).step_by(5).enumerate() {
+        let wavelength = f64::from(nanometres);
+        let light = illuminant(step);
+        let matching = matching(wavelength).map(|weight| weight * light);
         let value = spectrum(wavelength);
         for channel in 0..3 {
             sum[channel] += matching[channel] * value;
@@ -51,6 +52,20 @@ fn tristimulus(spectrum: impl Fn(f64) -> f64) -> ([f64; 3], [f64; 3]) {
         }
     }
     (sum, white)
+}
+
+/// The relative power of the illuminant D65 at 360, 370, … 830 nm (CIE 15:2018, table 6).
+const D65: [f64; 48] = [
+    46.6383, 52.0891, 49.9755, 54.6482, 82.7549, 91.486, 93.4318, 86.6823, 104.865, 117.008,
+    117.812, 114.861, 115.923, 108.811, 109.354, 107.802, 104.79, 107.689, 104.405, 104.046, 100.0,
+    96.3342, 95.788, 88.6856, 90.0062, 89.5991, 87.6987, 83.2886, 83.6992, 80.0268, 80.2146,
+    82.2778, 78.2842, 69.7213, 71.6091, 74.349, 61.604, 69.8856, 75.087, 63.5927, 46.4182, 66.8054,
+    63.3828, 64.304, 59.4519, 51.959, 57.4406, 60.3125,
+];
+
+/// D65 at 360, 365, … nm, interpolated linearly, as the CIE does.
+fn daylight(step: usize) -> f64 {
+    0.5 * (D65[step / 2] + D65[step.div_ceil(2)])
 }
 
 /// The radiance of a black body at a wavelength in nanometres, over that at its peak (Planck's law

@@ -255,11 +255,11 @@ impl<'run> Lowering<'run> {
             .unwrap_or(1.0);
         let pixel = 2.0 * half_tangent * focus / span;
         let shift = |name, pixels: f64| node.number(name).unwrap_or(0.0) * pixels * pixel;
-        // A positive offset moves the picture to the right and down, so the view goes left and up.
-        let center = *eye
-            + forward * focus
-            + left * shift("principal_point_offset_x", width)
-            + up * shift("principal_point_offset_y", height);
+        // A positive offset moves the picture to the left and up, so the view goes right and down
+        // (measured with Mitsuba 3.9.1).
+        let center = *eye + forward * focus
+            - left * shift("principal_point_offset_x", width)
+            - up * shift("principal_point_offset_y", height);
         let radius = node
             .number("aperture_radius")
             .filter(|_| is_lens)

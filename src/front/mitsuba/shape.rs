@@ -47,6 +47,9 @@ impl<'run> Lowering<'run> {
     }
 
     fn surface(&mut self, node: &'run PluginNode, to_world: AffineTransform) {
+        for medium in node.children.iter().filter(|child| child.tag == "medium") {
+            self.unsupported(medium, "participating media are left out");
+        }
         let radiance = self.radiance(node);
         let plugin = node.plugin.text.as_str();
         let is_similar = to_world.similarity().is_some();

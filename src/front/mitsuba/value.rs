@@ -1,6 +1,6 @@
 //! Numbers, vectors, colours and matrices of a Mitsuba scene, as it writes them.
 
-use crate::exchange::color::from_spectrum;
+use crate::exchange::color::{emitted, emitted_spectrum, from_spectrum};
 use crate::exchange::transform::AffineTransform;
 use rtc_color::srgb_decoded;
 use rtc_math::Vec3;
@@ -60,8 +60,15 @@ pub(super) fn rgb(text: &str) -> Option<[f64; 3]> {
     }
 }
 
-/// The value of a `<spectrum>`: one number for all wavelengths, or pairs `nanometres:value`.
-pub(super) fn spectrum(text: &str) -> Option<[f64; 3]> {
+/// The value of a `<spectrum>`: one number for all wavelengths, or pairs `nanometres:value`, as a
+/// reflectance in the light of D65, or as emitted light, whose constant spectrum is reddish.
+pub(super) fn spectrum(text: &str, is_emitted: bool) -> Option<[f64; 3]> {
+    if let Some(constant) = number(text) {
+        return Some(match is_emitted {
+            true => emitted(|_| constant),
+            false => [constant; 3],
+        });
+    }
     if !text.contains(':') {
         return rgb(text);
     }
@@ -73,7 +80,10 @@ pub(super) fn spectrum(text: &str) -> Option<[f64; 3]> {
             Some((number(wavelength)?, number(value)?))
         })
         .collect();
-    from_spectrum(&pairs?)
+    match is_emitted {
+        true => emitted_spectrum(&pairs?),
+        false => from_spectrum(&pairs?),
+    }
 }
 
 #[cfg(test)]
@@ -89,14 +99,23 @@ mod tests {
 
     #[test]
     fn a_constant_spectrum_is_white_and_a_long_wave_is_red() {
-        let white = spectrum("300:0.5, 900:0.5").unwrap();
+        let white = spectrum("300:0.5, 900:0.5", false).unwrap();
         assert!(
             white.iter().all(|channel| (channel - 0.5).abs() < 2e-3),
             "{white:?}"
         );
-        let [r, g, b] = spectrum("360:0 600:0 610:1 700:1 710:0 900:0").unwrap();
+        // The numbers of Mitsuba 3.9.1.
+        let emitted = spectrum("1", true).unwrap();
+        for (found, known) in emitted.into_iter().zip([1.204_88, 0.948_228, 0.909_267]) {
+            assert!((found - known).abs() < 7e-3, "{emitted:?}");
+        }
+        let ramp = spectrum("400:0.04, 700:0.642", false).unwrap();
+        for (found, known) in ramp.into_iter().zip([0.523_911, 0.326_816, 0.121_694]) {
+            assert!((found - known).abs() < 5e-3, "{ramp:?}");
+        }
+        let [r, g, b] = spectrum("360:0 600:0 610:1 700:1 710:0 900:0", false).unwrap();
         assert!(r > 3.0 * g.max(b), "{r} {g} {b}");
-        assert_eq!(spectrum("500:1 400:1"), None);
+        assert_eq!(spectrum("500:1 400:1", true), None);
     }
 
     #[test]

@@ -533,7 +533,12 @@ impl XmlReader<'_> {
                 value::rgb(&text.text).map(|rgb| Value::Color(rgb.map(rtc_color::srgb_decoded)))
             }
             "spectrum" if attribute == "filename" => None,
-            "spectrum" => value::spectrum(&text.text).map(Value::Color),
+            "spectrum" => {
+                let is_emitted = element
+                    .ancestors()
+                    .any(|outer| outer.has_tag_name("emitter"));
+                value::spectrum(&text.text, is_emitted).map(Value::Color)
+            }
             "blackbody" => None,
             _ => {
                 let message = format!("`<{}>` has no meaning here", clip(kind));
