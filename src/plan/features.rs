@@ -46,7 +46,7 @@ impl WhittedFeatures {
     pub const BOUNCE: Self = Self(1 << 6);
     /// Sampling of area lights and glossy lobes.
     pub const SAMPLED: Self = Self(1 << 7);
-    /// Work that the rules of [`RuleSet::AT_HITS`](super::Rules::AT_HITS) skip, for plans without
+    /// Work that the rules of [`RuleSet::AT_HITS`](super::RuleSet::AT_HITS) skip, for plans without
     /// these rules.
     pub const UNPRUNED: Self = Self(1 << 8);
     /// All of them.

@@ -17,7 +17,7 @@ pub struct RayCounts {
     pub hits: u64,
     /// Camera rays of Whitted's integrator whose colour is no number; a display clamps it to 0.
     pub unnumbered: u64,
-    /// What [`RenderSelection::clamp`](super::Job::clamp) took.
+    /// What [`RenderSelection::clamp`](super::RenderSelection::clamp) took.
     pub clamped: ClampedLight,
     /// Evaluations of effects that are no rays.
     evaluations: [u64; Effect::COUNT],
