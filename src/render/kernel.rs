@@ -36,11 +36,11 @@ pub(crate) trait KernelTask: Sized {
 macro_rules! kernels {
     (
         $(#[$doc:meta])*
-        $table:ident: $WhittedFeatures:ident, $run:ident;
+        $table:ident: $Features:ident, $run:ident;
         $($name:literal: $features:expr,)*
     ) => {
         $(#[$doc])*
-        pub const $table: &[Kernel<$WhittedFeatures>] = &[
+        pub const $table: &[Kernel<$Features>] = &[
             $(Kernel { name: $name, features: $features },)*
         ];
 
@@ -52,10 +52,10 @@ macro_rules! kernels {
                     return task.run::<{ $features.0 }>();
                 })*
             }
-            task.run::<{ $WhittedFeatures::EVERYTHING.0 }>()
+            task.run::<{ $Features::EVERYTHING.0 }>()
         }
 
-        const _: () = assert!($table[$table.len() - 1].features.contains($WhittedFeatures::EVERYTHING));
+        const _: () = assert!($table[$table.len() - 1].features.contains($Features::EVERYTHING));
     };
 }
 

@@ -12,13 +12,13 @@ pub(crate) type BeginPixel<'run, A> =
 type StateOf<A> = <A as PixelAccumulator>::PixelState;
 
 /// A tile as an integrator sees it: one pixel after the other, whatever the film keeps of each.
-pub(crate) trait FilmTile<PixelSample> {
+pub(crate) trait FilmTile<Sample> {
     /// Begins the next pixel: its coordinates in the picture, and the samples it is to take; `None`
     /// after the last.
     fn next(&mut self) -> Option<([u32; 2], SampleRanges)>;
 
     /// Adds the next sample of a stream to the current pixel.
-    fn add(&mut self, id: &SampleId, sample: PixelSample);
+    fn add(&mut self, id: &SampleId, sample: Sample);
 
     /// Stores the sum of the current pixel.
     fn close(&mut self);
