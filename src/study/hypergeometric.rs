@@ -22,7 +22,8 @@ pub fn least_faults(all: u64, drawn: u64, odds: u64) -> Option<u64> {
 }
 
 /// Whether C(N−d, k) / C(N, k) ≤ 1 / odds. The quotient is ∏ (N−b−i) / (N−i) over i < a, for the
-/// smaller and the larger, a and b, of d and k.
+/// smaller and the larger, a and b, of d and k. No factor is above 1, so it is known as soon as the
+/// factors so far are small enough; else a·b is below N·ln(odds), and a below the root of that.
 fn is_rare(all: u64, drawn: u64, faults: u64, odds: u64) -> bool {
     let (fewer, more) = (drawn.min(faults), drawn.max(faults));
     if more > all - fewer {
@@ -32,6 +33,9 @@ fn is_rare(all: u64, drawn: u64, faults: u64, odds: u64) -> bool {
     for index in 0..fewer {
         missed.multiply(all - more - index);
         chances.multiply(all - index);
+        if missed <= chances {
+            return true;
+        }
     }
     missed <= chances
 }
@@ -118,6 +122,7 @@ mod tests {
     #[test]
     fn large_draws_end_soon() {
         assert_eq!(least_faults(1 << 20, 1 << 19, 50), Some(6));
+        assert_eq!(least_faults(1 << 40, 1 << 39, 50), Some(6));
         assert!(least_faults(1 << 24, 1 << 12, 50).unwrap() < 1 << 14);
     }
 }
