@@ -4,9 +4,6 @@
 use rtc_ir::{Mesh, VertexColumn};
 use rtc_math::Vec3;
 
-/// A side of a triangle: its ends in order, the corner across, and which side of the mesh it is.
-type TriangleSide = ([u32; 2], u32, usize);
-
 /// An edge: its ends, and the corners across it, one at a boundary.
 struct Edge {
     ends: [u32; 2],
@@ -52,16 +49,16 @@ fn index(count: usize) -> u32 {
 
 impl Edges {
     fn of(triangles: &[[u32; 3]]) -> Self {
-        let corners = triangles.iter().enumerate();
-        let mut sides: Vec<TriangleSide> = corners
-            .flat_map(|(face, [a, b, c])| {
-                let side =
-                    |k: usize, p: u32, q: u32, r: u32| ([p.min(q), p.max(q)], r, 3 * face + k);
-                [
-                    side(0, *a, *b, *c),
-                    side(1, *b, *c, *a),
-                    side(2, *c, *a, *b),
-                ]
+        let corners = triangles.as_flattened();
+        // The corners of the side that begins at this one, and of the corner across it.
+        let around = |side: usize| {
+            let (face, first) = (side - side % 3, side % 3);
+            [0, 1, 2].map(|next| corners[face + (first + next) % 3])
+        };
+        let mut sides: Vec<(u64, u32)> = (0..corners.len())
+            .map(|side| {
+                let [p, q, _] = around(side);
+                (u64::from(p.min(q)) << 32 | u64::from(p.max(q)), index(side))
             })
             .collect();
         sides.sort_unstable();
@@ -69,16 +66,19 @@ impl Edges {
             list: Vec::new(),
             of_sides: vec![0; sides.len()],
         };
-        for (ends, across, side) in sides {
+        let mut last = None;
+        for (key, side) in sides {
+            let [p, q, across] = around(side as usize);
             match edges.list.last_mut() {
                 // The rules do not define a third triangle at an edge.
-                Some(edge) if edge.ends == ends => edge.across[1] = Some(across),
+                Some(edge) if last == Some(key) => edge.across[1] = Some(across),
                 _ => edges.list.push(Edge {
-                    ends,
+                    ends: [p.min(q), p.max(q)],
                     across: [Some(across), None],
                 }),
             }
-            edges.of_sides[side] = index(edges.list.len() - 1);
+            last = Some(key);
+            edges.of_sides[side as usize] = index(edges.list.len() - 1);
         }
         edges
     }
