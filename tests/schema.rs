@@ -25,7 +25,7 @@ const DECODER_ONLY: &[&str] = &[
     "VA019", "VA021", "VA104", "VA105", "VA106", "VA107", "VA110",
 ];
 
-const MUTANTS: u32 = 20_000;
+const MUTANTS: u32 = 8_000;
 
 #[test]
 fn the_committed_schema_and_page_are_current() {

@@ -58,12 +58,12 @@ impl Random {
     }
 }
 
-/// Rays of each of `rows` counts: as many as `RTC_RAYS` says, or 10⁶ in all.
+/// Rays of each of `rows` counts: as many as `RTC_RAYS` says, or 250 000 in all.
 pub(crate) fn rays(rows: usize) -> u64 {
     let count = std::env::var("RTC_RAYS")
         .ok()
         .and_then(|count| count.parse().ok());
-    count.unwrap_or(1_000_000 / rows as u64)
+    count.unwrap_or(250_000 / rows as u64)
 }
 
 /// What a count found.

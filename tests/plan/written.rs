@@ -6,7 +6,7 @@ use rtc::internals::ir::{Projection, Scene, VertexColumn};
 use rtc::internals::math::ldexp;
 use rtc::internals::pipeline::trial::is_written;
 
-const SCENES: u64 = 240;
+const SCENES: u64 = 120;
 
 /// Powers of two that lengths are multiplied by: beyond the range of 32-bit floats and of their
 /// squares, and within.

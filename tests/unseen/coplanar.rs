@@ -185,8 +185,8 @@ fn coplanar_quads_do_not_speckle() {
         let objects = objects.iter().map(object).collect::<String>();
         film(
             &scene(&format!(
-                "Camera: {{eye: [20, 40, 60], center: [1, 1, 1], up: [0, 1, 0], viewSize: [100, \
-                 100], fov: 16}}\n\
+                "Camera: {{eye: [20, 40, 60], center: [1, 1, 1], up: [0, 1, 0], viewSize: [50, \
+                 50], fov: 16}}\n\
                  Shadows: true\nMaxRecursionDepth: 3\nLights:\n- {{position: [9, 70, 80], color: \
                  [1, 1, 1]}}\n\
                  Objects:\n{objects}"
