@@ -14,9 +14,9 @@ use crate::scene_laws::{
 use rtc::internals::codec::{self, Encoding};
 use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::{LoweredScene, Scene, SourceSpans};
-use rtc::internals::pipeline::{self, Input, Options};
+use rtc::internals::pipeline::{self, Input, Options, Renderer};
 use rtc::internals::plan::{Plan, RuleSet};
-use rtc::internals::render::{Crop, RenderSelection, SamplingSeeds, Tiles};
+use rtc::internals::render::{Crop, RenderSelection, SamplingSeeds, SimdLevel, Tiles};
 use rtc::internals::source::SourceMap;
 use small::{WHOLE, bits, film, paths, small};
 use std::collections::BTreeSet;
@@ -83,6 +83,33 @@ fn threads_change_no_bit() {
                 "{threads} threads: {}",
                 path.display()
             );
+        }
+    }
+}
+
+/// With nine samples a pixel: where Whitted's integrator goes by lanes, eight in lanes and one alone.
+#[test]
+fn levels_of_vector_instructions_change_no_bit() {
+    let rings = root("benches/peers/rings.yaml");
+    let names = SimdLevel::NAMES.into_iter();
+    let levels: Vec<_> = names.filter_map(SimdLevel::named).collect();
+    assert!(levels.len() > 1, "{levels:?}");
+    for path in paths().into_iter().chain([rings]) {
+        let mut scene = small(&path);
+        scene.settings.supersampling = 3;
+        let valid = small::validated(&scene);
+        let plan = Plan::new(&valid, RuleSet::ALL);
+        let films: Vec<_> = levels
+            .iter()
+            .map(|level| {
+                let renderer = Renderer::at_level(&valid, &plan, 2, *level).unwrap();
+                renderer.render(&WHOLE, &|_| true).unwrap()
+            })
+            .collect();
+        for (film, level) in films.iter().zip(&levels) {
+            let (level, path) = (level.name(), path.display());
+            assert!(bits(film) == bits(&films[0]), "{level}: {path}");
+            assert_eq!(film.counts, films[0].counts, "{level}: {path}");
         }
     }
 }

@@ -23,16 +23,19 @@ pub(crate) enum SimdTokens {
     /// NEON of 64-bit ARM.
     #[cfg(target_arch = "aarch64")]
     Neon(fearless_simd::aarch64::Neon),
+    /// The SIMD of WebAssembly, where the program is built for it.
+    #[cfg(target_feature = "simd128")]
+    Wasm(fearless_simd::wasm32::WasmSimd128),
 }
 
 impl SimdLevel {
     /// The names of all levels of all machines.
-    pub const NAMES: [&'static str; 5] = ["scalar", "sse2", "avx2", "avx512", "neon"];
+    pub const NAMES: [&'static str; 6] = ["scalar", "sse2", "avx2", "avx512", "neon", "wasm"];
 
     /// The best that this machine has.
     #[must_use]
     pub fn best() -> Self {
-        let best = ["neon", "avx512", "avx2", "sse2"].into_iter();
+        let best = ["wasm", "neon", "avx512", "avx2", "sse2"].into_iter();
         best.filter_map(Self::named)
             .next()
             .unwrap_or(Self(SimdTokens::Scalar(Fallback::new())))
@@ -65,7 +68,19 @@ impl SimdLevel {
             .map(SimdTokens::Neon)
     }
 
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(target_feature = "simd128")]
+    fn native(name: &str, level: Level) -> Option<SimdTokens> {
+        level
+            .as_wasm_simd128()
+            .filter(|_| name == "wasm")
+            .map(SimdTokens::Wasm)
+    }
+
+    #[cfg(not(any(
+        target_arch = "x86_64",
+        target_arch = "aarch64",
+        target_feature = "simd128"
+    )))]
     fn native(_: &str, _: Level) -> Option<SimdTokens> {
         None
     }
@@ -83,6 +98,8 @@ impl SimdLevel {
             SimdTokens::Avx512(_) => "avx512",
             #[cfg(target_arch = "aarch64")]
             SimdTokens::Neon(_) => "neon",
+            #[cfg(target_feature = "simd128")]
+            SimdTokens::Wasm(_) => "wasm",
         }
     }
 
@@ -114,14 +131,25 @@ pub(crate) fn baseline() -> Fallback {
     Fallback::new()
 }
 
-/// Does the same with the instructions of a level; `$simd` names them within.
+/// Does the same with the instructions of a level, named `$simd` within; without SIMD instructions
+/// `$alone`, if that is given.
 macro_rules! at_level {
-    ($level:expr, $simd:ident => $what:expr) => {{
-        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    ($level:expr, $simd:ident => $what:expr) => {
+        $crate::accel::simd::at_level!($level, $simd => $what, scalar($simd) => $what)
+    };
+    ($level:expr, $simd:ident => $what:expr, scalar => $alone:expr) => {
+        $crate::accel::simd::at_level!($level, $simd => $what, scalar(_) => $alone)
+    };
+    ($level:expr, $simd:ident => $what:expr, scalar($scalar:pat) => $alone:expr) => {{
+        #[cfg(any(
+            target_arch = "x86_64",
+            target_arch = "aarch64",
+            target_feature = "simd128"
+        ))]
         use fearless_simd::Simd;
         use $crate::accel::simd::SimdTokens;
         match $level.tokens() {
-            SimdTokens::Scalar($simd) => $what,
+            SimdTokens::Scalar($scalar) => $alone,
             #[cfg(target_arch = "x86_64")]
             SimdTokens::Sse2($simd) => $simd.vectorize(
                 #[inline(always)]
@@ -142,10 +170,15 @@ macro_rules! at_level {
                 #[inline(always)]
                 || $what,
             ),
+            #[cfg(target_feature = "simd128")]
+            SimdTokens::Wasm($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $what,
+            ),
         }
     }};
 }
-pub(in crate::accel) use at_level;
+pub(crate) use at_level;
 
 #[cfg(test)]
 mod tests {

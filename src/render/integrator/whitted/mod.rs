@@ -5,8 +5,16 @@
 mod aov;
 mod branch;
 #[cfg_attr(
-    not(target_arch = "x86_64"),
-    allow(dead_code, unused_variables, reason = "lanes gain with AVX-512 alone")
+    not(any(
+        target_arch = "x86_64",
+        target_arch = "aarch64",
+        target_feature = "simd128"
+    )),
+    allow(
+        dead_code,
+        unused_variables,
+        reason = "without SIMD, rays go one by one"
+    )
 )]
 mod four;
 mod pixel;

@@ -1,14 +1,13 @@
 //! Four samples of a pixel at once, one per lane, for scenes whose ray trees do not branch.
 //!
 //! Each lane does the operations of [`WhittedTracer::radiance`] for its ray in the same order, so
-//! the bytes are the same. Operations without a four-lane form run lane by lane. This is faster
-//! than one ray at a time only with AVX-512 (`docs/book/src/decisions/0006`).
+//! the bytes are the same. Operations without a four-lane form run lane by lane. At the
+//! scalar level rays are traced one by one (`docs/book/src/decisions/0006`).
 
 mod shade;
 
 use super::WhittedTracer;
-#[cfg(target_arch = "x86_64")]
-use crate::accel::simd::SimdTokens;
+use crate::accel::simd::at_level;
 use crate::camera::pinhole_rays;
 use crate::film::SamplingSeeds;
 use crate::film::pixel::{PixelSample, SampleId, SampleStream};
@@ -79,17 +78,10 @@ impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
         let SampleStream::Picture(seeds) = id.stream else {
             return None;
         };
-        #[cfg(target_arch = "x86_64")]
-        if let SimdTokens::Avx512(simd) = self.world.simd.tokens() {
-            return Some(simd.vectorize(
-                #[inline(always)]
-                || {
-                    let rays = self.rays_of_picture(simd, id.pixel, seeds);
-                    self.radiances(simd, rays)
-                },
-            ));
-        }
-        None
+        at_level!(self.world.simd, simd => {
+            let rays = self.rays_of_picture(simd, id.pixel, seeds);
+            Some(self.radiances(simd, rays))
+        }, scalar => None)
     }
 
     /// The rays of the next four samples.
