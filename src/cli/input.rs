@@ -20,8 +20,16 @@ use std::path::Path;
 
 /// Reads the file at `path`, or standard input if it is `-`.
 pub(super) fn read(path: &Path, reading: &ReadArgs) -> Result<Input, Failure> {
+    read_as(path, reading, false)
+}
+
+/// The same, with a record of what is read if `is_recorded`.
+fn read_as(path: &Path, reading: &ReadArgs, is_recorded: bool) -> Result<Input, Failure> {
     let project = Project::of(path, reading)?;
-    let options = options(reading, project.as_ref())?;
+    let options = Options {
+        is_recorded,
+        ..options(reading, project.as_ref())?
+    };
     let mut input = open(path, reading.stdin_name.as_deref(), options);
     if let Some(project) = project {
         project.report_diagnostics(&mut input);
@@ -85,6 +93,7 @@ pub(super) fn options(reading: &ReadArgs, project: Option<&Project>) -> Result<O
         },
         levels,
         edited: EditedFiles::default(),
+        is_recorded: false,
     })
 }
 
@@ -96,6 +105,15 @@ pub(super) fn staged(
     stage: &args::StageArgs,
 ) -> Result<Input, Failure> {
     set_stage(read(path, reading)?, stage)
+}
+
+/// The same, with a record of what is read, for a cache.
+pub(super) fn staged_and_recorded(
+    path: &Path,
+    reading: &ReadArgs,
+    stage: &args::StageArgs,
+) -> Result<Input, Failure> {
+    set_stage(read_as(path, reading, true)?, stage)
 }
 
 /// Has an input shown in the view and the light given.

@@ -67,22 +67,29 @@ pub(super) fn limit(text: &str) -> Result<(Resource, u64), String> {
             names.join(", ")
         )
     };
-    let number = |text: &str| {
-        let digits = text.trim_end_matches(|c: char| !c.is_ascii_digit());
-        let unit: u64 = match text.strip_prefix(digits)?.trim() {
-            "" => 1,
-            "KiB" => 1 << 10,
-            "MiB" => 1 << 20,
-            "GiB" => 1 << 30,
-            _ => return None,
-        };
-        digits.parse::<u64>().ok()?.checked_mul(unit)
-    };
     let (name, value) = text.split_once('=').ok_or_else(expected)?;
     let resource = Resource::all()
         .find(|resource| resource.name() == name.trim())
         .ok_or_else(expected)?;
     Ok((resource, number(value.trim()).ok_or_else(expected)?))
+}
+
+/// A whole number, which a unit may follow.
+fn number(text: &str) -> Option<u64> {
+    let digits = text.trim_end_matches(|c: char| !c.is_ascii_digit());
+    let unit: u64 = match text.strip_prefix(digits)?.trim() {
+        "" => 1,
+        "KiB" => 1 << 10,
+        "MiB" => 1 << 20,
+        "GiB" => 1 << 30,
+        _ => return None,
+    };
+    digits.parse::<u64>().ok()?.checked_mul(unit)
+}
+
+/// A number of bytes.
+pub(super) fn bytes(text: &str) -> Result<u64, String> {
+    number(text.trim()).ok_or_else(|| "expected a number of bytes, as 500MiB or 2GiB".to_owned())
 }
 
 /// Finite numbers with commas between them.

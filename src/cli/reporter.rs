@@ -4,8 +4,9 @@
 use super::render::FinishedPicture;
 use super::{Failure, args, output};
 use anstream::{AutoStream, ColorChoice};
-use rtc_diag::{DiagnosticPrinter, DiagnosticSink, Format, PrintOptions, Severity};
+use rtc_diag::{Diagnostic, DiagnosticPrinter, DiagnosticSink, Format, PrintOptions, Severity};
 use rtc_source::SourceMap;
+use std::collections::BTreeSet;
 use std::io::{self, IsTerminal, Write};
 
 /// The default width of a terminal.
@@ -21,6 +22,10 @@ pub(super) struct Reporter {
     tells_objects: bool,
     /// A diagnostic of a file was printed.
     has_reported: bool,
+    /// The number of warnings and errors so far, whether printed or not.
+    warnings: usize,
+    /// The warnings that are printed once.
+    repeated: BTreeSet<String>,
 }
 
 impl Reporter {
@@ -64,6 +69,8 @@ impl Reporter {
             verbose,
             tells_objects: message_format == args::MessageFormat::Json,
             has_reported: false,
+            warnings: 0,
+            repeated: BTreeSet::new(),
         }
     }
 
@@ -74,6 +81,8 @@ impl Reporter {
         sink: DiagnosticSink,
         map: &SourceMap,
     ) -> Result<(), Failure> {
+        let is_warning = |found: &&Diagnostic| found.severity != Severity::Note;
+        self.warnings += sink.kept().iter().filter(is_warning).count() + sink.dropped();
         let text = self.printer.file(name, sink, map);
         self.has_reported |= !text.is_empty();
         write(self.to_stdout, &text)
@@ -88,6 +97,31 @@ impl Reporter {
             true => print_message(&picture.object()),
             false => print_message(&picture.text(self.verbose)),
         }
+    }
+
+    /// Prints a warning about the arguments or the machine, once.
+    pub(super) fn warn(&mut self, message: &str) {
+        self.warnings += 1;
+        if !self.quiet && self.repeated.insert(message.to_owned()) {
+            print_message(message);
+        }
+    }
+
+    /// The number of warnings and errors so far, whether they were printed or not.
+    pub(super) fn warnings(&self) -> usize {
+        self.warnings
+    }
+
+    /// Prints a message that only `--verbose` asks for.
+    pub(super) fn note(&self, message: &str) {
+        if self.verbose {
+            print_message(message);
+        }
+    }
+
+    /// Whether messages about pictures are JSON objects.
+    pub(super) fn tells_objects(&self) -> bool {
+        self.tells_objects
     }
 
     /// Prints the end of the report.

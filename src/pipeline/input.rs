@@ -123,6 +123,10 @@ impl Input {
     ) -> Self {
         let limits = options.valid.limits;
         let map = SourceMap::with_limits(limits).with_edited(options.edited.clone());
+        let map = match options.is_recorded {
+            true => map.recording(),
+            false => map,
+        };
         let (mut map, mut sink) = (map, options.sink());
         let file = read(&name, &mut map);
         let file = file

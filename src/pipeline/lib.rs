@@ -14,6 +14,7 @@
 //! - [`PictureAudit`] and [`RenderShard::audit`] render some tiles of a picture, or of a part of
 //!   one, again, and compare.
 //! - [`fix()`] applies suggested fixes; [`Input::format_text`] formats a text.
+//! - [`CacheFolder`] keeps finished results by the hash of what they depend on.
 //! - [`AtomicFile`] writes files atomically; no other code writes files.
 //! - [`trial`] has the entry points of the fuzz targets.
 //!
@@ -23,6 +24,8 @@
 //! - A picture has the same bytes for any number of threads, in strips, and merged from shards.
 
 mod audit;
+#[cfg(not(target_family = "wasm"))]
+mod cache;
 mod denoise;
 mod explanation;
 mod export;
@@ -45,6 +48,8 @@ pub mod trial;
 pub use audit::{
     AuditFinding, AuditResult, AuditSubject, ODDS as AUDIT_ODDS, PictureAudit, TileDraw,
 };
+#[cfg(not(target_family = "wasm"))]
+pub use cache::{CacheFolder, CacheKey, CacheMiss, scene_digest};
 pub use denoise::Traced;
 pub use explanation::{explain_code, explanation};
 pub use export::{ExportFormat, ExportedFiles, sidecar_folder};
@@ -94,6 +99,8 @@ pub struct Options {
     pub levels: DiagnosticLevels,
     /// Texts that replace files to which scenes refer.
     pub edited: EditedFiles,
+    /// Whether the source map keeps a record of what is read, for a cache.
+    pub is_recorded: bool,
 }
 
 impl Options {

@@ -9,6 +9,7 @@
 //!   or a folder that the user allows.
 //! - [`Budget`] and [`Limits`] bound the memory and work of a run, per [`Resource`].
 //! - [`tree`] parses YAML and JSON to a [`tree::SyntaxTree`] of nodes with spans, and formats YAML.
+//! - [`ReadRecord`] is everything that reading a scene depended on, for caches.
 //! - [`EditedFiles`] are texts that an editor has open; they replace files on disk.
 //!
 //! # Guarantees
@@ -24,6 +25,7 @@ mod escape;
 mod loader;
 mod map;
 mod memory;
+mod record;
 mod search;
 pub mod tree;
 
@@ -33,4 +35,5 @@ pub use escape::uri_path;
 pub use loader::{FileIdentity, LoadError, Loader, OwnedFile};
 pub use map::{FileId, LineColumn, SourceMap, Span};
 pub use memory::MemoryFiles;
+pub use record::ReadRecord;
 pub use search::{FileKind, FileSearch, Folder, FoundFile, MissingFile};

@@ -94,10 +94,12 @@ impl Loader {
             return opened.bytes(limit);
         }
         map.note(&found.path);
-        match map.edited(opened.path()) {
+        let bytes = match map.edited(opened.path()) {
             Some(text) => read_to_limit(text, text.len(), limit),
             None => opened.bytes(limit),
-        }
+        }?;
+        map.note_content(&found.path, &bytes);
+        Ok(bytes)
     }
 
     /// Reads the file at `path`, given by the user, of at most `limit` bytes. The map records only
@@ -112,7 +114,9 @@ impl Loader {
         if !metadata.is_file() && !metadata.is_dir() {
             return Err(LoadError::NotRegular);
         }
-        read_all(&nonblocking().open(path).map_err(LoadError::Io)?, limit)
+        let bytes = read_all(&nonblocking().open(path).map_err(LoadError::Io)?, limit)?;
+        map.note_content(path, &bytes);
+        Ok(bytes)
     }
 
     /// Reads a regular file of at most `limit` bytes that the user did not name, and checks its

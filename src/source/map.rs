@@ -1,7 +1,8 @@
 //! The source map: owns the bytes of every file and converts offsets to lines and columns.
 
 use super::memory::resolved;
-use super::{Budget, EditedFiles, Folder, FoundFile, Limits, MemoryFiles};
+use super::record::SharedRecord;
+use super::{Budget, EditedFiles, Folder, FoundFile, Limits, MemoryFiles, ReadRecord};
 use rtc_math::to_u32;
 use std::collections::BTreeSet;
 use std::fs;
@@ -88,6 +89,8 @@ pub struct SourceMap {
     read: Mutex<BTreeSet<PathBuf>>,
     /// Texts that replace files.
     edited: EditedFiles,
+    /// A record of the lookups and files, if it is kept.
+    record: Option<SharedRecord>,
 }
 
 impl SourceMap {
@@ -104,6 +107,26 @@ impl SourceMap {
     #[must_use]
     pub fn with_edited(self, edited: EditedFiles) -> Self {
         Self { edited, ..self }
+    }
+
+    /// The same map, which keeps a record of all lookups and of the hashes of all files read.
+    #[must_use]
+    pub fn recording(self) -> Self {
+        let record = Some(SharedRecord::default());
+        Self { record, ..self }
+    }
+
+    /// The record so far, if it is kept.
+    #[must_use]
+    pub fn record(&self) -> Option<ReadRecord> {
+        self.record.as_ref().map(SharedRecord::so_far)
+    }
+
+    /// Adds the content of a file that was read to the record.
+    pub(super) fn note_content(&self, path: &Path, bytes: &[u8]) {
+        if let Some(record) = &self.record {
+            record.note_file(path, bytes);
+        }
     }
 
     /// The text that replaces the file at a canonical path.
@@ -182,6 +205,7 @@ impl SourceMap {
             "the loader refuses files of 4 GiB and more"
         );
         self.budget.read(bytes.len());
+        let folder = folder.map(|folder| folder.recorded(self.record.clone()));
         let id = FileId(to_u32(self.files.len()));
         self.files.push(SourceFile {
             name,

@@ -306,8 +306,11 @@ impl FileSearch {
             .as_ref()
             .filter(|_| name.parents > 0 && !name.is_absolute)?;
         let above = scene.resolved.ancestors().nth(name.parents)?;
-        let opened = scene.open(&above.join(name.components.iter().collect::<PathBuf>()))?;
-        self.is_allowed(opened.path()).then_some(opened)
+        let path = above.join(name.components.iter().collect::<PathBuf>());
+        let opened = scene.open(&path);
+        let opened = opened.filter(|opened| self.is_allowed(opened.path()));
+        scene.note_lookup(&path, opened.as_ref());
+        opened
     }
 
     /// Looks up a path below folder `index`; in the parent folder only files that match the kind.
@@ -328,8 +331,13 @@ impl FileSearch {
         let is_inside = |opened: &OpenedFile| {
             opened.path().starts_with(&folder.resolved) || self.is_allowed(opened.path())
         };
-        let opened = folder.open(&folder.resolved.join(tail));
-        match opened.filter(is_inside) {
+        let path = folder.resolved.join(tail);
+        let opened = folder.open(&path).filter(is_inside);
+        // The first folder is that of the scene, which has the record.
+        if let Some(scene) = self.folders.first() {
+            scene.note_lookup(&path, opened.as_ref());
+        }
+        match opened {
             Some(opened) => PathLookup::File(opened),
             None if folder.escapes(tail) => PathLookup::Outside,
             None => PathLookup::Nothing,

@@ -12,6 +12,7 @@
 #[cfg(unix)]
 mod action;
 mod audit;
+mod cache;
 mod checkpoints;
 mod diff;
 mod exposure;

@@ -90,7 +90,7 @@ pub(crate) struct ReadArgs {
     /// Lift all limits of the run
     #[arg(long, help_heading = "Limits")]
     pub(crate) allow_huge: bool,
-    /// Let the `rtc.toml` of the scene raise limits and widen `asset-root`
+    /// Let the `rtc.toml` of the scene raise limits, widen `asset-root` and name a `cache`
     #[arg(long, help_heading = "Limits")]
     pub(crate) trust_project: bool,
 }

@@ -1,6 +1,6 @@
 //! The arguments of `rtc render`.
 
-use super::super::parse::{frames, interval, levels, radiance, rule, seconds, share};
+use super::super::parse::{bytes, frames, interval, levels, radiance, rule, seconds, share};
 use super::{OutputTransformArgs, ReadArgs, ReporterArgs, StageArgs, WantedArgs};
 use clap::{Args, ValueEnum, ValueHint};
 use rtc_pipeline::ShardDivision;
@@ -193,6 +193,19 @@ pub(crate) struct RenderArgs {
         help_heading = "Checkpoints and parts",
     )]
     pub(crate) strips: Option<Option<u32>>,
+    /// Keep finished pictures in this folder, and take those that would be the same from it
+    ///
+    /// `-v` says what was taken, or why not. Whoever may write the folder is trusted.
+    #[arg(
+        long,
+        value_name = "DIR",
+        value_hint = ValueHint::DirPath,
+        help_heading = "Performance",
+    )]
+    pub(crate) cache: Option<PathBuf>,
+    /// Remove what was not used for longest when the folder holds more bytes [default: 1GiB]
+    #[arg(long, value_name = "SIZE", value_parser = bytes, help_heading = "Performance")]
+    pub(crate) cache_limit: Option<u64>,
     /// Use N threads [default: one for each core]
     #[arg(
         long,

@@ -44,6 +44,8 @@ struct ProjectSettings {
     limits: Vec<(Resource, u64)>,
     asset_root: Option<PathBuf>,
     up_axis: Option<UpAxis>,
+    cache: Option<PathBuf>,
+    cache_limit: Option<u64>,
     render: Overrides,
 }
 
@@ -111,6 +113,24 @@ impl Project {
     /// The folder whose files its scenes may name.
     pub(super) fn asset_root(&self) -> Option<PathBuf> {
         self.settings.asset_root.clone()
+    }
+
+    /// The folder of finished pictures, and the most bytes in it.
+    pub(super) fn cache(&self) -> (Option<PathBuf>, Option<u64>) {
+        (self.settings.cache.clone(), self.settings.cache_limit)
+    }
+
+    /// Everything that a picture may depend on: its path and its bytes, and whether it is trusted.
+    pub(super) fn identity(&self) -> String {
+        let Self {
+            path,
+            bytes,
+            settings,
+            faults: _,
+            withheld,
+        } = self;
+        let is_trusted = settings.is_trusted;
+        format!("{path:?} {bytes:?} {is_trusted} {withheld:?}")
     }
 
     /// Adds its diagnostics to those of a scene.

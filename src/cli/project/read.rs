@@ -14,7 +14,15 @@ use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
 /// The keys at the top.
-const KEYS: [&str; 5] = ["asset-root", "levels", "limits", "render", "up-axis"];
+const KEYS: [&str; 7] = [
+    "asset-root",
+    "cache",
+    "cache-limit",
+    "levels",
+    "limits",
+    "render",
+    "up-axis",
+];
 
 type ProjectKey<'t> = Spanned<DeString<'t>>;
 type Value<'t> = Spanned<DeValue<'t>>;
@@ -65,6 +73,8 @@ impl ProjectReader<'_> {
         for (key, value) in table.get_ref() {
             match key.get_ref().as_ref() {
                 "asset-root" => self.asset_root(value),
+                "cache" => self.cache(value),
+                "cache-limit" => self.cache_limit(value),
                 "levels" => self.section(key, value, Self::level),
                 "limits" => self.section(key, value, Self::limit),
                 "render" => self.section(key, value, Self::render),
@@ -105,6 +115,30 @@ impl ProjectReader<'_> {
                 expected.to_owned(),
                 "write it as `\"assets\"`",
             ),
+        }
+    }
+
+    /// A cache of somebody else may hold wrong pictures, and files are written there.
+    fn cache(&mut self, value: &Value<'_>) {
+        match value.get_ref().as_str() {
+            Some(name) if self.settings.is_trusted => {
+                self.settings.cache = Some(self.folder.join(name));
+            }
+            Some(_) => self.untrusted(value.span(), "`cache` is left out"),
+            None => self.fault(
+                value.span(),
+                "`cache` is a folder".to_owned(),
+                "write it as `\".cache\"`",
+            ),
+        }
+    }
+
+    fn cache_limit(&mut self, value: &Value<'_>) {
+        let limit = written(value.get_ref());
+        self.settings.cache_limit = limit.and_then(|text| parse::bytes(&text).ok());
+        if self.settings.cache_limit.is_none() {
+            let message = "`cache-limit` is a number of bytes, which a unit may follow".to_owned();
+            self.fault(value.span(), message, "write it as `\"2GiB\"`");
         }
     }
 

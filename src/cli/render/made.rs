@@ -96,18 +96,33 @@ impl FinishedPicture {
         let simulated = verbose.then(|| simulated(&self.counts));
         let pages = verbose.then(huge_pages).flatten();
         let clamped = self.is_clamped.then(|| clamped(&self.counts.clamped));
-        let quality = self.quality.as_ref().map(PictureQuality::text);
+        let quality = self.quality_text();
         let lines = [Some(line), simulated, pages, clamped, quality];
         lines.into_iter().flatten().collect::<Vec<_>>().join("\n")
     }
 
+    /// Its width and height.
+    pub(super) fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// The text about its quality, if that is known.
+    pub(super) fn quality_text(&self) -> Option<String> {
+        self.quality.as_ref().map(PictureQuality::text)
+    }
+
     /// As an object of one line, `{"rendered": …}`.
     pub(crate) fn object(&self) -> String {
+        json!({ "rendered": self.facts() }).to_string()
+    }
+
+    /// The content of that object.
+    pub(super) fn facts(&self) -> Value {
         let simulated: Map<String, Value> = effects(&self.counts)
             .map(|(name, count)| (name.to_owned(), json!(count)))
             .collect();
         let quality = self.quality.as_ref().map(PictureQuality::object);
-        let object = json!({
+        json!({
             "output": self.output.display().to_string(),
             "size": self.size,
             "exposureStops": self.exposure,
@@ -117,8 +132,7 @@ impl FinishedPicture {
             "denoised": self.is_denoised,
             "clamped": self.is_clamped.then(|| clamped_object(&self.counts.clamped)),
             "simulated": simulated,
-        });
-        json!({ "rendered": object }).to_string()
+        })
     }
 }
 

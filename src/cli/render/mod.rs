@@ -4,11 +4,12 @@
 //! with the requested samples, target or time budget (`budget`). Variants: `checkpoint` saves
 //! progress, `part` renders a part, `strips` writes rows as they are finished, `turning` and
 //! `animation` render turntables, `many` renders several scenes, with a contact sheet (`sheet`).
-//! `look` resolves the output transform, `layers` writes AOVs, `made` reports the finished picture,
+//! `cache` keeps finished pictures. `look` resolves the output transform, `layers` writes AOVs, `made` reports the finished picture,
 //! `show` prints it in the terminal.
 
 mod animation;
 mod budget;
+mod cache;
 mod checkpoint;
 mod layers;
 mod look;
@@ -25,11 +26,12 @@ use super::input;
 use super::interrupt::Interrupt;
 use super::output::{self, Output};
 use super::project;
-use super::reporter::{self, Reporter};
+use super::reporter::Reporter;
 use super::simd;
 use super::suggest;
 use super::turntable::{self, Turntable, TurntableViews};
 use budget::PictureClock;
+use cache::PictureCache;
 use checkpoint::{Checkpoint, CheckpointedRender, RunContext};
 pub(super) use checkpoint::{ended, or_restart, print_saved, try_save};
 use layers::LayerFiles;
@@ -162,17 +164,32 @@ impl RenderSetup {
         args: &args::RenderArgs,
         reporter: &mut Reporter,
     ) -> Result<(), Failure> {
-        let mut input = input::staged(file, &args.reading, &args.stage)?;
-        input.use_threads(self.picture.threads);
-        set_stage(&mut input, &args.look, args.turntable);
-        self.carry_out(&mut input, reporter)?;
+        let cache = PictureCache::open(&self, file, args, reporter)?;
+        let is_written = match &cache {
+            Some(cache) => self.recall(cache, reporter)?,
+            None => false,
+        };
+        if !is_written {
+            let mut input = match &cache {
+                Some(_) => input::staged_and_recorded(file, &args.reading, &args.stage)?,
+                None => input::staged(file, &args.reading, &args.stage)?,
+            };
+            input.use_threads(self.picture.threads);
+            set_stage(&mut input, &args.look, args.turntable);
+            self.carry_out(cache.as_ref(), &mut input, reporter)?;
+        }
         match self.is_shown {
             true => show::show(&self.output),
             false => Ok(()),
         }
     }
 
-    fn carry_out(&mut self, input: &mut Input, reporter: &mut Reporter) -> Result<(), Failure> {
+    fn carry_out(
+        &mut self,
+        cache: Option<&PictureCache>,
+        input: &mut Input,
+        reporter: &mut Reporter,
+    ) -> Result<(), Failure> {
         // Validate the scene with the overrides.
         let subject = match input.load() {
             Some(loaded) => self.picture.validate(loaded, input),
@@ -188,9 +205,7 @@ impl RenderSetup {
         // Report flags that have no effect.
         let scene = &subject.validated.lowered.scene;
         let idle = suggest::idle(&self.requested, &scene.settings.mode);
-        idle.filter(|_| !reporter.is_quiet())
-            .into_iter()
-            .for_each(reporter::print_message);
+        idle.into_iter().for_each(|message| reporter.warn(message));
         self.picture.window(scene)?;
         // Measure exposure and light.
         let interrupt = Interrupt::listen()?;
@@ -218,6 +233,10 @@ impl RenderSetup {
         }
         if let Some(part) = &self.part {
             return self.shoot_part(part, &mut subject, input, reporter, &interrupt);
+        }
+        if let Some(cache) = cache {
+            let run_context = (input, reporter, &interrupt);
+            return self.render_cached(cache, &mut subject, run_context);
         }
         self.render_picture(&mut subject, &self.output, input, reporter, &interrupt)
     }
@@ -273,16 +292,30 @@ impl RenderSetup {
         if let Some(rows) = self.strips {
             return self.shoot_strips(rows, (subject, path), input, reporter, interrupt);
         }
+        self.make_picture(subject, path, input, reporter, interrupt)
+            .map(drop)
+    }
+
+    /// Renders one picture and writes it; returns the bytes of its files, the picture first, and
+    /// its messages.
+    fn make_picture(
+        &self,
+        subject: &mut RenderSubject,
+        path: &Path,
+        input: &mut Input,
+        reporter: &mut Reporter,
+        interrupt: &Interrupt,
+    ) -> Result<(Vec<Vec<u8>>, FinishedPicture), Failure> {
         let (window, output) = self.ready(subject, path, input)?;
-        let layers = LayerFiles::open(&self.picture.look, path, input)?;
+        let layers = LayerFiles::open(&self.picture.look, path, input.map())?;
         let run_context = (&mut *input, &mut *reporter, interrupt);
         let (picture, made) = self.take(subject, path, window, run_context)?;
-        let bytes = self.picture.encode(&picture, subject)?;
-        let layers = layers.encode(&self.picture, &picture, subject)?;
-        output.commit(&bytes, interrupt)?;
-        layers.commit(interrupt)?;
+        let mut files = vec![self.picture.encode(&picture, subject)?];
+        files.extend(layers.encode(&self.picture, &picture, subject)?);
+        output.commit(&files[0], interrupt)?;
+        layers.commit(&files[1..], interrupt)?;
         reporter.made(&made);
-        Ok(())
+        Ok((files, made))
     }
 
     /// Renders one picture; returns it with its messages.

@@ -2,6 +2,7 @@
 
 use crate::loader::OpenedFile;
 use crate::memory::MemoryFiles;
+use crate::record::SharedRecord;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
@@ -24,6 +25,8 @@ pub struct Folder {
     pub(super) resolved: PathBuf,
     /// The files in memory, for a folder in memory.
     files: Option<Arc<MemoryFiles>>,
+    /// The record of a scene in this folder, if it is kept.
+    record: Option<SharedRecord>,
 }
 
 impl Folder {
@@ -40,6 +43,7 @@ impl Folder {
             shown: shown.to_owned(),
             resolved: fs::canonicalize(path).ok()?,
             files: None,
+            record: None,
         })
     }
 
@@ -59,6 +63,7 @@ impl Folder {
             shown: resolved.to_owned(),
             resolved: resolved.to_owned(),
             files: None,
+            record: None,
         })
     }
 
@@ -72,6 +77,19 @@ impl Folder {
             shown: shown.unwrap_or_else(|| resolved.to_owned()),
             resolved: resolved.to_owned(),
             files: Some(Arc::clone(files)),
+            record: None,
+        }
+    }
+
+    /// The same folder, with the record of its scene.
+    pub(crate) fn recorded(self, record: Option<SharedRecord>) -> Self {
+        Self { record, ..self }
+    }
+
+    /// Notes in the record where a path led.
+    pub(super) fn note_lookup(&self, path: &Path, opened: Option<&OpenedFile>) {
+        if let Some(record) = &self.record {
+            record.note_lookup(path, opened.map(OpenedFile::path));
         }
     }
 

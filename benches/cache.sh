@@ -1,0 +1,49 @@
+#!/bin/sh
+# What `--cache` saves: a folder of 100 small models, the first and the second time; and what 50
+# processes that are killed leave behind. Usage: benches/cache.sh RTC, a release build.
+set -eu
+rtc=$(realpath "${1:?give the program, as target/release/rtc}")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+mkdir models
+
+# A ball of 40 × 20 quads with another radius in each model.
+python3 - <<'END'
+from math import cos, pi, sin
+for number in range(100):
+    with open(f"models/ball-{number:03}.obj", "w") as out:
+        for row in range(21):
+            for column in range(40):
+                radius = 1 + number / 100 + 0.1 * sin(number + 5 * row)
+                up, around = pi * row / 20, 2 * pi * column / 40
+                x, y, z = sin(up) * cos(around), cos(up), sin(up) * sin(around)
+                out.write(f"v {radius * x:.6f} {radius * y:.6f} {radius * z:.6f}\n")
+        for row in range(20):
+            for column in range(40):
+                a, b = 40 * row + column + 1, 40 * row + (column + 1) % 40 + 1
+                out.write(f"f {a} {b} {b + 40} {a + 40}\n")
+END
+
+now() { date +%s.%N; }
+render() { "$rtc" render models -o "$1/" --cache cache -q --size 64x64; }
+begin=$(now); render first; middle=$(now); render second; end=$(now)
+diff -r first second
+awk -v a="$begin" -v b="$middle" -v c="$end" 'BEGIN {
+    printf "100 models: %.2f s, again %.2f s: %.0f times as fast\n", b - a, c - b, (b - a) / (c - b)
+}'
+
+# Processes that end at any moment: the next one makes the right picture.
+for kill in $(seq 50); do
+    rm -rf cache
+    "$rtc" render models/ball-000.obj -o killed.png --cache cache -q --size 64x64 &
+    process=$!
+    sleep "0.0$((kill % 10))$((kill / 10))"
+    kill -9 $process 2>/dev/null || true
+    wait $process 2>/dev/null || true
+    "$rtc" render models/ball-000.obj -o after.png --cache cache -q --size 64x64
+    "$rtc" render models/ball-000.obj -o again.png --cache cache -q --size 64x64
+    [ -e plain.png ] || "$rtc" render models/ball-000.obj -o plain.png -q --size 64x64
+    cmp plain.png after.png && cmp plain.png again.png
+done
+echo "50 killed processes: no wrong picture"
