@@ -16,7 +16,7 @@ for number in range(100):
         for row in range(21):
             for column in range(40):
                 radius = 1 + number / 100 + 0.1 * sin(number + 5 * row)
-                up, around = pi * row / 20, 2 * pi * column / 40
+                up, around = 0.1 + (pi - 0.2) * row / 20, 2 * pi * column / 40
                 x, y, z = sin(up) * cos(around), cos(up), sin(up) * sin(around)
                 out.write(f"v {radius * x:.6f} {radius * y:.6f} {radius * z:.6f}\n")
         for row in range(20):

@@ -140,6 +140,109 @@ fn run_slurm(folder: &TempDir) {
     }
 }
 
+/// Runs the tasks of an array, the last ones first, and the first once more.
+#[cfg(unix)]
+fn run_array(folder: &TempDir, tasks: u64, variable: &str) {
+    for task in (0..tasks).rev().chain([0]) {
+        let output = Command::new("sh")
+            .arg(folder.path().join("job/task.sh"))
+            .env("RTC", env!("CARGO_BIN_EXE_rtc"))
+            .env(variable, task.to_string())
+            .output()
+            .unwrap();
+        assert_eq!(code(&output), 0, "{task}: {}", stderr(&output));
+    }
+}
+
+/// The facts of `batch/v1` that an indexed Job must keep, and its tasks.
+#[cfg(unix)]
+fn run_kubernetes(folder: &TempDir) {
+    let job: Value = serde_json::from_slice(&bytes(folder, "job/job.json")).unwrap();
+    assert_eq!([&job["apiVersion"], &job["kind"]], ["batch/v1", "Job"]);
+    let spec = &job["spec"];
+    assert_eq!(spec["completionMode"], "Indexed");
+    let pod = &spec["template"]["spec"];
+    // Retries of an index need pods that are not restarted in place.
+    assert!(spec["backoffLimitPerIndex"].is_u64() && pod["restartPolicy"] == "Never");
+    let container = &pod["containers"][0];
+    let mount = &container["volumeMounts"][0];
+    assert_eq!(mount["name"], pod["volumes"][0]["name"]);
+    let script = format!("{}/task.sh", mount["mountPath"].as_str().unwrap());
+    assert_eq!(container["command"], serde_json::json!(["sh", script]));
+    // Quantities are texts.
+    assert!(container["resources"]["requests"]["cpu"].is_string());
+    run_array(
+        folder,
+        spec["completions"].as_u64().unwrap(),
+        "JOB_COMPLETION_INDEX",
+    );
+}
+
+/// The facts of the API of AWS Batch that an array job must keep, and its tasks.
+#[cfg(unix)]
+fn run_aws_batch(folder: &TempDir) {
+    let read = |name: &str| -> Value { serde_json::from_slice(&bytes(folder, name)).unwrap() };
+    let (definition, job) = (read("job/definition.json"), read("job/job.json"));
+    assert_eq!(definition["jobDefinitionName"], job["jobDefinition"]);
+    assert_eq!(definition["type"], "container");
+    let attempts = definition["retryStrategy"]["attempts"].as_u64().unwrap();
+    assert!((1..=10).contains(&attempts));
+    let container = &definition["containerProperties"];
+    for needs in container["resourceRequirements"].as_array().unwrap() {
+        assert!(needs["value"].as_str().unwrap().parse::<u32>().unwrap() > 0);
+    }
+    assert_eq!(
+        container["mountPoints"][0]["sourceVolume"],
+        container["volumes"][0]["name"]
+    );
+    let size = job["arrayProperties"]["size"].as_u64().unwrap_or(1);
+    assert!((1..=10_000).contains(&size));
+    run_array(folder, size, "AWS_BATCH_JOB_ARRAY_INDEX");
+}
+
+/// More parts than one group merges, and one alone.
+#[test]
+#[cfg(unix)]
+fn tasks_of_an_array_merge_as_a_tree() {
+    let folder = scenes();
+    let words = ["ball.json", "--size", "100x80"];
+    reported(
+        &folder,
+        &[&["render"], &words[..], &["-o", "a.png"]].concat(),
+    );
+    for parts in ["35", "1"] {
+        farm(
+            &folder,
+            "kubernetes",
+            "a.png",
+            &[&words[..], &["--parts", parts]].concat(),
+        );
+        run_kubernetes(&folder);
+        assert!(
+            bytes(&folder, "job/a.png") == bytes(&folder, "a.png"),
+            "{parts}"
+        );
+        let made = names(&folder.path().join("job"));
+        let nodes = made
+            .iter()
+            .filter(|name| name.starts_with("merged-"))
+            .count();
+        assert_eq!(nodes, if parts == "1" { 0 } else { 3 });
+        fs::remove_dir_all(folder.path().join("job")).unwrap();
+    }
+    let many = [
+        "farm",
+        "ball.json",
+        "--to",
+        "aws-batch",
+        "--parts",
+        "10001",
+        "-o",
+        "job",
+    ];
+    assert!(stderr(&rtc(&folder, &many)).contains("at most 10000 tasks"));
+}
+
 /// Runs the commands of a driver for Dask in their order.
 fn run_dask(folder: &TempDir) {
     let text = String::from_utf8(bytes(folder, "job/run.py")).unwrap();
@@ -205,6 +308,14 @@ fn each_engine_runs_all_frames_of_a_turntable_in_parts() {
         #[cfg(unix)]
         ("slurm", run_slurm, &["merge.sh", "parts.sh", "submit.sh"]),
         ("dask", run_dask, &["run.py"]),
+        #[cfg(unix)]
+        ("kubernetes", run_kubernetes, &["job.json", "task.sh"]),
+        #[cfg(unix)]
+        (
+            "aws-batch",
+            run_aws_batch,
+            &["definition.json", "job.json", "task.sh"],
+        ),
     ];
     for (engine, run, files) in engines {
         let some = ["--frames", "11..12", "--parts", "3"];

@@ -128,4 +128,8 @@ pub(crate) enum FarmEngine {
     Slurm,
     /// Dask: a driver in Python
     Dask,
+    /// Kubernetes: an indexed Job
+    Kubernetes,
+    /// AWS Batch: an array job
+    AwsBatch,
 }

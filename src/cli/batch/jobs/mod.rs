@@ -1,5 +1,6 @@
 //! A job as the files of a folder, for each engine.
 
+mod array;
 mod dask;
 mod openjd;
 mod slurm;
@@ -48,12 +49,19 @@ impl<'a> FarmJob<'a> {
         }
     }
 
+    /// The number of parts of all frames.
+    fn tasks(&self) -> u64 {
+        u64::from(self.parts) * self.frames.names().len() as u64
+    }
+
     /// What starts it, typed in its folder.
     pub(super) fn how_to_run(&self) -> &'static str {
         match self.engine {
             FarmEngine::OpenJd => "openjd run template.json",
             FarmEngine::Slurm => "sh submit.sh",
             FarmEngine::Dask => "python run.py",
+            FarmEngine::Kubernetes => "kubectl apply -f job.json",
+            FarmEngine::AwsBatch => "aws batch submit-job --cli-input-json file://job.json",
         }
     }
 
@@ -63,6 +71,8 @@ impl<'a> FarmJob<'a> {
             FarmEngine::OpenJd => vec![("template.json", openjd::template(self))],
             FarmEngine::Slurm => slurm::scripts(self).to_vec(),
             FarmEngine::Dask => vec![("run.py", dask::driver(self))],
+            FarmEngine::Kubernetes => array::kubernetes(self),
+            FarmEngine::AwsBatch => array::aws_batch(self),
         };
         files.push(("README", self.readme()));
         files
@@ -83,6 +93,14 @@ impl<'a> FarmJob<'a> {
                  thread a worker"
                     .to_owned()
             }
+            FarmEngine::Kubernetes => {
+                "put this folder on the volume of the claim `rtc-job`, and `kubectl apply -f job.json`"
+                    .to_owned()
+            }
+            FarmEngine::AwsBatch => "mount this folder as `/job` on all hosts; once `aws batch \
+                 register-job-definition --cli-input-json file://definition.json`, then `aws batch \
+                 submit-job --cli-input-json file://job.json`"
+                .to_owned(),
         };
         format!(
             "{title}, which all workers need: on their path, or where `RTC` points \

@@ -5,7 +5,7 @@ use super::FarmJob;
 
 /// The scripts, by name.
 pub(super) fn scripts(job: &FarmJob<'_>) -> [(&'static str, String); 3] {
-    let tasks = u64::from(job.parts) * job.frames.names().len() as u64;
+    let tasks = job.tasks();
     let [first, last] = job.frames.range().unwrap_or([1, 1]);
     let part = job.commands.part("", "$frame", "$part");
     let names = [job.commands.name("$frame", "*")];
