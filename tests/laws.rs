@@ -87,7 +87,7 @@ fn threads_change_no_bit() {
     }
 }
 
-/// With nine samples a pixel: where Whitted's integrator goes by lanes, eight in lanes and one alone.
+/// With nine samples a pixel: eight in lanes and one alone, where Whitted goes by lanes.
 #[test]
 fn levels_of_vector_instructions_change_no_bit() {
     let rings = root("benches/peers/rings.yaml");

@@ -1,11 +1,13 @@
-//! Four vectors at once, one per lane. Every operation has the order of its scalar form, so each
-//! lane has the same bits.
+//! Vectors of numbers, of which each may be four in lanes. Every operation has the order of its
+//! scalar form, so each lane has the same bits.
 
+pub(crate) mod number;
 pub(crate) mod pow;
 
 use crate::ray::Ray;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
+use number::Number;
 use rtc_math::{SPLITTER, Vec3};
 
 /// The number of lanes.
@@ -14,13 +16,16 @@ pub(crate) const LANES: usize = 4;
 /// The bits of all lanes.
 pub(crate) const ALL: u64 = 0b1111;
 
-/// Four vectors.
+/// A vector, or a vector in each lane.
 #[derive(Clone, Copy)]
-pub(crate) struct FourVectors<S: Simd> {
-    pub(crate) x: f64x4<S>,
-    pub(crate) y: f64x4<S>,
-    pub(crate) z: f64x4<S>,
+pub(crate) struct Vectors<N> {
+    pub(crate) x: N,
+    pub(crate) y: N,
+    pub(crate) z: N,
 }
+
+/// Four vectors.
+pub(crate) type FourVectors<S> = Vectors<f64x4<S>>;
 
 impl<S: Simd> FourVectors<S> {
     /// One vector in all lanes.
@@ -43,16 +48,49 @@ impl<S: Simd> FourVectors<S> {
         }
     }
 
+    /// As [`rtc_math::cross`].
+    #[inline(always)]
+    pub(crate) fn cross(self, other: Self) -> Self {
+        Self {
+            x: difference_of_products(self.y, other.z, self.z, other.y),
+            y: difference_of_products(self.z, other.x, self.x, other.z),
+            z: difference_of_products(self.x, other.y, self.y, other.x),
+        }
+    }
+
+    /// The unit vectors along them, and the lanes that have one.
+    #[inline(always)]
+    pub(crate) fn normalized(self) -> (mask64x4<S>, Self) {
+        let number = |x: f64| f64x4::splat(self.x.simd, x);
+        let inverse = number(1.0) / self.length();
+        let has = inverse.simd_gt(number(0.0)) & inverse.simd_lt(number(f64::INFINITY));
+        (has, self.times(inverse))
+    }
+}
+
+impl<N: Number> Vectors<N> {
+    /// One vector in as many lanes as `like` has.
+    #[inline(always)]
+    pub(crate) fn constant(like: N, v: Vec3) -> Self {
+        Self {
+            x: like.constant(v.x),
+            y: like.constant(v.y),
+            z: like.constant(v.z),
+        }
+    }
+
     /// Replaces the vector of a lane.
     #[inline(always)]
     pub(crate) fn put(&mut self, lane: usize, v: Vec3) {
-        (self.x[lane], self.y[lane], self.z[lane]) = (v.x, v.y, v.z);
+        self.x.put(lane, v.x);
+        self.y.put(lane, v.y);
+        self.z.put(lane, v.z);
     }
 
     /// The vector of a lane.
     #[inline(always)]
     pub(crate) fn lane(&self, lane: usize) -> Vec3 {
-        Vec3::new(self.x[lane], self.y[lane], self.z[lane])
+        Vec3::new(self.x.lane(lane), self.y.lane(lane), self.z.lane(lane))
     }
 
     #[inline(always)]
@@ -75,7 +113,7 @@ impl<S: Simd> FourVectors<S> {
 
     /// The products of each number and each vector.
     #[inline(always)]
-    pub(crate) fn times(self, by: f64x4<S>) -> Self {
+    pub(crate) fn times(self, by: N) -> Self {
         Self {
             x: self.x * by,
             y: self.y * by,
@@ -94,7 +132,7 @@ impl<S: Simd> FourVectors<S> {
     }
 
     #[inline(always)]
-    pub(crate) fn over(self, by: f64x4<S>) -> Self {
+    pub(crate) fn over(self, by: N) -> Self {
         Self {
             x: self.x / by,
             y: self.y / by,
@@ -122,52 +160,33 @@ impl<S: Simd> FourVectors<S> {
 
     /// The coordinates along an axis, 0 to 2.
     #[inline(always)]
-    pub(crate) fn along(self, axis: usize) -> f64x4<S> {
+    pub(crate) fn along(self, axis: usize) -> N {
         [self.x, self.y, self.z][axis]
     }
 
     /// The sum of the coordinates.
     #[inline(always)]
-    pub(crate) fn sum(self) -> f64x4<S> {
+    pub(crate) fn sum(self) -> N {
         self.x + self.y + self.z
     }
 
     #[inline(always)]
-    pub(crate) fn dot(self, other: Self) -> f64x4<S> {
+    pub(crate) fn dot(self, other: Self) -> N {
         self.times_each(other).sum()
     }
 
-    /// As [`rtc_math::cross`].
     #[inline(always)]
-    pub(crate) fn cross(self, other: Self) -> Self {
-        Self {
-            x: difference_of_products(self.y, other.z, self.z, other.y),
-            y: difference_of_products(self.z, other.x, self.x, other.z),
-            z: difference_of_products(self.x, other.y, self.y, other.x),
-        }
-    }
-
-    #[inline(always)]
-    pub(crate) fn length(self) -> f64x4<S> {
+    pub(crate) fn length(self) -> N {
         self.dot(self).sqrt()
-    }
-
-    /// The unit vectors along them, and the lanes that have one.
-    #[inline(always)]
-    pub(crate) fn normalized(self) -> (mask64x4<S>, Self) {
-        let number = |x: f64| f64x4::splat(self.x.simd, x);
-        let inverse = number(1.0) / self.length();
-        let has = inverse.simd_gt(number(0.0)) & inverse.simd_lt(number(f64::INFINITY));
-        (has, self.times(inverse))
     }
 
     /// The vectors of `self` in the lanes of a mask, those of `other` elsewhere.
     #[inline(always)]
-    pub(crate) fn select(self, mask: mask64x4<S>, other: Self) -> Self {
+    pub(crate) fn select(self, mask: N::Mask, other: Self) -> Self {
         Self {
-            x: mask.select(self.x, other.x),
-            y: mask.select(self.y, other.y),
-            z: mask.select(self.z, other.z),
+            x: N::select(mask, self.x, other.x),
+            y: N::select(mask, self.y, other.y),
+            z: N::select(mask, self.z, other.z),
         }
     }
 }
@@ -207,12 +226,15 @@ fn split<S: Simd>(a: f64x4<S>) -> (f64x4<S>, f64x4<S>) {
     (high, a - high)
 }
 
-/// Four rays.
+/// A ray, or a ray in each lane.
 #[derive(Clone, Copy)]
-pub(crate) struct Ray4<S: Simd> {
-    pub(crate) origin: FourVectors<S>,
-    pub(crate) direction: FourVectors<S>,
+pub(crate) struct Rays<N> {
+    pub(crate) origin: Vectors<N>,
+    pub(crate) direction: Vectors<N>,
 }
+
+/// Four rays.
+pub(crate) type Ray4<S> = Rays<f64x4<S>>;
 
 impl<S: Simd> Ray4<S> {
     /// A ray in each lane.
@@ -223,7 +245,20 @@ impl<S: Simd> Ray4<S> {
             direction: FourVectors::each(simd, rays.map(|ray| ray.direction)),
         }
     }
+}
 
+impl Rays<f64> {
+    /// One ray.
+    #[inline(always)]
+    pub(crate) fn one(ray: &Ray) -> Self {
+        Self {
+            origin: Vectors::constant(0.0, ray.origin),
+            direction: Vectors::constant(0.0, ray.direction),
+        }
+    }
+}
+
+impl<N: Number> Rays<N> {
     /// The ray of a lane.
     #[inline(always)]
     pub(crate) fn lane(&self, lane: usize) -> Ray {

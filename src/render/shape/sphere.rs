@@ -1,4 +1,5 @@
-//! The sphere: one f64 test for nearly all rays, and double-double for those it can't decide.
+//! The sphere: one test for nearly all rays, alone or in lanes, and double-double for those it
+//! can't decide.
 //!
 //! The test is that of Haines, Günther, Akenine-Möller, "Precision improvements for ray/sphere
 //! intersection" (Ray Tracing Gems, 2019, ch. 7): the discriminant from the foot of the
@@ -6,6 +7,8 @@
 //! the sign or the root reported is in doubt, it is computed again.
 
 use crate::accel::bounds::BoundingSphere;
+use crate::lanes::number::Number;
+use crate::lanes::{Rays, Vectors};
 use crate::ray::{Interaction, Ray};
 use crate::shape::baseline::ray::BaselineRay;
 use crate::shape::baseline::real::{Real, Vector};
@@ -21,11 +24,11 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// A root is computed again when rounding may have been amplified by more than this.
-pub(super) const AMPLIFIED: f64 = 48.0;
+const AMPLIFIED: f64 = 48.0;
 
 /// From a squared distance this many times the squared radius the first root is measured from the
 /// foot.
-pub(super) const FAR: f64 = 4.0;
+const FAR: f64 = 4.0;
 
 /// A prepared sphere.
 #[derive(Clone, Copy, Debug)]
@@ -42,83 +45,78 @@ impl Sphere {
     #[must_use]
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<f64> {
-        let f = ray.origin - self.center;
-        let d = ray.direction;
-        let (f2, b) = (f.dot(f), -f.dot(d));
+        let t = self.roots(&Rays::one(ray), true);
+        (t < f64::INFINITY).then_some(t)
+    }
+
+    /// As [`Self::intersect`], where `active`; infinite for a miss.
+    #[inline(always)]
+    pub(super) fn roots<N: Number>(&self, rays: &Rays<N>, active: N::Mask) -> N {
+        let d = rays.direction;
+        let number = |x: f64| d.x.constant(x);
+        let (zero, none) = (number(0.0), number(f64::INFINITY));
+        let f = rays.origin.minus(Vectors::constant(d.x, self.center));
+        let (f2, b, a) = (f.dot(f), -f.dot(d), d.dot(d));
+        let r2 = number(self.radius * self.radius);
 
         // Leave spheres that lie beside the line or behind the origin: from outside, both roots
         // have the sign of b, and there is none where a·(f² − r²) > b². Rounding may move the two
-        // sides by 27 u·a·f².
-        let r2 = self.radius * self.radius;
-        let outside = f2 * (1.0 - 64.0 * U) - r2;
-        if outside > 0.0 && d.dot(d) * outside > b * b {
-            return None;
+        // sides by 27 u·a·f². Rays that lead off the sphere itself start outside by more than the
+        // 7 u by which rounding may move f² against r².
+        let outside = f2 * number(1.0 - 64.0 * U) - r2;
+        let is_beside = zero.less(outside) & (b * b).less(a * outside);
+        let is_behind = b.less(zero) & r2.less(f2 * number(1.0 - 8.0 * U));
+        let near = active & !(is_beside | is_behind);
+        if N::is_nowhere(near) {
+            return none;
         }
 
-        // Rays that lead off the sphere itself start outside by more than the 7 u by which rounding
-        // may move f² against r².
-        if b < 0.0 && f2 * (1.0 - 8.0 * U) > r2 {
-            return None;
-        }
-        self.first_root(ray, f, [f2, b])
-    }
-
-    /// As [`Self::intersect`], of a line that comes close; `f` leads from the centre to the origin,
-    /// with its square and its product with the direction, negated.
-    #[inline]
-    fn first_root(&self, ray: &Ray, f: Vec3, [f2, b]: [f64; 2]) -> Option<f64> {
-        let d = ray.direction;
-        let r2 = self.radius * self.radius;
-        let a = d.dot(d);
-
-        // Compute the discriminant from the foot of the perpendicular.
+        // Compute the discriminant, r² minus the squared distance of the centre from the line, from
+        // the foot of the perpendicular.
         let nearest = b / a;
-        let foot = f + d * nearest;
+        let foot = f.plus(d.times(nearest));
         let foot2 = foot.dot(foot);
         let discriminant = r2 - foot2;
-        let extent = f.abs().element_sum();
-        let error_bound =
-            16.0 * U * (r2 + foot2 + self.radius * extent + 16.0 * U * extent * extent);
-        if discriminant < -error_bound {
-            return None;
-        }
-        if discriminant <= error_bound {
-            return self.intersect_precisely(ray);
-        }
+        let extent = f.abs().sum();
+        let sizes = r2 + foot2 + number(self.radius) * extent;
+        let error_bound = number(16.0 * U) * (sizes + number(16.0 * U) * extent * extent);
+        let hits = near & !discriminant.less(-error_bound);
+        let is_tangent = hits & discriminant.less_or_equal(error_bound);
 
         // Compute the roots without cancellation (from afar, as a step back from the foot), and
-        // take the first positive root.
+        // take the first positive root: q = b ± sqrt(a D), t = c / q or q / a.
         let c = f2 - r2;
         let a_discriminant = a * discriminant;
         let root = a_discriminant.sqrt();
-        let q = if b >= 0.0 { b + root } else { b - root };
-        let from_afar = f2 > FAR * r2;
-        let (t, is_quotient) = match (from_afar, b >= 0.0) {
-            (true, _) => (nearest - (foot.dot(d) + root) / a, true),
-            (false, true) if c / q > 0.0 => (c / q, true),
-            (false, true) => (q / a, false),
-            (false, false) if q / a > 0.0 => (q / a, false),
-            (false, false) => (c / q, true),
-        };
-        if t.is_nan() || t <= 0.0 {
-            return None;
-        }
+        let is_ahead = zero.less_or_equal(b);
+        let q = N::select(is_ahead, b + root, b - root);
+        let from_afar = (number(FAR) * r2).less(f2);
+        let (first, second) = (c / q, q / a);
+        let takes_first = is_ahead & zero.less(first) | !(is_ahead | zero.less(second));
+        let by_step = nearest - (foot.dot(d) + root) / a;
+        let t = N::select(from_afar, by_step, N::select(takes_first, first, second));
+        let is_root = hits & zero.less(t);
 
         // Recompute the root in double-double if the error of c or of the discriminant is
         // amplified.
-        let cancelled = is_quotient && f2 + r2 > AMPLIFIED * c.abs();
-        let amplified = r2 * (r2 + f2) * a * a > AMPLIFIED * AMPLIFIED * a_discriminant * q * q;
-        if cancelled || amplified {
-            self.intersect_precisely(ray)
-        } else {
-            Some(t)
+        let is_cancelled = (from_afar | takes_first) & (number(AMPLIFIED) * c.abs()).less(f2 + r2);
+        let is_amplified =
+            (number(AMPLIFIED * AMPLIFIED) * a_discriminant * q * q).less(r2 * (r2 + f2) * a * a);
+        let mut found = N::select(is_root, t, none);
+        let doubted = is_tangent | (is_root & (is_cancelled | is_amplified));
+        if !N::is_nowhere(doubted) {
+            for lane in N::lanes(doubted) {
+                let precise = self.intersect_precisely(&rays.lane(lane));
+                found.put(lane, precise.unwrap_or(f64::INFINITY));
+            }
         }
+        found
     }
 
     /// As [`Self::intersect`] in double-double, with an error of at most 1 u.
     #[cold]
     #[inline(never)]
-    pub(super) fn intersect_precisely(&self, ray: &Ray) -> Option<f64> {
+    fn intersect_precisely(&self, ray: &Ray) -> Option<f64> {
         let f = [0, 1, 2].map(|k| DoubleDouble::difference(ray.origin[k], self.center[k]));
         let d = [0, 1, 2].map(|k| DoubleDouble::from(ray.direction[k]));
         let dot =
@@ -167,27 +165,36 @@ impl Sphere {
         })
     }
 
-    /// The point at `t`: along the ray or projected onto the sphere in its own frame, whichever
-    /// rounds less.
+    /// The point at `t`; see [`Self::points`].
     #[inline(always)]
     #[must_use]
     pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
-        let step = ray.direction * t;
-        let local = (ray.origin - self.center) + step;
-        let length = local.length();
-        let normal = if length > 0.0 {
-            local / length
-        } else {
-            ray.outward(local)
-        };
-        let along_ray = (ray.origin.abs() + step.abs()).element_sum();
-        let along_radius = self.center.abs().element_sum() + self.radius;
-        let point = if along_ray < along_radius {
-            ray.origin + step
-        } else {
-            self.center + normal * self.radius
-        };
+        let [point, normal] = self.points(&Rays::one(ray), t).map(|v| v.lane(0));
         Interaction::new(ray, point, normal, self.center, self.radius)
+    }
+
+    /// The points at `t`, where that is finite, and their normals: along the ray or projected onto
+    /// the sphere in its own frame, whichever rounds less.
+    #[inline(always)]
+    pub(super) fn points<N: Number>(&self, rays: &Rays<N>, t: N) -> [Vectors<N>; 2] {
+        let center = Vectors::constant(t, self.center);
+        let step = rays.direction.times(t);
+        let local = rays.origin.minus(center).plus(step);
+        let length = local.length();
+        let mut normal = local.over(length);
+        let is_hit = t.less(t.constant(f64::INFINITY));
+        let has_none = is_hit & !t.constant(0.0).less(length);
+        if !N::is_nowhere(has_none) {
+            for lane in N::lanes(has_none) {
+                normal.put(lane, rays.lane(lane).outward(local.lane(lane)));
+            }
+        }
+        let along_ray = rays.origin.abs().plus(step.abs()).sum();
+        let along_radius = t.constant(self.center.abs().element_sum() + self.radius);
+        let on_sphere = center.plus(normal.times(t.constant(self.radius)));
+        let on_ray = rays.origin.plus(step);
+        let point = on_ray.select(along_ray.less(along_radius), on_sphere);
+        [point, normal]
     }
 }
 

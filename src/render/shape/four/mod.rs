@@ -1,14 +1,13 @@
-//! Shapes that are intersected with four rays at once, and the sphere and surface interactions in
-//! four lanes: the steps of [`Sphere::intersect`], [`Sphere::interaction`] and [`Interaction`].
-//! Lanes that need double-double arithmetic use the scalar code.
+//! Shapes that are intersected with four rays at once, and surface interactions in four lanes: the
+//! steps of [`Interaction`].
 
 mod plane;
 mod torus;
 
 use super::plane::{Plane, PlaneAxis};
-use super::sphere::{AMPLIFIED, FAR, Sphere};
+use super::sphere::Sphere;
 use super::torus::Torus;
-use crate::lanes::{FourVectors, LANES, Ray4, lanes_of};
+use crate::lanes::{FourVectors, LANES, Ray4};
 use crate::ray::{Interaction, OFFSET};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
@@ -35,7 +34,7 @@ impl Shape4<'_> {
         active: mask64x4<S>,
     ) -> f64x4<S> {
         match self {
-            Self::Sphere(sphere) => intersect(simd, sphere, rays, active),
+            Self::Sphere(sphere) => sphere.roots(rays, active),
             Self::Torus(torus) => torus::intersect(simd, torus, rays, active),
             Self::Plane(plane, axis) => plane::intersect(simd, plane, axis, rays, active),
         }
@@ -50,7 +49,10 @@ impl Shape4<'_> {
         t: f64x4<S>,
     ) -> Interactions<S> {
         match self {
-            Self::Sphere(sphere) => interactions(simd, sphere, rays, t),
+            Self::Sphere(sphere) => {
+                let [point, normal] = sphere.points(rays, t);
+                Interactions::new(simd, rays, point, normal, sphere.center, sphere.radius)
+            }
             Self::Torus(torus) => torus::interactions(simd, torus, rays, t),
             Self::Plane(plane, axis) => plane::interactions(simd, plane, axis, rays, t),
         }
@@ -121,88 +123,6 @@ impl<S: Simd> Interactions<S> {
         let back = step.plus(self.back.times(self.offset));
         self.point.plus(back.select(returns, step))
     }
-}
-
-/// As [`Sphere::intersect`], for the lanes `active`; infinite for a miss.
-#[inline(always)]
-fn intersect<S: Simd>(simd: S, sphere: &Sphere, rays: &Ray4<S>, active: mask64x4<S>) -> f64x4<S> {
-    let number = |x: f64| f64x4::splat(simd, x);
-    let (zero, none) = (number(0.0), number(f64::INFINITY));
-    // Skip rays whose line misses the sphere or that leave it behind.
-    let f = rays.origin.minus(FourVectors::splat(simd, sphere.center));
-    let d = rays.direction;
-    let (f2, b) = (f.dot(f), -f.dot(d));
-    let r2 = number(sphere.radius * sphere.radius);
-    let a = d.dot(d);
-    let outside = f2 * number(1.0 - 64.0 * U) - r2;
-    let is_beside = outside.simd_gt(zero) & (a * outside).simd_gt(b * b);
-    let is_behind = b.simd_lt(zero) & (f2 * number(1.0 - 8.0 * U)).simd_gt(r2);
-    let near = active & !(is_beside | is_behind);
-    if near.all_false() {
-        return none;
-    }
-
-    // The discriminant is r² minus the squared distance of the centre from the line.
-    let nearest = b / a;
-    let foot = f.plus(d.times(nearest));
-    let foot2 = foot.dot(foot);
-    let discriminant = r2 - foot2;
-    let extent = f.abs().sum();
-    let sizes = r2 + foot2 + number(sphere.radius) * extent;
-    let error_bound = number(16.0 * U) * (sizes + number(16.0 * U) * extent * extent);
-    let hit_lanes = near & !discriminant.simd_lt(-error_bound);
-    let is_tangent = hit_lanes & discriminant.simd_le(error_bound);
-
-    // Take the root without cancellation: q = b ± sqrt(a D), t = c / q or q / a.
-    let c = f2 - r2;
-    let a_discriminant = a * discriminant;
-    let root = a_discriminant.sqrt();
-    let is_ahead = b.simd_ge(zero);
-    let q = is_ahead.select(b + root, b - root);
-    let from_afar = f2.simd_gt(number(FAR) * r2);
-    let (first, second) = (c / q, q / a);
-    let takes_first = is_ahead & first.simd_gt(zero) | !(is_ahead | second.simd_gt(zero));
-    let by_step = nearest - (foot.dot(d) + root) / a;
-    let t = from_afar.select(by_step, takes_first.select(first, second));
-    let is_root = hit_lanes & t.simd_gt(zero);
-    let is_cancelled = (from_afar | takes_first) & (f2 + r2).simd_gt(number(AMPLIFIED) * c.abs());
-    let is_amplified =
-        (r2 * (r2 + f2) * a * a).simd_gt(number(AMPLIFIED * AMPLIFIED) * a_discriminant * q * q);
-
-    // Recompute lanes with a large error bound in double-double arithmetic.
-    let mut found = is_root.select(t, none);
-    let doubted = is_tangent | (is_root & (is_cancelled | is_amplified));
-    if doubted.any_true() {
-        for lane in lanes_of(doubted.to_bitmask()) {
-            let precise = sphere.intersect_precisely(&rays.lane(lane));
-            found[lane] = precise.unwrap_or(f64::INFINITY);
-        }
-    }
-    found
-}
-
-/// As [`Sphere::interaction`].
-#[inline(always)]
-fn interactions<S: Simd>(simd: S, sphere: &Sphere, rays: &Ray4<S>, t: f64x4<S>) -> Interactions<S> {
-    let number = |x: f64| f64x4::splat(simd, x);
-    let center = FourVectors::splat(simd, sphere.center);
-    let step = rays.direction.times(t);
-    let local = rays.origin.minus(center).plus(step);
-    let length = local.length();
-    let mut normal = local.over(length);
-    let has_none = t.simd_lt(number(f64::INFINITY)) & !length.simd_gt(number(0.0));
-    if has_none.any_true() {
-        for lane in lanes_of(has_none.to_bitmask()) {
-            normal.put(lane, rays.lane(lane).outward(local.lane(lane)));
-        }
-    }
-    let along_ray = rays.origin.abs().plus(step.abs()).sum();
-    let along_radius = number(sphere.center.abs().element_sum() + sphere.radius);
-    let on_sphere = center.plus(normal.times(number(sphere.radius)));
-    let on_ray = rays.origin.plus(step);
-    let point = on_ray.select(along_ray.simd_lt(along_radius), on_sphere);
-
-    Interactions::new(simd, rays, point, normal, sphere.center, sphere.radius)
 }
 
 #[cfg(test)]
@@ -318,8 +238,9 @@ mod tests {
         for index in 0..20_000 {
             let each = rays(index);
             let four = Ray4::each(simd, &each);
-            let t = intersect(simd, &sphere, &four, all);
-            let at = interactions(simd, &sphere, &four, t);
+            let lanes = Shape4::Sphere(&sphere);
+            let t = lanes.intersect(simd, &four, all);
+            let at = lanes.interactions(simd, &four, t);
             let starts = at.start(simd, at.back);
             for (lane, ray) in each.iter().enumerate() {
                 let single = sphere.intersect(ray);
