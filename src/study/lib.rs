@@ -33,6 +33,11 @@
 //! [`Difference`] measures two pictures ([`metrics`], [`mod@flip`]); [`versus()`] compares two
 //! scenes with a statistical test ([`statistics`]).
 //!
+//! # Certified pixels
+//!
+//! [`certify`](mod@certify) evaluates the Whitted integrator over intervals, and says of each 8-bit
+//! value of a picture whether it is proven.
+//!
 //! # Guarantees
 //!
 //! Nothing here prints or reads files: clocks, thread pools and the functions that save come in
@@ -44,6 +49,7 @@ mod advice;
 mod batch;
 mod benchmark;
 mod budget;
+mod certify;
 mod denoised;
 mod difference;
 mod effects;
@@ -80,6 +86,7 @@ pub use ablation::Ablation;
 pub use advice::{advice, recommended};
 pub use batch::WorkBatch;
 pub use budget::CoarsePicture;
+pub use certify::{Doubts, Enclosure, EnclosureVector, PixelCertificate, certify};
 pub use difference::{Difference, heat_map};
 pub use effects::EffectCost;
 pub use flip::{PIXELS_PER_DEGREE, flip};
