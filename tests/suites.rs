@@ -16,6 +16,7 @@ mod book;
 mod bsdf;
 mod builder;
 mod camera;
+mod certify;
 mod cli;
 mod codec;
 mod codes;

@@ -2,6 +2,7 @@
 
 use super::args::{Cli, CompletionsArgs, ManArgs, ReaderArg, SchemaArgs, SchemaFormat};
 use super::audit::AuditReport;
+use super::certify::CertificateReport;
 use super::diff::DiffReport;
 use super::info::InfoReport;
 use super::versus::VersusReport;
@@ -28,6 +29,7 @@ pub(super) fn schema(args: &SchemaArgs) -> Result<(), Failure> {
         SchemaFormat::Cost => of_report::<CostReport<'_>>(),
         SchemaFormat::Diff => of_report::<DiffReport<'_>>(),
         SchemaFormat::Audit => of_report::<AuditReport>(),
+        SchemaFormat::Certify => of_report::<CertificateReport>(),
         SchemaFormat::Check => format!("{:#}\n", json_schema(settings()).to_value()),
         SchemaFormat::Page => course::page(),
         SchemaFormat::Limits => budget::page(),

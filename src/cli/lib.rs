@@ -7,8 +7,8 @@
 //! 1. `args` declares every command and option with clap, exactly as typed. `parse` has the parsers
 //!    of values.
 //! 2. Each command is a module with a function `run`: `check`, `compile`, `render`, `cost`, `diff`,
-//!    `audit`, `info`, `fmt`, `new`, `merge`, `batch` (for `rtc farm`), `preview`, `lsp`,
-//!    `explain`, and `describe` for schemas, completions and manual pages.
+//!    `audit`, `certify`, `info`, `fmt`, `new`, `merge`, `batch` (for `rtc farm`), `preview`,
+//!    `lsp`, `explain`, and `describe` for schemas, completions and manual pages.
 //! 3. `input` reads the scene of a command with the defaults of its `rtc.toml` (`project`), and
 //!    validates it. The work itself is done by `pipeline`, `study` and `render`.
 //! 4. `reporter` prints diagnostics in the requested format; `output` writes results atomically.
@@ -32,6 +32,7 @@
 mod args;
 mod audit;
 mod batch;
+mod certify;
 mod check;
 mod compile;
 mod cost;
@@ -164,6 +165,7 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Cost(args) => cost::run(&args),
         Command::Diff(args) => diff::run(&args),
         Command::Audit(args) => audit::run(&args),
+        Command::Certify(args) => certify::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Schema(args) => describe::schema(&args),

@@ -50,7 +50,7 @@ fn scene(name: &str) -> String {
 
 #[test]
 fn the_committed_schemas_are_current() {
-    for name in ["info", "cost", "diff", "audit", "check"] {
+    for name in ["info", "cost", "diff", "audit", "certify", "check"] {
         let current = rtc(&folder(), &["schema", name]).stdout;
         let path = format!("{}/schema/{name}.schema.json", env!("CARGO_MANIFEST_DIR"));
         if std::env::var_os("RTC_UPDATE").is_some() {
@@ -119,6 +119,15 @@ fn audit_agrees_with_its_schema() {
     );
     assert_eq!(code(&failed), 1);
     assert_valid("audit", &serde_json::from_slice(&failed.stdout).unwrap());
+}
+
+#[test]
+fn certify_agrees_with_its_schema() {
+    let folder = folder();
+    for scene in ["ball.json", "away.json"] {
+        let args = ["certify", scene, "-o", "one.png", "--format", "json"];
+        assert_valid("certify", &report(&folder, &args));
+    }
 }
 
 #[test]

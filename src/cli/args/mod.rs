@@ -1,6 +1,7 @@
 //! The arguments, exactly as typed; [`super`] resolves them.
 
 mod audit;
+mod certify;
 mod common;
 mod cost;
 mod diff;
@@ -14,6 +15,7 @@ mod stage;
 mod wanted;
 
 pub(super) use audit::AuditArgs;
+pub(super) use certify::CertifyArgs;
 pub(super) use common::{ColorArg, MessageFormat, ReadArgs, ReportFormatArgs, ReporterArgs};
 pub(super) use cost::{CostArgs, StudyFormat};
 pub(super) use diff::DiffArgs;
@@ -85,6 +87,8 @@ pub(super) enum Command {
     Diff(DiffArgs),
     /// Verify a picture against its metadata: render some tiles again
     Audit(Box<AuditArgs>),
+    /// Prove the pixels of a picture of the course by interval arithmetic
+    Certify(Box<CertifyArgs>),
     /// Show contents, size and required features of a scene
     Info(Box<InfoArgs>),
     /// Explain a code of a diagnostic, or list all codes
@@ -309,6 +313,8 @@ pub(super) enum SchemaFormat {
     Diff,
     /// The report of `rtc audit --format json`
     Audit,
+    /// The report of `rtc certify --format json`
+    Certify,
     /// A line of `rtc check --message-format json`
     Check,
     /// The scene format, as a Markdown page
