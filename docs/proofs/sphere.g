@@ -1,9 +1,9 @@
 # The sphere in double precision (Sphere::intersect): what its early tests leave out has no root above 0, and
 # the sign of a discriminant beyond its bound is right.
 #
-# from src/render/shape/sphere.rs: let outside = f2 * (1.0 - {OUTSIDE} * U) - r2;
-# from src/render/shape/sphere.rs: if b < 0.0 && f2 * (1.0 - {BEHIND} * U) > r2
-# from src/render/shape/sphere.rs: {BOUND} * U * (r2 + foot2 + self.radius * extent + {SECOND} * U * extent * extent);
+# from src/render/shape/sphere.rs: let outside = f2 * number(1.0 - {OUTSIDE} * U) - r2;
+# from src/render/shape/sphere.rs: r2.less(f2 * number(1.0 - {BEHIND} * U))
+# from src/render/shape/sphere.rs: number({BOUND} * U) * (sizes + number({SECOND} * U) * extent * extent);
 #
 # The direction is divided by its length, which all tests scale by. Sums of squares, of |f||d|, and others of one
 # sign: roundings of their terms are one rounding of the sum, their weighted mean.
