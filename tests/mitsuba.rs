@@ -61,7 +61,15 @@ fn a_definition_comes_before_the_default_and_one_without_effect_is_told() {
 
 /// Writes a scene with a sensor of 8 × 8 pixels in front of it, and renders it.
 fn picture(body: &str) -> Vec<[f64; 3]> {
+    picture_with(body, &[])
+}
+
+/// As [`picture`], with files beside the scene.
+fn picture_with(body: &str, files: &[(&str, &str)]) -> Vec<[f64; 3]> {
     let folder = tempfile::tempdir().unwrap();
+    for (name, text) in files {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
     let path = folder.path().join("scene.xml");
     let text = format!(
         r#"<scene version="3.0.0">
@@ -291,6 +299,89 @@ fn a_spot_falls_off_linearly_in_the_angle_and_is_written_so() {
             let factor = profile.factor(Vec3::new(angle.sin(), 0.0, -angle.cos()));
             assert!((factor - known).abs() < 1e-9, "{degrees}: {factor}");
         }
+    }
+}
+
+#[test]
+fn a_projector_shows_its_texture_upright_and_a_spot_within_its_cone() {
+    // A projector where the sensor is; the diagonal of its four squares has the first colour.
+    let light = |kind: &str, texture: &str, more: &str| {
+        format!(
+            r#"<emitter type="{kind}">
+                <transform name="to_world">
+                    <lookat origin="0, 0, 10" target="0, 0, 0" up="0, 1, 0"/>
+                </transform>
+                <texture name="{texture}" type="checkerboard">
+                    <rgb name="color0" value="1"/><rgb name="color1" value="0.25"/>
+                </texture>
+                {more}
+            </emitter>
+            <shape type="rectangle">
+                <transform name="to_world"><scale value="50"/></transform>
+                <bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf>
+            </shape>"#
+        )
+    };
+    // The irradiance of a projector at the distance 1 is π times its own, as Mitsuba measures it.
+    let projector = light(
+        "projector",
+        "irradiance",
+        r#"<float name="fov" value="20"/>"#,
+    );
+    let spot = r#"<rgb name="intensity" value="3.141592653589793"/>
+        <float name="cutoff_angle" value="20"/><float name="beam_width" value="19"/>"#;
+    let (first, second) = (0.5 / 100.0, 0.25 * 0.5 / 100.0);
+    // The texture of a spot is turned by half a turn, which does not change the squares.
+    for body in [projector, light("spot", "texture", spot)] {
+        let pixels = picture(&body);
+        let corners = [(0, first), (7, second), (56, second), (63, first)];
+        for (pixel, known) in corners {
+            let [value, ..] = pixels[pixel];
+            assert!(
+                (value / known - 1.0).abs() < 0.02,
+                "{pixel}: {value}, not {known}"
+            );
+        }
+    }
+    // Beyond its field of view it is dark.
+    let narrow = light(
+        "projector",
+        "irradiance",
+        r#"<float name="fov" value="5"/>"#,
+    );
+    assert_eq!(picture(&narrow)[0], [0.0; 3]);
+}
+
+#[test]
+fn a_texture_shows_the_colours_of_vertices_or_of_faces() {
+    let ply = "ply\nformat ascii 1.0\nelement vertex 4\n\
+        property float x\nproperty float y\nproperty float z\n\
+        property float color_0\nproperty float color_1\nproperty float color_2\n\
+        element face 1\nproperty list uchar int vertex_indices\n\
+        property float color_0\nproperty float color_1\nproperty float color_2\nend_header\n\
+        -9 -9 0 0.2 0.5 0.8\n9 -9 0 0.2 0.5 0.8\n9 9 0 0.2 0.5 0.8\n-9 9 0 0.2 0.5 0.8\n\
+        4 0 1 2 3 0.7 0.4 0.1\n";
+    let body = |reflectance: &str| {
+        format!(
+            r#"<emitter type="constant"/>
+            <shape type="ply">
+                <string name="filename" value="quad.ply"/>
+                <bsdf type="diffuse">{reflectance}</bsdf>
+            </shape>"#
+        )
+    };
+    let attribute = |name| {
+        let name = format!(r#"<string name="name" value="{name}"/>"#);
+        body(&format!(
+            r#"<texture type="mesh_attribute" name="reflectance">{name}</texture>"#
+        ))
+    };
+    for (scene, known) in [
+        (attribute("vertex_color"), [0.2, 0.5, 0.8]),
+        (attribute("face_color"), [0.7, 0.4, 0.1]),
+        (body(r#"<rgb name="reflectance" value="0.5"/>"#), [0.5; 3]),
+    ] {
+        assert_all_near(&picture_with(&scene, &[("quad.ply", ply)]), known, 1e-6);
     }
 }
 

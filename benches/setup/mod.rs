@@ -89,6 +89,7 @@ fn put_up(scene: &mut Scene, setup: &Value, samples: u32) {
         Light::Punctual(Punctual {
             emitter,
             intensity: triple(&sun["irradiance"]),
+            projected: None,
         })
     };
     scene.lights = lights["suns"].as_array().unwrap().iter().map(sun).collect();

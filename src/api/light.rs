@@ -147,6 +147,6 @@ impl Light {
     }
 
     fn physical(emitter: PunctualKind, intensity: [f64; 3]) -> Self {
-        Self(ir::Light::Punctual(Punctual { emitter, intensity }))
+        Self(ir::Light::Punctual(Punctual::new(emitter, intensity)))
     }
 }

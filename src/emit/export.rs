@@ -3,8 +3,8 @@
 use super::reporter::ExportReporter;
 use rtc_diag::{clip, codes};
 use rtc_ir::{
-    EntityField, EntityKind, Environment, Image, Material, PunctualKind, Scene, Settings, Shape,
-    ShapeKind, Surface, ValuePath,
+    EntityField, EntityKind, Environment, Image, Material, Punctual, PunctualKind, Scene, Settings,
+    Shape, ShapeKind, Surface, ValuePath,
 };
 use rtc_math::{Vec3, shortest};
 use rtc_source::{Budget, Resource};
@@ -19,6 +19,10 @@ pub struct ExportedScene {
     /// The sidecar files, by their paths relative to the scene file, with `/`.
     pub files: BTreeMap<String, Vec<u8>>,
 }
+
+/// The message for a light that would project a texture.
+pub(super) const NOT_PROJECTED: &str =
+    "the texture that the light projects is left out: it shines as without it";
 
 impl ExportReporter<'_> {
     /// Reports a feature that the other renderer does not support exactly.
@@ -57,13 +61,15 @@ impl ExportReporter<'_> {
         shines.then_some(())
     }
 
-    /// Reports a light that another renderer has without its range or its IES profile.
-    pub(super) fn simplified_light(
-        &mut self,
-        emitter: &PunctualKind,
-        renderer: &str,
-        path: ValuePath,
-    ) {
+    /// Reports a light that another renderer has without its range, its IES profile or the texture
+    /// that it projects.
+    pub(super) fn simplified_light(&mut self, light: &Punctual, renderer: &str, path: ValuePath) {
+        let Punctual {
+            emitter, projected, ..
+        } = light;
+        if projected.is_some() {
+            self.unsupported(NOT_PROJECTED, path);
+        }
         if emitter.range().is_some() {
             let message =
                 format!("{renderer}'s lights have no range: this one shines beyond its own");

@@ -9,8 +9,17 @@ pub(super) enum PictureFormat {
     Jpeg,
     WebP,
     Ktx2,
+    Raster(RasterFormat),
     /// One that is read elsewhere or not at all, by its name.
     Other(&'static str),
+}
+
+/// A format without compression, or with runs of equal pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum RasterFormat {
+    Bmp,
+    Tga,
+    Pnm,
 }
 
 impl PictureFormat {
@@ -19,7 +28,8 @@ impl PictureFormat {
         let mut known = MAGICS.iter();
         let plain = known.find(|(magic, _)| head.starts_with(magic));
         let plain = plain.map(|(_, format)| *format).or_else(|| boxed(head));
-        plain.or_else(|| head.starts_with(MAGIC).then_some(Self::Ktx2))
+        let plain = plain.or_else(|| head.starts_with(MAGIC).then_some(Self::Ktx2));
+        plain.or_else(|| is_tga(head).then_some(Self::Raster(RasterFormat::Tga)))
     }
 
     /// Its name: the media type without `image/`.
@@ -29,6 +39,9 @@ impl PictureFormat {
             Self::Jpeg => "jpeg",
             Self::WebP => "webp",
             Self::Ktx2 => "ktx2",
+            Self::Raster(RasterFormat::Bmp) => "bmp",
+            Self::Raster(RasterFormat::Tga) => "x-targa",
+            Self::Raster(RasterFormat::Pnm) => "x-portable-anymap",
             Self::Other(name) => name,
         }
     }
@@ -43,7 +56,7 @@ const MAGICS: [(&[u8], PictureFormat); 20] = [
     (b"MM\0*", PictureFormat::Other("tiff")),
     (b"II*\0", PictureFormat::Other("tiff")),
     (b"DDS ", PictureFormat::Other("vnd-ms.dds")),
-    (b"BM", PictureFormat::Other("bmp")),
+    (b"BM", PictureFormat::Raster(RasterFormat::Bmp)),
     (b"\0\0\x01\0", PictureFormat::Other("x-icon")),
     (b"#?RADIANCE", PictureFormat::Other("vnd.radiance")),
     (b"\x76\x2f\x31\x01", PictureFormat::Other("x-exr")),
@@ -61,7 +74,45 @@ const MAGICS: [(&[u8], PictureFormat); 20] = [
     ),
 ];
 
-const PNM: PictureFormat = PictureFormat::Other("x-portable-anymap");
+const PNM: PictureFormat = PictureFormat::Raster(RasterFormat::Pnm);
+
+/// Whether a file begins with a header of TGA, which has no magic number: the kinds of its colour
+/// map and of its pixels, no colour map where there is none, a size, and bits of a pixel
+/// (Truevision TGA File Format Specification 2.0).
+fn is_tga(head: &[u8]) -> bool {
+    let Some(
+        &[
+            _,
+            map,
+            kind,
+            m0,
+            m1,
+            m2,
+            m3,
+            m4,
+            _,
+            _,
+            _,
+            _,
+            w0,
+            w1,
+            h0,
+            h1,
+            depth,
+            flags,
+        ],
+    ) = head.first_chunk::<18>()
+    else {
+        return false;
+    };
+    let has_map = match (map, kind) {
+        (0, 2 | 3 | 10 | 11) => [m0, m1, m2, m3, m4] == [0; 5],
+        (1, 1 | 9) => matches!(m4, 15 | 16 | 24 | 32),
+        _ => false,
+    };
+    let has_size = [w0, w1] != [0; 2] && [h0, h1] != [0; 2];
+    has_map && has_size && matches!(depth, 8 | 15 | 16 | 24 | 32) && flags & 0xc0 == 0
+}
 
 /// The formats that begin with a length.
 fn boxed(head: &[u8]) -> Option<PictureFormat> {

@@ -52,7 +52,9 @@ pub use csg::{Csg, Solid};
 pub use display::Display;
 pub use environment::Environment;
 pub use image::{Image, ImageId, Pixels};
-pub use light::{EmitterSpelling, Light, Photometry, PointLight, Punctual, PunctualKind};
+pub use light::{
+    EmitterSpelling, Light, Photometry, PointLight, ProjectedTexture, Punctual, PunctualKind,
+};
 pub use material::{Bump, Material, MaterialId, Phong};
 pub use mesh::{Mesh, MeshId};
 pub use origin::{EntityField, EntityKind, SourceSpans, ValuePath};

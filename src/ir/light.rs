@@ -1,5 +1,6 @@
 //! Light sources.
 
+use crate::Map;
 use arbitrary::Arbitrary;
 use rtc_math::{Vec3, unit};
 use rtc_profile::{IesAngles, LightProfile};
@@ -48,6 +49,38 @@ pub struct Punctual {
     /// factor of a lamp's measured intensity, or else the radiant intensity (power per steradian).
     #[schemars(inner(range(min = 0.0)))]
     pub intensity: [f64; 3],
+    /// The texture that it projects; not of a sun.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub projected: Option<Box<ProjectedTexture>>,
+}
+
+impl Punctual {
+    /// A light that projects no texture.
+    #[must_use]
+    pub fn new(emitter: PunctualKind, intensity: [f64; 3]) -> Self {
+        Self {
+            emitter,
+            intensity,
+            projected: None,
+        }
+    }
+}
+
+/// The texture that a light projects, as a slide projector does: it multiplies the intensity by
+/// direction. Outside of the unit square of texture coordinates it is black.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub struct ProjectedTexture {
+    /// The texture; its set of texture coordinates is the first one.
+    pub map: Map,
+    /// The rows that map a direction from the light to (u·w, v·w, w); where w is not above 0, it is
+    /// black.
+    pub uv_from_direction: [[f64; 3]; 3],
+    /// Whether its colours are the irradiance on a plane across the axis at the distance 1, which
+    /// is the third row: then the intensity has the factor 1 / cos³ of the angle from the axis.
+    /// Otherwise they are factors of the intensity.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_irradiance: bool,
 }
 
 /// The kind, position and direction of a light without extent.

@@ -287,10 +287,7 @@ impl SunLight {
             direction,
             irradiance,
         } = *self;
-        Light::Punctual(Punctual {
-            emitter: PunctualKind::Sun { direction },
-            intensity: irradiance,
-        })
+        Light::Punctual(Punctual::new(PunctualKind::Sun { direction }, irradiance))
     }
 }
 

@@ -39,7 +39,9 @@ pub use camera::{Camera, Lens, Projection};
 pub use check::LARGEST;
 pub use environment::Environment;
 pub use image::Image;
-pub use light::{CourseLight, DirectionalLight, Falloff, Light, PointLight, Punctual};
+pub use light::{
+    CourseLight, DirectionalLight, Falloff, Light, PointLight, ProjectedTexture, Punctual,
+};
 pub use material::Material;
 pub use mesh::{MAX_MESH_TRIANGLES, Mesh};
 pub use phong::{Bump, Maps, Phong};
@@ -211,7 +213,6 @@ pub fn validate(
     let valid_camera = camera::camera(camera, settings.stereo, &mut check);
     let valid_settings = settings::settings(settings, &mut check);
     settings::display(display, &mut check);
-    let valid_lights = check.all(lights, light::light);
     let valid_environment =
         environment::environment(environment.as_ref(), images.len(), &mut check);
     let valid_images = check.all(images, image::image);
@@ -224,6 +225,9 @@ pub fn validate(
         meshes: meshes.len(),
         materials: materials.len(),
     };
+    let valid_lights = check.all(lights, |light, index, check| {
+        light::light(light, index, &counts, check)
+    });
     let valid_materials = check.all(materials, |material, index, check| {
         material::material(material, index, &counts, check)
     });

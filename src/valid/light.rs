@@ -1,6 +1,8 @@
 //! Validates the lights.
 
+use super::EntityCounts;
 use super::check::Checker;
+use super::texture::{self, Map};
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
 use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
@@ -56,6 +58,20 @@ pub struct PointLight {
     pub profile: LightProfile,
     /// The falloff.
     pub falloff: Falloff,
+    /// The texture that it projects.
+    pub projected: Option<Box<ProjectedTexture>>,
+}
+
+/// The texture that a light projects; black outside of its unit square.
+#[derive(Clone, Debug)]
+pub struct ProjectedTexture {
+    /// The texture.
+    pub map: Map,
+    /// The rows that map a direction from the light to (u·w, v·w, w), with w above 0.
+    pub uv_from_direction: [Vec3; 3],
+    /// The unit vector of the axis, if the colours are the irradiance on a plane across it at the
+    /// distance 1, and not factors of the intensity.
+    pub irradiance_axis: Option<Vec3>,
 }
 
 /// The falloff of the irradiance with the distance.
@@ -69,10 +85,15 @@ pub enum Falloff {
     Ranged(Positive),
 }
 
-pub(super) fn light(light: &ir::Light, index: usize, check: &mut Checker<'_>) -> Option<Light> {
+pub(super) fn light(
+    light: &ir::Light,
+    index: usize,
+    counts: &EntityCounts,
+    check: &mut Checker<'_>,
+) -> Option<Light> {
     match light {
         ir::Light::Point(light) => course(light, index, check).map(Light::Course),
-        ir::Light::Punctual(light) => punctual(light, index, check).map(Light::Punctual),
+        ir::Light::Punctual(light) => punctual(light, index, counts, check).map(Light::Punctual),
     }
 }
 
@@ -93,11 +114,23 @@ fn course(light: &ir::PointLight, index: usize, check: &mut Checker<'_>) -> Opti
     })
 }
 
-fn punctual(light: &ir::Punctual, index: usize, check: &mut Checker<'_>) -> Option<Punctual> {
+fn punctual(
+    light: &ir::Punctual,
+    index: usize,
+    counts: &EntityCounts,
+    check: &mut Checker<'_>,
+) -> Option<Punctual> {
     let at = ValuePath::new(EntityKind::Light, index, EntityField::Whole);
-    let ir::Punctual { emitter, intensity } = light;
+    let ir::Punctual {
+        emitter,
+        intensity,
+        projected,
+    } = light;
     let of_intensity = ValuePath::new(EntityKind::Light, index, EntityField::Intensity);
     let intensity = check.color(*intensity, of_intensity);
+    let projected = check.optional(projected.as_deref(), |check, projected| {
+        projected_texture(projected, counts, at, check)
+    });
     let located = emitter.position().map(|position| {
         (
             check.vector(position, at),
@@ -125,7 +158,33 @@ fn punctual(light: &ir::Punctual, index: usize, check: &mut Checker<'_>) -> Opti
         intensity: intensity?,
         profile: profile?,
         falloff: falloff?,
+        projected: projected?.map(Box::new),
     }))
+}
+
+fn projected_texture(
+    projected: &ir::ProjectedTexture,
+    counts: &EntityCounts,
+    at: ValuePath,
+    check: &mut Checker<'_>,
+) -> Option<ProjectedTexture> {
+    let ir::ProjectedTexture {
+        map,
+        uv_from_direction,
+        is_irradiance,
+    } = projected;
+    let map = texture::map(map, counts, at, check);
+    let [u, v, w] = uv_from_direction.map(|row| check.vector(row, at));
+    let axis = w.and_then(unit);
+    if w.is_some() && axis.is_none() {
+        let message = "the texture of a light is projected in no direction";
+        check.report(at, "", Diagnostic::new(&codes::BAD_LIGHT, message));
+    }
+    Some(ProjectedTexture {
+        map: map?,
+        uv_from_direction: [u?, v?, w?],
+        irradiance_axis: Some(axis?).filter(|_| *is_irradiance),
+    })
 }
 
 fn falloff(range: Option<f64>, at: ValuePath, check: &mut Checker<'_>) -> Option<Falloff> {

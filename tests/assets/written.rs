@@ -102,6 +102,7 @@ fn lights() -> Vec<Light> {
         Light::Punctual(Punctual {
             emitter,
             intensity: [0.1, 100.0, 1.0 / 3.0],
+            projected: None,
         })
     };
     emitters.into_iter().map(punctual).collect()

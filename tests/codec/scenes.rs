@@ -259,8 +259,13 @@ fn light() -> impl Strategy<Value = Light> {
         },
     );
     let emitter = prop_oneof![emitter, lamp];
-    let punctual = (emitter, triple())
-        .prop_map(|(emitter, intensity)| Light::Punctual(Punctual { emitter, intensity }));
+    let punctual = (emitter, triple()).prop_map(|(emitter, intensity)| {
+        Light::Punctual(Punctual {
+            emitter,
+            intensity,
+            projected: None,
+        })
+    });
     prop_oneof![point, punctual]
 }
 

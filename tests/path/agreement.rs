@@ -130,6 +130,7 @@ fn one_thread_and_several_give_the_same_bytes() {
                 direction: [1.0, 2.0, 3.0],
             },
             intensity: [1.0; 3],
+            projected: None,
         },
     );
     let proof = validate(&scene);

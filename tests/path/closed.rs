@@ -20,6 +20,7 @@ fn under(emitter: PunctualKind) -> Vec3 {
         Punctual {
             emitter,
             intensity: [3.0; 3],
+            projected: None,
         },
     );
     middle(&render(&scene))

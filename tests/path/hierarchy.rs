@@ -155,6 +155,7 @@ fn veils_of_meshes_let_through_what_veils_of_triangles_do() {
             Punctual {
                 emitter,
                 intensity: [2.0; 3],
+                projected: None,
             },
         );
         add_square(&mut scene, 0.0, 1.0, lambert([0.8; 3]));
@@ -213,6 +214,7 @@ fn below_veils(count: u32) -> Scene {
         Punctual {
             emitter,
             intensity: [2.0; 3],
+            projected: None,
         },
     );
     add_square(&mut scene, 0.0, 2.0, lambert([0.8; 3]));

@@ -26,6 +26,7 @@ fn in_the_sun(direction: [f64; 3]) -> Scene {
     let sun = Punctual {
         emitter: PunctualKind::Sun { direction },
         intensity: [3.0; 3],
+        projected: None,
     };
     add_light(&mut scene, sun);
     scene
@@ -64,6 +65,7 @@ fn a_translucent_ball_alone_hides_the_light_behind_it() {
             direction: [0.0, 0.0, z],
         },
         intensity: [3.0; 3],
+        projected: None,
     };
     add_light(&mut scene, sun(-1.0));
     assert_eq!(middle(&render(&scene)), Vec3::ZERO);

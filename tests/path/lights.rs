@@ -29,6 +29,7 @@ fn room(group: Option<usize>) -> Scene {
                         range: None,
                     },
                     intensity: [0.02 * strength, 0.03, 0.01 * strength],
+                    projected: None,
                 },
             );
         }

@@ -99,6 +99,7 @@ fn its_shadow_stays() {
                     direction: [0.0, 0.0, 1.0],
                 },
                 intensity: [1.0; 3],
+                projected: None,
             },
         );
         if back {
@@ -268,7 +269,14 @@ fn add_lights(scene: &mut Scene) {
     };
     for emitter in suns.into_iter().chain([point]) {
         let intensity = [5.0; 3];
-        add_light(scene, Punctual { emitter, intensity });
+        add_light(
+            scene,
+            Punctual {
+                emitter,
+                intensity,
+                projected: None,
+            },
+        );
     }
 }
 

@@ -81,6 +81,7 @@ fn veils_dim_shadows() {
                 direction: [0.0, 3.0, 1.0],
             },
             intensity: [1.0; 3],
+            projected: None,
         },
     );
     let lit = middle(&render(&scene));
@@ -198,6 +199,7 @@ fn leaning(axis: usize, sun: [f64; 3], x: [f64; 3], tangents: bool) -> f64 {
         Punctual {
             emitter: PunctualKind::Sun { direction: sun },
             intensity: [std::f64::consts::PI; 3],
+            projected: None,
         },
     );
     middle(&render(&scene)).x
@@ -251,6 +253,7 @@ fn normals_made_against_the_winding_are_turned_round() {
                     direction: [0.8, 0.0, 0.6],
                 },
                 intensity: [1.0; 3],
+                projected: None,
             },
         );
         render(&scene).image

@@ -19,7 +19,11 @@ fn floor(emitter: PunctualKind) -> Scene {
     scene.camera.size = [1, 1];
     scene.settings.max_depth = 1;
     let intensity = [3.0, 2.0, 4.0];
-    scene.lights = vec![Light::Punctual(Punctual { emitter, intensity })];
+    scene.lights = vec![Light::Punctual(Punctual {
+        emitter,
+        intensity,
+        projected: None,
+    })];
     scene
 }
 

@@ -114,6 +114,7 @@ fn rich() -> Scene {
             direction: [0.0, 0.0, 1.0],
         },
         intensity: [0.0; 3],
+        projected: None,
     }));
     scene
 }

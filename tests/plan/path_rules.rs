@@ -52,6 +52,7 @@ fn sun(direction: Vec3) -> ir::Light {
     ir::Light::Punctual(Punctual {
         emitter: PunctualKind::Sun { direction },
         intensity: [1.0; 3],
+        projected: None,
     })
 }
 
@@ -63,6 +64,7 @@ pub(super) fn light_source(position: [f64; 3]) -> ir::Light {
             range: None,
         },
         intensity: [40.0; 3],
+        projected: None,
     })
 }
 

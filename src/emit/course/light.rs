@@ -18,7 +18,14 @@ impl<'s> SceneWriter<'s> {
                     self.number("radius", *radius, 4);
                 }
             }
-            Light::Punctual(Punctual { emitter, intensity }) => {
+            Light::Punctual(Punctual {
+                emitter,
+                intensity,
+                projected,
+            }) => {
+                if projected.is_some() {
+                    return Err("a light projects a texture, and this format has none".to_owned());
+                }
                 let spelling = emitter.spelling();
                 self.line(2, &format!("- type: {}", spelling.kind));
                 for (key, value) in &spelling.triples {

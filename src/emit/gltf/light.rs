@@ -3,6 +3,7 @@
 use super::document::{self, GltfIndex, Spot};
 use super::material::strength;
 use super::writer::{GltfWriter, extras, lit};
+use crate::export::NOT_PROJECTED;
 use rtc_diag::codes;
 use rtc_ir::{
     EntityField, EntityKind, Light, Photometry, PointLight, Punctual, PunctualKind, ValuePath,
@@ -68,7 +69,15 @@ impl GltfWriter<'_> {
     }
 
     fn punctual(&mut self, light: &Punctual, middle: Vec3, path: ValuePath) -> GltfLight {
-        let Punctual { emitter, intensity } = light;
+        let Punctual {
+            emitter,
+            intensity,
+            projected,
+        } = light;
+        if projected.is_some() {
+            self.reporter
+                .report(&codes::GLTF_APPROXIMATED, NOT_PROJECTED, path);
+        }
         // glTF has directional, point and spot lights that shine along -z.
         let light = |kind, columns| GltfLight {
             kind,

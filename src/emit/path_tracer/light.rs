@@ -62,7 +62,7 @@ pub(crate) fn lights(
         let light = match light {
             Light::Point(light) => with_falloff(scene, light, reporter, path),
             Light::Punctual(light) => photometric_spot(light).unwrap_or_else(|| {
-                reporter.simplified_light(&light.emitter, renderer, path);
+                reporter.simplified_light(light, renderer, path);
                 punctual(light)
             }),
         };
@@ -89,7 +89,10 @@ fn with_falloff(
     }
 }
 
-fn punctual(Punctual { emitter, intensity }: &Punctual) -> PathTracerLight {
+fn punctual(light: &Punctual) -> PathTracerLight {
+    let Punctual {
+        emitter, intensity, ..
+    } = light;
     let direction_of = |direction: &[f64; 3]| unit(Vec3::from_array(*direction));
     match emitter {
         PunctualKind::Sun { direction } => PathTracerLight::Distant {

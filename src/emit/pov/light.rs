@@ -47,9 +47,11 @@ impl PovWriter<'_> {
 
     /// A light in physical units. POV-Ray's colours are those that a white surface reflects.
     fn punctual(&mut self, light: &Punctual, path: ValuePath) {
-        let Punctual { emitter, intensity } = light;
+        let Punctual {
+            emitter, intensity, ..
+        } = light;
         let around = around(self.scene);
-        self.reporter.simplified_light(emitter, "POV-Ray", path);
+        self.reporter.simplified_light(light, "POV-Ray", path);
         let near = NEAR * around.radius;
         // POV-Ray fades by 2 / (1 + (distance / near)²).
         let color = |factor: f64| {

@@ -149,7 +149,7 @@ impl Lowering {
             (FieldResult::Read(position), _, direction, .., FieldResult::Read(intensity)) => {
                 let (emitter, kind) = point_or_spot(light, position.value.0, direction)?;
                 let intensity = intensity.value.0;
-                let light = ir::Punctual { emitter, intensity };
+                let light = ir::Punctual::new(emitter, intensity);
                 Some((ir::Light::Punctual(light), kind))
             }
             (FieldResult::Read(position), FieldResult::Read(color), ..) => {
@@ -179,10 +179,7 @@ impl Lowering {
                 let emitter = ir::PunctualKind::Sun {
                     direction: direction.value.0,
                 };
-                let sun = ir::Punctual {
-                    emitter,
-                    intensity: irradiance.value.0,
-                };
+                let sun = ir::Punctual::new(emitter, irradiance.value.0);
                 Some((ir::Light::Punctual(sun), LightKind::Sun))
             }
             _ => None,
@@ -210,7 +207,7 @@ impl Lowering {
             horizontal: light.horizontal.value.0,
             photometry: Box::new(Photometry::dark(file.value.0.replace('\\', "/"))),
         };
-        let photometric_light = ir::Punctual { emitter, intensity };
+        let photometric_light = ir::Punctual::new(emitter, intensity);
         Some((ir::Light::Punctual(photometric_light), LightKind::Ies))
     }
 }

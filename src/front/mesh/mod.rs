@@ -23,6 +23,7 @@ pub mod mtl;
 mod obj;
 mod off;
 mod ply;
+pub(crate) use ply::PlyColors;
 mod polygon;
 pub(crate) use polygon::EarClipper;
 mod polygons;
@@ -155,6 +156,20 @@ pub fn is_mesh(head: &[u8]) -> bool {
     true
 }
 
+/// The mesh of a PLY with the colours of its vertices or of its faces.
+///
+/// # Errors
+/// If it has errors, or exceeds the budget.
+pub(crate) fn parse_colored_ply(
+    bytes: &[u8],
+    colors: PlyColors,
+    budget: &Budget,
+) -> Result<Mesh, TextParseError> {
+    let mut parsed = ply::parse(bytes, colors, budget)?;
+    charge(&mut parsed.mesh, budget)?;
+    Ok(parsed.mesh)
+}
+
 /// Reads a mesh file of any format.
 ///
 /// # Errors
@@ -163,7 +178,7 @@ pub fn parse(bytes: &[u8], budget: &Budget) -> Result<ParsedMesh, TextParseError
     let mut words = Vec::new();
     first_lines(bytes).next(&mut words);
     let mut parsed = match words.first() {
-        _ if ply::is_head(bytes) => ply::parse(bytes, budget)?,
+        _ if ply::is_head(bytes) => ply::parse(bytes, ply::PlyColors::Reported, budget)?,
         _ if stl::is_head(bytes) => stl::parse(bytes, budget)?,
         Some(head) if off::is_head(head) => off::parse(bytes, budget)?,
         _ if xyz::is_head(bytes) => xyz::parse(bytes, budget)?,

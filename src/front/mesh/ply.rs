@@ -13,6 +13,7 @@ use super::{ParsedMesh, TextParseError};
 use crate::words::{Word, WordError};
 use body::PlyBody;
 use head::{PlyElement, PlyProperty};
+use rtc_math::VertexColumn;
 use rtc_source::{Budget, LimitExceeded, Resource};
 
 /// True if a file that begins so is a PLY.
@@ -20,9 +21,24 @@ pub(super) fn is_head(head: &[u8]) -> bool {
     head.starts_with(b"ply\n") || head.starts_with(b"ply\r")
 }
 
+/// Which colours a mesh has where both its vertices and its faces have some.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PlyColors {
+    /// Those of the vertices; that the others are left out is reported.
+    Reported,
+    /// Those of the vertices alone.
+    Vertices,
+    /// Those of the faces alone.
+    Faces,
+}
+
 /// Reads a PLY. Of vertices it keeps positions, normals, texture coordinates, tangents and colours,
 /// of faces and strips their corners, of faces colours and texture coordinates, and edges.
-pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<ParsedMesh, TextParseError> {
+pub(super) fn parse(
+    bytes: &[u8],
+    colors: PlyColors,
+    budget: &Budget,
+) -> Result<ParsedMesh, TextParseError> {
     let one = |fault| TextParseError::Faults(vec![fault]);
     let mut head = head::read(bytes).map_err(one)?;
     let mut reader = PlyReader {
@@ -36,7 +52,7 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<ParsedMesh, TextPar
     for element in &head.elements {
         reader.element(element, budget)?;
     }
-    let mut parsed = reader.finish(budget)?;
+    let mut parsed = reader.finish(colors, budget)?;
     if let Some((texture, count)) = head.textures.take() {
         parsed.material_use.face(0);
         parsed.texture = Some(texture);
@@ -90,7 +106,7 @@ impl<'a> PlyReader<'a> {
         Ok(())
     }
 
-    fn finish(self, budget: &Budget) -> Result<ParsedMesh, LimitExceeded> {
+    fn finish(self, colors: PlyColors, budget: &Budget) -> Result<ParsedMesh, LimitExceeded> {
         let Self {
             mut parsed,
             mut polygons,
@@ -105,6 +121,11 @@ impl<'a> PlyReader<'a> {
         }
         if polygons.uvs.len() < polygons.corners() {
             polygons.uvs.clear();
+        }
+        match colors {
+            PlyColors::Reported => {}
+            PlyColors::Vertices => polygons.colors.clear(),
+            PlyColors::Faces => parsed.mesh.colors = VertexColumn::default(),
         }
         if !polygons.colors.is_empty() && !parsed.mesh.colors.is_empty() {
             polygons.colors.clear();
@@ -144,7 +165,7 @@ impl<'a> PlyReader<'a> {
         // Find the properties that are colour channels.
         let channels: Vec<_> = element.properties.iter().map(vertex::channel).collect();
         for _ in 0..element.count {
-            let (mut color, mut is_sound) = ([0.0, 0.0, 0.0, 1.0], true);
+            let (mut color, mut is_sound) = ([0.0, 0.0, 0.0, 1.0_f32], true);
             let (mut has_color, mut corners) = (false, 0);
             let mut uvs = Vec::new();
             // Read the corners, coordinates and colour of a row.
@@ -159,8 +180,13 @@ impl<'a> PlyReader<'a> {
                             uvs.push(self.body.number(property.kind, element)?);
                         }
                     }
-                    (None, Some((channel, kind))) => {
-                        color[*channel] = kind.fraction(self.body.number(*kind, element)?);
+                    (None, Some(channel)) => {
+                        let number = self.body.number(channel.kind, element)?;
+                        let fraction = channel.kind.fraction(number);
+                        color[channel.index] = match channel.index {
+                            0..3 if !channel.is_linear => decoded(fraction),
+                            _ => opacity(fraction),
+                        };
                         has_color = true;
                     }
                     _ => self.body.skip(property, element)?,
@@ -186,8 +212,7 @@ impl<'a> PlyReader<'a> {
             if is_sound && corners >= 3 {
                 self.polygons.end();
                 if has_color {
-                    let [r, g, b] = [color[0], color[1], color[2]].map(decoded);
-                    self.polygons.colors.push([r, g, b, opacity(color[3])]);
+                    self.polygons.colors.push(color);
                 }
                 let pairs = uvs.as_chunks::<2>().0;
                 if pairs.len() == corners as usize

@@ -18,16 +18,16 @@ use rtc_ir::{
 };
 use rtc_source::Span;
 
-/// What distinguishes materials: the BSDF, the emitted radiance, and whether v points down.
-pub(super) type MaterialKey = (Option<Span>, [u64; 3], bool);
+/// What distinguishes materials: the BSDF, the emitter, and whether v points down.
+pub(super) type MaterialKey = (Option<Span>, Option<Span>, bool);
 
 /// The deepest nesting of BSDFs.
 const MAX_DEPTH: usize = 16;
 
 /// A colour that is a constant, or a map.
-struct ColorOrMap {
-    color: [f64; 3],
-    map: Option<Map>,
+pub(super) struct ColorOrMap {
+    pub(super) color: [f64; 3],
+    pub(super) map: Option<Map>,
 }
 
 impl<'run> Lowering<'run> {
@@ -35,7 +35,7 @@ impl<'run> Lowering<'run> {
     pub(super) fn material(
         &mut self,
         shape: &'run PluginNode,
-        radiance: [f64; 3],
+        emitter: Option<&'run PluginNode>,
         flip: bool,
     ) -> Option<MaterialId> {
         // Find the BSDF of the shape.
@@ -47,7 +47,8 @@ impl<'run> Lowering<'run> {
         let node = shape.children.iter().find(is_bsdf);
         let node = node.and_then(|node| self.resolve(node));
         // Shapes with one BSDF and one emission share a material.
-        let key = (node.map(|node| node.span), radiance.map(f64::to_bits), flip);
+        let span_of = |node: Option<&PluginNode>| node.map(|node| node.span);
+        let key = (span_of(node), span_of(emitter), flip);
         if let Some(known) = self.materials.get(&key) {
             return *known;
         }
@@ -55,12 +56,20 @@ impl<'run> Lowering<'run> {
         let standard = match node {
             Some(node) => self.standard(node, flip, 0),
             // A light without a BSDF reflects nothing.
-            None if radiance != [0.0; 3] => Some(matte([0.0; 3])),
+            None if emitter.is_some() => Some(matte([0.0; 3])),
             None => Some(matte([0.5; 3])),
         };
+        let dark = ColorOrMap {
+            color: [0.0; 3],
+            map: None,
+        };
+        let radiance = emitter.map_or(dark, |emitter| {
+            self.channel(emitter, "radiance", [1.0; 3], flip)
+        });
         let id = standard.map(|standard| {
             let standard = Standard {
-                emissive: radiance,
+                emissive: radiance.color,
+                emissive_map: radiance.map,
                 ..standard
             };
             let index = self.scene.materials.len();
@@ -348,7 +357,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// A colour of a BSDF: a property or a texture.
-    fn channel(
+    pub(super) fn channel(
         &mut self,
         node: &'run PluginNode,
         name: &str,
@@ -365,10 +374,16 @@ impl<'run> Lowering<'run> {
             };
         };
         match texture.plugin.text.as_str() {
-            "mesh_attribute" => ColorOrMap {
-                color: [1.0; 3],
-                map: None,
-            },
+            "mesh_attribute" => {
+                let name = texture.string("name").map(|name| name.text.as_str());
+                if !matches!(name, Some("vertex_color" | "face_color")) {
+                    self.unsupported(texture, "white replaces it");
+                }
+                ColorOrMap {
+                    color: [texture.number("scale").unwrap_or(1.0); 3],
+                    map: None,
+                }
+            }
             "uniform" | "srgb" => ColorOrMap {
                 color: texture
                     .color("value")
@@ -384,7 +399,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// The map of a texture child.
-    fn map(&mut self, node: &'run PluginNode, name: &str, flip: bool) -> Option<Map> {
+    pub(super) fn map(&mut self, node: &'run PluginNode, name: &str, flip: bool) -> Option<Map> {
         let texture = node.child(name).and_then(|child| self.resolve(child));
         let texture =
             texture.or_else(|| node.children.iter().find(|child| child.tag == "texture"))?;

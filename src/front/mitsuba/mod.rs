@@ -37,13 +37,14 @@ use crate::course::UnfinishedScene;
 use crate::course::assets::{self, AssetTarget, PendingAsset};
 use crate::exchange::{SpannedText, transform::AffineTransform};
 use crate::foreign::xml_root;
+use crate::mesh::{PlyColors, TextParseError, parse_colored_ply};
 use crate::{FrontOptions, over_limit};
 use rtc_diag::{Diagnostic, DiagnosticSink, clip, clip_path, codes};
 use rtc_ir::{
     EntityField, EntityKind, Image, ImageId, LoweredScene, MaterialId, Mesh, MeshId, Pixels, Scene,
-    Settings, SourceSpans, ValuePath,
+    Settings, SourceSpans, ValuePath, VertexColumn,
 };
-use rtc_source::{FileId, FileKind, FileSearch, Loader, SourceMap, Span};
+use rtc_source::{Budget, FileId, FileKind, FileSearch, LimitExceeded, Loader, SourceMap, Span};
 use std::collections::{BTreeMap, BTreeSet};
 use xml::PluginNode;
 
@@ -74,6 +75,8 @@ pub fn lower(
     lowering.scene(&root);
     let flat = std::mem::take(&mut lowering.flat);
     let one_sided = std::mem::take(&mut lowering.one_sided);
+    let colorless: Vec<MeshId> = std::mem::take(&mut lowering.meshes).into_values().collect();
+    let projectors = std::mem::take(&mut lowering.projectors);
     let draft = UnfinishedScene::new(
         LoweredScene {
             scene: lowering.scene,
@@ -82,10 +85,25 @@ pub fn lower(
         lowering.pending,
     );
     let mut lowered = assets::load(draft, file, options, map, sink);
+    // The colours of vertices show only where a texture asks for them.
+    for MeshId(mesh) in colorless {
+        if let Some(mesh) = lowered.scene.meshes.get_mut(mesh as usize) {
+            mesh.colors = VertexColumn::default();
+        }
+    }
     one_sided::cover_backs(&mut lowered, &one_sided, sink);
     shape::flatten(&mut lowered.scene, &flat);
+    for (light, node) in projectors {
+        emitter::fit_projector(&mut lowered.scene, light, &node);
+    }
     lowered.source_spans.finish();
     Some(lowered)
+}
+
+/// Why a mesh file is not read.
+enum MeshReadError {
+    Limit(LimitExceeded),
+    Damaged(String),
 }
 
 /// A scene while it is lowered.
@@ -105,6 +123,8 @@ struct Lowering<'run> {
     meshes: BTreeMap<String, MeshId>,
     /// The meshes of `.serialized` files, by path and index.
     serialized: BTreeMap<(String, u32), Option<MeshId>>,
+    /// The meshes of PLY files whose colours are a texture, by path and whether those of faces.
+    colored: BTreeMap<(String, bool), Option<MeshId>>,
     /// The meshes of shapes without a file, by name.
     built: BTreeMap<&'static str, MeshId>,
     /// The surfaces without vertex normals, by index.
@@ -114,6 +134,8 @@ struct Lowering<'run> {
     /// The material of backs that scatter no light.
     black: Option<MaterialId>,
     has_sensor: bool,
+    /// The projectors, by the index of the light.
+    projectors: Vec<(usize, PluginNode)>,
     /// The folders of `<path>`.
     paths: Vec<&'run str>,
 }
@@ -143,11 +165,13 @@ impl<'run> Lowering<'run> {
             images: BTreeMap::new(),
             meshes: BTreeMap::new(),
             serialized: BTreeMap::new(),
+            colored: BTreeMap::new(),
             built: BTreeMap::new(),
             flat: BTreeSet::new(),
             one_sided: Vec::new(),
             black: None,
             has_sensor: false,
+            projectors: Vec::new(),
             paths: root
                 .children
                 .iter()
@@ -322,18 +346,51 @@ impl<'run> Lowering<'run> {
         if let Some(known) = self.serialized.get(&key) {
             return *known;
         }
-        let id = self.read_serialized(path, index).map(|mesh| {
-            let id = self.add_mesh(mesh);
-            self.record(EntityKind::Mesh, id.0 as usize, path.span);
-            id
-        });
+        let parse = |bytes: &[u8], budget: &Budget| {
+            serialized::read(bytes, index, budget).map_err(|error| match error {
+                serialized::SerializedError::Limit(limit) => MeshReadError::Limit(limit),
+                serialized::SerializedError::Damaged(why) => MeshReadError::Damaged(why.to_owned()),
+            })
+        };
+        let id = self.read_mesh(path, &serialized::KIND, parse);
         self.serialized.insert(key, id);
         id
     }
 
-    fn read_serialized(&mut self, path: &SpannedText, index: u32) -> Option<Mesh> {
+    /// A PLY with the colours of its vertices or faces, which are a texture there.
+    fn colored_mesh(&mut self, path: &SpannedText, colors: PlyColors) -> Option<MeshId> {
+        const PLY: FileKind = FileKind {
+            extensions: &["ply"],
+            begins: |head| head.starts_with(b"ply"),
+        };
+        let path = &self.located(path);
+        let key = (path.text.clone(), colors == PlyColors::Faces);
+        if let Some(known) = self.colored.get(&key) {
+            return *known;
+        }
+        let parse = |bytes: &[u8], budget: &Budget| {
+            parse_colored_ply(bytes, colors, budget).map_err(|error| match error {
+                TextParseError::Limit(limit) => MeshReadError::Limit(limit),
+                TextParseError::Faults(faults) => {
+                    let messages = faults.into_iter().map(|fault| fault.message);
+                    MeshReadError::Damaged(messages.collect::<Vec<_>>().join("; "))
+                }
+            })
+        };
+        let id = self.read_mesh(path, &PLY, parse);
+        self.colored.insert(key, id);
+        id
+    }
+
+    /// A mesh that is read at once; errors are reported.
+    fn read_mesh(
+        &mut self,
+        path: &SpannedText,
+        kind: &FileKind,
+        parse: impl Fn(&[u8], &Budget) -> Result<Mesh, MeshReadError>,
+    ) -> Option<MeshId> {
         let name = clip_path(&path.text);
-        let diagnostic = match self.search.find(&path.text, &serialized::KIND) {
+        let diagnostic = match self.search.find(&path.text, kind) {
             Err(_) => {
                 let message = format!("there is no file `{name}`");
                 Diagnostic::new(&codes::FILE_NOT_FOUND, message)
@@ -345,13 +402,15 @@ impl<'run> Lowering<'run> {
                 }
                 Ok(bytes) => {
                     self.map.budget().read(bytes.len());
-                    match serialized::read(&bytes, index, self.map.budget()) {
-                        Ok(mesh) => return Some(mesh),
-                        Err(serialized::SerializedError::Limit(fault)) => {
-                            over_limit("the mesh", &fault)
+                    match parse(&bytes, self.map.budget()) {
+                        Ok(mesh) => {
+                            let id = self.add_mesh(mesh);
+                            self.record(EntityKind::Mesh, id.0 as usize, path.span);
+                            return Some(id);
                         }
-                        Err(serialized::SerializedError::Damaged(fault)) => {
-                            let message = format!("the mesh `{name}` cannot be read: {fault}");
+                        Err(MeshReadError::Limit(limit)) => over_limit("the mesh", &limit),
+                        Err(MeshReadError::Damaged(why)) => {
+                            let message = format!("the mesh `{name}` cannot be read: {why}");
                             Diagnostic::new(&codes::BAD_MESH_FILE, message)
                         }
                     }

@@ -33,7 +33,7 @@ impl<'run> Lowering<'run> {
         let bsdf = shape.children.iter().find(is_bsdf);
         let bsdf = bsdf.and_then(|node| self.resolve(node));
         let same = bsdf.filter(|node| self.has_two_sides(node, 0));
-        if let Some(id) = same.and_then(|_| self.material(shape, [0.0; 3], flip)) {
+        if let Some(id) = same.and_then(|_| self.material(shape, None, flip)) {
             return id;
         }
         if let Some(id) = self.black {

@@ -227,33 +227,14 @@ impl<'run> Lowering<'run> {
     ) -> Option<Camera> {
         let eye = &to_world.0[3];
         let [left, up, forward] = to_world.orthonormal()?;
-        let [width, height] = size.map(f64::from);
-        let diagonal = (width * width + height * height).sqrt();
-        let axis = node
-            .string("fov_axis")
-            .map_or("x", |axis| axis.text.as_str());
-        let (half_tangent, span) = match (node.number("fov"), axis) {
-            (Some(fov), "y") => (tangent(fov / 2.0), height),
-            (Some(fov), "smaller") => (tangent(fov / 2.0), width.min(height)),
-            (Some(fov), "larger") => (tangent(fov / 2.0), width.max(height)),
-            (Some(fov), "diagonal") => (tangent(fov / 2.0), diagonal),
-            (Some(fov), _) => (tangent(fov / 2.0), width),
-            (None, _) => {
-                let focal = node.string("focal_length").map(|focal| focal.text.as_str());
-                let focal = focal.map(|focal| focal.trim_end_matches("mm").trim());
-                let focal = focal.and_then(|focal| focal.parse::<f64>().ok());
-                (
-                    FILM_DIAGONAL / 2.0 / focal.unwrap_or(FOCAL_LENGTH),
-                    diagonal,
-                )
-            }
-        };
+        let size_in_pixels = size.map(f64::from);
+        let [width, height] = size_in_pixels;
         let is_lens = node.plugin.text == "thinlens";
         let focus = node
             .number("focus_distance")
             .filter(|_| is_lens)
             .unwrap_or(1.0);
-        let pixel = 2.0 * half_tangent * focus / span;
+        let pixel = pixel_tangent(node, size_in_pixels) * focus;
         let shift = |name, pixels: f64| node.number(name).unwrap_or(0.0) * pixels * pixel;
         // A positive offset moves the picture to the left and up, so the view goes right and down
         // (measured with Mitsuba 3.9.1).
@@ -279,6 +260,30 @@ impl<'run> Lowering<'run> {
     }
 }
 
+/// The side of a pixel of a perspective picture at the distance 1, where the picture has this size
+/// in pixels.
+pub(super) fn pixel_tangent(node: &PluginNode, [width, height]: [f64; 2]) -> f64 {
+    let diagonal = (width * width + height * height).sqrt();
+    let axis = node
+        .string("fov_axis")
+        .map_or("x", |axis| axis.text.as_str());
+    let (half_tangent, span) = match (node.number("fov"), axis) {
+        (Some(fov), "y") => (tangent(fov / 2.0), height),
+        (Some(fov), "smaller") => (tangent(fov / 2.0), width.min(height)),
+        (Some(fov), "larger") => (tangent(fov / 2.0), width.max(height)),
+        (Some(fov), "diagonal") => (tangent(fov / 2.0), diagonal),
+        (Some(fov), _) => (tangent(fov / 2.0), width),
+        (None, _) => {
+            let focal = node.string("focal_length").map(|focal| focal.text.as_str());
+            let focal = focal.map(|focal| focal.trim_end_matches("mm").trim());
+            let focal = focal.and_then(|focal| focal.parse::<f64>().ok());
+            let focal = focal.unwrap_or(FOCAL_LENGTH);
+            (FILM_DIAGONAL / 2.0 / focal, diagonal)
+        }
+    };
+    2.0 * half_tangent / span
+}
+
 /// The part of a picture whose first pixel and size are given, as a camera.
 fn cropped(camera: Camera, [offset, size]: [[u32; 2]; 2]) -> Camera {
     let by = |axis: usize| {
@@ -301,7 +306,7 @@ fn cropped(camera: Camera, [offset, size]: [[u32; 2]; 2]) -> Camera {
 }
 
 /// The tangent of an angle in degrees.
-fn tangent(degrees: f64) -> f64 {
+pub(super) fn tangent(degrees: f64) -> f64 {
     let angle = degrees.to_radians();
     sin(angle) / cos(angle)
 }

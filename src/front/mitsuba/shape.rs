@@ -5,6 +5,7 @@ use super::one_sided::OneSided;
 use super::xml::PluginNode;
 use crate::exchange::transform::AffineTransform;
 use crate::exchange::{round, tessellate};
+use crate::mesh::PlyColors;
 use rtc_ir::{EntityKind, Material, MaterialId, Mesh, MeshId, Scene, Shape, Surface, VertexColumn};
 use rtc_math::Vec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -50,7 +51,7 @@ impl<'run> Lowering<'run> {
         for medium in node.children.iter().filter(|child| child.tag == "medium") {
             self.unsupported(medium, "participating media are left out");
         }
-        let radiance = self.radiance(node);
+        let emitter = self.area_emitter(node);
         let plugin = node.plugin.text.as_str();
         let is_similar = to_world.similarity().is_some();
         // Mitsuba flips the v of OBJ files, so that v points down as in its pictures; the v of its
@@ -58,8 +59,8 @@ impl<'run> Lowering<'run> {
         let flip = plugin == "obj" && node.flag("flip_tex_coords").unwrap_or(true)
             || plugin == "ply" && node.flag("flip_tex_coords").unwrap_or(false)
             || plugin == "sphere" && is_similar;
-        let Some(material) = self.material(node, radiance, flip) else {
-            if radiance != [0.0; 3] {
+        let Some(material) = self.material(node, emitter, flip) else {
+            if emitter.is_some() {
                 self.approximate(node.span, "a light whose BSDF is `null` is left out");
             }
             return;
@@ -85,7 +86,7 @@ impl<'run> Lowering<'run> {
         if node.flag("face_normals") == Some(true) {
             self.flat.insert(self.scene.surfaces.len());
         }
-        if radiance != [0.0; 3] {
+        if emitter.is_some() {
             let back = self.back_material(node, flip);
             self.one_sided.push(OneSided {
                 surface: self.scene.surfaces.len(),
@@ -134,9 +135,41 @@ impl<'run> Lowering<'run> {
         };
         let mesh = match node.plugin.text.as_str() {
             "serialized" => self.serialized_mesh(path, node.count("shape_index").unwrap_or(0))?,
+            "ply" => match self.mesh_colors(node) {
+                Some(colors) => self.colored_mesh(path, colors)?,
+                None => self.mesh_file(path),
+            },
             _ => self.mesh_file(path),
         };
         Some(to_world.instance(mesh))
+    }
+
+    /// Which colours of its mesh a texture of the BSDF of a shape shows.
+    fn mesh_colors(&self, shape: &'run PluginNode) -> Option<PlyColors> {
+        let name = self.mesh_attribute(shape, 0)?;
+        match name {
+            "vertex_color" => Some(PlyColors::Vertices),
+            "face_color" => Some(PlyColors::Faces),
+            _ => None,
+        }
+    }
+
+    /// The first attribute of a mesh that a texture inside an element shows.
+    fn mesh_attribute(&self, node: &'run PluginNode, depth: usize) -> Option<&'run str> {
+        if depth > MAX_DEPTH {
+            return None;
+        }
+        if node.plugin.text == "mesh_attribute" {
+            return node.string("name").map(|name| name.text.as_str());
+        }
+        let mut children = node
+            .children
+            .iter()
+            .filter_map(|child| match child.tag.as_str() {
+                "ref" => self.shared.get(child.plugin.text.as_str()).copied(),
+                _ => Some(child),
+            });
+        children.find_map(|child| self.mesh_attribute(child, depth + 1))
     }
 
     /// A shape that is a mesh made here, once for all its uses.

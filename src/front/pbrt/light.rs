@@ -100,7 +100,7 @@ impl Lowering<'_> {
         let intensity = intensity.map(|channel| channel.max(0.0));
         self.scene
             .lights
-            .push(Light::Punctual(Punctual { emitter, intensity }));
+            .push(Light::Punctual(Punctual::new(emitter, intensity)));
     }
 
     fn point(&mut self, plugin: &SpannedText, parameters: &Parameters) {

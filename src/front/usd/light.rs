@@ -94,7 +94,7 @@ impl Lowering<'_> {
         self.record(EntityKind::Light, self.scene.lights.len(), span);
         self.scene
             .lights
-            .push(Light::Punctual(Punctual { emitter, intensity }));
+            .push(Light::Punctual(Punctual::new(emitter, intensity)));
     }
 
     /// The radiance of a distant light fills its angle.

@@ -1,11 +1,12 @@
-//! Decoders of PNG, JPEG, WebP and KTX2, to 8 bits per channel. The content decides the format.
+//! Decoders of PNG, JPEG, WebP, KTX2, BMP, TGA and PNM, to 8 bits per channel. The content decides
+//! the format.
 //!
 //! [`PixelFile::open`] reads the header only, and [`PixelFile::cost`] says how many pixels and how
 //! much memory decoding takes. The caller charges this to its budget and then calls
 //! [`PixelFile::decode`].
 //!
-//! Each format has a module that opens a file and decodes into a buffer: `png`, `jpeg`, `webp`
-//! and [`ktx2`]. `layout` describes the channels that a decoder writes, and converts them to bytes
+//! Each format has a module that opens a file and decodes into a buffer: `png`, `jpeg`, `webp`,
+//! [`ktx2`], and `raster` for the others. `layout` describes the channels that a decoder writes, and converts them to bytes
 //! of red, green, blue and opacity in the same buffer, so pixels are not copied.
 //!
 //! The modules check what the decoder crates do not check: memory that a forged header would make
@@ -15,6 +16,7 @@ mod jpeg;
 pub(super) mod ktx2;
 mod layout;
 mod png;
+mod raster;
 mod webp;
 
 use super::format::PictureFormat;
@@ -117,6 +119,7 @@ enum Decoder<'a> {
     Jpeg(Box<jpeg::Jpeg<'a>>),
     WebP(Box<webp::WebP<'a>>),
     Ktx2(Box<ktx2::Ktx2<'a>>),
+    Raster(raster::Raster<'a>),
 }
 
 /// Width and height in pixels, each at least 1.
@@ -171,7 +174,11 @@ impl ImageSize {
 pub fn is_picture(head: &[u8]) -> bool {
     match PictureFormat::of(head) {
         Some(
-            PictureFormat::Png | PictureFormat::Jpeg | PictureFormat::WebP | PictureFormat::Ktx2,
+            PictureFormat::Png
+            | PictureFormat::Jpeg
+            | PictureFormat::WebP
+            | PictureFormat::Ktx2
+            | PictureFormat::Raster(_),
         ) => true,
         Some(PictureFormat::Other(_)) | None => false,
     }
@@ -197,6 +204,8 @@ impl<'a> PixelFile<'a> {
                 .map(|(size, webp)| (size, Decoder::WebP(Box::new(webp))))?,
             Some(PictureFormat::Ktx2) => ktx2::open(bytes, most_pixels)
                 .map(|(size, ktx2)| (size, Decoder::Ktx2(Box::new(ktx2))))?,
+            Some(PictureFormat::Raster(format)) => raster::open(bytes, format, most_pixels)
+                .map(|(size, raster)| (size, Decoder::Raster(raster)))?,
             other @ (Some(PictureFormat::Other(_)) | None) => {
                 return Err(DecodeError::Format(other.map(PictureFormat::name)));
             }
@@ -218,6 +227,7 @@ impl<'a> PixelFile<'a> {
                 Decoder::Jpeg(jpeg) => jpeg.scratch(),
                 Decoder::WebP(webp) => webp.scratch(self.size),
                 Decoder::Ktx2(ktx2) => ktx2.scratch(),
+                Decoder::Raster(raster) => raster.scratch(),
             },
         );
         let pixel = self.layout().bytes().max(self.channels()) as u64;
@@ -242,6 +252,7 @@ impl<'a> PixelFile<'a> {
             Decoder::Jpeg(jpeg) => jpeg.decode(coded)?,
             Decoder::WebP(webp) => webp.decode(coded)?,
             Decoder::Ktx2(ktx2) => ktx2.decode(coded)?,
+            Decoder::Raster(raster) => raster.decode(coded)?,
         }
         layout.convert(&mut bytes, channels);
         Ok(Pixels {
@@ -264,6 +275,7 @@ impl<'a> PixelFile<'a> {
             Decoder::Jpeg(jpeg) => jpeg.decode(&mut bytes)?,
             Decoder::WebP(webp) => webp.decode(&mut bytes)?,
             Decoder::Ktx2(ktx2) => ktx2.decode(&mut bytes)?,
+            Decoder::Raster(raster) => raster.decode(&mut bytes)?,
         }
         Ok(CodedPixels { layout, bytes })
     }
@@ -281,6 +293,7 @@ impl<'a> PixelFile<'a> {
             Decoder::Jpeg(jpeg) => jpeg.layout,
             Decoder::WebP(webp) => webp.layout,
             Decoder::Ktx2(ktx2) => ktx2.layout,
+            Decoder::Raster(raster) => raster.layout,
         }
     }
 

@@ -27,6 +27,7 @@ pub fn punctual(lights: &[Light]) -> IdTable<Punctual> {
             intensity: light.color * PI,
             profile: LightProfile::Uniform,
             falloff: Falloff::None,
+            projected: None,
         }),
     };
     lights.iter().map(physical).collect()

@@ -1,6 +1,7 @@
 //! Punctual lights in physical units. They are delta lights, which BSDF sampling cannot hit.
 
 use super::IncidentLight;
+use crate::texture::sampled::{Map, UvSets};
 use rtc_math::Vec3;
 use rtc_profile::LightProfile;
 
@@ -31,6 +32,17 @@ pub(crate) struct PointLight {
     pub(crate) intensity: Vec3,
     pub(crate) profile: LightProfile,
     pub(crate) falloff: Falloff,
+    pub(crate) projected: Option<Box<ProjectedTexture>>,
+}
+
+/// The texture that a light projects; black outside of its unit square.
+#[derive(Clone, Debug)]
+pub(crate) struct ProjectedTexture {
+    pub(crate) map: Map,
+    /// The rows that map a direction from the light to (u·w, v·w, w), with w above 0.
+    pub(crate) uv_from_direction: [Vec3; 3],
+    /// The axis, if the colours are the irradiance on a plane across it at the distance 1.
+    pub(crate) irradiance_axis: Option<Vec3>,
 }
 
 /// The attenuation of light with distance.
@@ -67,11 +79,14 @@ impl Punctual {
             Self::Directional(sun) => (sun.direction, None, sun.irradiance, 1.0),
             Self::Point(point) => {
                 let (wi, strength) = point.towards(from)?;
-                (wi, Some(point.position), point.intensity, strength)
+                let projected = point.projected.as_ref();
+                let factor = projected.map_or(Vec3::ONE, |texture| texture.factor(-wi, from));
+                (wi, Some(point.position), point.intensity * factor, strength)
             }
         };
         let radiance = intensity * (strength / probability);
-        (strength > 0.0 && radiance.is_finite()).then_some(IncidentLight {
+        let is_lit = strength > 0.0 && radiance.max_element() > 0.0;
+        (is_lit && radiance.is_finite()).then_some(IncidentLight {
             wi,
             radiance,
             pdf: None,
@@ -98,6 +113,26 @@ impl PointLight {
             .falloff
             .attenuation(self.position.distance_squared(from));
         Some((wi, self.profile.factor(-wi) * attenuation))
+    }
+}
+
+impl ProjectedTexture {
+    /// The factor of the intensity in a direction from the light, a unit vector, to a point.
+    fn factor(&self, direction: Vec3, point: Vec3) -> Vec3 {
+        // Find the texture coordinates; behind the light and outside of the texture it is dark.
+        let [u, v, w] = self.uv_from_direction.map(|row| row.dot(direction));
+        let uv = [u / w, v / w];
+        if w <= 0.0 || !uv.iter().all(|at| (0.0..=1.0).contains(at)) {
+            return Vec3::ZERO;
+        }
+        let uvs = UvSets::new([Some(uv), None], point);
+        let color = self.map.look_up(&uvs).unwrap_or([0.0; 4]);
+        let color = Vec3::new(color[0], color[1], color[2]);
+        // A plane across the axis has the irradiance I·cos³ at the distance 1.
+        self.irradiance_axis.map_or(color, |axis| {
+            let cosine = axis.dot(direction);
+            color / (cosine * cosine * cosine)
+        })
     }
 }
 

@@ -4,7 +4,8 @@ use super::World;
 use super::texture::Textures;
 use crate::light::course::CourseLight;
 use crate::light::environment::Environment;
-use crate::light::punctual::{DirectionalLight, Falloff, PointLight, Punctual};
+use crate::light::punctual::{DirectionalLight, Falloff, PointLight, ProjectedTexture, Punctual};
+use crate::texture::sampled::ColorSpace;
 use rtc_math::IdTable;
 use rtc_plan::{PathPlan, Plan, RemainingEnvironment, facts};
 use rtc_valid::{self as valid, ValidScene};
@@ -41,7 +42,7 @@ pub(super) fn lights_for(scene: &ValidScene, plan: &Plan, textures: &Textures) -
             let punctuals = facts::light::punctual(scene.lights()).into_iter();
             LightList {
                 course: IdTable::default(),
-                punctual: punctuals.map(punctual).collect(),
+                punctual: punctuals.map(|light| punctual(light, textures)).collect(),
                 environment: environment(scene.environment(), is_constant, textures),
             }
         }
@@ -69,7 +70,7 @@ fn course(light: valid::CourseLight) -> CourseLight {
     }
 }
 
-fn punctual(light: valid::Punctual) -> Punctual {
+fn punctual(light: valid::Punctual, textures: &Textures) -> Punctual {
     match light {
         valid::Punctual::Directional(valid::DirectionalLight {
             direction,
@@ -78,16 +79,17 @@ fn punctual(light: valid::Punctual) -> Punctual {
             direction,
             irradiance,
         }),
-        valid::Punctual::Point(light) => Punctual::Point(point(light)),
+        valid::Punctual::Point(light) => Punctual::Point(point(light, textures)),
     }
 }
 
-fn point(light: valid::PointLight) -> PointLight {
+fn point(light: valid::PointLight, textures: &Textures) -> PointLight {
     let valid::PointLight {
         position,
         intensity,
         profile,
         falloff,
+        projected,
     } = light;
     PointLight {
         position,
@@ -98,6 +100,13 @@ fn point(light: valid::PointLight) -> PointLight {
             valid::Falloff::Square => Falloff::Square,
             valid::Falloff::Ranged(range) => Falloff::Ranged(range.get() * range.get()),
         },
+        projected: projected.map(|projected| {
+            Box::new(ProjectedTexture {
+                map: textures.map(&projected.map, ColorSpace::Srgb),
+                uv_from_direction: projected.uv_from_direction,
+                irradiance_axis: projected.irradiance_axis,
+            })
+        }),
     }
 }
 

@@ -116,6 +116,7 @@ impl Dice {
         Light::Punctual(ir::Punctual {
             emitter,
             intensity: self.pick(&[[0.0; 3], [3.0, 2.0, 1.0], [40.0; 3]]),
+            projected: None,
         })
     }
 

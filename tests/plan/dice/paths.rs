@@ -199,7 +199,11 @@ impl Dice {
         let direction = [0.0, self.pick(&[0.0, 1.0]), self.pick(&[-1.0, 1.0])];
         let emitter = self.emitter(position, direction, range);
         let intensity = self.pick(&[[0.0; 3], [3.0, 2.0, 4.0], [20.0; 3]]);
-        ir::Light::Punctual(Punctual { emitter, intensity })
+        ir::Light::Punctual(Punctual {
+            emitter,
+            intensity,
+            projected: None,
+        })
     }
 
     fn environment(&mut self) -> Environment {

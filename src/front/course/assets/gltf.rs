@@ -257,7 +257,13 @@ impl ImportedAsset {
 
 /// A light transformed by `world`. As in glTF, its intensity and range are not scaled.
 fn transformed(light: &Light, world: DAffine3) -> Light {
-    let Light::Punctual(Punctual { emitter, intensity }) = light else {
+    // A light of glTF projects no texture.
+    let Light::Punctual(Punctual {
+        emitter,
+        intensity,
+        projected: _,
+    }) = light
+    else {
         return light.clone();
     };
     let mut emitter = emitter.clone();
@@ -268,8 +274,5 @@ fn transformed(light: &Light, world: DAffine3) -> Light {
             .to_array()
     };
     emitter.transform(transform, rotation_keys, 1.0);
-    Light::Punctual(Punctual {
-        emitter,
-        intensity: *intensity,
-    })
+    Light::Punctual(Punctual::new(emitter, *intensity))
 }

@@ -55,10 +55,7 @@ impl Lowering<'_, '_, '_> {
         let color = fields
             .vector_or("color", [1.0; 3])
             .map(|channel| channel * intensity);
-        let punctual = Punctual {
-            emitter,
-            intensity: color,
-        };
+        let punctual = Punctual::new(emitter, color);
         self.add_light(light, Light::Punctual(punctual));
     }
 
@@ -91,13 +88,12 @@ fn light_extras(extras: ObjectFields<'_, '_>, world: DAffine3) -> Option<Light> 
         candela: measured.numbers("candela")?,
     };
     let axis = |axis: Vec3| unit(axis).unwrap_or(Vec3::ZERO);
-    Some(Light::Punctual(Punctual {
-        emitter: PunctualKind::Photometric {
-            position,
-            direction: (-axis(world.z_axis)).to_array(),
-            horizontal: axis(world.x_axis).to_array(),
-            photometry: Box::new(photometry),
-        },
-        intensity: measured.vector("factor")?,
-    }))
+    let emitter = PunctualKind::Photometric {
+        position,
+        direction: (-axis(world.z_axis)).to_array(),
+        horizontal: axis(world.x_axis).to_array(),
+        photometry: Box::new(photometry),
+    };
+    let intensity = measured.vector("factor")?;
+    Some(Light::Punctual(Punctual::new(emitter, intensity)))
 }

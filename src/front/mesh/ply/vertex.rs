@@ -9,8 +9,9 @@ use rtc_math::VertexColumn;
 use rtc_source::{Budget, Resource};
 
 /// The values of a vertex that are kept, by the names of their properties: position, normal, both
-/// sets of texture coordinates, tangent, colour as sRGB codes it, and as it is.
-const VALUES: [&[&[u8]]; 22] = [
+/// sets of texture coordinates, tangent, colour as sRGB codes it, and as it is, with opacity or, as
+/// Mitsuba writes it, without.
+const VALUES: [&[&[u8]]; 25] = [
     &[b"x"],
     &[b"y"],
     &[b"z"],
@@ -33,6 +34,9 @@ const VALUES: [&[&[u8]]; 22] = [
     &[b"linear_green"],
     &[b"linear_blue"],
     &[b"linear_alpha"],
+    &[b"color_0"],
+    &[b"color_1"],
+    &[b"color_2"],
 ];
 
 /// The offsets of values that belong together.
@@ -43,6 +47,7 @@ const TANGENT: usize = 10;
 const COLOR: usize = 14;
 const ALPHA: usize = 17;
 const LINEAR_COLOR: usize = 18;
+const OPAQUE_COLOR: usize = 22;
 
 /// The values of one vertex.
 type VertexRow = [f64; VALUES.len()];
@@ -130,7 +135,8 @@ pub(super) fn read(
     let mut tangents = ColumnBuilder::<4>::new(TANGENT, &slots, count);
     let mut linear = ColumnBuilder::<4>::new(LINEAR_COLOR, &slots, count);
     let is_coded = !linear.exists() && has(&[COLOR, COLOR + 1, COLOR + 2]);
-    let mut coded = Vec::new();
+    let is_opaque = !linear.exists() && !is_coded && has(&[OPAQUE_COLOR, 23, 24]);
+    let mut colors = Vec::new();
     for _ in 0..count {
         let row = row(element, &slots, body)?;
         body.end_row();
@@ -140,15 +146,16 @@ pub(super) fn read(
         second_uvs.push(&row);
         tangents.push(&row);
         linear.push(&row);
-        coded.extend(is_coded.then(|| color(&row)));
+        colors.extend(is_coded.then(|| color(&row)));
+        colors.extend(is_opaque.then(|| opaque_color(&row)));
     }
     mesh.positions = positions.finish();
     mesh.normals = normals.finish();
     mesh.uvs = uvs.finish();
     mesh.second_uvs = second_uvs.finish();
     mesh.tangents = tangents.finish();
-    mesh.colors = if is_coded {
-        coded.into()
+    mesh.colors = if is_coded || is_opaque {
+        colors.into()
     } else {
         linear.finish()
     };
@@ -204,9 +211,34 @@ fn color(row: &VertexRow) -> [f32; 4] {
     [r, g, b, row[ALPHA] as f32]
 }
 
-/// Which channel of a colour that is coded as sRGB a property is, and its type.
-pub(super) fn channel(property: &PlyProperty<'_>) -> Option<(usize, PlyNumberType)> {
+/// The linear colour of a vertex without opacity.
+fn opaque_color(row: &VertexRow) -> [f32; 4] {
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "rounded to what the IR stores"
+    )]
+    let channel = |channel: usize| row[OPAQUE_COLOR + channel] as f32;
+    [channel(0), channel(1), channel(2), 1.0]
+}
+
+/// A channel of the colour of a face.
+pub(super) struct FaceChannel {
+    /// Red, green, blue or opacity, from 0.
+    pub(super) index: usize,
+    pub(super) kind: PlyNumberType,
+    /// Whether it is linear and not coded as sRGB.
+    pub(super) is_linear: bool,
+}
+
+/// The channel of a colour that a property is.
+pub(super) fn channel(property: &PlyProperty<'_>) -> Option<FaceChannel> {
     let (at, kind) = slot(property)?;
-    let channel = at.checked_sub(COLOR).filter(|channel| *channel < 4)?;
-    Some((channel, kind))
+    let is_linear = at >= OPAQUE_COLOR;
+    let first = if is_linear { OPAQUE_COLOR } else { COLOR };
+    let index = at.checked_sub(first).filter(|channel| *channel < 4)?;
+    Some(FaceChannel {
+        index,
+        kind,
+        is_linear,
+    })
 }

@@ -312,6 +312,7 @@ mod tests {
                     intensity: Vec3::ONE,
                     profile,
                     falloff: Falloff::Ranged(Positive::new(0.1875 - margin).unwrap()),
+                    projected: None,
                 };
                 is_out_of_range(&Punctual::Point(light), &bounds)
             })
