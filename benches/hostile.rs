@@ -21,6 +21,7 @@ fn main() {
     for (index, repro) in make::gltf::all()
         .into_iter()
         .chain(make::media::all())
+        .chain(make::mitsuba::all())
         .chain(make::many::all())
         .chain(make::pbrt::all())
         .chain(make::usd::all())

@@ -92,6 +92,12 @@ fn many_of_one_thing_take_no_longer_than_they_are() {
 
 #[test]
 #[cfg_attr(not(target_os = "linux"), ignore = "only Linux limits addresses")]
+fn hostile_scenes_of_mitsuba_are_refused_or_harmless() {
+    try_all(make::mitsuba::all());
+}
+
+#[test]
+#[cfg_attr(not(target_os = "linux"), ignore = "only Linux limits addresses")]
 fn hostile_scenes_of_pbrt_are_refused_or_harmless() {
     try_all(make::pbrt::all());
 }

@@ -39,13 +39,7 @@ impl<'run> Lowering<'run> {
         flip: bool,
     ) -> Option<MaterialId> {
         // Find the BSDF of the shape.
-        let is_bsdf = |node: &&'run PluginNode| match node.tag.as_str() {
-            "bsdf" => true,
-            "ref" => self.refers_to(node, "bsdf"),
-            _ => false,
-        };
-        let node = shape.children.iter().find(is_bsdf);
-        let node = node.and_then(|node| self.resolve(node));
+        let node = self.bsdf_of(shape);
         // Shapes with one BSDF and one emission share a material.
         let span_of = |node: Option<&PluginNode>| node.map(|node| node.span);
         let key = (span_of(node), span_of(emitter), flip);

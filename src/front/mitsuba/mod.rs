@@ -44,7 +44,9 @@ use rtc_ir::{
     EntityField, EntityKind, Image, ImageId, LoweredScene, MaterialId, Mesh, MeshId, Pixels, Scene,
     Settings, SourceSpans, ValuePath, VertexColumn,
 };
-use rtc_source::{Budget, FileId, FileKind, FileSearch, LimitExceeded, Loader, SourceMap, Span};
+use rtc_source::{
+    Budget, FileId, FileKind, FileSearch, LimitExceeded, Loader, Resource, SourceMap, Span,
+};
 use std::collections::{BTreeMap, BTreeSet};
 use xml::PluginNode;
 
@@ -133,6 +135,12 @@ struct Lowering<'run> {
     one_sided: Vec<one_sided::OneSided>,
     /// The material of backs that scatter no light.
     black: Option<MaterialId>,
+    /// What is inside BSDFs, by their span: whether it scatters light from behind, and the
+    /// attribute of meshes that it shows.
+    two_sided: BTreeMap<Span, bool>,
+    attributes: BTreeMap<Span, Option<&'run str>>,
+    /// Whether the budget is exceeded, which is reported once.
+    is_exhausted: bool,
     has_sensor: bool,
     /// The projectors, by the index of the light.
     projectors: Vec<(usize, PluginNode)>,
@@ -170,6 +178,9 @@ impl<'run> Lowering<'run> {
             flat: BTreeSet::new(),
             one_sided: Vec::new(),
             black: None,
+            two_sided: BTreeMap::new(),
+            attributes: BTreeMap::new(),
+            is_exhausted: false,
             has_sensor: false,
             projectors: Vec::new(),
             paths: root
@@ -216,6 +227,42 @@ impl<'run> Lowering<'run> {
     fn refers_to(&self, reference: &PluginNode, tag: &str) -> bool {
         let target = self.shared.get(reference.plugin.text.as_str());
         target.is_some_and(|target| target.tag == tag)
+    }
+
+    /// The BSDF of a shape, if it has one.
+    fn bsdf_of(&mut self, shape: &'run PluginNode) -> Option<&'run PluginNode> {
+        let is_bsdf = |node: &&'run PluginNode| node.tag == "bsdf" || self.refers_to(node, "bsdf");
+        let node = shape.children.iter().find(is_bsdf)?;
+        self.resolve(node)
+    }
+
+    /// An element and all inside it, references followed, each once.
+    fn reachable(&self, node: &'run PluginNode) -> Vec<&'run PluginNode> {
+        let (mut found, mut seen) = (vec![node], BTreeSet::from([node.span]));
+        let mut next = 0;
+        while let Some(node) = found.get(next).copied() {
+            next += 1;
+            let children = node.children.iter();
+            let targets = children.filter_map(|child| match child.tag.as_str() {
+                "ref" => self.shared.get(child.plugin.text.as_str()).copied(),
+                _ => Some(child),
+            });
+            found.extend(targets.filter(|target| seen.insert(target.span)));
+        }
+        found
+    }
+
+    /// Charges one of a resource. If the budget is exceeded, that is reported once.
+    fn charge(&mut self, resource: Resource, span: Span) -> Option<()> {
+        let charged = self.map.budget().charge(resource, 1);
+        let Err(fault) = charged else {
+            return Some(());
+        };
+        if !self.is_exhausted {
+            self.sink.push(over_limit("the scene", &fault).at(span, ""));
+        }
+        self.is_exhausted = true;
+        None
     }
 
     /// Follows a reference to the shared element.

@@ -29,10 +29,8 @@ impl<'run> Lowering<'run> {
     /// The material of the back of a light: that of its shape without the emission, or black if
     /// its BSDF has one side.
     pub(super) fn back_material(&mut self, shape: &'run PluginNode, flip: bool) -> MaterialId {
-        let is_bsdf = |node: &&'run PluginNode| node.tag == "bsdf" || self.refers_to(node, "bsdf");
-        let bsdf = shape.children.iter().find(is_bsdf);
-        let bsdf = bsdf.and_then(|node| self.resolve(node));
-        let same = bsdf.filter(|node| self.has_two_sides(node, 0));
+        let bsdf = self.bsdf_of(shape);
+        let same = bsdf.filter(|node| self.has_two_sides(node));
         if let Some(id) = same.and_then(|_| self.material(shape, None, flip)) {
             return id;
         }
@@ -46,24 +44,19 @@ impl<'run> Lowering<'run> {
         *self.black.insert(MaterialId(rtc_math::to_u32(index)))
     }
 
-    /// Whether a BSDF scatters light that comes from behind.
-    fn has_two_sides(&self, node: &'run PluginNode, depth: usize) -> bool {
-        /// The deepest nesting of BSDFs.
-        const MAX_DEPTH: usize = 16;
-        match node.plugin.text.as_str() {
+    /// Whether a BSDF, or one inside it, scatters light that comes from behind.
+    fn has_two_sides(&mut self, bsdf: &'run PluginNode) -> bool {
+        if let Some(known) = self.two_sided.get(&bsdf.span) {
+            return *known;
+        }
+        let is_two_sided = |node: &&PluginNode| match node.plugin.text.as_str() {
             "twosided" | "dielectric" | "thindielectric" | "roughdielectric" | "null" => true,
             "principled" => node.number("spec_trans").is_some_and(|share| share > 0.0),
-            _ if depth >= MAX_DEPTH => false,
-            _ => {
-                let shared = |child: &'run PluginNode| match child.tag.as_str() {
-                    "ref" => self.shared.get(child.plugin.text.as_str()).copied(),
-                    _ => Some(child),
-                };
-                let parts = node.children.iter().filter_map(shared);
-                let mut bsdfs = parts.filter(|child| child.tag == "bsdf");
-                bsdfs.any(|child| self.has_two_sides(child, depth + 1))
-            }
-        }
+            _ => false,
+        };
+        let has = self.reachable(bsdf).iter().any(is_two_sided);
+        self.two_sided.insert(bsdf.span, has);
+        has
     }
 }
 

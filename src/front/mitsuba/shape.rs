@@ -8,6 +8,7 @@ use crate::exchange::{round, tessellate};
 use crate::mesh::PlyColors;
 use rtc_ir::{EntityKind, Material, MaterialId, Mesh, MeshId, Scene, Shape, Surface, VertexColumn};
 use rtc_math::Vec3;
+use rtc_source::Resource;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The deepest nesting of shape groups.
@@ -20,6 +21,10 @@ impl<'run> Lowering<'run> {
     }
 
     fn shape_at(&mut self, node: &'run PluginNode, outer: &AffineTransform, depth: usize) {
+        // Charge each visit, as groups of groups multiply.
+        if self.charge(Resource::Surfaces, node.span).is_none() {
+            return;
+        }
         let to_world = outer.after(&node.transform("to_world"));
         match node.plugin.text.as_str() {
             // A group is shown where an instance refers to it.
@@ -43,6 +48,9 @@ impl<'run> Lowering<'run> {
             return self.unsupported(node, "it refers to no shape group, and is left out");
         };
         for shape in group.children.iter().filter(|child| child.tag == "shape") {
+            if self.is_exhausted {
+                return;
+            }
             self.shape_at(shape, to_world, depth + 1);
         }
     }
@@ -145,31 +153,24 @@ impl<'run> Lowering<'run> {
     }
 
     /// Which colours of its mesh a texture of the BSDF of a shape shows.
-    fn mesh_colors(&self, shape: &'run PluginNode) -> Option<PlyColors> {
-        let name = self.mesh_attribute(shape, 0)?;
-        match name {
+    fn mesh_colors(&mut self, shape: &'run PluginNode) -> Option<PlyColors> {
+        let bsdf = self.bsdf_of(shape)?;
+        let attribute = |node: &&PluginNode| node.plugin.text == "mesh_attribute";
+        let name = match self.attributes.get(&bsdf.span) {
+            Some(known) => *known,
+            None => {
+                let texture = self.reachable(bsdf).into_iter().find(attribute);
+                let name = texture.and_then(|texture| texture.string("name"));
+                let name = name.map(|name| name.text.as_str());
+                self.attributes.insert(bsdf.span, name);
+                name
+            }
+        };
+        match name? {
             "vertex_color" => Some(PlyColors::Vertices),
             "face_color" => Some(PlyColors::Faces),
             _ => None,
         }
-    }
-
-    /// The first attribute of a mesh that a texture inside an element shows.
-    fn mesh_attribute(&self, node: &'run PluginNode, depth: usize) -> Option<&'run str> {
-        if depth > MAX_DEPTH {
-            return None;
-        }
-        if node.plugin.text == "mesh_attribute" {
-            return node.string("name").map(|name| name.text.as_str());
-        }
-        let mut children = node
-            .children
-            .iter()
-            .filter_map(|child| match child.tag.as_str() {
-                "ref" => self.shared.get(child.plugin.text.as_str()).copied(),
-                _ => Some(child),
-            });
-        children.find_map(|child| self.mesh_attribute(child, depth + 1))
     }
 
     /// A shape that is a mesh made here, once for all its uses.

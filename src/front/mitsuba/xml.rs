@@ -5,17 +5,23 @@ use crate::exchange::{SpannedText, transform::AffineTransform};
 use crate::{FrontOptions, over_limit};
 use roxmltree::{Document, ParsingOptions};
 use rtc_diag::{Diagnostic, DiagnosticSink, clip, clip_words, codes};
-use rtc_source::{FileId, FileKind, FileSearch, Loader, Resource, SourceMap, Span};
+use rtc_source::{FileId, FileKind, FileSearch, LimitExceeded, Loader, Resource, SourceMap, Span};
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 
 /// The deepest nesting of elements and of included files.
 const MAX_DEPTH: usize = 64;
 /// The largest number of included files.
 const MAX_FILES: usize = 256;
+/// The most folders of `<path>`: each is searched for each file.
+const MAX_FOLDERS: usize = 32;
 /// The longest attribute after its parameters are replaced, in bytes.
 const MAX_ATTRIBUTE: usize = 1 << 20;
 /// The memory of an element, in bytes, rounded up.
-const ELEMENT_BYTES: u64 = 512;
+const ELEMENT_BYTES: u64 = 768;
+/// The memory of a document for each byte of its text, at most: an element of four bytes is a node
+/// of 96, in a list that grows by doubling.
+const DOCUMENT_BYTES: u64 = 24;
 /// The largest included file, in bytes.
 const MAX_BYTES: u64 = 1 << 28;
 
@@ -158,6 +164,9 @@ pub(super) fn read(
         depth: 0,
         files: 0,
         has_unset: false,
+        is_exhausted: false,
+        folders: 0,
+        included: BTreeMap::new(),
     };
     let root = reader.file(file)?;
     for name in options.define.keys() {
@@ -188,6 +197,12 @@ struct XmlReader<'run> {
     files: usize,
     /// Whether the last attribute has a parameter without a value.
     has_unset: bool,
+    /// Whether the budget is exceeded, which is reported once.
+    is_exhausted: bool,
+    /// The number of folders of `<path>`.
+    folders: usize,
+    /// The included files.
+    included: BTreeMap<PathBuf, FileId>,
 }
 
 /// An element of the document in one file.
@@ -203,6 +218,12 @@ impl XmlReader<'_> {
                 .push(Diagnostic::new(&codes::NOT_UTF8, message).at(span, ""));
             return None;
         };
+        // The document takes memory beside the elements that are kept.
+        let document = DOCUMENT_BYTES * text.len() as u64;
+        if let Err(fault) = self.map.budget().has(Resource::Memory, document) {
+            self.exhaust(&fault, Span::new(file, 0, 0));
+            return None;
+        }
         let limit = self.map.budget().remaining(Resource::Nodes);
         let options = ParsingOptions {
             allow_dtd: false,
@@ -223,8 +244,7 @@ impl XmlReader<'_> {
             .charge(Resource::Nodes, nodes)
             .and_then(|()| budget.charge(Resource::Memory, nodes * ELEMENT_BYTES));
         if let Err(fault) = charged {
-            self.sink
-                .push(over_limit("the scene", &fault).at(Span::new(file, 0, 0), ""));
+            self.exhaust(&fault, Span::new(file, 0, 0));
             return None;
         }
         // The root element is a scene of a known version.
@@ -318,12 +338,26 @@ impl XmlReader<'_> {
         node
     }
 
+    fn exhaust(&mut self, fault: &LimitExceeded, span: Span) {
+        if !self.is_exhausted {
+            self.sink.push(over_limit("the scene", fault).at(span, ""));
+        }
+        self.is_exhausted = true;
+    }
+
     /// `<path value="…">`: a folder that is searched for files, as the plugin of its node.
     fn search_path(&mut self, file: FileId, element: XmlElement<'_, '_>) -> Option<PluginNode> {
         let Some(value) = self.attribute(file, element, "value") else {
             self.missing(file, element, "`value`");
             return None;
         };
+        self.folders += 1;
+        if self.folders > MAX_FOLDERS {
+            let message = format!("more than {MAX_FOLDERS} folders are searched");
+            let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
+            self.sink.push(diagnostic.at(value.span, "this one is not"));
+            return None;
+        }
         Some(PluginNode {
             tag: "path".to_owned(),
             plugin: value,
@@ -342,14 +376,30 @@ impl XmlReader<'_> {
         let (Some(id), Some(name)) = (id, name) else {
             return self.missing(file, element, "`id` and `as`");
         };
+        // The element is mostly the last one.
         let known = |node: &&PluginNode| node.id.as_ref().is_some_and(|own| own.text == id.text);
-        if let Some(mut copy) = parent.children.iter().find(known).cloned() {
-            copy.id = Some(name);
-            // A second shape would be drawn twice.
-            if copy.tag != "shape" && copy.tag != "emitter" {
-                parent.children.push(copy);
-            }
+        let Some(known) = parent.children.iter().rfind(known) else {
+            return;
+        };
+        // A second shape would be drawn twice.
+        if known.tag == "shape" || known.tag == "emitter" {
+            return;
         }
+        // Charge the elements of the copy before it is made.
+        let mut elements = 0;
+        known.visit(&mut |_| elements += 1);
+        let budget = self.map.budget();
+        let charged = budget
+            .charge(Resource::Nodes, elements)
+            .and_then(|()| budget.charge(Resource::Memory, elements * ELEMENT_BYTES));
+        if let Err(fault) = charged {
+            return self.exhaust(&fault, id.span);
+        }
+        let copy = PluginNode {
+            id: Some(name),
+            ..known.clone()
+        };
+        parent.children.push(copy);
     }
 
     fn default_value(&mut self, file: FileId, element: XmlElement<'_, '_>) {
@@ -370,6 +420,9 @@ impl XmlReader<'_> {
             return Vec::new();
         };
         // The number and the depth of included files are bounded.
+        if self.is_exhausted {
+            return Vec::new();
+        }
         self.files += 1;
         if self.depth >= MAX_DEPTH || self.files > MAX_FILES {
             let message = format!(
@@ -380,27 +433,10 @@ impl XmlReader<'_> {
             self.sink.push(diagnostic.at(path.span, ""));
             return Vec::new();
         }
-        // Find and read the file.
-        let found = match self.search.find(&path.text, &SCENES) {
-            Ok(found) => found,
-            Err(_) => {
-                let message = format!("there is no file `{}`", clip(&path.text));
-                let diagnostic = Diagnostic::new(&codes::FILE_NOT_FOUND, message);
-                self.sink.push(diagnostic.at(path.span, "included here"));
-                return Vec::new();
-            }
-        };
-        let bytes = match Loader.found(&found, MAX_BYTES, self.map) {
-            Ok(bytes) => bytes,
-            Err(error) => {
-                let message = format!("can't read `{}`: {error}", found.shown.display());
-                let diagnostic = Diagnostic::new(&codes::CANNOT_READ, message);
-                self.sink.push(diagnostic.at(path.span, "included here"));
-                return Vec::new();
-            }
-        };
         // Read it as part of this scene.
-        let included = self.map.add_found(&found, bytes);
+        let Some(included) = self.included_file(&path) else {
+            return Vec::new();
+        };
         let version = self.version;
         self.depth += 1;
         let root = self.file(included);
@@ -408,6 +444,32 @@ impl XmlReader<'_> {
         self.version = version;
         root.map(|mut root| std::mem::take(&mut root.children))
             .unwrap_or_default()
+    }
+
+    /// An included file, which is read the first time.
+    fn included_file(&mut self, path: &SpannedText) -> Option<FileId> {
+        let Ok(found) = self.search.find(&path.text, &SCENES) else {
+            let message = format!("there is no file `{}`", clip(&path.text));
+            let diagnostic = Diagnostic::new(&codes::FILE_NOT_FOUND, message);
+            self.sink.push(diagnostic.at(path.span, "included here"));
+            return None;
+        };
+        if let Some(known) = self.included.get(&found.path) {
+            return Some(*known);
+        }
+        match Loader.found(&found, MAX_BYTES, self.map) {
+            Ok(bytes) => {
+                let file = self.map.add_found(&found, bytes);
+                self.included.insert(found.path, file);
+                Some(file)
+            }
+            Err(error) => {
+                let message = format!("can't read `{}`: {error}", found.shown.display());
+                let diagnostic = Diagnostic::new(&codes::CANNOT_READ, message);
+                self.sink.push(diagnostic.at(path.span, "included here"));
+                None
+            }
+        }
     }
 
     /// An attribute with its parameters replaced.
@@ -460,9 +522,8 @@ impl XmlReader<'_> {
         filled.push_str(rest);
         // Charge the expanded text.
         let budget = self.map.budget();
-        if let Err(fault) = budget.charge(Resource::Memory, filled.len() as u64) {
-            self.sink
-                .push(over_limit("the scene", &fault).at(span, "expanded here"));
+        if let Err(fault) = budget.charge(Resource::Memory, 2 * filled.len() as u64) {
+            self.exhaust(&fault, span);
             self.has_unset = true;
             return None;
         }

@@ -4,6 +4,7 @@
 pub(crate) mod gltf;
 pub(crate) mod many;
 pub(crate) mod media;
+pub(crate) mod mitsuba;
 pub(crate) mod pbrt;
 pub(crate) mod usd;
 mod webp;
