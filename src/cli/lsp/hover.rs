@@ -2,6 +2,7 @@
 
 use super::completion::words;
 use super::effective;
+use super::foreign;
 use super::open_text::OpenText;
 use super::path_at::{PathStep, path_at};
 use super::protocol::{Hover, MarkupContent, MarkupKind, Position, Range};
@@ -21,7 +22,11 @@ pub(super) fn hover(
     let (lines, mut parts) = (document.lines(columns), Vec::new());
     let offset = lines.offset(position);
     let mut range = Range::new(position, position);
-    if let Some((reported, (start, end))) = meaning(document, offset, vocabulary) {
+    let found = match foreign::format(document.kind()) {
+        Some(format) => foreign::meaning(&document.text, offset, format),
+        None => meaning(document, offset, vocabulary),
+    };
+    if let Some((reported, (start, end))) = found {
         parts.push(reported);
         range = lines.range(start, end);
     }

@@ -18,6 +18,7 @@ mod completion;
 mod diagnostics;
 mod effective;
 mod folding;
+mod foreign;
 mod hover;
 mod inlay;
 mod lens;

@@ -209,3 +209,22 @@ Shape \"plymesh\" \"string filename\" \"a.ply\"\nShape \"sphre\"\n";
         }
     }
 }
+
+#[test]
+fn plugins_of_other_renderers_say_how_they_are_read() {
+    let mut editor = Editor::new(tempfile::tempdir().unwrap());
+    let xml = "<scene version=\"3.0.0\">\n<shape type=\"linearcurve\"/>\n\
+<bsdf type=\"conductor\"/>\n</scene>\n";
+    let pbrt = "WorldBegin\nMaterial \"hair\"\nMaterial \"conductor\"\n";
+    for (file, text, column) in [("a.xml", xml, 15), ("a.pbrt", pbrt, 12)] {
+        editor.open(file, text);
+        for (line, is_read) in [(1, false), (2, true)] {
+            let document = json!({"uri": editor.uri(file)});
+            let place = json!({"line": line, "character": column});
+            let params = json!({"textDocument": document, "position": place});
+            let hover = editor.ask("textDocument/hover", params);
+            let text = hover["contents"]["value"].as_str().unwrap();
+            assert_eq!(text.contains("read as it is"), is_read, "{text}");
+        }
+    }
+}
