@@ -1,6 +1,7 @@
 #!/bin/sh
 # What `--cache` saves: a folder of 100 small models, the first and the second time; and what 50
-# processes that are killed leave behind. Usage: benches/cache.sh RTC, a release build.
+# processes that are killed, two at once and a full disk leave behind: no wrong picture.
+# Usage: benches/cache.sh RTC, a release build.
 set -eu
 rtc=$(realpath "${1:?give the program, as target/release/rtc}")
 folder=$(mktemp -d)
@@ -47,3 +48,34 @@ for kill in $(seq 50); do
     cmp plain.png after.png && cmp plain.png again.png
 done
 echo "50 killed processes: no wrong picture"
+
+# Two processes at once over one folder: from an empty cache, and from the one that they made.
+few() { "$rtc" render models/ball-00*.obj -o "$1/" --cache cache -q --size 64x64; }
+rm -rf cache
+for round in 1 2; do
+    few "one-$round" & one=$!
+    few "two-$round" & two=$!
+    wait $one
+    wait $two
+    for picture in "one-$round"/* "two-$round"/*; do
+        cmp "first/$(basename "$picture")" "$picture"
+    done
+done
+echo "two processes at once: no wrong picture"
+
+# A disk that is full: no file may have more blocks of 512 bytes than this, about as many as the
+# picture, so that it does not fit, or its entry does not.
+picture=$(($(wc -c <plain.png) / 512))
+for blocks in 1 $picture $((picture + 1)) $((picture + 2)) $((picture + 3)); do
+    rm -rf cache
+    for again in 1 2; do
+        (trap '' XFSZ && ulimit -f $blocks &&
+            "$rtc" render models/ball-000.obj -o full.png --cache cache -q --size 64x64 2>said) ||
+            grep -q full.png said
+        [ ! -e full.png ] || cmp plain.png full.png
+        rm -f full.png
+    done
+    "$rtc" render models/ball-000.obj -o after.png --cache cache -q --size 64x64
+    cmp plain.png after.png
+done
+echo "a full disk: no wrong picture"

@@ -6,15 +6,29 @@ use super::{Failure, args, output};
 use anstream::{AutoStream, ColorChoice};
 use rtc_diag::{Diagnostic, DiagnosticPrinter, DiagnosticSink, Format, PrintOptions, Severity};
 use rtc_source::SourceMap;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::io::{self, IsTerminal, Write};
 
 /// The default width of a terminal.
 const WIDTH: usize = 100;
 
+/// A message as it was reported.
+#[derive(Deserialize, Serialize)]
+pub(super) enum ReportedMessage {
+    /// The printed diagnostics of a file.
+    Diagnostics(String),
+    /// A warning about the arguments or the machine.
+    Warning(String),
+}
+
 /// Reports the diagnostics of one file after another.
 pub(super) struct Reporter {
     printer: DiagnosticPrinter,
+    /// Format and options of the printer, as text.
+    style: String,
+    /// The messages since [`Reporter::record`], if they can be reported again one by one.
+    record: Option<Vec<ReportedMessage>>,
     to_stdout: bool,
     quiet: bool,
     verbose: bool,
@@ -62,8 +76,11 @@ impl Reporter {
             least,
             max: max_errors as usize,
         };
+        let format = Format::from(message_format);
         Self {
-            printer: DiagnosticPrinter::new(message_format.into(), options),
+            printer: DiagnosticPrinter::new(format, options),
+            style: format!("{format:?} {options:?}"),
+            record: None,
             to_stdout: false,
             quiet,
             verbose,
@@ -83,9 +100,51 @@ impl Reporter {
     ) -> Result<(), Failure> {
         let is_warning = |found: &&Diagnostic| found.severity != Severity::Note;
         self.warnings += sink.kept().iter().filter(is_warning).count() + sink.dropped();
+        let deferred = self.printer.deferred();
         let text = self.printer.file(name, sink, map);
-        self.has_reported |= !text.is_empty();
-        write(self.to_stdout, &text)
+        if self.printer.deferred() > deferred {
+            self.record = None;
+        }
+        self.print_diagnostics(text)
+    }
+
+    fn print_diagnostics(&mut self, text: String) -> Result<(), Failure> {
+        if text.is_empty() {
+            return Ok(());
+        }
+        self.has_reported = true;
+        write(self.to_stdout, &text)?;
+        if let Some(record) = &mut self.record {
+            record.push(ReportedMessage::Diagnostics(text));
+        }
+        Ok(())
+    }
+
+    /// Records the messages from now on.
+    pub(super) fn record(&mut self) {
+        self.record = Some(Vec::new());
+    }
+
+    /// The messages since [`Reporter::record`]; `None` if a part of them is printed at the end of
+    /// the report, together with those of other files.
+    pub(super) fn take_record(&mut self) -> Option<Vec<ReportedMessage>> {
+        self.record.take()
+    }
+
+    /// Reports recorded messages again.
+    pub(super) fn report_again(&mut self, messages: &[ReportedMessage]) -> Result<(), Failure> {
+        messages.iter().try_for_each(|message| match message {
+            ReportedMessage::Diagnostics(text) => self.print_diagnostics(text.clone()),
+            ReportedMessage::Warning(text) => {
+                self.warn(text);
+                Ok(())
+            }
+        })
+    }
+
+    /// What the text of recorded messages depends on besides the diagnostics.
+    pub(super) fn style(&self) -> &str {
+        &self.style
     }
 
     /// Reports a finished picture: as text, or as an object where diagnostics are objects.
@@ -102,6 +161,9 @@ impl Reporter {
     /// Prints a warning about the arguments or the machine, once.
     pub(super) fn warn(&mut self, message: &str) {
         self.warnings += 1;
+        if let Some(record) = &mut self.record {
+            record.push(ReportedMessage::Warning(message.to_owned()));
+        }
         if !self.quiet && self.repeated.insert(message.to_owned()) {
             print_message(message);
         }

@@ -113,21 +113,37 @@ fn a_file_that_comes_or_a_link_that_moves_is_noticed() {
     }
 }
 
+/// Warnings of the scene, of the arguments and of the pixels, from a hit that reads no scene.
 #[test]
 fn warnings_are_told_each_time() {
     let folder = textured();
     let text = fs::read_to_string(folder.path().join("a.yaml")).unwrap();
-    fs::write(folder.path().join("a.yaml"), text + "Shadws: true\n").unwrap();
-    let told = || {
-        let output = rtc(
-            &folder,
-            &["render", "a.yaml", "-o", "a.png", "--cache", "c"],
-        );
-        stderr(&output).matches("warning").count()
-    };
-    let first = told();
-    assert!(first > 0);
-    assert_eq!(told(), first);
+    let text = text.replace("position: [0, 0, 0]", "position: [0, 900, 0]") + "Shadws: true\n";
+    fs::write(folder.path().join("a.yaml"), text).unwrap();
+    for format in ["human", "short", "json", "sarif"] {
+        let told = || {
+            let form = ["--message-format", format, "--spp", "4"];
+            let fixed = ["render", "a.yaml", "-o", "a.png", "--cache", "c"];
+            let output = rtc(&folder, &[&fixed[..], &form].concat());
+            assert_eq!(code(&output), 0, "{}", stderr(&output));
+            let own = |line: &&str| !line.contains("a.png");
+            stderr(&output)
+                .lines()
+                .filter(own)
+                .map(String::from)
+                .collect::<Vec<_>>()
+        };
+        let first = told();
+        let all = first.join("\n");
+        for part in ["Shadws", "no ray of the camera"] {
+            assert!(all.contains(part), "{format}: {part}: {all}");
+        }
+        assert_eq!(told(), first, "{format}");
+        let (_, said) = render(&folder, &["--message-format", format, "--spp", "4"]);
+        assert!(!said.contains("hit: the same scene"), "{format}: {said}");
+        let (_, said) = render(&folder, &["--message-format", format, "--spp", "4"]);
+        assert_eq!(said.contains("hit: no file"), format != "sarif", "{said}");
+    }
 }
 
 /// Magic number, key, content, hash: none may be wrong, and the entry is replaced.
@@ -221,6 +237,33 @@ fn only_a_trusted_project_names_a_cache() {
         said.contains("hit: no file") && folder.path().join("own").is_dir(),
         "{said}"
     );
+}
+
+/// A disk that is full while an entry is written: a warning and the right picture, no entry in part.
+#[test]
+#[cfg(unix)]
+fn a_full_disk_leaves_no_wrong_picture() {
+    let folder = textured();
+    let noise = image::RgbImage::from_fn(24, 24, |x, y| {
+        image::Rgb([(x * 71 + y * 113) as u8, (x * y * 37) as u8, (x * 53) as u8])
+    });
+    noise.save(folder.path().join("t.png")).unwrap();
+    let expected = anew(&folder, &["--aov", "depth,normal"]);
+    // No file may have more bytes: those of the pictures fit, and their entry does not.
+    let script = "trap '' XFSZ; ulimit -f 2; exec \"$0\" render a.yaml -o a.png --aov depth,normal \
+        --cache c";
+    let mut shell = std::process::Command::new("bash");
+    let limited = shell.args(["-c", script, env!("CARGO_BIN_EXE_rtc")]);
+    let output = limited.current_dir(folder.path()).output().unwrap();
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("the cache is not written"),
+        "{}",
+        stderr(&output)
+    );
+    assert_eq!(fs::read(folder.path().join("a.png")).unwrap(), expected);
+    let (picture, said) = render(&folder, &["--aov", "depth,normal"]);
+    assert!(picture == expected && said.contains("miss"), "{said}");
 }
 
 /// Processes that are killed at any time, and others beside them, leave no wrong picture.

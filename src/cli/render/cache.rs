@@ -5,11 +5,12 @@
 //! scene and by the arguments; it lists the files that were read and the paths that were tried, and
 //! names the picture. If none of them has changed, nothing is read but their bytes.
 //!
-//! Warnings are never lost: a picture whose pixels gave one is not kept, and a request that gave
-//! any is not, so its scene is read again.
+//! Messages are never lost: a request keeps them as they were printed, and they are printed again.
+//! A picture whose pixels gave a warning is taken only by its own request, because the warning
+//! names the scene.
 
 use super::super::project::Project;
-use super::super::reporter::{self, Reporter};
+use super::super::reporter::{self, ReportedMessage, Reporter};
 use super::super::{Failure, args, interrupt::Interrupt, output::Output};
 use super::layers::LayerFiles;
 use super::{FinishedPicture, RenderSetup};
@@ -40,8 +41,6 @@ pub(super) struct PictureCache {
     request: String,
     /// The entry of the request; standard input has none.
     key: Option<CacheKey>,
-    /// The warnings that were reported before.
-    warnings: usize,
 }
 
 /// An entry of a request.
@@ -51,6 +50,8 @@ struct CachedRequest {
     lookups: BTreeMap<PathBuf, Option<PathBuf>>,
     /// The SHA-256 of each file, by canonical path.
     files: BTreeMap<PathBuf, [u8; 32]>,
+    /// The messages about the scene and its picture.
+    messages: Vec<ReportedMessage>,
     /// The entry of the picture.
     picture: String,
 }
@@ -61,10 +62,21 @@ struct CachedPicture {
     size: [u32; 2],
     /// The text about its quality, if that is known.
     quality: Option<String>,
+    /// Whether its pixels gave warnings, which only the entry of its request has.
+    has_warnings: bool,
     /// The object of `--message-format json`.
     object: Value,
     /// The length of each file: the picture, then its layers.
     lengths: Vec<usize>,
+}
+
+/// A finished picture of a request.
+struct RecalledPicture {
+    picture: CachedPicture,
+    files: Vec<Vec<u8>>,
+    messages: Vec<ReportedMessage>,
+    /// The files that it depends on.
+    read: SourceMap,
 }
 
 impl PictureCache {
@@ -96,16 +108,17 @@ impl PictureCache {
         };
         // The request, without what changes no byte.
         let picture = settings(&setup.picture);
-        let request = format!("{picture} {:?} {:?}", args.stage, args.reading);
+        let style = reporter.style();
+        let request = format!("{picture} {:?} {:?} {style}", args.stage, args.reading);
         let mut cache = Self {
             folder,
             scene: file.to_owned(),
             reading: args.reading.clone(),
             request,
             key: None,
-            warnings: reporter.warnings(),
         };
         cache.key = cache.request_key(project.as_ref());
+        reporter.record();
         Ok(Some(cache))
     }
 
@@ -117,7 +130,9 @@ impl PictureCache {
         let root = self.reading.asset_root.clone();
         let root = root.or_else(|| project.and_then(Project::asset_root));
         let root = root.and_then(|root| fs::canonicalize(root).ok());
+        // Messages have the path as it is written.
         let places = (
+            &self.scene,
             fs::canonicalize(&self.scene).ok()?,
             std::env::current_dir().ok()?,
             std::env::home_dir(),
@@ -133,12 +148,11 @@ impl PictureCache {
         Some(CacheKey::of("request", &parts))
     }
 
-    /// The picture of the request if nothing has changed since, with the files that it depends on;
-    /// else the reason.
-    fn recall(&self) -> Result<(CachedPicture, Vec<Vec<u8>>, SourceMap), String> {
+    /// The picture of the request if nothing has changed since, else the reason.
+    fn recall(&self) -> Result<RecalledPicture, String> {
         let key = self.key.ok_or("standard input has no request")?;
         let entry = self.folder.get(key).map_err(|miss| match miss {
-            CacheMiss::Absent => "no such request gave a picture without warnings".to_owned(),
+            CacheMiss::Absent => "no such request gave a picture".to_owned(),
             CacheMiss::Damaged | CacheMiss::Unreadable(_) => miss.to_string(),
         })?;
         let request: CachedRequest =
@@ -163,7 +177,12 @@ impl PictureCache {
         }
         let key = CacheKey::parse(&request.picture).ok_or(CacheMiss::Damaged.to_string())?;
         let (picture, files) = self.picture(key)?;
-        Ok((picture, files, map))
+        Ok(RecalledPicture {
+            picture,
+            files,
+            messages: request.messages,
+            read: map,
+        })
     }
 
     /// The picture of a key with its files, or the reason why there is none.
@@ -184,10 +203,10 @@ impl PictureCache {
         }
     }
 
-    /// Keeps the request of a picture, unless it gave warnings or something changed on the way.
+    /// Keeps the request of a picture with its messages, unless something changed on the way.
     fn keep_request(
         &self,
-        record: Option<ReadRecord>,
+        (record, messages): (Option<ReadRecord>, Option<Vec<ReportedMessage>>),
         picture: CacheKey,
         interrupt: &Interrupt,
         reporter: &mut Reporter,
@@ -197,12 +216,9 @@ impl PictureCache {
             .key
             .filter(|key| Some(*key) == self.request_key(project.as_ref()));
         let record = record.filter(|record| !record.has_changed);
-        let (Some(key), Some(record)) = (key, record) else {
+        let (Some(key), Some(record), Some(messages)) = (key, record, messages) else {
             return Ok(());
         };
-        if reporter.warnings() > self.warnings {
-            return Ok(());
-        }
         let ReadRecord {
             lookups,
             files,
@@ -211,6 +227,7 @@ impl PictureCache {
         let request = CachedRequest {
             lookups,
             files,
+            messages,
             picture: picture.to_string(),
         };
         // A path that is no UTF-8 has no JSON.
@@ -235,8 +252,14 @@ impl RenderSetup {
         reporter: &mut Reporter,
     ) -> Result<bool, Failure> {
         match cache.recall() {
-            Ok((picture, files, read)) => {
+            Ok(RecalledPicture {
+                picture,
+                files,
+                messages,
+                read,
+            }) => {
                 let interrupt = Interrupt::listen()?;
+                reporter.report_again(&messages)?;
                 self.write_cached(&picture, &files, &read, (reporter, &interrupt))?;
                 cache.report_use(reporter, "hit: no file has changed");
                 Ok(true)
@@ -257,24 +280,32 @@ impl RenderSetup {
     ) -> Result<(), Failure> {
         let scene = &subject.validated.lowered.scene;
         let key = picture_key(&self.picture, scene, input.rays());
-        match cache.picture(key) {
+        let kept = cache.picture(key).and_then(|(picture, files)| {
+            let reason = "its pixels give warnings, which name the scene";
+            let is_silent = !picture.has_warnings;
+            is_silent
+                .then_some((picture, files))
+                .ok_or(reason.to_owned())
+        });
+        let messages = match kept {
             Ok((picture, files)) => {
                 self.write_cached(&picture, &files, input.map(), (reporter, interrupt))?;
                 cache.report_use(reporter, "hit: the same scene and settings");
+                reporter.take_record()
             }
             Err(reason) => {
                 let warnings = reporter.warnings();
                 let (files, made) =
                     self.make_picture(subject, &self.output, input, reporter, interrupt)?;
                 cache.report_use(reporter, &format!("miss: {reason}"));
-                if reporter.warnings() > warnings {
-                    return Ok(());
-                }
-                let entry = packed(&made, &files);
+                let messages = reporter.take_record();
+                let entry = packed(&made, &files, reporter.warnings() > warnings);
                 cache.keep(key, &entry, interrupt, reporter);
+                messages
             }
-        }
-        cache.keep_request(input.map().record(), key, interrupt, reporter)
+        };
+        let read = input.map().record();
+        cache.keep_request((read, messages), key, interrupt, reporter)
     }
 
     /// Writes the files of a picture from the cache, and reports it.
@@ -322,10 +353,11 @@ impl CachedPicture {
 }
 
 /// The content of the entry of a picture: the length of its head, the head, the files.
-fn packed(made: &FinishedPicture, files: &[Vec<u8>]) -> Vec<u8> {
+fn packed(made: &FinishedPicture, files: &[Vec<u8>], has_warnings: bool) -> Vec<u8> {
     let head = CachedPicture {
         size: made.size(),
         quality: made.quality_text(),
+        has_warnings,
         object: made.facts(),
         lengths: files.iter().map(Vec::len).collect(),
     };

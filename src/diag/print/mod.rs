@@ -189,6 +189,16 @@ impl DiagnosticPrinter {
         }
     }
 
+    /// The number of diagnostics about which [`Self::finish`] has a text.
+    #[must_use]
+    pub fn deferred(&self) -> usize {
+        match self.format {
+            Format::Sarif => self.results.len() + self.omitted,
+            Format::Json => self.omitted,
+            Format::Human | Format::Short | Format::Github => 0,
+        }
+    }
+
     /// The text after the last file.
     #[must_use]
     pub fn finish(self) -> String {
