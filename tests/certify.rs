@@ -51,7 +51,7 @@ fn what_is_proven_is_what_is_rendered() {
         for (certificate, pixel) in certified(&scene).iter().zip(&rendered) {
             let values = pixel.map(quantize8);
             assert!(
-                certificate.agrees(values),
+                !certificate.contradicts(values),
                 "{}: {values:?}, {certificate:?}",
                 path.display()
             );
@@ -61,7 +61,7 @@ fn what_is_proven_is_what_is_rendered() {
         }
     }
     assert!(
-        pixels > 10_000 && proven * 10 > pixels * 7,
+        pixels > 10_000 && proven * 1000 > pixels * 999,
         "{proven} of {pixels}"
     );
 }

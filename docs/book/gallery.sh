@@ -77,3 +77,7 @@ if ((${#names[@]} == 0)) || [[ " ${names[*]} " == *" rays "* ]]; then
     "$RTC" cost -q scenes/glass.yaml --effort quick --maps "$made" -o "$made/study"
     cp "$made/rays-own.png" "$out/rays.png"
 fi
+if ((${#names[@]} == 0)) || [[ " ${names[*]} " == *" certify "* ]]; then
+    echo certify
+    "$RTC" certify -q scenes/bokeh.yaml -o "$made/bokeh.png" --flags "$out/certify.png"
+fi

@@ -16,6 +16,18 @@ pub struct DoubleDouble {
 }
 
 impl DoubleDouble {
+    /// 0.
+    pub const ZERO: Self = Self {
+        high: 0.0,
+        low: 0.0,
+    };
+
+    /// 1.
+    pub const ONE: Self = Self {
+        high: 1.0,
+        low: 0.0,
+    };
+
     /// `a − b` exactly.
     #[must_use]
     pub fn difference(a: f64, b: f64) -> Self {
@@ -27,6 +39,12 @@ impl DoubleDouble {
     #[must_use]
     pub fn to_f64(self) -> f64 {
         self.high
+    }
+
+    /// What is left beyond the nearest f64.
+    #[must_use]
+    pub fn rest(self) -> f64 {
+        self.low
     }
 
     /// The square root; 0 for values not above 0.

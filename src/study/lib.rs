@@ -86,7 +86,9 @@ pub use ablation::Ablation;
 pub use advice::{advice, recommended};
 pub use batch::WorkBatch;
 pub use budget::CoarsePicture;
-pub use certify::{Doubts, Enclosure, EnclosureVector, PixelCertificate, certify};
+pub use certify::{
+    CertifiedNumber, DoubleDoubleBall, Doubts, Enclosure, PixelCertificate, certify, first_distance,
+};
 pub use difference::{Difference, heat_map};
 pub use effects::EffectCost;
 pub use flip::{PIXELS_PER_DEGREE, flip};

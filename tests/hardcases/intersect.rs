@@ -6,7 +6,7 @@ use rtc::internals::math::{U, Vec3};
 use rtc::internals::render::{Intersect, Ray, World};
 use serde_json::Value;
 
-fn ray(value: &Value) -> Ray {
+pub(super) fn ray(value: &Value) -> Ray {
     Ray {
         origin: vector(&value["o"]),
         direction: vector(&value["d"]),

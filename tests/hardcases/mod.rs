@@ -12,6 +12,7 @@
 )]
 
 mod camera;
+mod certified;
 mod exact;
 mod families;
 mod family;

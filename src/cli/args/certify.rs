@@ -7,12 +7,13 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The picture is rendered, and each pixel is evaluated again by interval arithmetic. A pixel is proven
-if the formulas, in real numbers, certainly give its 8-bit values; others are flagged with the
-reason: a border within rounding, or a feature that is not evaluated.
+The picture is rendered, and each pixel is evaluated again by interval arithmetic, where 53 bits do
+not decide with 106. A pixel is proven if the formulas, in real numbers, certainly give its 8-bit
+values; others are flagged with the reason: a border within rounding, or a feature that is not
+evaluated.
 
-Exit code 1: a rendered value differs from a proven one, which is an error of the renderer. Exit
-code 2: the picture can't be certified, for example because it is path-traced.
+Exit code 1: a rendered value differs from one that 53 bits prove, which is an error of the
+renderer. Exit code 2: the picture can't be certified, for example because it is path-traced.
 
 Examples:
   rtc certify scenes/mirrors.yaml -o mirrors.png
@@ -34,8 +35,8 @@ pub(crate) struct CertifyArgs {
     pub(crate) output: PathBuf,
     /// Write a map of the flagged pixels to this file
     ///
-    /// Proven pixels are dark, red ones lie on a border within rounding, yellow ones show a feature
-    /// that is not evaluated, and magenta ones differ.
+    /// Proven pixels are dark, and blue where that took 106 bits; red ones lie on a border within
+    /// rounding, yellow ones show a feature that is not evaluated, and magenta ones differ.
     #[arg(
         long,
         value_name = "FILE",

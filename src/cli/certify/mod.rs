@@ -134,10 +134,13 @@ fn map_of(image: &Image, certified: &[PixelCertificate], rendered: &[[u8; 3]]) -
     const RED: [f64; 3] = [1.0, 0.0, 0.0];
     const YELLOW: [f64; 3] = [1.0, 1.0, 0.0];
     const MAGENTA: [f64; 3] = [1.0, 0.0, 1.0];
+    const BLUE: [f64; 3] = [0.0, 0.4, 0.8];
     let pixels = image.pixels.iter().zip(certified).zip(rendered);
     let color = |((pixel, certificate), rendered): ((&[f64; 3], &PixelCertificate), &[u8; 3])| {
         if !certificate.agrees(*rendered) {
             MAGENTA
+        } else if certificate.is_proven() && certificate.is_close != [false; 3] {
+            BLUE
         } else if certificate.is_proven() {
             pixel.map(|channel| 0.3 * channel.clamp(0.0, 1.0))
         } else if certificate.doubts.is_rounding() {

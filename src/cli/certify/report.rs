@@ -33,8 +33,11 @@ pub(crate) struct CertificateReport {
     unsupported: usize,
     /// The number of flagged pixels with each reason; a pixel may have several.
     reasons: BTreeMap<&'static str, usize>,
-    /// The pixels whose rendered values differ from the proven ones.
+    /// The pixels whose rendered values differ from the proven ones by more than rounding.
     differing: Vec<DifferingPixel>,
+    /// The pixels whose rendered values differ from the proven ones where 53 bits leave the value
+    /// open.
+    rounded: Vec<DifferingPixel>,
 }
 
 /// A pixel whose rendered values differ from the proven ones.
@@ -64,14 +67,19 @@ impl CertificateReport {
             *reasons.entry(name).or_insert(0) += 1;
         }
         let within_rounding = within_rounding.count();
-        let pairs = certified.iter().zip(rendered).enumerate();
-        let differing = pairs.filter(|(_, (certificate, values))| !certificate.agrees(**values));
         let width = width as usize;
-        let differing = differing.map(|(index, (certificate, values))| DifferingPixel {
-            pixel: [index % width, index / width].map(to_u32),
-            rendered: *values,
-            certain: certificate.levels,
-        });
+        let differing = |is_error: bool| {
+            let pairs = certified.iter().zip(rendered).enumerate();
+            let differing = pairs.filter(|(_, (certificate, values))| {
+                !certificate.agrees(**values) && certificate.contradicts(**values) == is_error
+            });
+            let pixel = differing.map(|(index, (certificate, values))| DifferingPixel {
+                pixel: [index % width, index / width].map(to_u32),
+                rendered: *values,
+                certain: certificate.levels,
+            });
+            pixel.collect()
+        };
         Self {
             schema: "rtc-certify/1",
             scene: named(scene),
@@ -81,11 +89,12 @@ impl CertificateReport {
             within_rounding,
             unsupported: certified.len() - certain - within_rounding,
             reasons,
-            differing: differing.collect(),
+            differing: differing(true),
+            rounded: differing(false),
         }
     }
 
-    /// Whether no rendered value differs from a proven one.
+    /// Whether no rendered value differs from a proven one by more than rounding.
     pub(super) fn agrees(&self) -> bool {
         self.differing.is_empty()
     }
@@ -120,6 +129,12 @@ impl CertificateReport {
         let mut lines = vec![line];
         let reason = |(name, count): (&&str, &usize)| format!("  {name}: {}", grouped(*count));
         lines.extend(self.reasons.iter().map(reason));
+        if !self.rounded.is_empty() {
+            let count = grouped(self.rounded.len());
+            lines.push(format!(
+                "  {count} pixels are rendered otherwise than proven, where 53 bits do not decide"
+            ));
+        }
         if !self.agrees() {
             let count = grouped(self.differing.len());
             lines.push(format!(

@@ -1,12 +1,13 @@
 //! Interval arithmetic: a real number between two f64 (Moore, Kearfott, Cloud, "Introduction to
 //! interval analysis", SIAM 2009).
 //!
-//! Every operation contains the results of the real operation on all numbers of its operands. Ends
-//! are rounded to nearest and then moved by one f64 outwards, which covers the half unit of
-//! rounding; sums, products and roots of single numbers stay single numbers where they are exact.
-//! An end of ±∞ says that there is no bound.
+//! Ends are rounded to nearest and then moved by at least one f64 outwards, which covers the half
+//! unit of rounding; sums, products and roots of single numbers stay single numbers where they are
+//! exact. An end of ±∞ says that there is no bound.
 
-use rtc_math::{U, Vec3, pow, two_product, two_sum};
+use super::number::CertifiedNumber;
+use rtc_math::{U, atan2, cos_sin_revolutions, pow, two_product, two_sum};
+use std::f64::consts::TAU;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A real number between two f64, both included.
@@ -17,73 +18,30 @@ pub struct Enclosure {
 }
 
 impl Enclosure {
-    /// 0.
-    pub const ZERO: Self = Self::point(0.0);
-
-    /// 1.
-    pub const ONE: Self = Self::point(1.0);
-
-    /// Any real number.
-    pub const ALL: Self = Self {
-        low: f64::NEG_INFINITY,
-        high: f64::INFINITY,
-    };
-
-    /// Any real number from 0 on.
-    pub const NONNEGATIVE: Self = Self {
-        low: 0.0,
-        high: f64::INFINITY,
-    };
-
     /// One number, which must be finite.
     #[must_use]
-    pub const fn point(value: f64) -> Self {
+    const fn single(value: f64) -> Self {
         Self {
             low: value,
             high: value,
         }
     }
 
-    /// The numbers from `low` to `high`; any number if one is NaN or they are in the wrong order.
-    #[must_use]
-    pub fn between(low: f64, high: f64) -> Self {
-        if low <= high {
-            Self { low, high }
-        } else {
-            Self::ALL
-        }
-    }
-
     /// The numbers no further than `radius` from `value`.
-    #[must_use]
-    pub fn around(value: f64, radius: f64) -> Self {
+    fn around(value: f64, radius: f64) -> Self {
         Self::outward(value - radius, value + radius)
     }
 
-    /// The ends of a result, each rounded to nearest, one f64 further apart on either side.
-    #[inline]
+    /// The ends of a result, each rounded to nearest, moved outwards by one f64, or two near the
+    /// subnormal numbers, without a branch: Rump, Zimmermann, Boldo, Melquiond, "Computing
+    /// predecessor and successor in rounding to nearest", BIT 49 (2009), algorithm 1.
+    #[inline(always)]
     fn outward(low: f64, high: f64) -> Self {
-        Self::between(low.next_down(), high.next_up())
-    }
-
-    /// The lower end.
-    #[must_use]
-    pub fn low(self) -> f64 {
-        self.low
-    }
-
-    /// The upper end.
-    #[must_use]
-    pub fn high(self) -> f64 {
-        self.high
-    }
-
-    /// A number about half-way, and a bound on the distance of the others.
-    #[must_use]
-    pub fn middle(self) -> (f64, f64) {
-        let middle = 0.5 * self.low + 0.5 * self.high;
-        let radius = (self.high - middle).max(middle - self.low).next_up();
-        (middle, radius)
+        const RELATIVE: f64 = U * (1.0 + 2.0 * U);
+        const SMALLEST: f64 = 5e-324;
+        let below = low - (RELATIVE * low.abs() + SMALLEST);
+        let above = high + (RELATIVE * high.abs() + SMALLEST);
+        Self::between(below, above)
     }
 
     /// Whether it is one number.
@@ -92,89 +50,145 @@ impl Enclosure {
         self.low == self.high
     }
 
-    /// Whether it is 0 and nothing else.
-    #[must_use]
+    /// The same without what rounding added below 0.
     #[inline]
-    pub fn is_zero(self) -> bool {
+    fn at_least_zero(self) -> Self {
+        Self {
+            low: self.low.max(0.0),
+            ..self
+        }
+    }
+
+    /// The hull of the four results of an operation on the ends; any number if one is NaN, as from
+    /// 0·∞.
+    #[inline(always)]
+    fn hull_of([a, b, c, d]: [f64; 4]) -> Self {
+        // The sum is NaN, too, where the results have no bounds on both sides.
+        if (a + b + c + d).is_nan() {
+            return Self::ALL;
+        }
+        Self::outward(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
+    }
+
+    /// The number half-way, and the distance of the ends.
+    fn middle(self) -> (f64, f64) {
+        let middle = 0.5 * self.low + 0.5 * self.high;
+        let radius = (self.high - middle).max(middle - self.low).next_up();
+        (middle, radius)
+    }
+
+    /// The least distance of its numbers from 0.
+    fn least(self) -> f64 {
+        self.low.max(-self.high).max(0.0)
+    }
+}
+
+impl CertifiedNumber for Enclosure {
+    const ZERO: Self = Self::single(0.0);
+    const ONE: Self = Self::single(1.0);
+    const ALL: Self = Self {
+        low: f64::NEG_INFINITY,
+        high: f64::INFINITY,
+    };
+    const NONNEGATIVE: Self = Self {
+        low: 0.0,
+        high: f64::INFINITY,
+    };
+
+    #[inline]
+    fn point(value: f64) -> Self {
+        Self::single(value)
+    }
+
+    #[inline]
+    fn between(low: f64, high: f64) -> Self {
+        if low <= high {
+            Self { low, high }
+        } else {
+            Self::ALL
+        }
+    }
+
+    #[inline]
+    fn low(self) -> f64 {
+        self.low
+    }
+
+    #[inline]
+    fn high(self) -> f64 {
+        self.high
+    }
+
+    fn width(self) -> f64 {
+        (self.high - self.low).next_up()
+    }
+
+    fn center(self) -> Self {
+        Self::single(self.middle().0)
+    }
+
+    #[inline]
+    fn is_zero(self) -> bool {
         self.low == 0.0 && self.high == 0.0
     }
 
-    /// Whether all its numbers are above 0.
-    #[must_use]
     #[inline]
-    pub fn is_positive(self) -> bool {
+    fn is_positive(self) -> bool {
         self.low > 0.0
     }
 
-    /// Whether all its numbers are below 0.
-    #[must_use]
     #[inline]
-    pub fn is_negative(self) -> bool {
+    fn is_negative(self) -> bool {
         self.high < 0.0
     }
 
-    /// Whether all its numbers are below all of another.
-    #[must_use]
     #[inline]
-    pub fn is_below(self, other: Self) -> bool {
+    fn is_below(self, other: Self) -> bool {
         self.high < other.low
     }
 
-    /// Both, and what lies between.
-    #[must_use]
-    pub fn hull(self, other: Self) -> Self {
+    fn hull(self, other: Self) -> Self {
         Self {
             low: self.low.min(other.low),
             high: self.high.max(other.high),
         }
     }
 
-    /// Its numbers clamped to a range.
-    #[must_use]
-    pub fn clamp(self, least: f64, most: f64) -> Self {
+    #[inline]
+    fn clamp(self, least: f64, most: f64) -> Self {
         Self {
             low: self.low.clamp(least, most),
             high: self.high.clamp(least, most),
         }
     }
 
-    /// The square.
-    #[must_use]
     #[inline]
-    pub fn square(self) -> Self {
+    fn square(self) -> Self {
         if self.is_point() {
             return self * self;
         }
         let (a, b) = (self.low.abs(), self.high.abs());
         let (near, far) = if a < b { (a, b) } else { (b, a) };
-        if self.low > 0.0 || self.high < 0.0 {
-            Self::outward(near * near, far * far).at_least_zero()
-        } else {
-            Self::outward(0.0, far * far).at_least_zero()
-        }
+        let near = if self.has_sign() { near } else { 0.0 };
+        Self::outward(near * near, far * far).at_least_zero()
     }
 
-    /// The square root of the numbers that are not negative.
-    #[must_use]
-    pub fn sqrt(self) -> Self {
+    #[inline]
+    fn sqrt(self) -> Self {
         let (low, high) = (self.low.max(0.0).sqrt(), self.high.max(0.0).sqrt());
         if self.is_point() && two_product(low, low) == (self.low, 0.0) {
-            return Self::point(low);
+            return Self::single(low);
         }
         Self::outward(low, high).at_least_zero()
     }
 
-    /// `max(0, x)^exponent` with x at most 1: Phong's highlight, which is 0 for x ≤ 0 unless the
-    /// exponent is 0.
-    ///
     /// The `pow` of `libm` is that of FreeBSD (`e_pow.c`), whose error is stated to be below 0.70
     /// units in the last place; two units are allowed to either side.
-    #[must_use]
-    pub fn highlight(self, exponent: f64) -> Self {
-        if exponent == 0.0 {
+    fn power(self, exponent: Self) -> Self {
+        if exponent.is_zero() {
             return Self::ONE;
         }
-        let end = |x: f64| {
+        let end = |x: f64, exponent: f64| {
             if x <= 0.0 {
                 0.0
             } else {
@@ -182,7 +196,8 @@ impl Enclosure {
             }
         };
         // 0 and 1 are exact.
-        let (low, high) = (end(self.low), end(self.high));
+        let low = end(self.low, exponent.high);
+        let high = end(self.high, exponent.low);
         let below = if self.low >= 1.0 || self.low <= 0.0 {
             low
         } else {
@@ -196,20 +211,33 @@ impl Enclosure {
         Self::between(below.max(0.0), above.min(1.0))
     }
 
-    /// The same without what rounding added below 0.
     #[inline]
-    fn at_least_zero(self) -> Self {
-        Self {
-            low: self.low.max(0.0),
-            ..self
-        }
-    }
-
-    /// ⌊255·x⌋ for x clamped to [0, 1], if it is the same for all its numbers.
-    #[must_use]
-    pub fn level(self) -> Option<u8> {
+    fn level(self) -> Option<u8> {
         let (low, high) = (level(self.low), level(self.high));
         (low == high).then_some(low)
+    }
+
+    /// The errors of [`cos_sin_revolutions`] are below 2 u.
+    fn cos_sin(turns: u64) -> [Self; 2] {
+        let (cosine, sine) = cos_sin_revolutions(turns);
+        [cosine, sine].map(|x| Self::around(x, 4.0 * U))
+    }
+
+    /// The angle of the middle; that of others differs by no more than their distance from it over
+    /// the least distance from 0. `atan2` of `libm` is that of FreeBSD; its error, below two units
+    /// in the last place, is allowed four times.
+    fn turns(y: Self, x: Self) -> Self {
+        let nearest = (y.least() * y.least() + x.least() * x.least()).sqrt() * (1.0 - 4.0 * U);
+        let jumps = x.low <= 0.0 && y.low <= 0.0 && y.high >= 0.0;
+        let ((y, y_radius), (x, x_radius)) = (y.middle(), x.middle());
+        let turn = atan2(y, x) / TAU;
+        let spread = (y_radius + x_radius) / nearest;
+        let error = (16.0 * U * turn.abs() + spread / TAU) * (1.0 + 8.0 * U);
+        // It is NaN or infinite where the angle has no bound.
+        if jumps || !error.is_finite() {
+            return Self::ALL;
+        }
+        Self::around(turn, error)
     }
 }
 
@@ -219,19 +247,13 @@ impl Enclosure {
     clippy::cast_sign_loss,
     reason = "between 0 and 255"
 )]
-fn level(x: f64) -> u8 {
+pub(super) fn level(x: f64) -> u8 {
     let (product, error) = two_product(x.clamp(0.0, 1.0), 255.0);
     let floor = product.floor();
     if floor == product && error < 0.0 {
         (floor - 1.0) as u8
     } else {
         floor as u8
-    }
-}
-
-impl From<f64> for Enclosure {
-    fn from(value: f64) -> Self {
-        Self::point(value)
     }
 }
 
@@ -255,7 +277,7 @@ impl Add for Enclosure {
         if self.is_point() && other.is_point() {
             let (sum, error) = two_sum(self.low, other.low);
             if error == 0.0 {
-                return Self::point(sum);
+                return Self::single(sum);
             }
         }
         Self::outward(self.low + other.low, self.high + other.high)
@@ -272,7 +294,7 @@ impl Sub for Enclosure {
 }
 
 /// Products of this size have an exact error, which is no subnormal number.
-const EXACT: std::ops::Range<f64> = 1e-250..1e250;
+pub(super) const EXACT: std::ops::Range<f64> = 1e-250..1e250;
 
 impl Mul for Enclosure {
     type Output = Self;
@@ -285,21 +307,16 @@ impl Mul for Enclosure {
         if self.is_point() && other.is_point() {
             let (product, error) = two_product(self.low, other.low);
             if error == 0.0 && EXACT.contains(&product.abs()) {
-                return Self::point(product);
+                return Self::single(product);
             }
+            return Self::outward(product, product);
         }
-        let ends = [
+        Self::hull_of([
             self.low * other.low,
             self.low * other.high,
             self.high * other.low,
             self.high * other.high,
-        ];
-        // 0·∞ leaves no bound.
-        if ends.iter().any(|end| end.is_nan()) {
-            return Self::ALL;
-        }
-        let [a, b, c, d] = ends;
-        Self::outward(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
+        ])
     }
 }
 
@@ -307,8 +324,9 @@ impl Div for Enclosure {
     type Output = Self;
 
     /// Any number if the divisor may be 0.
+    #[inline]
     fn div(self, other: Self) -> Self {
-        if !(other.is_positive() || other.is_negative()) {
+        if !other.has_sign() {
             return Self::ALL;
         }
         if self.is_zero() || other == Self::ONE {
@@ -318,121 +336,24 @@ impl Div for Enclosure {
             let quotient = self.low / other.low;
             let is_normal = EXACT.contains(&self.low.abs()) && EXACT.contains(&quotient.abs());
             if is_normal && two_product(quotient, other.low) == (self.low, 0.0) {
-                return Self::point(quotient);
+                return Self::single(quotient);
             }
         }
-        let ends = [
+        Self::hull_of([
             self.low / other.low,
             self.low / other.high,
             self.high / other.low,
             self.high / other.high,
-        ];
-        if ends.iter().any(|end| end.is_nan()) {
-            return Self::ALL;
-        }
-        let [a, b, c, d] = ends;
-        Self::outward(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
-    }
-}
-
-/// A vector of enclosures: a box.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EnclosureVector(pub [Enclosure; 3]);
-
-impl EnclosureVector {
-    /// One vector, which must be finite.
-    #[must_use]
-    pub fn point(vector: Vec3) -> Self {
-        Self(vector.to_array().map(Enclosure::point))
-    }
-
-    /// The scalar product.
-    #[must_use]
-    #[inline]
-    pub fn dot(self, other: Self) -> Enclosure {
-        let ([a, b, c], [x, y, z]) = (self.0, other.0);
-        a * x + b * y + c * z
-    }
-
-    /// The vector product.
-    #[must_use]
-    pub fn cross(self, other: Self) -> Self {
-        let ([a, b, c], [x, y, z]) = (self.0, other.0);
-        Self([b * z - c * y, c * x - a * z, a * y - b * x])
-    }
-
-    /// The square of the length.
-    #[must_use]
-    #[inline]
-    pub fn square(self) -> Enclosure {
-        let [x, y, z] = self.0.map(Enclosure::square);
-        x + y + z
-    }
-
-    /// The length.
-    #[must_use]
-    pub fn length(self) -> Enclosure {
-        self.square().sqrt()
-    }
-
-    /// The unit vector along it; its components have no bound if it may be 0.
-    #[must_use]
-    pub fn normalized(self) -> Self {
-        let length = self.length();
-        // A component of a unit vector is at most 1.
-        Self(self.0.map(|x| (x / length).clamp(-1.0, 1.0)))
-    }
-
-    /// A vector about in the middle, and a bound on the distance of the others.
-    #[must_use]
-    pub fn middle(self) -> (Vec3, f64) {
-        let [x, y, z] = self.0.map(Enclosure::middle);
-        let radius = (x.1 + y.1 + z.1) * (1.0 + 4.0 * U);
-        (Vec3::new(x.0, y.0, z.0), radius)
-    }
-}
-
-impl Neg for EnclosureVector {
-    type Output = Self;
-
-    fn neg(self) -> Self {
-        Self(self.0.map(Neg::neg))
-    }
-}
-
-impl Add for EnclosureVector {
-    type Output = Self;
-
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        let ([a, b, c], [x, y, z]) = (self.0, other.0);
-        Self([a + x, b + y, c + z])
-    }
-}
-
-impl Sub for EnclosureVector {
-    type Output = Self;
-
-    #[inline]
-    fn sub(self, other: Self) -> Self {
-        self + -other
-    }
-}
-
-impl Mul<Enclosure> for EnclosureVector {
-    type Output = Self;
-
-    #[inline]
-    fn mul(self, factor: Enclosure) -> Self {
-        Self(self.0.map(|x| x * factor))
+        ])
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::certify::vector::CertifiedVector;
     use proptest::prelude::*;
-    use rtc_math::DoubleDouble;
+    use rtc_math::{DoubleDouble, Vec3};
 
     /// An enclosure, and two numbers in it.
     fn enclosures() -> impl Strategy<Value = (Enclosure, [f64; 2])> {
@@ -485,7 +406,8 @@ mod tests {
         ) {
             let number = DoubleDouble::from(x);
             let power = (1..exponent).fold(number, |power, _| power * number);
-            let enclosure = Enclosure::between(x, x + width).highlight(f64::from(exponent));
+            let n = Enclosure::point(f64::from(exponent));
+            let enclosure = Enclosure::between(x, x + width).power(n);
             prop_assert!(holds(enclosure, power), "{x}^{exponent}");
         }
 
@@ -493,7 +415,7 @@ mod tests {
         fn a_unit_vector_of_a_box_holds_that_of_its_corner(x in -9.0..9.0, y in -9.0..9.0) {
             let corner = Vec3::new(x, y, 1.5);
             let wide = corner.to_array().map(|k: f64| Enclosure::between(k, k + 1e-9));
-            let unit = EnclosureVector(wide).normalized();
+            let unit = CertifiedVector(wide).normalized();
             for (axis, part) in corner.normalize().to_array().into_iter().enumerate() {
                 let Enclosure { low, high } = unit.0[axis];
                 prop_assert!(low <= part + 4.0 * U && part - 4.0 * U <= high);

@@ -4,21 +4,15 @@ use std::collections::BTreeSet;
 use std::ops::BitOr;
 
 /// The names of what can be unsupported, each with its own bit; others share that of the last.
-const NAMES: [&str; 22] = [
-    "cylinder",
-    "cone",
-    "paraboloid",
-    "torus",
+const NAMES: [&str; 16] = [
     "instance",
     "ellipsoid",
-    "infiniteCylinder",
     "csg",
     "quad",
     "triangle",
     "textures",
-    "glossy reflection",
-    "soft light",
-    "random sub-samples",
+    "normal maps",
+    "refraction by vertex normals",
     "toon shading",
     "stereo",
     "a background colour",
@@ -50,6 +44,8 @@ impl Doubts {
     pub const LEVEL: Self = Self(1 << 5);
     /// A camera ray has more branches than are followed.
     pub const BRANCHES: Self = Self(1 << 6);
+    /// A texture, or the frame of random directions, jumps here.
+    pub const SEAM: Self = Self(1 << 7);
     /// The bit of the first name.
     const FIRST: u32 = 8;
 
@@ -83,6 +79,7 @@ impl Doubts {
             (Self::CRITICAL_ANGLE, "the critical angle"),
             (Self::LEVEL, "the border of two levels"),
             (Self::BRANCHES, "too many branches"),
+            (Self::SEAM, "the seam of a texture"),
         ];
         let rounding = rounding.into_iter().filter(|(one, _)| self.0 & one.0 != 0);
         let features = NAMES.into_iter().enumerate();
