@@ -87,6 +87,7 @@ fn earth() -> Scene {
         names: Vec::new(),
         environment: None,
         display: ir::Display::default(),
+        trees: Vec::new(),
     }
 }
 

@@ -13,7 +13,9 @@ use rtc_codec::{self as codec, Encoding};
 use rtc_emit as emit;
 use rtc_emit::course::WrittenScene;
 use rtc_image::{BackgroundFill, FileFormat};
-use rtc_pipeline::{ExportFormat, Exposure, Input, OutputTransform, PictureSetup, ValidatedScene};
+use rtc_pipeline::{
+    ExportFormat, Exposure, Input, OutputTransform, PictureSetup, ValidatedScene, store_tree,
+};
 use std::path::Path;
 
 /// Compiles the scene and writes it.
@@ -25,6 +27,10 @@ pub(super) fn run(args: &CompileArgs) -> Result<(), Failure> {
     }
     if !matches!(emit, Emit::Glb | Emit::Gltf) && args.tolerance.is_some() {
         let message = "`--tolerance` is about the meshes of glTF; name the output .glb or .gltf";
+        return Err(Failure::Failed(message.to_owned()));
+    }
+    if emit != Emit::IrBin && args.with_bvh {
+        let message = "`--with-bvh` is about the binary IR; name the output .rtir";
         return Err(Failure::Failed(message.to_owned()));
     }
     let mut reporter = Reporter::beside_result(&args.reporter);
@@ -53,12 +59,19 @@ fn carry_out_ir(
     mut input: Input,
     reporter: &mut Reporter,
 ) -> Result<(), Failure> {
-    let validated = input::require(&mut input, reporter, input::fill)?;
+    let mut validated = input::require(&mut input, reporter, input::fill)?;
     explain(args, &validated, &input)?;
     let Some(target) = target(args) else {
         return Ok(());
     };
-    let encoded = codec::prepare(encoding, &validated.lowered.scene);
+    if args.with_bvh {
+        store_tree(&mut validated)?;
+    }
+    let scene = &validated.lowered.scene;
+    let encoded = match args.with_bvh {
+        true => codec::prepare_with_trees(scene),
+        false => codec::prepare(encoding, scene),
+    };
     let encoded =
         encoded.map_err(|codec::NonFiniteNumber| cannot(&input, "a number is not finite"))?;
     let interrupt = Interrupt::listen()?;

@@ -9,11 +9,11 @@
 use super::columns::{self, EntityTable, SectionReader};
 use super::section::{self, ALIGNMENT, SectionEntry, SectionWriter};
 use super::{
-    CHECKSUMS_COUNT, Decoded, NonFiniteNumber, VersionField, image, mesh, newer, span, tree, typed,
-    wrong_shape,
+    CHECKSUMS_COUNT, Decoded, NonFiniteNumber, VersionField, image, mesh, newer, span, stored,
+    tree, typed, wrong_shape,
 };
 use rtc_diag::{Code, Diagnostic, codes};
-use rtc_ir::{Display, Mesh, Scene, Surface, VERSION};
+use rtc_ir::{Display, Mesh, Scene, StoredTree, Surface, VERSION};
 use rtc_source::{FileId, Span};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -47,6 +47,9 @@ struct Header {
     images: Vec<image::StoredImage>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     meshes: Vec<mesh::StoredMesh>,
+    /// Readers that do not know them leave them out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    trees: Vec<stored::StoredTreeSections>,
     #[serde(default)]
     sections: Vec<SectionEntry>,
 }
@@ -77,10 +80,11 @@ impl ContainerDraft<'_> {
     }
 }
 
-/// Encodes a scene with these display settings.
+/// Encodes a scene with these display settings and hierarchies.
 pub(super) fn encode<'s>(
     scene: &'s Scene,
     display: &Display,
+    trees: &'s [StoredTree],
 ) -> Result<ContainerDraft<'s>, NonFiniteNumber> {
     // Reject numbers that have no encoding.
     let Scene {
@@ -95,6 +99,7 @@ pub(super) fn encode<'s>(
         names,
         environment,
         display: _,
+        trees: _,
     } = scene;
     if !meshes.iter().all(Mesh::is_finite) {
         return Err(NonFiniteNumber);
@@ -114,6 +119,10 @@ pub(super) fn encode<'s>(
     let meshes = meshes
         .iter()
         .map(|mesh| mesh::store(mesh, &mut body))
+        .collect();
+    let trees = trees
+        .iter()
+        .map(|tree| stored::store(tree, &mut body))
         .collect();
     // The small parts of the scene stay in the header.
     let mut scene = Map::new();
@@ -135,6 +144,7 @@ pub(super) fn encode<'s>(
         tables,
         images,
         meshes,
+        trees,
         sections: std::mem::take(&mut body.entries),
     };
     Ok(ContainerDraft {
@@ -185,10 +195,15 @@ pub(super) fn decode(file: FileId, bytes: &[u8]) -> Decoded<Scene> {
         .iter()
         .map(|stored| stored.load(&mut reader))
         .collect::<Option<Vec<_>>>();
+    let trees = header
+        .trees
+        .iter()
+        .map(|stored| stored.load(&mut reader))
+        .collect::<Option<Vec<_>>>();
     let malformed = |message| container.error_at(&codes::MALFORMED, message, PREAMBLE, end);
-    let (Some(images), Some(meshes)) = (images, meshes) else {
+    let (Some(images), Some(meshes), Some(trees)) = (images, meshes, trees) else {
         return Err(malformed(
-            "an image or a mesh has no sections of its declared kind".to_owned(),
+            "an image, a mesh or a hierarchy has no sections of its declared kind".to_owned(),
         ));
     };
     // Unpack each table to a list of entities; surfaces are typed one by one.
@@ -221,6 +236,7 @@ pub(super) fn decode(file: FileId, bytes: &[u8]) -> Decoded<Scene> {
     let mut scene = typed(header.ir_version, Value::Object(tree), span)?;
     scene.images.extend(images);
     scene.meshes.extend(meshes);
+    scene.trees = trees;
     scene.surfaces.extend(surfaces);
     Ok(scene)
 }

@@ -67,6 +67,7 @@ fn document(scene: &Scene) -> Result<Value, NonFiniteNumber> {
         names,
         environment,
         display,
+        trees: _,
     } = scene;
     let mut document = Map::new();
     let mut put = |name: &str, part: Value| document.insert(name.to_owned(), part);

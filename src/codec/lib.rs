@@ -32,6 +32,7 @@ mod print;
 mod run;
 mod schema;
 mod section;
+mod stored;
 mod text;
 mod upgrade;
 
@@ -119,8 +120,18 @@ pub fn prepare(encoding: Encoding, scene: &Scene) -> Result<EncodedScene<'_>, No
             print::document(scene, &mut text)?;
             Writing::Json(text)
         }
-        Encoding::Binary => Writing::Binary(binary::encode(scene, &scene.display)?),
+        Encoding::Binary => Writing::Binary(binary::encode(scene, &scene.display, &[])?),
     }))
+}
+
+/// Encodes a scene as a binary container with its stored hierarchies, which [`prepare`] leaves
+/// out.
+///
+/// # Errors
+/// As [`prepare`].
+pub fn prepare_with_trees(scene: &Scene) -> Result<EncodedScene<'_>, NonFiniteNumber> {
+    let draft = binary::encode(scene, &scene.display, &scene.trees)?;
+    Ok(EncodedScene(Writing::Binary(draft)))
 }
 
 /// The bytes of an encoded scene.
@@ -142,7 +153,7 @@ pub fn encode(encoding: Encoding, scene: &Scene) -> Result<Vec<u8>, NonFiniteNum
 /// As [`prepare`].
 pub fn hash(scene: &Scene) -> Result<u128, NonFiniteNumber> {
     let mut hash = section::HashWriter::default();
-    let draft = binary::encode(scene, &Display::default())?;
+    let draft = binary::encode(scene, &Display::default(), &[])?;
     draft.write(&mut hash).expect("hashing does not fail");
     Ok(hash.0.digest128())
 }

@@ -76,6 +76,7 @@ impl From<DecodedDocument> for Scene {
             names,
             environment,
             display,
+            trees: Vec::new(),
         }
     }
 }

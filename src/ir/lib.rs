@@ -58,7 +58,7 @@ pub use light::{
 pub use material::{Bump, Material, MaterialId, Phong};
 pub use mesh::{Mesh, MeshId};
 pub use origin::{EntityField, EntityKind, SourceSpans, ValuePath};
-pub use rtc_math::{SetStep, SharedList, VertexColumn};
+pub use rtc_math::{SetStep, SharedList, StoredTree, VertexColumn};
 pub use settings::{Ambient, Gooch, Mode, PathSettings, Pattern, Settings};
 pub use shape::*;
 pub use standard::{Alpha, Conductor, Map, Standard};
@@ -105,6 +105,11 @@ pub struct Scene {
     /// How values are displayed.
     #[serde(default, skip_serializing_if = "Display::is_plain")]
     pub display: Display,
+    /// Hierarchies that were built before. They change no picture, and are neither in the JSON
+    /// encoding nor hashed.
+    #[serde(skip)]
+    #[arbitrary(default)]
+    pub trees: Vec<StoredTree>,
 }
 
 impl Scene {
@@ -123,6 +128,7 @@ impl Scene {
             names: Vec::new(),
             environment: None,
             display: Display::default(),
+            trees: Vec::new(),
         }
     }
 

@@ -50,6 +50,7 @@ mod pixel_filter;
 mod rotation;
 mod set;
 mod solid_texture;
+mod stored_tree;
 mod turns;
 mod weight;
 
@@ -75,6 +76,7 @@ pub use pixel_filter::PixelFilter;
 pub use rotation::{axis_and_angle, rotated_about, rotated_to_z};
 pub use set::{MAX_SET_OPERANDS, SetStep, evaluate_set, is_set_expression};
 pub use solid_texture::{GradientNoise, SolidTexture, TextureMapping, TexturePattern};
+pub use stored_tree::StoredTree;
 pub use turns::{cos_sin_revolutions, golden_revolutions};
 pub use weight::Weight;
 

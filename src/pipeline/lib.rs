@@ -72,10 +72,10 @@ use rtc_front as front;
 use rtc_front::course::assets::{self, AssetTarget};
 use rtc_front::{course, gltf, mitsuba, pbrt, usd};
 use rtc_image::PixelLayers;
-use rtc_ir::{EntityField, EntityKind, LoweredScene, Scene, SourceSpans, ValuePath};
+use rtc_ir::{EntityField, EntityKind, LoweredScene, Scene, SourceSpans, StoredTree, ValuePath};
 use rtc_math::CameraBasisError;
 use rtc_passes::{AppliedViewAndLight, SceneKind, ViewAndLight};
-use rtc_plan::{self as plan, Plan};
+use rtc_plan::{self as plan, Plan, RuleSet};
 use rtc_render::{
     self as render, AnyWorld, Aov, Film, FilmError, PartialFilm, PixelObserver, PlanMismatch,
     RenderSelection, SimdLevel,
@@ -338,6 +338,13 @@ impl Renderer {
         Ok(Self { world, threads })
     }
 
+    /// The hierarchy over the meshes of the scene, to be stored with it; `None` if it is small or
+    /// there is none over all of them.
+    #[must_use]
+    pub fn tree_to_store(&self) -> Option<StoredTree> {
+        self.world.tree_to_store()
+    }
+
     /// Replaces the scene by one that differs only in camera and settings.
     pub fn change(&mut self, scene: ValidScene) {
         self.threads.install(|| self.world.change(scene));
@@ -402,6 +409,18 @@ impl Renderer {
         self.threads
             .install(|| self.world.layers(aovs, job, &|_| on_pixel()))
     }
+}
+
+/// Stores the hierarchy over the meshes of a scene in its IR, if there is one, as its render by all
+/// rules builds it.
+///
+/// # Errors
+/// If the threads can't be started.
+pub fn store_tree(validated: &mut ValidatedScene) -> Result<(), RenderError> {
+    let plan = Plan::new(&validated.scene, RuleSet::ALL);
+    let renderer = Renderer::new(&validated.scene, &plan, 0)?;
+    validated.lowered.scene.trees = renderer.tree_to_store().into_iter().collect();
+    Ok(())
 }
 
 /// Renders one picture of a valid scene; see [`Renderer::render`].

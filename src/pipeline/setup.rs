@@ -393,6 +393,17 @@ impl PictureSetup {
         Ok((validated, renderer.insert(made)))
     }
 
+    /// Stores the hierarchy over the meshes of the scene in its IR, if there is one.
+    ///
+    /// # Errors
+    /// If the threads can't be started.
+    pub fn store_tree(&self, subject: &mut RenderSubject) -> Result<(), RenderError> {
+        let (_, renderer) = self.renderer(subject)?;
+        let tree = renderer.tree_to_store();
+        subject.validated.lowered.scene.trees = tree.into_iter().collect();
+        Ok(())
+    }
+
     /// The metadata that identifies the picture: rtc version, scene, settings.
     #[must_use]
     pub fn metadata(&self, scene: &Scene) -> PictureMetadata {

@@ -384,6 +384,7 @@ fn make_tiny(scene: &mut Scene) {
         names,
         environment: _,
         display: _,
+        trees: _,
     } = scene;
     camera.size = camera.size.map(|pixels| pixels.min(2 * TINY));
     camera.lens.samples = camera.lens.samples.min(TINY);

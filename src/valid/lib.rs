@@ -53,7 +53,7 @@ pub use texture::{Filter, Map, Sampled, Texture, UvSet, Wrap};
 use check::{Checker, EntityCounts};
 use rtc_diag::DiagnosticSink;
 use rtc_ir::{self as ir, SourceSpans};
-use rtc_math::{Id, IdTable};
+use rtc_math::{Id, IdTable, StoredTree};
 use rtc_source::Limits;
 use std::sync::Arc;
 
@@ -90,6 +90,7 @@ pub struct ValidScene {
     meshes: IdTable<Mesh, Arc<Mesh>>,
     materials: IdTable<Material>,
     surfaces: Vec<Surface>,
+    trees: Vec<StoredTree>,
 }
 
 impl ValidScene {
@@ -145,6 +146,12 @@ impl ValidScene {
     #[must_use]
     pub fn surfaces(&self) -> &[Surface] {
         &self.surfaces
+    }
+
+    /// Hierarchies that were built before, of which nothing is checked.
+    #[must_use]
+    pub fn trees(&self) -> &[StoredTree] {
+        &self.trees
     }
 }
 
@@ -207,6 +214,7 @@ pub fn validate(
         names: _,
         environment,
         display,
+        trees,
     } = scene;
     // Validate each kind of entity; all errors are reported.
     let mut check = Checker::new(source_spans, sink);
@@ -247,6 +255,7 @@ pub fn validate(
         meshes: valid_meshes?.into_iter().map(Arc::new).collect(),
         materials: valid_materials?.into(),
         surfaces: valid_surfaces?.into_iter().flatten().collect(),
+        trees: trees.clone(),
     };
     // Run the lints.
     inside::lights(scene, &mut check);

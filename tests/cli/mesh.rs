@@ -90,3 +90,43 @@ fn a_mesh_with_z_upwards_is_noted_and_turned() {
     let told: serde_json::Value = serde_json::from_slice(&told.stdout).unwrap();
     assert_eq!(told["bounds"], turned);
 }
+
+/// A stored hierarchy changes no picture and no other file.
+#[test]
+fn a_stored_hierarchy_is_only_a_hierarchy() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut grid = String::new();
+    for index in 0..100 {
+        let (x, y) = (f64::from(index % 10), f64::from(index / 10));
+        grid += &format!("v {x} {y} {}\n", (x * 0.7).sin() + (y * 0.9).cos());
+    }
+    for at in (1..90).filter(|at| at % 10 != 0) {
+        grid += &format!("f {} {} {} {}\n", at, at + 1, at + 11, at + 10);
+    }
+    fs::write(folder.path().join("grid.obj"), grid).unwrap();
+    let run = |args: &[&str]| {
+        let output = rtc(&folder, args);
+        assert_eq!(code(&output), 0, "{args:?}: {}", stderr(&output));
+    };
+    let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    run(&["compile", "grid.obj", "-o", "plain.rtir"]);
+    run(&["compile", "grid.obj", "-o", "tree.rtir", "--with-bvh"]);
+    assert!(bytes("tree.rtir").len() > bytes("plain.rtir").len() + 600);
+    for scene in ["plain", "tree"] {
+        let (file, picture) = (format!("{scene}.rtir"), format!("{scene}.png"));
+        run(&[
+            "render", &file, "-o", &picture, "--size", "48x48", "--spp", "4",
+        ]);
+        run(&["compile", &file, "-o", &format!("{scene}.json")]);
+        run(&["compile", &file, "-o", "again.rtir"]);
+        assert!(bytes("again.rtir") == bytes("plain.rtir"), "{scene}");
+    }
+    assert!(bytes("plain.png") == bytes("tree.png"));
+    assert!(bytes("plain.json") == bytes("tree.json"));
+    let refused = rtc(
+        &folder,
+        &["compile", "grid.obj", "-o", "x.glb", "--with-bvh"],
+    );
+    assert_ne!(code(&refused), 0);
+    assert!(stderr(&refused).contains("name the output .rtir"));
+}

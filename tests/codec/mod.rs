@@ -15,7 +15,9 @@ mod versions;
 use proptest::prelude::*;
 use rtc::internals::codec::{self, Encoding};
 use rtc::internals::diag::{Diagnostic, DiagnosticSink};
-use rtc::internals::ir::{Display, ImageId, Pixels, Scene, Shape, Texture, VertexColumn};
+use rtc::internals::ir::{
+    Display, ImageId, Pixels, Scene, Shape, StoredTree, Texture, VertexColumn,
+};
 use rtc::internals::source::SourceMap;
 use scenes::scene;
 use std::path::{Path, PathBuf};

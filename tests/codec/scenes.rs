@@ -430,6 +430,7 @@ prop_compose! {
     ) -> Scene {
         Scene {
             camera, settings, lights, images, textures, meshes, materials, surfaces, names, environment, display,
+            trees: Vec::new(),
         }
     }
 }

@@ -48,6 +48,7 @@ pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
         names: Vec::new(),
         environment: None,
         display: ir::Display::default(),
+        trees: Vec::new(),
     }
 }
 

@@ -91,6 +91,7 @@ impl Dice {
             names: Vec::new(),
             environment: None,
             display: ir::Display::default(),
+            trees: Vec::new(),
         };
         for surface in &mut scene.surfaces {
             surface.casts_no_shadow = self.chance(5);

@@ -62,6 +62,7 @@ pub(super) fn base_scene() -> Scene {
         names: Vec::new(),
         environment: None,
         display: ir::Display::default(),
+        trees: Vec::new(),
     }
 }
 

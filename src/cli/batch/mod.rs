@@ -14,7 +14,7 @@ use super::render::{refuse_layers, set_stage, wanted};
 use super::reporter::{self, Reporter};
 use frames::JobFrames;
 use jobs::FarmJob;
-use rtc_codec::{self as codec, Encoding};
+use rtc_codec as codec;
 use rtc_pipeline::{AtomicFolder, Input, RenderSubject, hash};
 use rtc_study::RenderGoal;
 use std::ffi::OsStr;
@@ -38,7 +38,7 @@ pub(super) fn run(args: &FarmArgs) -> Result<(), Failure> {
         let written = subject.and_then(|subject| {
             let scene = &subject.validated.lowered.scene;
             hashes.push(hash(scene));
-            let written = codec::prepare(Encoding::Binary, scene)
+            let written = codec::prepare_with_trees(scene)
                 .map_err(|codec::NonFiniteNumber| io::Error::other("a number is not finite"))
                 .and_then(|scene| folder.put(&name, &|out| scene.write(out), &interrupt));
             written.map_err(|error| stopped_or(args, &error, &interrupt))
@@ -98,6 +98,8 @@ fn settled(
     if !setup.look.kind.is_linear() {
         subject.validated.lowered.scene.display = setup.look.as_display();
     }
+    // Each part would build the same hierarchy.
+    setup.store_tree(&mut subject)?;
     Ok(subject)
 }
 

@@ -71,6 +71,7 @@ fn write<'s>(scene: &'s Scene, names: FileNames<'s>) -> Result<WrittenScene<'s>,
         names: _,
         environment,
         display,
+        trees: _,
     } = scene;
     // Write the camera, the settings, the lights and the objects.
     let mut text = SceneWriter {

@@ -11,6 +11,7 @@ use crate::shape::baseline::BaselineShape;
 use crate::shape::basic::BasicShape;
 use crate::world::World;
 use rtc_image::{DenoisingGuide, PixelLayers};
+use rtc_math::StoredTree;
 use rtc_plan::{Arithmetic, Plan, RuleSet, ShapeSet};
 use rtc_valid::ValidScene;
 use std::ops::Range;
@@ -64,6 +65,13 @@ impl AnyWorld {
     #[must_use]
     pub fn scene(&self) -> &ValidScene {
         each!(self, world => world.scene())
+    }
+
+    /// The hierarchy over its meshes, to be stored with the scene; `None` if it is small or rays
+    /// search the meshes one by one.
+    #[must_use]
+    pub fn tree_to_store(&self) -> Option<StoredTree> {
+        each!(self, world => world.tree_to_store())
     }
 
     /// Shows another scene, which differs from the one before in its camera and settings alone, by

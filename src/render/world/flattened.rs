@@ -2,12 +2,12 @@
 
 use super::{Surface, SurfaceId, SurfacePrimitive};
 use crate::accel::simd::SimdLevel;
-use crate::accel::wide::{BvhBuilders, Candidate, MOST, WideBvh};
+use crate::accel::wide::{BvhBuilders, BvhTopology, Candidate, MOST, VERSION, WideBvh};
 use crate::ray::Ray;
 use crate::shape::geometry::{Intersect, LocalRay};
 use crate::shape::mesh::MAX_PREPARED;
 use crate::shape::triangle::{self, WatertightRay};
-use rtc_math::{IdTable, to_u32};
+use rtc_math::{IdTable, StoredTree, to_u32};
 use rtc_valid::{self as valid, MAX_MESH_TRIANGLES, ValidScene};
 
 /// The triangles of all flattened instances, numbered surface by surface.
@@ -116,10 +116,12 @@ impl<'traverse, S: Intersect> FlattenedRay<'traverse, S> {
 }
 
 impl FlattenedInstances {
-    /// Flattens these surfaces, in the order of the world.
+    /// Flattens these surfaces, in the order of the world; one of the stored hierarchies spares
+    /// building one, if it is over these surfaces.
     pub(super) fn new<S: Intersect>(
         surfaces: &IdTable<Surface, Surface<S>>,
         ids: &[SurfaceId],
+        stored: &[StoredTree],
         simd: SimdLevel,
     ) -> Option<Self> {
         let shape = |surface: SurfaceId| &surfaces[surface].shape;
@@ -138,7 +140,20 @@ impl FlattenedInstances {
             let (surface, prim_id) = key(&starts, item);
             surfaces[surface].shape.corners(prim_id).unwrap_or_default()
         };
-        let mut hierarchy = WideBvh::build(BvhBuilders::All, simd, count, error_bound, corners)?;
+        if count == 0 {
+            return None;
+        }
+        let own = owners(&starts, count, surfaces);
+        let mut stored = stored.iter().filter(|tree| tree.version == VERSION);
+        let hierarchy = stored.find(|tree| *tree.surfaces == own).and_then(|tree| {
+            let topology = BvhTopology {
+                items: &tree.items,
+                links: &tree.links,
+            };
+            WideBvh::of_topology(topology, simd, count, error_bound, corners)
+        });
+        let build = || WideBvh::build(BvhBuilders::All, simd, count, error_bound, corners);
+        let mut hierarchy = hierarchy.or_else(build)?;
         // World-space corners are those of a mesh only if it is not transformed; few are prepared.
         if count <= MAX_PREPARED || !ids.iter().all(|surface| shape(*surface).is_in_place()) {
             hierarchy.forget_corners();
@@ -146,11 +161,44 @@ impl FlattenedInstances {
         Some(Self { starts, hierarchy })
     }
 
+    /// The hierarchy to be stored; `None` for a small one, or if triangles were left out as copies
+    /// of others.
+    pub(super) fn to_store<S: Intersect>(
+        &self,
+        surfaces: &IdTable<Surface, Surface<S>>,
+    ) -> Option<StoredTree> {
+        let triangles = self
+            .starts
+            .iter()
+            .map(|(id, _)| surfaces[*id].shape.triangles());
+        let count = triangles.sum();
+        let (items, links) = self.hierarchy.topology(count)?;
+        Some(StoredTree {
+            version: VERSION,
+            surfaces: owners(&self.starts, count, surfaces).into(),
+            items: items.into(),
+            links: links.into(),
+        })
+    }
+
     /// The surface and the primitive of a triangle.
     #[inline(always)]
     fn key(&self, item: u32) -> SurfacePrimitive {
         key(&self.starts, item)
     }
+}
+
+/// The index in the scene of each flattened surface, and the number of its triangles.
+fn owners<S>(
+    starts: &[(SurfaceId, u32)],
+    count: usize,
+    surfaces: &IdTable<Surface, Surface<S>>,
+) -> Vec<[u32; 2]> {
+    let ends = starts[1..].iter().map(|(_, start)| *start);
+    let ends = ends.chain([to_u32(count)]);
+    let owner =
+        |((id, start), end): (&(SurfaceId, u32), u32)| [to_u32(surfaces[*id].index), end - start];
+    starts.iter().zip(ends).map(owner).collect()
 }
 
 /// The surface and the primitive of a triangle, given where surfaces start.

@@ -12,7 +12,7 @@ use super::{MaterialId, ObjectBvh, Surface, SurfaceId, World, light};
 use crate::accel::bvh::Bvh;
 use crate::accel::simd::SimdLevel;
 use crate::shape::geometry::Intersect;
-use rtc_math::IdTable;
+use rtc_math::{IdTable, StoredTree};
 use rtc_plan::facts::material;
 use rtc_plan::{Plan, RuleSet};
 use rtc_valid::{self as valid, ValidScene};
@@ -77,6 +77,12 @@ impl<S: Prepare> World<S> {
             simd,
             small_scene,
         }
+    }
+
+    /// The hierarchy over its flattened surfaces, to be stored with the scene.
+    #[must_use]
+    pub fn tree_to_store(&self) -> Option<StoredTree> {
+        self.flattened.as_ref()?.to_store(&self.surfaces)
     }
 }
 
@@ -149,7 +155,7 @@ impl SurfaceLookup {
             small_scene: bundled.then(small_scene).flatten(),
             casters: (casters.len() < objects.len()).then(|| ObjectBvh::of(surfaces, &casters)),
             objects: ObjectBvh::of(surfaces, &objects),
-            flattened: FlattenedInstances::new(surfaces, &flattened, simd),
+            flattened: FlattenedInstances::new(surfaces, &flattened, scene.trees(), simd),
         }
     }
 }

@@ -47,19 +47,9 @@ impl WideBvh {
         if count == 0 {
             return None;
         }
-        // Compute the bounds of all triangles.
-        let bounds = |item| Bounds::of(corners(item).iter().copied()).grown(error_bound);
-        let all = || (0..count).into_par_iter();
-        let whole = match builders {
-            BvhBuilders::One => (0..count).map(bounds).fold(Bounds::EMPTY, Bounds::union),
-            BvhBuilders::All => all().map(bounds).reduce(|| Bounds::EMPTY, Bounds::union),
-        };
-        let mean = || {
-            let centers = (0..count).map(|item| bounds(item).center() / f64::from(count));
-            centers.sum::<Vec3>()
-        };
         // Quantize the boxes to f32 in a cube around the geometry, rounded outward.
-        let frame = QuantizationFrame::around(whole, mean, error_bound);
+        let frame = frame_around(builders, count, error_bound, &corners);
+        let bounds = |item| Bounds::of(corners(item)).grown(error_bound);
         let item = |item| TriangleRow::of_box(item, frame.rounded_outward(bounds(item)));
         let mut triangles = PagedRows::zeroed(count as usize + ROWS_AFTER);
         let rows = &mut triangles.rows_mut()[..count as usize];
@@ -67,13 +57,14 @@ impl WideBvh {
             BvhBuilders::One => rows.iter_mut().zip(0..).for_each(|(row, n)| *row = item(n)),
             BvhBuilders::All => rows
                 .par_iter_mut()
-                .zip(all())
+                .zip(0..count)
                 .for_each(|(row, n)| *row = item(n)),
         }
         // Build the nodes, and merge the branches.
         let leaves = LeafBuilder {
             builders,
             frame,
+            error_bound,
             corners,
         };
         let (root, branches) = grow_all(rows, &leaves);
@@ -90,11 +81,37 @@ impl WideBvh {
     }
 }
 
-/// The source of leaves, and their builder.
-struct LeafBuilder<C> {
+/// The cube around some triangles with corners that may be wrong by `error_bound`.
+pub(super) fn frame_around(
     builders: BvhBuilders,
-    frame: QuantizationFrame,
-    corners: C,
+    count: u32,
+    error_bound: f64,
+    corners: &(impl Fn(u32) -> [Vec3; 3] + Sync),
+) -> QuantizationFrame {
+    let bounds = |item| Bounds::of(corners(item));
+    let whole = match builders {
+        BvhBuilders::One => (0..count).map(bounds).fold(Bounds::EMPTY, Bounds::union),
+        BvhBuilders::All => {
+            let all = (0..count).into_par_iter().map(bounds);
+            all.reduce(|| Bounds::EMPTY, Bounds::union)
+        }
+    };
+    let center = |item| bounds(item).grown(error_bound).center();
+    let mean = || {
+        let centers = (0..count).map(|item| center(item) / f64::from(count));
+        centers.sum::<Vec3>()
+    };
+    // Rounding keeps order, so this is the box around the boxes of the triangles.
+    QuantizationFrame::around(whole.grown(error_bound), mean, error_bound)
+}
+
+/// The source of leaves, and their builder.
+pub(super) struct LeafBuilder<C> {
+    pub(super) builders: BvhBuilders,
+    pub(super) frame: QuantizationFrame,
+    /// What a coordinate of a corner may be wrong by.
+    pub(super) error_bound: f64,
+    pub(super) corners: C,
 }
 
 impl<C: Fn(u32) -> [Vec3; 3]> LeafBuilder<C> {
@@ -104,14 +121,49 @@ impl<C: Fn(u32) -> [Vec3; 3]> LeafBuilder<C> {
         let leaf = items.as_flattened_mut();
         let mut is_exact = true;
         for (lane, number) in numbers.iter().enumerate() {
-            leaf[ITEM * numbers.len() + lane] = f32::from_bits(*number);
-            for (corner, point) in (self.corners)(*number).into_iter().enumerate() {
-                let rounded = self.frame.enter(point).as_vec3();
-                let exact = self.frame.unit().map(|unit| rounded.as_dvec3() * unit);
-                is_exact &= exact == Some(point);
-                for (axis, coordinate) in rounded.to_array().into_iter().enumerate() {
-                    leaf[place(corner, axis) * numbers.len() + lane] = coordinate;
-                }
+            let corners = (self.corners)(*number);
+            is_exact &= self.put(leaf, (lane, numbers.len()), *number, &corners);
+        }
+        is_exact
+    }
+
+    /// Makes rows a leaf of these triangles; returns the box around it in the cube, and whether it
+    /// has their exact corners.
+    #[inline(always)]
+    pub(super) fn fill_from(
+        &self,
+        rows: &mut [TriangleRow],
+        numbers: &[u32],
+    ) -> ([[f32; 3]; 2], bool) {
+        let leaf = rows.as_flattened_mut();
+        let (mut bounds, mut is_exact) = (Bounds::EMPTY, true);
+        for (lane, number) in numbers.iter().enumerate() {
+            let corners = (self.corners)(*number);
+            bounds = bounds.union(Bounds::of(corners));
+            is_exact &= self.put(leaf, (lane, numbers.len()), *number, &corners);
+        }
+        // Rounding keeps order, so this is the box around the boxes of the triangles.
+        let ends = self.frame.rounded_outward(bounds.grown(self.error_bound));
+        (ends, is_exact)
+    }
+
+    /// Puts a triangle into a lane of a leaf of `count`; returns whether its corners are exact.
+    #[inline(always)]
+    fn put(
+        &self,
+        leaf: &mut [f32],
+        (lane, count): (usize, usize),
+        number: u32,
+        corners: &[Vec3; 3],
+    ) -> bool {
+        let mut is_exact = true;
+        leaf[ITEM * count + lane] = f32::from_bits(number);
+        for (corner, point) in corners.iter().enumerate() {
+            let rounded = self.frame.enter(*point).as_vec3();
+            let exact = self.frame.unit().map(|unit| rounded.as_dvec3() * unit);
+            is_exact &= exact == Some(*point);
+            for (axis, coordinate) in rounded.to_array().into_iter().enumerate() {
+                leaf[place(corner, axis) * count + lane] = coordinate;
             }
         }
         is_exact

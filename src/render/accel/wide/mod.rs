@@ -5,6 +5,7 @@
 
 mod build;
 mod split;
+mod stored;
 mod traverse;
 
 use crate::accel::conservative_ray::QuantizationFrame;
@@ -14,13 +15,17 @@ use crate::accel::simd::SimdLevel;
 use arrayvec::ArrayVec;
 pub(crate) use build::{BvhBuilders, MOST};
 use rtc_math::Vec3;
+pub(crate) use stored::{BvhTopology, VERSION};
 pub(crate) use traverse::TriangleVisitor;
 
 /// Below this depth the heuristic chooses; above it the middle, which needs at most 12 more.
 const HEURISTIC_DEPTH: usize = 16;
 
+/// The levels of nodes at most.
+const MAX_DEPTH: usize = HEURISTIC_DEPTH + 12;
+
 /// The traversal stack, with the entry point of each node: a level adds at most seven children.
-type TraversalStack = ArrayVec<(f32, u32), { (HEURISTIC_DEPTH + 12) * (WIDTH - 1) + 1 }>;
+type TraversalStack = ArrayVec<(f32, u32), { MAX_DEPTH * (WIDTH - 1) + 1 }>;
 
 /// The bit of a link that leads to a leaf; the two lowest are then one less than the triangles in
 /// it, those between are its first row.
@@ -74,8 +79,15 @@ impl Candidate<'_> {
 /// The leaf that a link leads to.
 #[inline(always)]
 fn leaf_at(rows: &[TriangleRow], link: u32) -> WideLeaf<'_> {
+    let (first, count) = leaf_rows(link);
+    WideLeaf::new(rows, first, count)
+}
+
+/// The first row of the leaf that a link leads to, and the number of its triangles.
+#[inline(always)]
+fn leaf_rows(link: u32) -> (usize, usize) {
     let (first, less) = ((link & !LEAF) >> 2, link & (TRIANGLES as u32 - 1));
-    WideLeaf::new(rows, first as usize, less as usize + 1)
+    (first as usize, less as usize + 1)
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Traversal visits every triangle that is hit, and few others.
 
 mod copies;
+mod stored;
 
 use super::*;
 use crate::ray::Ray;
