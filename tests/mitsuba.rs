@@ -5,7 +5,7 @@ use crate::repo::root;
 use crate::small::{WHOLE, film};
 use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::{Camera, Light, Material, Mode, Scene, Shape};
-use rtc::internals::math::{ComplexIndex, PixelFilter, Vec3};
+use rtc::internals::math::{ComplexIndex, Microfacets, PixelFilter, Plastic, Vec3};
 use rtc::internals::pipeline::{Options, load};
 use rtc::internals::source::{Loader, SourceMap};
 use std::fs;
@@ -501,6 +501,9 @@ fn a_metal_is_the_same_in_every_format_that_is_written() {
             "{name}"
         );
         assert_eq!(one.base_color, other.base_color, "{name}");
+        assert_eq!(one.microfacets, Microfacets::SeparableGgx);
+        assert_eq!(one.microfacets, other.microfacets, "{name}");
+        assert!(one.black_back && other.black_back, "{name}");
         assert!((one.roughness - other.roughness).abs() < 1e-9, "{name}");
         // The filter of the pixels, too: that of Mitsuba's films is a Gaussian.
         let filter = |scene: &Scene| match &scene.settings.mode {
@@ -510,6 +513,49 @@ fn a_metal_is_the_same_in_every_format_that_is_written() {
         assert!(!filter(&scene).is_pixel(), "{name}");
         assert_eq!(filter(&scene), filter(&again), "{name}");
     }
+}
+
+#[test]
+fn plastics_and_facets_are_read_without_a_warning() {
+    let material = |bsdf: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("scene.xml");
+        let head = r#"<scene version="3.0.0"><sensor type="perspective"/>"#;
+        let text = format!(r#"{head}<shape type="sphere">{bsdf}</shape></scene>"#);
+        fs::write(&path, text).unwrap();
+        let (scene, codes) = read(&path);
+        assert_eq!(codes, Vec::<&str>::new(), "{bsdf}");
+        match &scene.materials[0] {
+            Material::Standard(standard) => (**standard).clone(),
+            Material::Phong(phong) => panic!("{phong:?}"),
+        }
+    };
+    let plastics = [
+        (r#"<bsdf type="plastic"/>"#, Plastic::Linear),
+        (
+            r#"<bsdf type="roughplastic"><boolean name="nonlinear" value="true"/></bsdf>"#,
+            Plastic::Nonlinear,
+        ),
+        (r#"<bsdf type="pplastic"/>"#, Plastic::Single),
+    ];
+    for (bsdf, plastic) in plastics {
+        let one = material(bsdf);
+        assert_eq!((one.plastic, one.black_back), (plastic, true), "{bsdf}");
+        let both = material(&format!(r#"<bsdf type="twosided">{bsdf}</bsdf>"#));
+        assert!(!both.black_back, "{bsdf}");
+    }
+    // The lesser width is 0.05; along v it is 0.3 = 0.05 + 0.95·strength².
+    let brushed = material(
+        r#"<bsdf type="roughconductor"><float name="alpha_u" value="0.05"/>
+        <float name="alpha_v" value="0.3"/></bsdf>"#,
+    );
+    assert_eq!(brushed.microfacets, Microfacets::Beckmann);
+    assert!((brushed.roughness.powi(2) - 0.05).abs() < 1e-12);
+    assert!((0.05 + 0.95 * brushed.anisotropy.powi(2) - 0.3).abs() < 1e-12);
+    assert_eq!(brushed.anisotropy_rotation, std::f64::consts::FRAC_PI_2);
+    // Of light without polarization a polarizer lets half through.
+    let filter = material(r#"<bsdf type="polarizer"/>"#);
+    assert_eq!((filter.base_color, filter.ior), ([0.5, 0.5, 0.5, 1.0], 1.0));
 }
 
 #[test]

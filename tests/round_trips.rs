@@ -119,6 +119,34 @@ doubleSided: true, baseColor: [1, 0.5, 1, 1], baseColorMap: p.png}}\n",
         ),
     ),
     objects(
+        "brushed gold of Beckmann's facets",
+        ball!(
+            "doubleSided: true, roughness: 0.4, microfacets: beckmann, anisotropy: 0.5, \
+             conductor: {eta: [0.14, 0.37, 1.44], k: [3.98, 2.39, 1.6]}"
+        ),
+    ),
+    objects(
+        "a smooth plastic",
+        ball!(
+            "doubleSided: true, metallic: 0, roughness: 0, plastic: nonlinear, ior: 1.49, \
+             baseColor: [0.8, 0.5, 0.1, 1]"
+        ),
+    ),
+    objects(
+        "a rough plastic with a black back",
+        ball!(
+            "doubleSided: true, blackBack: true, metallic: 0, roughness: 0.5, plastic: linear, \
+             microfacets: separable-ggx, ior: 1.49, specular: 0.8, baseColor: [0.8, 0.5, 0.1, 1]"
+        ),
+    ),
+    objects(
+        "a plastic without reflections inside",
+        ball!(
+            "doubleSided: true, metallic: 0, roughness: 0.3, plastic: single, \
+             microfacets: beckmann, ior: 1.49, baseColor: [0.8, 0.5, 0.1, 1]"
+        ),
+    ),
+    objects(
         "a coated surface",
         ball!("doubleSided: true, metallic: 0, roughness: 0.3, baseColor: [0.2, 0.5, 0.3, 1]"),
     ),

@@ -2,7 +2,7 @@
 
 use super::TextureId;
 use arbitrary::Arbitrary;
-use rtc_math::{ComplexIndex, Vec3};
+use rtc_math::{ComplexIndex, Microfacets, Plastic, Vec3};
 use rtc_tables::{camel_case, parameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -101,6 +101,8 @@ macro_rules! stored {
     (fractions) => { [f64; 4] };
     (some_fractions) => { Option<[f64; 4]> };
     (conductor) => { Option<Conductor> };
+    (microfacets) => { Microfacets };
+    (plastic) => { Plastic };
     (flag) => { bool };
     (alpha) => { Alpha };
     (map) => { Option<Map> };

@@ -1,5 +1,11 @@
 //! Elementary functions from `libm`: std's differ between platforms, these do not.
 
+/// The error function, `2/√π·∫₀ˣ exp(−t²) dt`.
+#[must_use]
+pub fn erf(x: f64) -> f64 {
+    libm::erf(x)
+}
+
 /// The sine of an angle in radians.
 #[must_use]
 pub fn sin(x: f64) -> f64 {

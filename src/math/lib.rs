@@ -40,6 +40,7 @@ mod count;
 mod direction;
 mod double;
 mod exact;
+mod facets;
 mod flat;
 mod func;
 mod hash;
@@ -64,8 +65,9 @@ pub use double::DoubleDouble;
 pub use exact::{
     SPLITTER, cross, difference_of_products, dot, two_difference, two_product, two_sum,
 };
+pub use facets::{Microfacets, Plastic};
 pub use flat::is_flat;
-pub use func::{acos, atan2, cos, exp, ldexp, ln, pow, sin, sin_cos};
+pub use func::{acos, atan2, cos, erf, exp, ldexp, ln, pow, sin, sin_cos};
 pub use glam::DVec3 as Vec3;
 pub use glam::Vec4 as Lanes;
 pub use hash::{GAMMA, fraction, mix};

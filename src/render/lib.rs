@@ -54,7 +54,7 @@ mod world;
 pub use accel::simd::SimdLevel;
 pub use bsdf::optics::{highlight, reflect, refract};
 pub use bsdf::standard::*;
-pub use bsdf::{Bsdf, BsdfEvaluation, BsdfLobes, BsdfSample, dispersed};
+pub use bsdf::{Bsdf, BsdfEvaluation, BsdfLobes, BsdfSample, PlasticBoundary, dispersed};
 pub use camera::{Camera, Projection, camera_ray, image_point, vogel};
 pub use film::heartbeat::{PixelObserver, RenderStep};
 pub use film::partial::{FilmError, PartialFilm};

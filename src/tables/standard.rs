@@ -47,6 +47,13 @@ macro_rules! parameters {
             /// The complex index of refraction of the metal at red, green and blue: the base colour
             /// is then a factor of the reflectance by the Fresnel equations.
             conductor: conductor = None, "Option::is_none";
+            /// The distribution of the microfacets and how they hide each other.
+            microfacets: microfacets = Microfacets::Ggx, "is_default";
+            /// How light leaves the diffuse base below a boundary of the index: as glTF says, or as
+            /// from a plastic, whose mirror image has the specular strength and colour as a factor.
+            plastic: plastic = Plastic::None, "is_default";
+            /// Whether its back reflects nothing.
+            black_back: flag = false, "is_default";
             /// The dispersion of the index: 20 over the Abbe number.
             dispersion: non_negative = 0.0, "is_zero";
             /// How much of light is mirrored that no metal mirrors.

@@ -4,7 +4,9 @@ use super::check::{Checker, EntityCounts, LARGEST};
 use super::texture::{self, Map};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
-use rtc_math::{ComplexIndex, NonNegative, Positive, UnitInterval, Vec3, shortest};
+use rtc_math::{
+    ComplexIndex, Microfacets, NonNegative, Plastic, Positive, UnitInterval, Vec3, shortest,
+};
 use rtc_tables::{camel_case, parameters};
 use std::any::Any;
 
@@ -22,6 +24,8 @@ macro_rules! validated {
     (fractions) => { [UnitInterval; 4] };
     (some_fractions) => { Option<[UnitInterval; 4]> };
     (conductor) => { Option<ComplexIndex> };
+    (microfacets) => { Microfacets };
+    (plastic) => { Plastic };
     (flag) => { bool };
     (alpha) => { Alpha };
     (map) => { Option<Map> };
@@ -257,6 +261,24 @@ impl ParameterCheck<'_, '_> {
         let ir::Conductor { eta, k } = index;
         let [eta, k] = [eta, k].map(|values| self.color(values, name));
         Some(Some(ComplexIndex { eta: eta?, k: k? }))
+    }
+
+    #[expect(
+        clippy::unused_self,
+        clippy::unnecessary_wraps,
+        reason = "a row of the table like the others; each value is sound"
+    )]
+    fn microfacets(&self, value: &Microfacets, _name: &str) -> Option<Microfacets> {
+        Some(*value)
+    }
+
+    #[expect(
+        clippy::unused_self,
+        clippy::unnecessary_wraps,
+        reason = "a row of the table like the others; each value is sound"
+    )]
+    fn plastic(&self, value: &Plastic, _name: &str) -> Option<Plastic> {
+        Some(*value)
     }
 
     fn pair(&mut self, values: &[f64; 2], name: &str) -> Option<[NonNegative; 2]> {

@@ -67,7 +67,9 @@ fn full() -> Standard {
         tree[key] = match key.as_str() {
             "name" => json!("a \"name\": #1"),
             "alpha" => json!({ "mask": 0.3 }),
-            "doubleSided" | "unlit" => json!(true),
+            "doubleSided" | "unlit" | "blackBack" => json!(true),
+            "microfacets" => json!("beckmann"),
+            "plastic" => json!("nonlinear"),
             "ior" | "iridescenceIor" => json!(1.4),
             "iridescenceThickness" => json!([50.0, 1.0 / 3.0]),
             "conductor" => json!({ "eta": [0.1, 0.4, 1.0 / 3.0], "k": [4.0, 2.5, 1.9] }),

@@ -123,7 +123,9 @@ fn brushed_metal_loses_nothing() {
 #[test]
 fn without_further_bounces_nothing_sends_out_more_than_it_gets_either() {
     let grazing = [1.0, 0.5, 0.2, 0.1, 0.05, 0.02];
-    for (name, standard) in variety() {
+    // The boundary of a plastic has a roughness of its own.
+    let materials = variety().into_iter();
+    for (name, standard) in materials.filter(|(_, standard)| standard.plastic.is_none()) {
         for roughness in [0.05, standard.roughness, 1.0] {
             let sheen = standard.sheen.map(|sheen| Sheen { roughness, ..sheen });
             let clearcoat = standard.clearcoat.map(|coat| Clearcoat {

@@ -10,12 +10,13 @@ mod density;
 mod energy;
 mod known;
 
-use rtc::internals::math::Vec3;
+use rtc::internals::math::{Microfacets, Plastic, Vec3};
 use rtc::internals::render::{
-    Anisotropy, Bsdf, BsdfSample, Clearcoat, DiffuseTransmission, Iridescence, Sheen,
-    StandardParameters,
+    Anisotropy, Bsdf, BsdfSample, Clearcoat, DiffuseTransmission, Iridescence, PlasticBoundary,
+    Sheen, StandardParameters,
 };
 use std::f64::consts::FRAC_1_PI;
+use std::sync::LazyLock;
 
 /// A point of the unit cube out of a rank-1 lattice, by the inverse powers of the plastic number of
 /// three dimensions.
@@ -47,12 +48,12 @@ fn lattice_of(k: u32, n: u32) -> [f64; 3] {
 }
 
 /// A sample by three numbers, of which the last is not always needed.
-fn sampled(bsdf: &Bsdf, [u, v, third]: [f64; 3]) -> Option<BsdfSample> {
+fn sampled(bsdf: &Bsdf<'_>, [u, v, third]: [f64; 3]) -> Option<BsdfSample> {
     bsdf.sample([u, v], || third)
 }
 
 /// How much of a uniform sky the material sends to a viewer, by sampling.
-fn albedo(standard: &StandardParameters, wo: Vec3, samples: u32) -> Vec3 {
+fn albedo(standard: &StandardParameters<'_>, wo: Vec3, samples: u32) -> Vec3 {
     let bsdf = Bsdf::new(standard, wo);
     let value = |k: u32| {
         sampled(&bsdf, lattice_of(k, samples)).map_or(Vec3::ZERO, |s| s.f * (s.wi.z.abs() / s.pdf))
@@ -60,9 +61,22 @@ fn albedo(standard: &StandardParameters, wo: Vec3, samples: u32) -> Vec3 {
     (0..samples).map(value).sum::<Vec3>() / f64::from(samples)
 }
 
+/// The boundary of a plastic of the index 1.49.
+fn boundary(which: usize) -> &'static PlasticBoundary {
+    static BOUNDARIES: LazyLock<[PlasticBoundary; 3]> = LazyLock::new(|| {
+        let of = |inner, roughness, model| PlasticBoundary::new(inner, 1.49, roughness, model);
+        [
+            of(Plastic::Nonlinear, 0.0, Microfacets::Ggx),
+            of(Plastic::Linear, 0.5, Microfacets::Beckmann),
+            of(Plastic::Single, 0.5, Microfacets::SeparableGgx),
+        ]
+    });
+    &BOUNDARIES[which]
+}
+
 /// Materials that between them use every lobe.
 #[expect(clippy::too_many_lines, reason = "a table, one row a material")]
-fn variety() -> Vec<(&'static str, StandardParameters)> {
+fn variety() -> Vec<(&'static str, StandardParameters<'static>)> {
     let plain = StandardParameters {
         roughness: 0.5,
         base_color: Vec3::new(0.9, 0.4, 0.2),
@@ -103,6 +117,52 @@ fn variety() -> Vec<(&'static str, StandardParameters)> {
             StandardParameters {
                 multiple_scattering: false,
                 ..plain
+            },
+        ),
+        (
+            "plastic",
+            StandardParameters {
+                roughness: 0.0,
+                ior: 1.49,
+                plastic: Some(boundary(0)),
+                ..plain
+            },
+        ),
+        (
+            "rough plastic",
+            StandardParameters {
+                ior: 1.49,
+                facets: Microfacets::Beckmann,
+                plastic: Some(boundary(1)),
+                ..plain
+            },
+        ),
+        (
+            "plastic without reflections inside",
+            StandardParameters {
+                ior: 1.49,
+                facets: Microfacets::SeparableGgx,
+                plastic: Some(boundary(2)),
+                ..plain
+            },
+        ),
+        (
+            "brushed metal of Beckmann",
+            StandardParameters {
+                metallic: 1.0,
+                facets: Microfacets::Beckmann,
+                anisotropy: Some(brushed),
+                multiple_scattering: false,
+                ..plain
+            },
+        ),
+        (
+            "rough glass of Beckmann",
+            StandardParameters {
+                roughness: 0.8,
+                facets: Microfacets::Beckmann,
+                multiple_scattering: false,
+                ..body
             },
         ),
         (

@@ -3,7 +3,7 @@
 use super::material::exists;
 use super::{SceneWriter, quoted};
 use rtc_ir::{Alpha, Conductor, Filter, Map, Sampled, Scene, Standard, Texture, Wrap};
-use rtc_math::shortest;
+use rtc_math::{Microfacets, Plastic, shortest};
 use rtc_tables::{camel_case, parameters};
 
 /// Writes all parameters that are not the default; the kind of each names its method.
@@ -110,6 +110,27 @@ impl ParameterWriter<'_, '_> {
     #[expect(clippy::unused_self, reason = "a row of the table like the others")]
     fn flag(&mut self, value: &bool) -> WrittenValue {
         Ok(value.to_string())
+    }
+
+    #[expect(clippy::unused_self, reason = "a row of the table like the others")]
+    fn microfacets(&mut self, value: &Microfacets) -> WrittenValue {
+        let keyword = match value {
+            Microfacets::Ggx => "ggx",
+            Microfacets::SeparableGgx => "separable-ggx",
+            Microfacets::Beckmann => "beckmann",
+        };
+        Ok(keyword.to_owned())
+    }
+
+    #[expect(clippy::unused_self, reason = "a row of the table like the others")]
+    fn plastic(&mut self, value: &Plastic) -> WrittenValue {
+        let keyword = match value {
+            Plastic::None => "none",
+            Plastic::Linear => "linear",
+            Plastic::Nonlinear => "nonlinear",
+            Plastic::Single => "single",
+        };
+        Ok(keyword.to_owned())
     }
 
     fn alpha(&mut self, alpha: &Alpha) -> WrittenValue {

@@ -31,7 +31,8 @@ impl GltfWriter<'_> {
         let path = ValuePath::new(EntityKind::Material, id.0 as usize, EntityField::Whole);
         let (mut standard, rtc_extras) = match &self.scene.materials[id.0 as usize] {
             Material::Standard(standard) => {
-                let rtc_extras = self.conductor(standard, path);
+                let mut rtc_extras = self.conductor(standard, path);
+                self.facets(standard, &mut rtc_extras, path);
                 (without_index(standard), rtc_extras)
             }
             Material::Phong(phong) => {
@@ -245,6 +246,30 @@ impl GltfWriter<'_> {
         let [r, g, b, _] = standard.base_color;
         let conductor = json!({ "eta": eta, "k": k, "baseColor": [r, g, b] });
         JsonObject::from_iter([("conductor".to_owned(), conductor)])
+    }
+
+    /// The distribution of facets, the kind of plastic and the sides for `extras.rtc`.
+    fn facets(
+        &mut self,
+        standard: &Standard,
+        rtc_extras: &mut JsonObject<String, Value>,
+        path: ValuePath,
+    ) {
+        let default = Standard::default();
+        let mut write = |key: &str, what: &str, value: Value| {
+            self.reporter.in_extras(what, path);
+            rtc_extras.insert(key.to_owned(), value);
+        };
+        if standard.microfacets != default.microfacets {
+            let value = json!(standard.microfacets);
+            write("microfacets", "the distribution of facets", value);
+        }
+        if standard.plastic != default.plastic {
+            write("plastic", "the kind of plastic", json!(standard.plastic));
+        }
+        if standard.black_back {
+            write("blackBack", "a back that reflects nothing", json!(true));
+        }
     }
 
     /// The weights and maps of the Phong model for `extras.rtc`.

@@ -1,4 +1,5 @@
-//! Writes materials: diffuse materials and perfect mirrors are exact; others are approximated.
+//! Writes materials: diffuse materials, metals with an index, plastics and perfect mirrors are
+//! exact; others are approximated.
 
 use super::MitsubaWriter;
 use crate::approximation::without_index;
@@ -8,7 +9,7 @@ use crate::path_tracer::{
     opacity,
 };
 use rtc_ir::{Conductor, EntityField, EntityKind, Standard, ValuePath};
-use rtc_math::shortest;
+use rtc_math::{Microfacets, Plastic, shortest};
 use std::collections::BTreeSet;
 
 /// The normal-incidence reflectance of a dielectric with `specular` = 1 in Mitsuba's `principled`
@@ -30,7 +31,7 @@ impl MitsubaWriter<'_> {
             let material = variant.standard(scene);
             let (plugin, message) = MitsubaPlugin::of(&material);
             let material = match plugin {
-                MitsubaPlugin::Conductor(_) => material,
+                MitsubaPlugin::Conductor(_) | MitsubaPlugin::Plastic(_) => material,
                 MitsubaPlugin::Black
                 | MitsubaPlugin::Diffuse
                 | MitsubaPlugin::Mirror
@@ -38,19 +39,30 @@ impl MitsubaWriter<'_> {
                 | MitsubaPlugin::Layered => without_index(&material),
             };
             if reported.insert(index) {
-                self.report_material(&material, message, path);
+                self.report_material(&material, (plugin, message), path);
             }
             self.material(variant, &material, plugin, path)?;
         }
         Some(())
     }
 
-    fn report_material(&mut self, material: &Standard, message: Option<&str>, path: ValuePath) {
+    fn report_material(
+        &mut self,
+        material: &Standard,
+        (plugin, message): (MitsubaPlugin, Option<&str>),
+        path: ValuePath,
+    ) {
         let name = called(&material.name);
-        let own = [(
-            material.diffuse_transmission > 0.0,
-            "the scattered light that goes through",
-        )];
+        let own = [
+            (
+                material.diffuse_transmission > 0.0,
+                "the scattered light that goes through",
+            ),
+            (
+                material.plastic != Plastic::None && !matches!(plugin, MitsubaPlugin::Plastic(_)),
+                "the light that its plastic reflects inside",
+            ),
+        ];
         let missing_features = missing_features(self.scene, material, &own);
         if !missing_features.is_empty() {
             let missing = enumeration(&missing_features);
@@ -115,7 +127,7 @@ impl MitsubaWriter<'_> {
         Some(())
     }
 
-    /// Materials that light does not cross have two sides.
+    /// Materials that light does not cross have two sides, or a black back.
     fn two_sided(
         &mut self,
         depth: usize,
@@ -124,6 +136,9 @@ impl MitsubaWriter<'_> {
         material: (MitsubaPlugin, &Standard),
         path: ValuePath,
     ) -> Option<()> {
+        if material.1.black_back {
+            return self.bsdf(depth, id, variant, material, path);
+        }
         self.line(depth, &format!(r#"<bsdf type="twosided"{id}>"#));
         self.bsdf(depth + 1, "", variant, material, path)?;
         self.line(depth, "</bsdf>");
@@ -175,6 +190,17 @@ impl MitsubaWriter<'_> {
                 self.roughness(inner, material);
                 self.slot(inner, "specular_reflectance", color, path)?;
             }
+            MitsubaPlugin::Plastic(_) => {
+                self.dielectric_interface(inner, material);
+                self.slot(inner, "diffuse_reflectance", color, path)?;
+                let specular = material.specular_color.map(|part| part * material.specular);
+                if specular != [1.0; 3] {
+                    self.rgb(inner, "specular_reflectance", specular);
+                }
+                if material.plastic == Plastic::Nonlinear {
+                    self.value(inner, "boolean", "nonlinear", "true");
+                }
+            }
             MitsubaPlugin::Glass(_) => {
                 self.dielectric_interface(inner, material);
                 self.slot(inner, "specular_transmittance", color, path)?;
@@ -202,12 +228,28 @@ impl MitsubaWriter<'_> {
         self.roughness(depth, material);
     }
 
+    /// The widths along u and v (`KHR_materials_anisotropy`) and the distribution.
     fn roughness(&mut self, depth: usize, material: &Standard) {
-        if material.roughness > 0.0 {
-            let alpha = material.roughness * material.roughness;
-            self.value(depth, "float", "alpha", &shortest(alpha));
-            self.value(depth, "string", "distribution", "ggx");
+        let least = material.roughness * material.roughness;
+        let most = least + (1.0 - least) * material.anisotropy * material.anisotropy;
+        if most == 0.0 {
+            return;
         }
+        if most > least {
+            let [u, v] = match material.anisotropy_rotation == 0.0 {
+                true => [most, least],
+                false => [least, most],
+            };
+            self.value(depth, "float", "alpha_u", &shortest(u));
+            self.value(depth, "float", "alpha_v", &shortest(v));
+        } else {
+            self.value(depth, "float", "alpha", &shortest(least));
+        }
+        let distribution = match material.microfacets {
+            Microfacets::Ggx | Microfacets::SeparableGgx => "ggx",
+            Microfacets::Beckmann => "beckmann",
+        };
+        self.value(depth, "string", "distribution", distribution);
     }
 
     fn layers(&mut self, depth: usize, material: &Standard, path: ValuePath) -> Option<()> {
@@ -294,6 +336,31 @@ fn principled_color(material: &Standard, color: [f64; 3]) -> [f64; 3] {
     })
 }
 
+/// Whether facets have a width in some direction.
+fn is_rough(material: &Standard) -> bool {
+    material.roughness > 0.0 || material.anisotropy > 0.0
+}
+
+/// The plugin of a plastic that is neither metal nor lets light through.
+fn plastic(material: &Standard) -> Option<&'static str> {
+    let is_plain = material.metallic == 0.0 && material.transmission == 0.0;
+    let is_rough = is_rough(material);
+    let plugin = match material.plastic {
+        Plastic::None => return None,
+        Plastic::Single => "pplastic",
+        Plastic::Linear | Plastic::Nonlinear if material.anisotropy > 0.0 => return None,
+        Plastic::Linear | Plastic::Nonlinear if is_rough => "roughplastic",
+        Plastic::Linear | Plastic::Nonlinear => "plastic",
+    };
+    Some(plugin).filter(|_| is_plain)
+}
+
+/// How the masking of a rough material differs.
+fn masking(material: &Standard) -> Option<&'static str> {
+    let message = "Mitsuba's facets hide light and viewer independently";
+    (material.microfacets == Microfacets::Ggx && is_rough(material)).then_some(message)
+}
+
 /// The Mitsuba plugin of a material.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum MitsubaPlugin {
@@ -303,6 +370,8 @@ pub(super) enum MitsubaPlugin {
     Mirror,
     /// A metal with its index.
     Conductor(Conductor),
+    /// A plastic, with the name of the plugin.
+    Plastic(&'static str),
     /// The name of the plugin.
     Glass(&'static str),
     Layered,
@@ -329,8 +398,10 @@ impl MitsubaPlugin {
             && is_bare
         {
             (Self::Diffuse, None)
+        } else if let Some(plugin) = plastic(material).filter(|_| is_bare) {
+            (Self::Plastic(plugin), masking(material))
         } else if let Some(conductor) = material.conductor.filter(|_| metal == 1.0 && is_bare) {
-            (Self::Conductor(conductor), None)
+            (Self::Conductor(conductor), masking(material))
         } else if metal == 1.0 && rough == 0.0 && is_bare {
             let message = "a coloured mirror is written without Schlick's rise towards white";
             (Self::Mirror, (!is_white).then_some(message))
@@ -353,19 +424,22 @@ impl MitsubaPlugin {
     pub(super) fn color(self, material: &Standard, color: [f64; 3]) -> [f64; 3] {
         match self {
             Self::Layered => principled_color(material, color),
-            Self::Black | Self::Diffuse | Self::Mirror | Self::Conductor(_) | Self::Glass(_) => {
-                color
-            }
+            Self::Black
+            | Self::Diffuse
+            | Self::Mirror
+            | Self::Conductor(_)
+            | Self::Plastic(_)
+            | Self::Glass(_) => color,
         }
     }
 
     fn shape_name(self, material: &Standard) -> &'static str {
         match self {
-            Self::Conductor(_) if material.roughness > 0.0 => "roughconductor",
+            Self::Conductor(_) if is_rough(material) => "roughconductor",
             Self::Conductor(_) => "conductor",
             Self::Black | Self::Diffuse => "diffuse",
             Self::Mirror => "conductor",
-            Self::Glass(plugin) => plugin,
+            Self::Plastic(plugin) | Self::Glass(plugin) => plugin,
             Self::Layered => "principled",
         }
     }

@@ -11,6 +11,7 @@ use crate::path_tracer::{
     radiance,
 };
 use rtc_ir::{Conductor, EntityField, EntityKind, Scene, Shape, Standard, ValuePath};
+use rtc_math::{Microfacets, Plastic};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
 use std::rc::Rc;
@@ -360,7 +361,7 @@ fn approximation(material: &Standard) -> Option<&'static str> {
 }
 
 /// What pbrt lacks of a material, each with whether the material uses it.
-fn own_features(shown: &ShownMaterial) -> [(bool, &'static str); 8] {
+fn own_features(shown: &ShownMaterial) -> [(bool, &'static str); 11] {
     let material = &*shown.standard;
     let is_transmissive = material.transmission > 0.0;
     let is_tinted = material.base_color[..3] != [1.0; 3] || material.base_color_map.is_some();
@@ -396,6 +397,15 @@ fn own_features(shown: &ShownMaterial) -> [(bool, &'static str); 8] {
             material.diffuse_transmission > 0.0 && material.specular > 0.0,
             "its mirror image",
         ),
+        (
+            material.microfacets == Microfacets::Beckmann && material.roughness > 0.0,
+            "Beckmann's distribution of facets",
+        ),
+        (
+            material.plastic != Plastic::None,
+            "the light that its plastic reflects inside",
+        ),
+        (material.black_back, "its black back"),
         (emission_varies, "the texture of its emission, but its mean"),
     ]
 }

@@ -1,8 +1,8 @@
 //! BSDFs and textures as the standard material.
 //!
-//! `diffuse`, `dielectric`, `conductor` and `mask` are exact, up to the quantization of images. For
-//! the others the closest standard material is used, with a warning that describes the difference:
-//! GGX replaces Beckmann.
+//! `diffuse`, conductors, dielectrics, plastics, polarizers (in light without polarization) and
+//! `mask` are exact, up to the quantization of images. For the others the closest standard material
+//! is used, with a warning that describes the difference.
 
 use super::xml::{PluginNode, Value};
 use super::{AssetTarget, Lowering};
@@ -16,10 +16,12 @@ use rtc_ir::{
     Alpha, Conductor, EntityKind, Filter, Map, Material, MaterialId, Sampled, Standard, Texture,
     TextureId, Wrap,
 };
+use rtc_math::Plastic;
 use rtc_source::Span;
 
-/// What distinguishes materials: the BSDF, the emitter, and whether v points down.
-pub(super) type MaterialKey = (Option<Span>, Option<Span>, bool);
+/// What distinguishes materials: the BSDF, the emitter, and whether v points down and the back is
+/// black.
+pub(super) type MaterialKey = (Option<Span>, Option<Span>, [bool; 2]);
 
 /// The deepest nesting of BSDFs.
 const MAX_DEPTH: usize = 16;
@@ -31,18 +33,21 @@ pub(super) struct ColorOrMap {
 }
 
 impl<'run> Lowering<'run> {
-    /// The material of a shape with its emission; `None` if light passes through the shape.
+    /// The material of a shape with its emission; `None` if light passes through the shape. The
+    /// back is black if the BSDF has one side, unless `is_seen_behind`.
     pub(super) fn material(
         &mut self,
         shape: &'run PluginNode,
         emitter: Option<&'run PluginNode>,
         flip: bool,
+        is_seen_behind: bool,
     ) -> Option<MaterialId> {
         // Find the BSDF of the shape.
         let node = self.bsdf_of(shape);
         // Shapes with one BSDF and one emission share a material.
+        let black_back = !is_seen_behind && node.is_none_or(|node| !self.has_two_sides(node));
         let span_of = |node: Option<&PluginNode>| node.map(|node| node.span);
-        let key = (span_of(node), span_of(emitter), flip);
+        let key = (span_of(node), span_of(emitter), [flip, black_back]);
         if let Some(known) = self.materials.get(&key) {
             return *known;
         }
@@ -64,6 +69,7 @@ impl<'run> Lowering<'run> {
             let standard = Standard {
                 emissive: radiance.color,
                 emissive_map: radiance.map,
+                black_back,
                 ..standard
             };
             let index = self.scene.materials.len();
@@ -101,22 +107,12 @@ impl<'run> Lowering<'run> {
                     ..matte(channel.color)
                 }
             }
-            "conductor" => self.conductor(node, 0.0, flip),
-            "roughconductor" => {
-                let roughness = self.roughness(node, flip);
-                self.conductor(node, roughness, flip)
-            }
-            "dielectric" => self.dielectric(node, 0.0, true, flip),
-            "thindielectric" => self.dielectric(node, 0.0, false, flip),
-            "roughdielectric" => {
-                let roughness = self.roughness(node, flip);
-                self.dielectric(node, roughness, true, flip)
-            }
-            "plastic" => self.plastic(node, 0.0, flip),
-            "roughplastic" => {
-                let roughness = self.roughness(node, flip);
-                self.plastic(node, roughness, flip)
-            }
+            "conductor" | "roughconductor" => self.conductor(node, flip),
+            "dielectric" | "roughdielectric" => self.dielectric(node, true, flip),
+            "thindielectric" => self.dielectric(node, false, flip),
+            "plastic" | "roughplastic" | "pplastic" => self.plastic(node, flip),
+            "polarizer" | "circular" => self.polarizing_filter(node, 0.5, flip),
+            "retarder" => self.polarizing_filter(node, 1.0, flip),
             "principled" => self.principled(node, flip),
             "phong" | "ward" => {
                 self.unsupported(node, "its diffuse part replaces it");
@@ -176,30 +172,8 @@ impl<'run> Lowering<'run> {
         }
     }
 
-    /// The roughness of the standard material, √α.
-    fn roughness(&mut self, node: &'run PluginNode, flip: bool) -> f64 {
-        let distribution = node.string("distribution");
-        if distribution.is_none_or(|name| name.text != "ggx") {
-            let span = distribution.map_or(node.plugin.span, |name| name.span);
-            self.approximate(span, "the Beckmann distribution is shown as GGX");
-        }
-        let anisotropic = node.number("alpha_u").zip(node.number("alpha_v"));
-        let alpha = match anisotropic {
-            Some((u, v)) => {
-                self.approximate(node.plugin.span, "`alpha_u` and `alpha_v` are averaged");
-                (u * v).max(0.0).sqrt()
-            }
-            None => node.number("alpha").unwrap_or(0.1),
-        };
-        if node.child("alpha").is_some() {
-            let _ = flip;
-            self.approximate(node.plugin.span, "a texture of `alpha` is left out");
-        }
-        alpha.clamp(0.0, 1.0).sqrt()
-    }
-
     /// A metal, or a mirror without an index.
-    fn conductor(&mut self, node: &'run PluginNode, roughness: f64, flip: bool) -> Standard {
+    fn conductor(&mut self, node: &'run PluginNode, flip: bool) -> Standard {
         for name in ["eta", "k"] {
             if node.child(name).is_some() {
                 let message = format!("a texture of `{name}` is left out");
@@ -228,9 +202,8 @@ impl<'run> Lowering<'run> {
             base_color: opaque(tint.color),
             base_color_map: tint.map,
             metallic: 1.0,
-            roughness,
             conductor: Some(conductor),
-            ..matte([1.0; 3])
+            ..self.with_facets(node, flip, matte([1.0; 3]))
         }
     }
 
@@ -261,13 +234,7 @@ impl<'run> Lowering<'run> {
         ratio
     }
 
-    fn dielectric(
-        &mut self,
-        node: &'run PluginNode,
-        roughness: f64,
-        is_solid: bool,
-        flip: bool,
-    ) -> Standard {
+    fn dielectric(&mut self, node: &'run PluginNode, is_solid: bool, flip: bool) -> Standard {
         let ior = self.relative_ior(node, 1.5046);
         let tint = self.channel(node, "specular_transmittance", [1.0; 3], flip);
         if node.get("specular_reflectance").is_some() {
@@ -280,25 +247,46 @@ impl<'run> Lowering<'run> {
         Standard {
             base_color: opaque(tint.color),
             base_color_map: tint.map,
-            roughness,
             ior,
             specular: 1.0,
             transmission: 1.0,
             thickness: if is_solid { 1.0 } else { 0.0 },
-            ..matte([1.0; 3])
+            ..self.with_facets(node, flip, matte([1.0; 3]))
         }
     }
 
-    fn plastic(&mut self, node: &'run PluginNode, roughness: f64, flip: bool) -> Standard {
-        let message = "the standard material replaces the layered plastic";
-        self.approximate(node.plugin.span, message);
+    /// A diffuse base below the boundary of a dielectric.
+    fn plastic(&mut self, node: &'run PluginNode, flip: bool) -> Standard {
         let diffuse = self.channel(node, "diffuse_reflectance", [0.5; 3], flip);
+        let tint = self.channel(node, "specular_reflectance", [1.0; 3], flip);
+        let is_nonlinear = node.flag("nonlinear") == Some(true);
         Standard {
             base_color_map: diffuse.map,
-            roughness,
             ior: self.relative_ior(node, 1.49),
             specular: 1.0,
-            ..matte(diffuse.color)
+            specular_color: tint.color,
+            specular_color_map: tint.map,
+            plastic: match is_nonlinear {
+                _ if node.plugin.text == "pplastic" => Plastic::Single,
+                true => Plastic::Nonlinear,
+                false => Plastic::Linear,
+            },
+            ..self.with_facets(node, flip, matte(diffuse.color))
+        }
+    }
+
+    /// An element that changes the polarization of light: of light without one, a pane without an
+    /// index that lets a share through.
+    fn polarizing_filter(&mut self, node: &'run PluginNode, share: f64, flip: bool) -> Standard {
+        let tint = self.channel(node, "transmittance", [1.0; 3], flip);
+        Standard {
+            base_color: opaque(tint.color.map(|channel| share * channel)),
+            base_color_map: tint.map,
+            roughness: 0.0,
+            ior: 1.0,
+            specular: 1.0,
+            transmission: 1.0,
+            ..matte([1.0; 3])
         }
     }
 
@@ -464,7 +452,7 @@ impl<'run> Lowering<'run> {
 
 /// The rows of the map from the texture coordinates of a surface to those of a texture; with `flip`
 /// v points the other way on the surface.
-fn rows(node: &PluginNode, flip: bool) -> [[f64; 3]; 2] {
+pub(super) fn rows(node: &PluginNode, flip: bool) -> [[f64; 3]; 2] {
     let scale = |name| node.number(name).unwrap_or(1.0);
     let scaled = AffineTransform::scale([scale("uscale"), scale("vscale"), 1.0]);
     let AffineTransform([x, y, _, origin]) = node.transform("to_uv").after(&scaled);

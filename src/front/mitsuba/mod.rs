@@ -26,6 +26,7 @@
 
 mod bsdf;
 mod emitter;
+mod facets;
 mod one_sided;
 mod sensor;
 mod serialized;

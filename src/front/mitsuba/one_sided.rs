@@ -31,7 +31,7 @@ impl<'run> Lowering<'run> {
     pub(super) fn back_material(&mut self, shape: &'run PluginNode, flip: bool) -> MaterialId {
         let bsdf = self.bsdf_of(shape);
         let same = bsdf.filter(|node| self.has_two_sides(node));
-        if let Some(id) = same.and_then(|_| self.material(shape, None, flip)) {
+        if let Some(id) = same.and_then(|_| self.material(shape, None, flip, true)) {
             return id;
         }
         if let Some(id) = self.black {
@@ -45,12 +45,13 @@ impl<'run> Lowering<'run> {
     }
 
     /// Whether a BSDF, or one inside it, scatters light that comes from behind.
-    fn has_two_sides(&mut self, bsdf: &'run PluginNode) -> bool {
+    pub(super) fn has_two_sides(&mut self, bsdf: &'run PluginNode) -> bool {
         if let Some(known) = self.two_sided.get(&bsdf.span) {
             return *known;
         }
         let is_two_sided = |node: &&PluginNode| match node.plugin.text.as_str() {
-            "twosided" | "dielectric" | "thindielectric" | "roughdielectric" | "null" => true,
+            "twosided" | "dielectric" | "thindielectric" | "roughdielectric" | "null" | "hair"
+            | "polarizer" | "circular" | "retarder" | "principledthin" => true,
             "principled" => node.number("spec_trans").is_some_and(|share| share > 0.0),
             _ => false,
         };

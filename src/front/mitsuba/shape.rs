@@ -67,7 +67,10 @@ impl<'run> Lowering<'run> {
         let flip = plugin == "obj" && node.flag("flip_tex_coords").unwrap_or(true)
             || plugin == "ply" && node.flag("flip_tex_coords").unwrap_or(false)
             || plugin == "sphere" && is_similar;
-        let Some(material) = self.material(node, emitter, flip) else {
+        // A mesh that is reflected has its front where its triangles run counterclockwise.
+        let is_reflected = to_world.determinant() < 0.0;
+        let is_seen_behind = is_reflected || node.flag("flip_normals") == Some(true);
+        let Some(material) = self.material(node, emitter, flip, is_seen_behind) else {
             if emitter.is_some() {
                 self.approximate(node.span, "a light whose BSDF is `null` is left out");
             }

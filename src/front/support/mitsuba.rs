@@ -113,6 +113,8 @@ pub(super) const PARTS: &[ExamplePart] = &[
             ("`hair`", r#"<bsdf type="hair"/>"#),
             ("`measured`", r#"<bsdf type="measured"/>"#),
             ("`polarizer`", r#"<bsdf type="polarizer"/>"#),
+            ("`retarder`", r#"<bsdf type="retarder"/>"#),
+            ("`pplastic`", r#"<bsdf type="pplastic"/>"#),
         ],
     },
     ExamplePart {

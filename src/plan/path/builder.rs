@@ -10,7 +10,7 @@ use crate::projection::ScreenRect;
 use crate::rules::Rule;
 use crate::surface_bounds::SurfaceBounds;
 use rtc_ir::{EntityField, EntityKind, ValuePath};
-use rtc_math::{IdTable, UnitInterval, Vec3};
+use rtc_math::{IdTable, Plastic, UnitInterval, Vec3};
 use rtc_valid::{
     Alpha, Map, Material, MaterialId, Mesh, PathSettings, Punctual, Shape, Standard, Surface,
     Texture, ValidScene,
@@ -343,6 +343,7 @@ pub(super) fn material_requires(m: &Standard, effect: Effect) -> bool {
                 || is_nonzero(m.metallic)
                 || is_nonzero(m.iridescence)
                 || is_nonzero(m.transmission)
+                || m.plastic != Plastic::None
         }
         Effect::Refraction => is_transmissive(m),
         Effect::Volume => {

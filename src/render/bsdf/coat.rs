@@ -1,7 +1,7 @@
 //! The clearcoat layer, with its own roughness and normal (`KHR_materials_clearcoat`).
 
+use super::distribution::FacetDistribution;
 use super::fresnel::schlick;
-use super::ggx::Ggx;
 use super::standard::Clearcoat;
 use rtc_math::{OrthonormalBasis, Vec3};
 
@@ -9,7 +9,7 @@ use rtc_math::{OrthonormalBasis, Vec3};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CoatLayer {
     basis: OrthonormalBasis,
-    ggx: Ggx,
+    ggx: FacetDistribution,
     wo: Vec3,
     /// The fraction of light it reflects: the cover times Schlick's reflectance at index 1.5 for
     /// the viewer.
@@ -24,7 +24,7 @@ impl CoatLayer {
         let weight = clearcoat.factor * (0.04 + 0.96 * schlick(wo.z));
         (wo.z > 0.0 && weight > 0.0).then(|| Self {
             basis,
-            ggx: Ggx::isotropic(clearcoat.roughness),
+            ggx: FacetDistribution::isotropic(clearcoat.roughness),
             wo,
             weight,
         })

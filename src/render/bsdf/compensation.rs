@@ -5,15 +5,15 @@
 //! are reciprocal. A white surface in a white environment stays white.
 
 use super::albedo::{SchlickAlbedo, anisotropic, half_way, tables};
+use super::distribution::FacetDistribution;
 use super::fresnel::Fresnel;
-use super::ggx::Ggx;
 use rtc_math::Vec3;
 use std::f64::consts::PI;
 
 /// The compensation at one point for one direction to the viewer.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Compensation {
-    surface: Ggx,
+    surface: FacetDistribution,
     /// 1 − E(μ) for the viewer and in the mean.
     missing: f64,
     missing_mean: f64,
@@ -56,7 +56,7 @@ fn product(here: f64, there: f64, mean: f64) -> f64 {
 }
 
 /// The albedo of white microfacets seen from a direction.
-fn albedo(surface: Ggx, w: Vec3) -> SchlickAlbedo {
+fn albedo(surface: FacetDistribution, w: Vec3) -> SchlickAlbedo {
     if surface.is_isotropic() {
         tables().specular(surface.mean_roughness(), w.z)
     } else {
@@ -65,7 +65,7 @@ fn albedo(surface: Ggx, w: Vec3) -> SchlickAlbedo {
 }
 
 /// Its mean over the hemisphere, weighted by the cosine.
-fn mean_albedo(surface: Ggx) -> SchlickAlbedo {
+fn mean_albedo(surface: FacetDistribution) -> SchlickAlbedo {
     if surface.is_isotropic() {
         tables().specular_mean(surface.mean_roughness())
     } else {
@@ -77,7 +77,7 @@ impl Compensation {
     /// For a surface with this `metallic` fraction.
     #[must_use]
     pub(super) fn new(
-        surface: Ggx,
+        surface: FacetDistribution,
         wo: Vec3,
         [dielectric, metal]: [&Fresnel; 2],
         metallic: f64,
@@ -152,7 +152,7 @@ impl Compensation {
 /// 1 − F of the half-way vector, and at grazing angles a surface would emit up to 1.7 times the
 /// light it receives. It is 1 where the surface emits no more than that.
 #[must_use]
-pub(super) fn grazing_share(surface: Ggx, dielectric: &Fresnel, wo: Vec3) -> f64 {
+pub(super) fn grazing_share(surface: FacetDistribution, dielectric: &Fresnel, wo: Vec3) -> f64 {
     let f0 = dielectric.at(1.0).max_element();
     let f90 = dielectric.f90.max_element();
     let e = albedo(surface, wo);

@@ -2,8 +2,9 @@
 
 use super::albedo::dielectric;
 use super::compensation::{Compensation, grazing_share};
-use super::fresnel::{Curve, Fresnel, refracted_cosine};
-use super::ggx::Ggx;
+use super::distribution::FacetDistribution;
+use super::fresnel::{Curve, Fresnel, normal_reflectance, refracted_cosine};
+use super::plastic::PlasticBase;
 use super::standard::StandardParameters;
 use super::thin_film::ThinFilm;
 use super::{BsdfEvaluation, LAYERS, MICROFACETS, TRANSMISSION, can};
@@ -12,7 +13,7 @@ use rtc_math::{ComplexIndex, Vec3};
 /// The boundary seen from one side, with z towards that side.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Microfacet<const F: u32> {
-    ggx: Ggx,
+    facets: FacetDistribution,
     smooth: bool,
     dark: bool,
     /// The reflectance of the dielectric part at normal and at grazing incidence.
@@ -24,6 +25,8 @@ pub(super) struct Microfacet<const F: u32> {
     /// Its index, of which `metal` is a factor.
     conductor: Option<ComplexIndex>,
     metallic: f64,
+    /// The colour of the mirror image of a plastic, if it is one.
+    plastic: Option<Vec3>,
     /// The thin film on both, and the fraction of the surface it covers.
     film: Option<(ThinFilm, f64)>,
     /// The fraction of the light in the dielectric that is transmitted, by channel.
@@ -82,7 +85,7 @@ pub(super) enum ScatteredDirection {
 impl<const F: u32> Microfacet<F> {
     /// A boundary that lets all light through to the base.
     const NONE: Self = Self {
-        ggx: Ggx::ROUGH,
+        facets: FacetDistribution::ROUGH,
         smooth: false,
         dark: true,
         f0: Vec3::ZERO,
@@ -90,6 +93,7 @@ impl<const F: u32> Microfacet<F> {
         metal: Vec3::ZERO,
         conductor: None,
         metallic: 0.0,
+        plastic: None,
         film: None,
         tint: Vec3::ZERO,
         intersection: BoundaryCrossing::Wall,
@@ -100,15 +104,18 @@ impl<const F: u32> Microfacet<F> {
 
     /// The boundary of a material, seen from within the body if `inside`.
     #[inline]
-    pub(super) fn new(standard: &StandardParameters, inside: bool) -> Self {
+    pub(super) fn new(standard: &StandardParameters<'_>, inside: bool) -> Self {
         if !can::<F>(MICROFACETS) {
             return Self::NONE;
         }
         // Choose the distribution of normals.
-        let ggx = match standard.anisotropy {
-            None => Ggx::isotropic(standard.roughness),
-            Some(anisotropy) => Ggx::anisotropic(standard.roughness, anisotropy.strength),
+        let facets = match standard.anisotropy {
+            None => FacetDistribution::isotropic(standard.roughness),
+            Some(anisotropy) => {
+                FacetDistribution::anisotropic(standard.roughness, anisotropy.strength)
+            }
         };
+        let facets = facets.of_model(standard.facets);
         // Add the thin film, if any.
         let film = standard
             .iridescence
@@ -129,22 +136,29 @@ impl<const F: u32> Microfacet<F> {
         } else {
             1.0
         };
-        let dark =
-            standard.specular == 0.0 && standard.metallic == 0.0 && film.is_none() && !inside;
+        let plastic = standard
+            .plastic
+            .map(|_| standard.specular_color * standard.specular);
+        let dark = standard.specular == 0.0
+            && standard.metallic == 0.0
+            && film.is_none()
+            && plastic.is_none()
+            && !inside;
         let intersection = match standard.thin_walled {
             true => BoundaryCrossing::Wall,
             false if (ior - 1.0).abs() < NEARLY_STRAIGHT => BoundaryCrossing::Straight,
             false => BoundaryCrossing::Refracted,
         };
         Self {
-            ggx,
-            smooth: ggx.is_smooth(),
+            facets,
+            smooth: facets.is_smooth(),
             dark,
             f0: standard.dielectric_f0(),
             f90: standard.specular,
             metal: standard.base_color,
             conductor: standard.conductor,
             metallic: standard.metallic,
+            plastic,
             film,
             tint: standard.base_color * standard.transmitting(),
             intersection,
@@ -162,6 +176,15 @@ impl<const F: u32> Microfacet<F> {
 
     #[inline]
     fn dielectric(&self) -> Fresnel {
+        if let Some(color) = self.plastic {
+            let ior = self.eta.max(1.0 / self.eta);
+            return Fresnel {
+                f0: color * normal_reflectance(ior),
+                f90: color,
+                curve: Curve::Dielectric(ior),
+                film: self.film(),
+            };
+        }
         Fresnel {
             f0: self.f0,
             f90: Vec3::splat(self.f90),
@@ -193,13 +216,25 @@ impl<const F: u32> Microfacet<F> {
 
     /// The factor of the base, where that light is left out.
     pub(super) fn grazing_share(&self, wo: Vec3) -> f64 {
-        grazing_share(self.ggx, &self.dielectric(), wo)
+        grazing_share(self.facets, &self.dielectric(), wo)
     }
 
     /// The light of multiple bounces between the microfacets.
     pub(super) fn compensation(&self, wo: Vec3) -> Compensation {
         let fresnel = [&self.dielectric(), &self.metal()];
-        Compensation::new(self.ggx, wo, fresnel, self.metallic)
+        Compensation::new(self.facets, wo, fresnel, self.metallic)
+    }
+
+    /// The base below the boundary of a plastic, for the cosine of the viewer.
+    pub(super) fn plastic<'world>(
+        &self,
+        standard: &StandardParameters<'world>,
+        cosine: f64,
+    ) -> Option<PlasticBase<'world>> {
+        let boundary = standard.plastic.filter(|_| can::<F>(MICROFACETS))?;
+        let scattered = (1.0 - standard.metallic) * (1.0 - standard.transmission);
+        let base = PlasticBase::new(boundary, standard.base_color, scattered, cosine);
+        Some(base)
     }
 
     /// Whether its lobes are delta lobes.
@@ -238,11 +273,16 @@ impl<const F: u32> Microfacet<F> {
     /// in the transmission, which is the rest after single and further (`bounces`) reflections;
     /// from inside in both. After Turquin, "Practical multiple scattering compensation for
     /// microfacet models" (2019).
-    pub(super) fn compensate(&mut self, standard: &StandardParameters, cosine: f64, bounces: f64) {
+    pub(super) fn compensate(
+        &mut self,
+        standard: &StandardParameters<'_>,
+        cosine: f64,
+        bounces: f64,
+    ) {
         let Some(ior) = self.ior.filter(|_| can::<F>(TRANSMISSION) && !self.smooth) else {
             return;
         };
-        let roughness = self.ggx.mean_roughness();
+        let roughness = self.facets.mean_roughness();
         let [f0, f90] = [self.f0.max_element(), self.f90];
         if self.eta < 1.0 {
             let whole = dielectric::inside(ior, roughness, cosine).at(f0, f90);
@@ -283,11 +323,11 @@ impl<const F: u32> Microfacet<F> {
         if self.smooth {
             return BsdfEvaluation::NONE;
         }
-        let density = self.ggx.density(h);
-        let f = weights.reflected * (density * self.ggx.visibility(wo, wi));
+        let density = self.facets.density(h);
+        let f = weights.reflected * (density * self.facets.visibility(wo, wi));
         BsdfEvaluation {
             f,
-            pdf: weights.lobe_pdf() * 0.5 * density / (wo.z + self.ggx.lambda_root(wo)),
+            pdf: weights.lobe_pdf() * 0.5 * density / (wo.z + self.facets.lambda_root(wo)),
         }
     }
 
@@ -302,10 +342,11 @@ impl<const F: u32> Microfacet<F> {
                 let mirrored = Vec3::new(wi.x, wi.y, -wi.z);
                 let h = (wo + mirrored).normalize();
                 let weights = self.weights(wo.dot(h));
-                let f = weights.through * (self.ggx.density(h) * self.ggx.visibility(wo, mirrored));
+                let f = weights.through
+                    * (self.facets.density(h) * self.facets.visibility(wo, mirrored));
                 BsdfEvaluation {
                     f,
-                    pdf: (1.0 - weights.lobe_pdf()) * self.ggx.vndf_pdf(wo, h) / 4.0,
+                    pdf: (1.0 - weights.lobe_pdf()) * self.facets.vndf_pdf(wo, h) / 4.0,
                 }
             }
             BoundaryCrossing::Refracted => self.refracted(wo, wi),
@@ -326,11 +367,11 @@ impl<const F: u32> Microfacet<F> {
         // Jacobian dω_h/dω_i: |ω_i·h|/(ω_i·h + ω_o·h/η)².
         let root = i + o / self.eta;
         let turn = -i / (root * root);
-        let f =
-            weights.through * (4.0 * self.ggx.density(h) * self.ggx.visibility(wo, wi) * o * turn);
+        let f = weights.through
+            * (4.0 * self.facets.density(h) * self.facets.visibility(wo, wi) * o * turn);
         BsdfEvaluation {
             f,
-            pdf: (1.0 - weights.lobe_pdf()) * self.ggx.vndf_pdf(wo, h) * o * turn,
+            pdf: (1.0 - weights.lobe_pdf()) * self.facets.vndf_pdf(wo, h) * o * turn,
         }
     }
 
@@ -346,7 +387,7 @@ impl<const F: u32> Microfacet<F> {
         let h = if self.smooth {
             Vec3::Z
         } else {
-            self.ggx.visible_normal(wo, u)
+            self.facets.visible_normal(wo, u)
         };
         let cosine = wo.dot(h);
         let weights = self.weights(cosine);

@@ -10,7 +10,7 @@
 //! - `standard` builds the lobes from the parameters of the material; `coat`, `sheen`, `thin_film`
 //!   add
 //!   its layers.
-//! - `microfacet`, `ggx`, `fresnel` are the specular lobes; `compensation` with the tables of
+//! - `microfacet`, `distribution` with `beckmann`, `fresnel` are the specular lobes; `compensation` with the tables of
 //!   `albedo`
 //!   restores the energy of multiple scattering.
 //! - `lobe_pdf` chooses a lobe, `warp` maps the unit square to directions, `optics` reflects and
@@ -20,13 +20,15 @@
 //! `tests/bsdf` checks both, and the densities by χ² tests.
 
 mod albedo;
+mod beckmann;
 mod coat;
 mod compensation;
+mod distribution;
 pub(crate) mod fresnel;
-mod ggx;
 mod lobe_pdf;
 mod microfacet;
 pub(crate) mod optics;
+mod plastic;
 mod sheen;
 mod side;
 pub(crate) mod standard;
@@ -34,13 +36,15 @@ mod thin_film;
 pub(crate) mod warp;
 
 pub use fresnel::dispersed;
+pub use plastic::PlasticBoundary;
 
 use crate::sampler::remapped;
 use coat::CoatLayer;
 use compensation::Compensation;
 use lobe_pdf::LobePdf;
 use microfacet::{Microfacet, ScatteredDirection};
-use rtc_math::Vec3;
+use plastic::PlasticBase;
+use rtc_math::{Microfacets, Vec3};
 use rtc_plan::PathFeatures;
 use sheen::SheenFibres;
 use side::Side;
@@ -64,7 +68,7 @@ fn mirrored(w: Vec3) -> Vec3 {
 }
 
 /// The albedo of the base where no microfacet reflects, and its diffuse transmittance.
-fn base<const F: u32>(standard: &StandardParameters) -> (Vec3, Option<Vec3>) {
+fn base<const F: u32>(standard: &StandardParameters<'_>) -> (Vec3, Option<Vec3>) {
     let scattered = (1.0 - standard.metallic) * (1.0 - standard.transmission);
     let diffuse = standard.base_color * scattered;
     match standard.diffuse_transmission.filter(|_| can::<F>(LAYERS)) {
@@ -105,12 +109,12 @@ pub struct BsdfSample {
 }
 
 /// The BSDF with all lobes.
-pub type Bsdf = BsdfLobes<{ PathFeatures::EVERYTHING.0 }>;
+pub type Bsdf<'world> = BsdfLobes<'world, { PathFeatures::EVERYTHING.0 }>;
 
 /// The lobes of the material at a point, for one `wo`. Compiled for the [`PathFeatures`] `F`: the
 /// material must not need any other feature.
 #[derive(Clone, Copy, Debug)]
-pub struct BsdfLobes<const F: u32> {
+pub struct BsdfLobes<'world, const F: u32> {
     side: Side,
     wo: Vec3,
     microfacet: Microfacet<F>,
@@ -119,16 +123,18 @@ pub struct BsdfLobes<const F: u32> {
     /// Its diffuse transmittance.
     through: Option<Vec3>,
     compensation: Option<Compensation>,
+    /// The base below the boundary of a plastic, instead of `diffuse`.
+    plastic: Option<PlasticBase<'world>>,
     sheen: Option<SheenFibres>,
     coat: Option<CoatLayer>,
     lobe_pdf: LobePdf,
 }
 
-impl<const F: u32> BsdfLobes<F> {
+impl<'world, const F: u32> BsdfLobes<'world, F> {
     /// The material seen from `wo`.
     #[must_use]
     #[inline]
-    pub fn new(standard: &StandardParameters, wo: Vec3) -> Self {
+    pub fn new(standard: &StandardParameters<'world>, wo: Vec3) -> Self {
         let along = standard
             .anisotropy
             .map_or([1.0, 0.0], |anisotropy| anisotropy.direction);
@@ -151,8 +157,10 @@ impl<const F: u32> BsdfLobes<F> {
             CoatLayer::new(&coat, side.enter(coat.normal * sign), wo)
         });
         let (mut diffuse, mut through) = base::<F>(standard);
-        let multiple = standard.multiple_scattering;
-        let covers = !inside && !microfacet.is_dark();
+        // The tables of further bounces are those of glTF's facets.
+        let multiple = standard.multiple_scattering && standard.facets == Microfacets::Ggx;
+        let plastic = microfacet.plastic(standard, wo.z).filter(|_| !inside);
+        let covers = !inside && !microfacet.is_dark() && plastic.is_none();
         let compensation = (covers && multiple).then(|| microfacet.compensation(wo));
         if covers && !multiple {
             let share = microfacet.grazing_share(wo);
@@ -169,8 +177,12 @@ impl<const F: u32> BsdfLobes<F> {
             microfacet.compensate(standard, wo.z, bounces.max_element());
         }
         let sheen = sheen.and_then(|sheen| SheenFibres::new(&sheen, wo));
+        let base = match &plastic {
+            None => diffuse * entering + bounces,
+            Some(plastic) => plastic.albedo(),
+        };
         let lobe_pdf = LobePdf::new(
-            diffuse * entering + bounces,
+            base,
             through.map_or(Vec3::ZERO, |through| through * entering),
             &microfacet.weights(wo.z),
             sheen.as_ref(),
@@ -183,6 +195,7 @@ impl<const F: u32> BsdfLobes<F> {
             diffuse,
             through,
             compensation,
+            plastic,
             sheen,
             coat,
             lobe_pdf,
@@ -205,6 +218,12 @@ impl<const F: u32> BsdfLobes<F> {
     #[inline]
     fn compensation(&self) -> Option<&Compensation> {
         self.compensation.as_ref().filter(|_| can::<F>(MICROFACETS))
+    }
+
+    /// The base of a plastic.
+    #[inline]
+    fn plastic(&self) -> Option<&PlasticBase<'world>> {
+        self.plastic.as_ref().filter(|_| can::<F>(MICROFACETS))
     }
 
     /// Whether the boundary reflects.
@@ -304,6 +323,10 @@ impl<const F: u32> BsdfLobes<F> {
         let weights = self.microfacet.weights(self.wo.dot(h));
         let mut sum = self.microfacet.reflected(self.wo, wi, h, &weights);
         // Add the diffuse base, and the multiple bounces.
+        if let Some(plastic) = self.plastic() {
+            sum.f += plastic.f(wi.z);
+            return sum;
+        }
         sum.f += match self.compensation() {
             None => self.diffuse * (weights.entering * FRAC_1_PI),
             Some(compensation) => {

@@ -1,7 +1,8 @@
 //! The parameters of the glTF material at one point, after all texture lookups.
 
 use super::fresnel::normal_reflectance;
-use rtc_math::{ComplexIndex, Vec3};
+use super::plastic::PlasticBoundary;
+use rtc_math::{ComplexIndex, Microfacets, Vec3};
 use rtc_plan::Layer;
 
 /// The material of glTF 2.0 and its KHR extensions at one point, but for emission, alpha and the
@@ -9,7 +10,7 @@ use rtc_plan::Layer;
 ///
 /// Colours are linear, fractions and roughnesses in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StandardParameters {
+pub struct StandardParameters<'world> {
     /// Albedo of the diffuse, reflectance of the metallic, tint of the transmitting part.
     pub base_color: Vec3,
     /// The metallic fraction.
@@ -20,6 +21,10 @@ pub struct StandardParameters {
     pub ior: f64,
     /// The index of the metallic part, whose base colour then is a factor.
     pub conductor: Option<ComplexIndex>,
+    /// The distribution of the facets.
+    pub facets: Microfacets,
+    /// The boundary above the diffuse base, of a plastic.
+    pub plastic: Option<&'world PlasticBoundary>,
     /// The strength of the dielectric reflection (`KHR_materials_specular`).
     pub specular: f64,
     /// The colour of the dielectric reflection at normal incidence, each channel at least 0.
@@ -92,7 +97,7 @@ pub struct DiffuseTransmission {
     pub color: Vec3,
 }
 
-impl Default for StandardParameters {
+impl Default for StandardParameters<'_> {
     /// The defaults of glTF, but for the metal: white and rough, of glass's index.
     fn default() -> Self {
         Self {
@@ -101,6 +106,8 @@ impl Default for StandardParameters {
             roughness: 1.0,
             ior: 1.5,
             conductor: None,
+            facets: Microfacets::Ggx,
+            plastic: None,
             specular: 1.0,
             specular_color: Vec3::ONE,
             transmission: 0.0,
@@ -115,7 +122,7 @@ impl Default for StandardParameters {
     }
 }
 
-impl StandardParameters {
+impl StandardParameters<'_> {
     /// The fraction of the surface that is dielectric and transmits.
     #[must_use]
     #[inline]
@@ -133,7 +140,7 @@ impl StandardParameters {
 /// Which layers a material has at a point, from their table.
 macro_rules! layers {
     ($($(#[doc = $about:literal])* $layer:ident = $slot:ident { $($row:tt)* })*) => {
-        impl StandardParameters {
+        impl StandardParameters<'_> {
             /// Each layer, and whether the material has it here.
             #[inline]
             pub(crate) fn layers(&self) -> [(Layer, bool); Layer::ALL.len()] {

@@ -80,7 +80,7 @@ impl<'world> MaterialPoint<'world> {
         clearcoat: Vec3,
         channel: Option<usize>,
         multiple: bool,
-    ) -> StandardParameters {
+    ) -> StandardParameters<'world> {
         // Start with a diffuse surface that may transmit.
         let m = self.material;
         let mut standard = StandardParameters {
@@ -89,6 +89,8 @@ impl<'world> MaterialPoint<'world> {
             roughness: 0.0,
             ior: 0.0,
             conductor: self.material.conductor,
+            facets: self.material.facets,
+            plastic: self.material.plastic.as_ref(),
             specular: 1.0,
             specular_color: Vec3::ONE,
             transmission: if can::<F>(TRANSMISSION) {
@@ -114,7 +116,7 @@ impl<'world> MaterialPoint<'world> {
         standard
     }
 
-    fn reflect(&self, standard: &mut StandardParameters, channel: Option<usize>) {
+    fn reflect(&self, standard: &mut StandardParameters<'_>, channel: Option<usize>) {
         let m = self.material;
         match &m.reflection {
             BaseReflectance::Metallic {
@@ -142,7 +144,12 @@ impl<'world> MaterialPoint<'world> {
         }
     }
 
-    fn add_layers(&self, standard: &mut StandardParameters, frame: &ShadingFrame, clearcoat: Vec3) {
+    fn add_layers(
+        &self,
+        standard: &mut StandardParameters<'_>,
+        frame: &ShadingFrame,
+        clearcoat: Vec3,
+    ) {
         let (m, uvs) = (self.material, &self.uvs);
         m.plain.add(standard, uvs);
         // Omit layers whose maps are 0 here.

@@ -1,9 +1,10 @@
 //! The prepared glTF material: defaults are resolved, and each map contains its image.
 
+use crate::bsdf::PlasticBoundary;
 use crate::bsdf::standard::*;
 use crate::shape::geometry::AttributeRequest;
 use crate::texture::sampled::{Map, UvSets};
-use rtc_math::{ComplexIndex, Vec3, Weight};
+use rtc_math::{ComplexIndex, Microfacets, Vec3, Weight};
 
 /// A prepared material: constants are numbers, everything else has a map.
 #[derive(Clone, Debug)]
@@ -23,6 +24,12 @@ pub(crate) struct StandardMaterial {
     pub(crate) transmission: MappedNumber,
     /// The index of the metal, if it has one.
     pub(crate) conductor: Option<ComplexIndex>,
+    /// The distribution of the facets.
+    pub(crate) facets: Microfacets,
+    /// The boundary of a plastic.
+    pub(crate) plastic: Option<PlasticBoundary>,
+    /// Whether its back reflects nothing.
+    pub(crate) is_black_behind: bool,
     /// The index of refraction, and those of red, green and blue if they differ.
     pub(crate) ior: f64,
     pub(crate) dispersed: Option<[f64; 3]>,
@@ -142,7 +149,7 @@ macro_rules! plain_layers {
         impl PlainLayers {
             /// Adds them to the parameters at a point.
             #[inline]
-            pub(crate) fn add(&self, standard: &mut StandardParameters, uvs: &UvSets) {
+            pub(crate) fn add(&self, standard: &mut StandardParameters<'_>, uvs: &UvSets) {
                 $(standard.$layer = self.$layer.as_ref().and_then(|layer| layer.at(uvs));)*
             }
         }

@@ -3,13 +3,13 @@
 
 use super::texture::Textures;
 use super::{Material, MaterialId};
-use crate::bsdf::dispersed;
+use crate::bsdf::{PlasticBoundary, dispersed};
 use crate::material::phong::{PhongMaps, PhongMaterial};
 use crate::material::standard::*;
 use crate::shape::geometry::AttributeRequest;
 use crate::texture::bilinear::Bump;
 use crate::texture::sampled::{ColorSpace, UvSets};
-use rtc_math::{Id, IdTable, UnitInterval, Vec3, Weight, cos, ln, sin};
+use rtc_math::{Id, IdTable, Plastic, UnitInterval, Vec3, Weight, cos, ln, sin};
 use rtc_plan::{Effect, Layer, PathPlan, Plan, Rule};
 use rtc_valid::{self as valid, Maps, Phong, Standard, TextureId};
 
@@ -190,6 +190,9 @@ pub(super) fn standard(
         reflection: slots.reflection(m),
         transmission: slots.number(m.transmission, m.transmission_map.as_ref(), 0),
         conductor: m.conductor,
+        facets: m.microfacets,
+        plastic: plastic(m),
+        is_black_behind: m.black_back,
         ior: m.ior.get(),
         dispersed: (m.dispersion.get() > 0.0).then(|| dispersed(m.ior.get(), m.dispersion.get())),
         bounds_a_volume: m.thickness.get() > 0.0,
@@ -200,6 +203,15 @@ pub(super) fn standard(
         anisotropy: (m.anisotropy > UnitInterval::ZERO).then(|| slots.anisotropy(m)),
         iridescence: (m.iridescence > UnitInterval::ZERO).then(|| slots.iridescence(m)),
     }
+}
+
+/// The boundary of a plastic; its roughness has no map.
+fn plastic(m: &Standard) -> Option<PlasticBoundary> {
+    let new = || {
+        let ior = m.ior.get().max(1.0);
+        PlasticBoundary::new(m.plastic, ior, m.roughness.get(), m.microfacets)
+    };
+    (m.plastic != Plastic::None).then(new)
 }
 
 /// The maps of scattering parameters, without normal maps.

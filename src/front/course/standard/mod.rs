@@ -23,12 +23,14 @@ use super::record::{FieldDeclaration, FieldRequirement, FieldResult, FieldValue,
 use super::schema::{self, SchemaDefinitions};
 use super::value::{AnyScalar, Color, DisplayName};
 use rtc_ir::{self as ir, Alpha};
+use rtc_math::{Microfacets, Plastic};
 use rtc_source::tree::NodeId;
 use rtc_tables::{camel_case, parameters};
 use serde_json::Value as Json;
 use texture::MapOrFile;
 use value::{
-    AlphaMode, ConductorIndex, Fraction, FractionColor, Range, Refraction, RefractionOrNone, Rgba,
+    AlphaMode, ConductorIndex, Fraction, FractionColor, MicrofacetsKeyword, PlasticKeyword, Range,
+    Refraction, RefractionOrNone, Rgba,
 };
 
 /// The value of `type` that selects this material.
@@ -71,6 +73,12 @@ macro_rules! written {
     };
     (conductor) => {
         ConductorIndex
+    };
+    (microfacets) => {
+        MicrofacetsKeyword
+    };
+    (plastic) => {
+        PlasticKeyword
     };
     (flag) => {
         bool

@@ -8,6 +8,7 @@ use super::super::schema::SchemaDefinitions;
 use super::super::value::{Color, tuple};
 use super::Alpha;
 use rtc_ir::Conductor;
+use rtc_math::{Microfacets, Plastic};
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 use std::sync::LazyLock;
@@ -154,6 +155,85 @@ impl Decode for AlphaMode {
         let keyword = ALPHA_MODES.iter().find(|(_, alpha, _)| *alpha == self.0);
         keyword.map_or(Json::Null, |(keyword, ..)| json!(keyword))
     }
+}
+
+/// Declares a type of the format: a keyword for each value of an enum.
+macro_rules! keywords {
+    ($(#[doc = $doc:literal])+ $name:ident($Value:ident), $table:ident) => {
+        $(#[doc = $doc])+
+        #[derive(Clone, Copy, Debug)]
+        pub(super) struct $name(pub(super) $Value);
+
+        impl From<$Value> for $name {
+            fn from(value: $Value) -> Self {
+                Self(value)
+            }
+        }
+
+        impl Decode for $name {
+            fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
+                keyword(node, $table, context).map(Self)
+            }
+
+            fn schema(_: &mut SchemaDefinitions) -> Json {
+                keyword_schema($table)
+            }
+
+            fn json(&self) -> Json {
+                let keyword = $table.iter().find(|(_, value, _)| *value == self.0);
+                keyword.map_or(Json::Null, |(keyword, ..)| json!(keyword))
+            }
+        }
+    };
+}
+
+/// The keywords of distributions.
+const MICROFACETS: KeywordTable<Microfacets> = &[
+    (
+        "ggx",
+        Microfacets::Ggx,
+        "GGX with height-correlated masking, as glTF has it.",
+    ),
+    (
+        "separable-ggx",
+        Microfacets::SeparableGgx,
+        "GGX with the product of the maskings of light and viewer.",
+    ),
+    (
+        "beckmann",
+        Microfacets::Beckmann,
+        "Beckmann's distribution with the product of both maskings.",
+    ),
+];
+
+/// The keywords of plastics.
+const PLASTICS: KeywordTable<Plastic> = &[
+    ("none", Plastic::None, "As glTF says."),
+    (
+        "linear",
+        Plastic::Linear,
+        "Light is reflected inside without a change of colour.",
+    ),
+    (
+        "nonlinear",
+        Plastic::Nonlinear,
+        "Light is reflected inside, and its colour becomes more saturated.",
+    ),
+    (
+        "single",
+        Plastic::Single,
+        "Light goes in and out of a smooth boundary once.",
+    ),
+];
+
+keywords! {
+    /// The distribution of microfacets.
+    MicrofacetsKeyword(Microfacets), MICROFACETS
+}
+
+keywords! {
+    /// How light leaves the base.
+    PlasticKeyword(Plastic), PLASTICS
 }
 
 /// The complex index of a conductor: the name of a metal, or numbers.

@@ -12,7 +12,7 @@ use rtc_ir::{
     self as ir, Alpha, Bump, Conductor, EntityField, EntityKind, Map, MaterialId, Phong, Scene,
     SourceSpans, Standard, ValuePath,
 };
-use rtc_math::to_u32;
+use rtc_math::{Microfacets, Plastic, to_u32};
 use rtc_source::tree::SyntaxTree;
 use std::collections::BTreeMap;
 
@@ -250,6 +250,7 @@ impl MaterialReader<'_, '_, '_, '_> {
         standard.clearcoat_normal_scale = number(coat, "scale", 1.0);
         self.iridescence(fields, &mut standard);
         conductor(fields, &mut standard);
+        facets(fields, &mut standard);
         standard
     }
 
@@ -318,6 +319,25 @@ fn conductor(fields: ObjectFields<'_, '_>, standard: &mut Standard) {
     let [r, g, b, alpha] = standard.base_color;
     let [r, g, b] = extension.vector_or("baseColor", [r, g, b]);
     standard.base_color = [r, g, b, alpha];
+}
+
+/// The distribution of facets, the kind of plastic and the sides in `extras.rtc`.
+fn facets(fields: ObjectFields<'_, '_>, standard: &mut Standard) {
+    let Some(extension) = fields.rtc_extras() else {
+        return;
+    };
+    standard.microfacets = match extension.text("microfacets").as_deref() {
+        Some("separableGgx") => Microfacets::SeparableGgx,
+        Some("beckmann") => Microfacets::Beckmann,
+        _ => Microfacets::Ggx,
+    };
+    standard.plastic = match extension.text("plastic").as_deref() {
+        Some("linear") => Plastic::Linear,
+        Some("nonlinear") => Plastic::Nonlinear,
+        Some("single") => Plastic::Single,
+        _ => Plastic::None,
+    };
+    standard.black_back = extension.boolean("blackBack");
 }
 
 /// The object of a `KHR_materials_*` extension.

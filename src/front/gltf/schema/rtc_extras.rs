@@ -152,10 +152,14 @@ static PHOTOMETRY: ObjectSchema = rtc_object(&[
     required("candela", Numbers(&[], FACTOR)),
 ]);
 
-/// Phong's model, or the index of a metal with its base colour.
+/// Phong's model, or of the standard material the index of a metal with its base colour, the
+/// distribution of facets, the kind of plastic, and whether its back reflects nothing.
 static MATERIAL: ObjectSchema = rtc_object(&[
     optional("phong", One(&PHONG)),
     optional("conductor", One(&CONDUCTOR)),
+    optional("microfacets", Keyword(&["separableGgx", "beckmann"])),
+    optional("plastic", Keyword(&["linear", "nonlinear", "single"])),
+    optional("blackBack", Boolean),
 ]);
 static CONDUCTOR: ObjectSchema = rtc_object(&[
     required("eta", Numbers(&[3], FACTOR)),

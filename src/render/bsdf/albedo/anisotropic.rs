@@ -1,6 +1,6 @@
 //! The albedo of anisotropic microfacets: a table over both widths α, the cosine, and the azimuth.
 
-use super::super::ggx::Ggx;
+use super::super::distribution::FacetDistribution;
 use super::{SchlickAlbedo, interpolate, squared_fraction, stored};
 use rtc_math::Vec3;
 use std::sync::LazyLock;
@@ -19,14 +19,14 @@ pub(super) static STORED: [u8; 2 * 2 * WIDTHS * WIDTHS * COSINES * TURNS] =
     *include_bytes!("anisotropic.bin");
 
 /// The albedo seen from a direction.
-pub(crate) fn albedo(surface: Ggx, w: Vec3) -> SchlickAlbedo {
+pub(crate) fn albedo(surface: FacetDistribution, w: Vec3) -> SchlickAlbedo {
     let [x, y] = [w.x * w.x, w.y * w.y];
     let turn = if x + y > 0.0 { x / (x + y) } else { 0.0 };
     look_up(surface, w.z, turn)
 }
 
 /// Its mean over the hemisphere, weighted by the cosine.
-pub(crate) fn mean(surface: Ggx) -> SchlickAlbedo {
+pub(crate) fn mean(surface: FacetDistribution) -> SchlickAlbedo {
     static MEANS: LazyLock<Vec<[f32; 2]>> = LazyLock::new(means);
     let [e0, e90] = interpolate(&MEANS, surface.widths().map(|width| (width.sqrt(), WIDTHS)));
     SchlickAlbedo { e0, e90 }
@@ -39,7 +39,7 @@ fn means() -> Vec<[f32; 2]> {
     /// A quarter of a turn is enough, by symmetry.
     const PARTS: u32 = 8;
     let step = |k: u32, count: u32| (f64::from(k) + 0.5) / f64::from(count);
-    let of = |surface: Ggx| {
+    let of = |surface: FacetDistribution| {
         let mut sum = [0.0; 2];
         for k in 0..STEPS {
             let x = step(k, STEPS);
@@ -54,11 +54,15 @@ fn means() -> Vec<[f32; 2]> {
     };
     let pairs = (0..WIDTHS).flat_map(|x| (0..WIDTHS).map(move |y| [x, y]));
     pairs
-        .map(|pair| of(Ggx::of_widths(pair.map(|k| squared_fraction(k, WIDTHS)))))
+        .map(|pair| {
+            of(FacetDistribution::of_widths(
+                pair.map(|k| squared_fraction(k, WIDTHS)),
+            ))
+        })
         .collect()
 }
 
-fn look_up(surface: Ggx, cosine: f64, turn: f64) -> SchlickAlbedo {
+fn look_up(surface: FacetDistribution, cosine: f64, turn: f64) -> SchlickAlbedo {
     static TABLE: LazyLock<Vec<[f32; 2]>> = LazyLock::new(|| stored(&STORED));
     let [x, y] = surface.widths();
     let axes = [

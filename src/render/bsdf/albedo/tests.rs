@@ -1,7 +1,7 @@
 //! The tables, integrated.
 
+use super::super::distribution::FacetDistribution;
 use super::super::fresnel::{dielectric_curve, refracted_cosine, schlick};
-use super::super::ggx::Ggx;
 use super::super::sheen::integrated_albedo;
 use super::*;
 use rtc_math::Vec3;
@@ -22,7 +22,7 @@ fn table<T>(entry: impl Fn(f64, f64) -> T) -> Vec<T> {
 /// The mean of `at` over visible normals, of a rank-1 lattice. It is given each normal, and the
 /// function f·cos θ/pdf of a direction for a lobe that takes everything there, G₂/G₁.
 fn mean_over_normals<const N: usize>(
-    ggx: Ggx,
+    ggx: FacetDistribution,
     wo: Vec3,
     at: impl Fn(Vec3, &dyn Fn(Vec3) -> f64) -> [f64; N],
 ) -> [f64; N] {
@@ -58,7 +58,7 @@ fn reflected(wo: Vec3, h: Vec3, weight: &dyn Fn(Vec3) -> f64, curve: f64) -> [f6
 }
 
 /// Both terms of the albedo.
-fn integrated_specular(ggx: Ggx, wo: Vec3) -> [f64; 2] {
+fn integrated_specular(ggx: FacetDistribution, wo: Vec3) -> [f64; 2] {
     mean_over_normals(ggx, wo, |h, weight| {
         reflected(wo, h, weight, schlick(wo.dot(h)))
     })
@@ -69,7 +69,7 @@ fn view(cosine: f64) -> Vec3 {
 }
 
 /// The contribution of a visible normal of glass to its seven numbers.
-fn integrated_dielectric(ior: f64, ggx: Ggx, wo: Vec3) -> [f64; 7] {
+fn integrated_dielectric(ior: f64, ggx: FacetDistribution, wo: Vec3) -> [f64; 7] {
     let transmitted = |h: Vec3, eta: f64, beyond: f64, weight: &dyn Fn(Vec3) -> f64, curve: f64| {
         let wi = h * (wo.dot(h) / eta - beyond) - wo / eta;
         let weight = if wi.z < 0.0 { weight(wi) } else { 0.0 };
@@ -107,7 +107,7 @@ fn dielectric_table() -> Vec<f64> {
     for index in 0..INDICES {
         let ior = 1.0 + 2.0 * squared_fraction(index, INDICES);
         for roughness in 0..ROUGHNESSES {
-            let ggx = Ggx::isotropic(fraction(roughness, ROUGHNESSES));
+            let ggx = FacetDistribution::isotropic(fraction(roughness, ROUGHNESSES));
             let views = (0..COSINES).map(|k| view(cosine_of(k, COSINES)));
             numbers.extend(views.flat_map(|wo| integrated_dielectric(ior, ggx, wo)));
         }
@@ -121,7 +121,7 @@ fn anisotropic_table() -> Vec<f64> {
     let mut numbers = Vec::new();
     for x in 0..WIDTHS {
         for y in 0..WIDTHS {
-            let ggx = Ggx::of_widths([width(x), width(y)]);
+            let ggx = FacetDistribution::of_widths([width(x), width(y)]);
             for k in 0..COSINES {
                 for turn in 0..TURNS {
                     let (across, along) = (view(cosine_of(k, COSINES)), fraction(turn, TURNS));
@@ -152,7 +152,9 @@ fn is_stored(name: &str, bytes: &[u8], stored: &[u8]) {
 
 #[test]
 fn the_stored_tables_are_the_integrals() {
-    let specular = |roughness, cosine| integrated_specular(Ggx::isotropic(roughness), view(cosine));
+    let specular = |roughness, cosine| {
+        integrated_specular(FacetDistribution::isotropic(roughness), view(cosine))
+    };
     let specular = table(specular).into_iter().flatten();
     let numbers = specular.chain(table(integrated_albedo));
     let bytes = numbers.flat_map(f64::to_le_bytes).collect::<Vec<_>>();

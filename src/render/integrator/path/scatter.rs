@@ -15,7 +15,7 @@ use rtc_plan::{Effect, PathFeatures};
 /// The BSDF at a vertex, in its frame of shading.
 struct VertexBsdf<'vertex, const F: u32> {
     frame: &'vertex ShadingFrame,
-    bsdf: &'vertex BsdfLobes<F>,
+    bsdf: &'vertex BsdfLobes<'vertex, F>,
     /// The direction to the viewer in the frame.
     wo: Vec3,
 }
@@ -71,6 +71,9 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         let multiple = self.multiple_scattering;
         let standard = point.standard::<F>(&frame, coat, state.channel, multiple);
         let wo = frame.to_local(wo);
+        if point.material.is_black_behind && vertex.is_behind(wo.z) {
+            return false;
+        }
         let bsdf = BsdfLobes::<F>::new(&standard, wo);
         self.count_shading(vertex, &standard, &bsdf);
         let shading = VertexBsdf {
@@ -160,8 +163,8 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     fn count_shading(
         &mut self,
         vertex: &PathVertex<'_, '_>,
-        standard: &StandardParameters,
-        bsdf: &BsdfLobes<F>,
+        standard: &StandardParameters<'_>,
+        bsdf: &BsdfLobes<'_, F>,
     ) {
         let material = vertex.point.material;
         let mut count = |effect: Effect, is_there: bool| {

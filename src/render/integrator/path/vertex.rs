@@ -22,6 +22,20 @@ pub(super) struct PathVertex<'hit, 'world> {
     pub(super) hit: Hit,
 }
 
+impl PathVertex<'_, '_> {
+    /// Whether a viewer at this height over the shading normal is behind the surface. In front is
+    /// where vertex normals point, or without them the geometric one.
+    pub(super) fn is_behind(&self, height: f64) -> bool {
+        let normal = self.shading_attributes.normal;
+        let is_against = normal.is_some_and(|normal| normal.dot(self.at.normal) < 0.0);
+        if is_against {
+            height >= 0.0
+        } else {
+            height <= 0.0
+        }
+    }
+}
+
 impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     /// Shades the next hit that is not skipped, where it is found: a vertex is too large to be
     /// moved. `None` without a hit. Alpha-tested surfaces are skipped with probability 1 − opacity;

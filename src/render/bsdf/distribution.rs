@@ -1,12 +1,13 @@
-//! The distribution of microfacets of Trowbridge and Reitz (GGX) with Smith's height-correlated
-//! shadowing.
+//! The distribution of microfacets: that of Trowbridge and Reitz (GGX), with Smith's masking for
+//! both directions by the heights of the facets or as a product, or Beckmann's.
 //!
 //! Directions are unit vectors in a frame whose z is the normal of the surface; formulas as in glTF
 //! 2.0, appendix B, and for anisotropy in Heitz, "Understanding the masking-shadowing function"
 //! (JCGT 3, 2014).
 
+use super::beckmann;
 use super::warp::direction_at_angle;
-use rtc_math::Vec3;
+use rtc_math::{Microfacets, Vec3};
 use std::f64::consts::PI;
 
 /// Surfaces with an α below this are mirrors: their lobes are narrower than a pixel can resolve.
@@ -14,20 +15,29 @@ const SMOOTH: f64 = 1e-5;
 
 /// A rough surface: its roughness α along x and y.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Ggx {
+pub(super) struct FacetDistribution {
     x: f64,
     y: f64,
+    model: Microfacets,
 }
 
-impl Ggx {
+impl FacetDistribution {
     /// The distribution of roughness 1.
-    pub(super) const ROUGH: Self = Self { x: 1.0, y: 1.0 };
+    pub(super) const ROUGH: Self = Self {
+        x: 1.0,
+        y: 1.0,
+        model: Microfacets::Ggx,
+    };
 
     /// The same width, α = roughness², in all directions.
     #[must_use]
     pub(super) fn isotropic(roughness: f64) -> Self {
         let alpha = roughness * roughness;
-        Self { x: alpha, y: alpha }
+        Self {
+            x: alpha,
+            y: alpha,
+            model: Microfacets::Ggx,
+        }
     }
 
     /// Stretched along x as KHR_materials_anisotropy says: αₓ = α + (1 − α)·strength².
@@ -37,7 +47,14 @@ impl Ggx {
         Self {
             x: alpha + (1.0 - alpha) * (strength * strength),
             y: alpha,
+            model: Microfacets::Ggx,
         }
+    }
+
+    /// The same widths in another model.
+    #[must_use]
+    pub(super) fn of_model(self, model: Microfacets) -> Self {
+        Self { model, ..self }
     }
 
     /// Whether the roughness is the same in all directions.
@@ -55,7 +72,11 @@ impl Ggx {
     /// The surface of two widths.
     #[must_use]
     pub(super) fn of_widths([x, y]: [f64; 2]) -> Self {
-        Self { x, y }
+        Self {
+            x,
+            y,
+            model: Microfacets::Ggx,
+        }
     }
 
     /// Whether it is a mirror.
@@ -70,20 +91,27 @@ impl Ggx {
         (self.x * self.y).sqrt().sqrt()
     }
 
-    /// The GGX distribution D(h) of microfacet normals, per projected area.
+    /// The distribution D(h) of microfacet normals, per projected area.
     #[must_use]
     #[inline]
     pub(super) fn density(self, h: Vec3) -> f64 {
         let (x, y) = (self.width_x(), self.width_y());
+        if self.model == Microfacets::Beckmann {
+            return beckmann::density([x, y], h);
+        }
         let lambda_root = Vec3::new(h.x / x, h.y / y, h.z).length_squared();
         1.0 / (PI * x * y * (lambda_root * lambda_root))
     }
 
-    /// The length of `w` stretched to the surface of unit slopes; `Λ = (lambda_root/|w_z| − 1)/2`.
+    /// `|w_z|·(1 + 2·Λ)`, of GGX the length of `w` sloped to the surface of unit slopes.
     #[must_use]
     #[inline]
     pub(super) fn lambda_root(self, w: Vec3) -> f64 {
-        Vec3::new(w.x * self.x, w.y * self.y, w.z).length()
+        let sloped = Vec3::new(w.x * self.x, w.y * self.y, w.z);
+        match self.model {
+            Microfacets::Ggx | Microfacets::SeparableGgx => sloped.length(),
+            Microfacets::Beckmann => beckmann::lambda_root(sloped),
+        }
     }
 
     /// `G₂/(4·|cos θ_o|·|cos θ_i|)`.
@@ -91,7 +119,26 @@ impl Ggx {
     #[inline]
     pub(super) fn visibility(self, wo: Vec3, wi: Vec3) -> f64 {
         let (o, i) = (wo.z.abs(), wi.z.abs());
-        0.5 / (i * self.lambda_root(wo) + o * self.lambda_root(wi))
+        match self.model {
+            Microfacets::Ggx => 0.5 / (i * self.lambda_root(wo) + o * self.lambda_root(wi)),
+            Microfacets::SeparableGgx => {
+                1.0 / ((o + self.lambda_root(wo)) * (i + self.lambda_root(wi)))
+            }
+            Microfacets::Beckmann => self.masking(wo) * self.masking(wi) / (4.0 * o * i),
+        }
+    }
+
+    /// Smith's `G₁`, the share of the facets towards `w` that are seen from there; of Beckmann's
+    /// distribution as the approximation has it that renderers use.
+    #[must_use]
+    pub(super) fn masking(self, w: Vec3) -> f64 {
+        let sloped = Vec3::new(w.x * self.x, w.y * self.y, w.z);
+        match self.model {
+            Microfacets::Ggx | Microfacets::SeparableGgx => {
+                2.0 * w.z.abs() / (w.z.abs() + sloped.length())
+            }
+            Microfacets::Beckmann => beckmann::masking(sloped),
+        }
     }
 
     /// The density of the normals visible from `wo`, divided by `wo·h`: `G₁·D/cos θ_o`.
@@ -109,6 +156,10 @@ impl Ggx {
         let (x, y) = (self.width_x(), self.width_y());
         // Stretch to the hemisphere of unit slopes.
         let view = Vec3::new(wo.x * x, wo.y * y, wo.z).normalize();
+        if self.model == Microfacets::Beckmann {
+            let [slope_x, slope_y] = beckmann::visible_slope(view, u);
+            return Vec3::new(-slope_x * x, -slope_y * y, 1.0).normalize();
+        }
         // Sample the cap of directions that the hemisphere reflects `view` to.
         let z = (1.0 - u[0]) * (1.0 + view.z) - view.z;
         let cap = direction_at_angle(z, u[1]);
@@ -134,9 +185,10 @@ mod tests {
     #[test]
     fn the_microfacets_cover_the_surface_once() {
         for ggx in [
-            Ggx::isotropic(0.5),
-            Ggx::isotropic(1.0),
-            Ggx::anisotropic(0.5, 0.8),
+            FacetDistribution::isotropic(0.5),
+            FacetDistribution::isotropic(1.0),
+            FacetDistribution::anisotropic(0.5, 0.8),
+            FacetDistribution::anisotropic(0.5, 0.8).of_model(Microfacets::Beckmann),
         ] {
             // ∫ D(h)·cos θ dω = 1, by the midpoint rule over cos²θ and φ.
             let n = 400;
@@ -154,7 +206,7 @@ mod tests {
 
     #[test]
     fn a_smooth_axis_gives_no_infinity() {
-        let ggx = Ggx::anisotropic(0.0, 0.5);
+        let ggx = FacetDistribution::anisotropic(0.0, 0.5);
         assert!(!ggx.is_smooth());
         let h = ggx.visible_normal(Vec3::new(0.6, 0.0, 0.8), [0.3, 0.7]);
         assert!(h.is_finite() && ggx.density(h).is_finite());
