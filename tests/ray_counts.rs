@@ -14,6 +14,7 @@ pub(crate) fn traced(mut scene: Scene) -> Scene {
         scene.settings.mode = Mode::Path(ir::PathSettings {
             samples: 2,
             multiple_scattering: true,
+            caustics: false,
             ..ir::PathSettings::default()
         });
     }

@@ -89,10 +89,14 @@ impl Settings {
     /// The names of the fields in the text form, in order.
     #[must_use]
     pub fn names() -> Vec<String> {
-        let schema = Self::schema();
-        let properties = schema.get("properties").and_then(|all| all.as_object());
-        properties.map_or_else(Vec::new, |all| all.keys().cloned().collect())
+        names(&Self::schema())
     }
+}
+
+/// The names of the fields in a schema, in order.
+fn names(schema: &Schema) -> Vec<String> {
+    let properties = schema.get("properties").and_then(|all| all.as_object());
+    properties.map_or_else(Vec::new, |all| all.keys().cloned().collect())
 }
 
 /// How often the ambient term of the Phong model, ka·C, is added at a point.
@@ -180,6 +184,10 @@ pub struct PathSettings {
     pub samples: u32,
     /// Whether rough surfaces keep the light that is scattered several times between microfacets.
     pub multiple_scattering: bool,
+    /// Whether the caustics of small lights are estimated by manifold sampling. Otherwise paths
+    /// find them by chance, and those of point lights not at all.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub caustics: bool,
     /// The reconstruction filter of the pixels.
     #[serde(default, skip_serializing_if = "PixelFilter::is_pixel")]
     pub filter: PixelFilter,
@@ -188,6 +196,12 @@ pub struct PathSettings {
 impl PathSettings {
     /// The default number of bounces of a path.
     pub const DEPTH: u32 = 16;
+
+    /// The names of the fields in the text form, in order.
+    #[must_use]
+    pub fn names() -> Vec<String> {
+        names(&schemars::schema_for!(Self))
+    }
 }
 
 impl Default for PathSettings {
@@ -196,6 +210,7 @@ impl Default for PathSettings {
         Self {
             samples: 64,
             multiple_scattering: true,
+            caustics: false,
             filter: PixelFilter::PIXEL,
         }
     }

@@ -1,7 +1,7 @@
 //! Sets one setting by the name that it has in the text form of the IR.
 
 use rtc_diag::{clip, clip_words};
-use rtc_ir::Settings;
+use rtc_ir::{Mode, PathSettings, Settings};
 
 /// Replaces one value, by its name in the text form: a field of the settings, or of the parameters
 /// of the mode. A value that is not JSON is a string.
@@ -23,10 +23,13 @@ pub fn set(settings: &mut Settings, name: &str, value: &str) -> Result<(), Strin
     let parameters = json["mode"]
         .as_object()
         .and_then(|mode| mode.values().next()?.as_object());
-    let parameters: Vec<_> = parameters
-        .into_iter()
-        .flat_map(|fields| fields.keys().cloned())
-        .collect();
+    let parameters = match &settings.mode {
+        Mode::Path(_) => PathSettings::names(),
+        Mode::Phong | Mode::Depth | Mode::Normal | Mode::Gooch(_) => parameters
+            .into_iter()
+            .flat_map(|fields| fields.keys().cloned())
+            .collect(),
+    };
     // Replace the field, or the parameter of the mode.
     let fields = Settings::names();
     if fields.iter().any(|field| field == name) {
@@ -52,13 +55,14 @@ pub fn set(settings: &mut Settings, name: &str, value: &str) -> Result<(), Strin
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rtc_ir::{Ambient, Mode, PathSettings, Pattern};
+    use rtc_ir::{Ambient, Pattern};
 
     fn paths() -> Settings {
         Settings {
             mode: Mode::Path(PathSettings {
                 samples: 64,
                 multiple_scattering: true,
+                caustics: false,
                 filter: rtc_math::PixelFilter::PIXEL,
             }),
             shadows: true,
@@ -82,6 +86,7 @@ mod tests {
         let mut settings = paths();
         let values = [
             ("multipleScattering", "false"),
+            ("caustics", "true"),
             ("samples", "9"),
             ("maxDepth", "3"),
             ("pattern", "random"),
@@ -93,6 +98,7 @@ mod tests {
         let mode = Mode::Path(PathSettings {
             samples: 9,
             multiple_scattering: false,
+            caustics: true,
             filter: rtc_math::PixelFilter::PIXEL,
         });
         let expected = Settings {

@@ -69,6 +69,7 @@ effects! {
     Unlit "unlit surfaces",
     Alpha "alpha",
     Mis "light weights",
+    Caustics "caustics",
     Microfacets "microfacets",
     Compensation "compensation",
     Volume "absorption",
@@ -90,7 +91,7 @@ impl Effect {
 }
 
 /// The effects of path tracing before the layers of the glTF material, and after them.
-const OF_PATHS: ([Effect; 12], [Effect; 9]) = (
+const OF_PATHS: ([Effect; 13], [Effect; 9]) = (
     [
         Effect::Surfaces,
         Effect::Environment,
@@ -101,6 +102,7 @@ const OF_PATHS: ([Effect; 12], [Effect; 9]) = (
         Effect::DirectLight,
         Effect::Shadows,
         Effect::Mis,
+        Effect::Caustics,
         Effect::Depth,
         Effect::Microfacets,
         Effect::Compensation,
@@ -120,9 +122,9 @@ const OF_PATHS: ([Effect; 12], [Effect; 9]) = (
 
 impl Effect {
     /// The effects that path tracing may have.
-    pub const OF_PATHS: [Self; 21 + Layer::ALL.len()] = {
+    pub const OF_PATHS: [Self; 22 + Layer::ALL.len()] = {
         let ((before, after), layers) = (OF_PATHS, Layer::ALL);
-        let mut all = [Self::Surfaces; 21 + Layer::ALL.len()];
+        let mut all = [Self::Surfaces; 22 + Layer::ALL.len()];
         let mut at = 0;
         while at < all.len() {
             all[at] = if at < before.len() {

@@ -63,7 +63,7 @@ pub use features::{PathFeatures, ShapeSet, WhittedFeatures};
 pub use hidden_maps::{HiddenMap, hidden_maps};
 pub use invisible::invisible_surfaces;
 pub use layer::Layer;
-pub use path::{Caustics, PathPlan, RemainingEnvironment, RemainingLight};
+pub use path::{CausticMaterials, Caustics, PathPlan, RemainingEnvironment, RemainingLight};
 pub use pixel_classes::{PixelClass, PixelClassGrid};
 pub use precision::{MIN_HIT_DISTANCE, PrecisionArtifact, PrecisionLoss, loss};
 pub use rules::{Rule, RuleSet};

@@ -86,6 +86,8 @@ pub struct PathSettings {
     pub samples: NonZeroU32,
     /// Whether rough surfaces keep the energy of multiple scattering between their facets.
     pub multiple_scattering: bool,
+    /// Whether caustics of small lights are estimated by manifold sampling.
+    pub caustics: bool,
     /// The reconstruction filter of the pixels: its numbers are in range.
     pub filter: PixelFilter,
 }
@@ -183,6 +185,7 @@ fn valid_mode(mode: &ir::Mode, check: &mut Checker<'_>) -> Option<Mode> {
         ir::Mode::Path(ir::PathSettings {
             samples,
             multiple_scattering,
+            caustics,
             filter,
         }) => {
             let samples = check.count(*samples, "samples", at(EntityField::Mode));
@@ -191,6 +194,7 @@ fn valid_mode(mode: &ir::Mode, check: &mut Checker<'_>) -> Option<Mode> {
             Some(Mode::Path(PathSettings {
                 samples,
                 multiple_scattering: *multiple_scattering,
+                caustics: *caustics,
                 filter,
             }))
         }

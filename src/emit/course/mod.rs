@@ -307,19 +307,23 @@ impl<'s> SceneWriter<'s> {
         let Mode::Path(PathSettings {
             samples,
             multiple_scattering,
+            caustics,
             filter,
         }) = mode
         else {
             return supersampling;
         };
         let side = samples.isqrt();
-        let is_default = *multiple_scattering && filter.is_pixel();
+        let is_default = *multiple_scattering && !*caustics && filter.is_pixel();
         if is_default && supersampling == 1 && side * side == *samples {
             return side;
         }
         self.line(0, "PathParameters:");
         self.line(2, &format!("samples: {samples}"));
         self.line(2, &format!("multipleScattering: {multiple_scattering}"));
+        if *caustics {
+            self.line(2, "caustics: true");
+        }
         if !filter.is_pixel() {
             self.line(2, &format!("filter: {}", filter_text(filter)));
         }

@@ -12,6 +12,7 @@ impl ExportReporter<'_> {
             Mode::Path(PathSettings {
                 samples,
                 multiple_scattering: _,
+                caustics: _,
                 filter: _,
             }) => *samples,
             Mode::Phong | Mode::Depth | Mode::Normal | Mode::Gooch(_) => {

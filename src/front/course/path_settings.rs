@@ -19,6 +19,10 @@ record! {
         /// Whether light that bounces several times between the microfacets of a rough surface is
         /// kept (energy compensation).
         multiple_scattering: Spanned<bool>, default(true), keys!["multipleScattering"];
+        /// Whether the caustics of small lights by smooth mirrors and clear glass are estimated
+        /// (manifold sampling). Otherwise paths find them by chance, and those of point lights not
+        /// at all.
+        caustics: Spanned<bool>, default(false), keys!["caustics"];
         /// The reconstruction filter of the pixels: how the light around the middle of a pixel is
         /// weighted.
         filter: Spanned<FilterSetting>, default(FilterSetting(PixelFilter::PIXEL)), keys!["filter"];
@@ -68,6 +72,7 @@ impl Lowering {
             FieldResult::Read(paths) => ir::PathSettings {
                 samples: paths.value.samples.value.0,
                 multiple_scattering: paths.value.multiple_scattering.value,
+                caustics: paths.value.caustics.value,
                 filter: paths.value.filter.value.0,
             },
             FieldResult::Absent | FieldResult::Broken => {

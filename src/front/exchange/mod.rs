@@ -30,6 +30,7 @@ pub(crate) fn traced(samples: u32, max_depth: u32) -> Settings {
         mode: Mode::Path(PathSettings {
             samples,
             multiple_scattering: false,
+            caustics: false,
             filter: PixelFilter::PIXEL,
         }),
         shadows: true,

@@ -1,6 +1,7 @@
 //! The builder of the path plan: it starts with everything the scene requires, and each rule
 //! removes what provably contributes zero.
 
+use super::caustics::CausticMaterials;
 use super::facts::{MaterialUses, UvPresence};
 use super::rules::PathRule;
 use super::texture::TextureValues;
@@ -34,6 +35,8 @@ pub(super) struct PathPlanBuilder<'scene> {
     pub(super) screen_rects: &'scene [ScreenRect],
     /// The simplified material for each material of the scene.
     pub(super) materials: IdTable<Material, Standard>,
+    /// The materials of caustics.
+    pub(super) caustics: &'scene CausticMaterials,
     /// For each texture, whether its maps are folded into factors.
     pub(super) folded: IdTable<Texture, bool>,
     /// The use of each punctual light.
@@ -170,6 +173,7 @@ impl PathPlanBuilder<'_> {
             Effect::DirectLight => self.samples_lights(),
             Effect::Shadows => self.shadows && self.samples_lights(),
             Effect::Mis => self.samples_lights() && self.has_extended_light(),
+            Effect::Caustics => self.has_caustics(),
             Effect::Depth => self.bounces(),
             Effect::Refraction | Effect::Volume => {
                 self.bounces() && self.any(|material| material_requires(material, effect))
@@ -277,6 +281,18 @@ impl PathPlanBuilder<'_> {
         self.nee && self.any(|_| true) && self.has_sampled_light()
     }
 
+    /// Whether caustics are estimated: a smooth surface may lead light from a sampled light to
+    /// another surface.
+    fn has_caustics(&self) -> bool {
+        let is_lit = || self.lights.contains(&RemainingLight::All) || self.has_emissive_surface();
+        let mut used = self.used_materials();
+        self.path.caustics
+            && self.max_depth > 1
+            && self.samples_lights()
+            && is_lit()
+            && used.any(|(material, _)| self.caustics.casters[material])
+    }
+
     /// Whether the light distribution has a light that may illuminate a surface.
     fn has_sampled_light(&self) -> bool {
         self.lights.contains(&RemainingLight::All) || self.has_extended_light()
@@ -370,6 +386,7 @@ pub(super) fn material_requires(m: &Standard, effect: Effect) -> bool {
         | Effect::Environment
         | Effect::EnvironmentMap
         | Effect::Mis
+        | Effect::Caustics
         | Effect::Compensation
         | Effect::VertexColors => false,
     }

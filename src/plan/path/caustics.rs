@@ -2,14 +2,16 @@
 //! by BSDF sampling, or not at all.
 
 use super::{PathPlan, RemainingEnvironment, RemainingLight};
-use rtc_math::{UnitInterval, Vec3};
-use rtc_valid::Standard;
+use rtc_math::{IdTable, UnitInterval, Vec3};
+use rtc_valid::{Alpha, Material, Standard};
 
 /// How path tracing finds the caustics of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Caustics {
     /// A scattered path hits a light after a smooth surface. This is rare, so caustics are noisy.
     ByChance,
+    /// Those of small lights through smooth surfaces are estimated, the others found by chance.
+    Estimated,
     /// Some caustics are missing: no path hits a punctual light via a perfect mirror or lens.
     LeftOut,
 }
@@ -26,9 +28,10 @@ impl PathPlan {
         let has_caustics = has_light && self.materials.iter().any(casts_caustics);
         let is_exact = |m: &Standard| casts_caustics(m) && m.roughness == UnitInterval::ZERO;
         let is_missed = has_punctual && self.materials.iter().any(is_exact);
-        has_caustics.then_some(match is_missed {
-            true => Caustics::LeftOut,
-            false => Caustics::ByChance,
+        has_caustics.then_some(match (&self.caustics, is_missed) {
+            (Some(_), _) => Caustics::Estimated,
+            (None, true) => Caustics::LeftOut,
+            (None, false) => Caustics::ByChance,
         })
     }
 
@@ -55,6 +58,10 @@ impl Caustics {
     pub const fn description(self) -> &'static str {
         match self {
             Self::ByChance => "found only by BSDF sampling, as noise; `--clamp` bounds it",
+            Self::Estimated => {
+                "of small lights through smooth surfaces by manifold sampling, with at most 1024 \
+                 trials each; others only by BSDF sampling"
+            }
             Self::LeftOut => "caustics of punctual lights are missing: no path finds them",
         }
     }
@@ -65,6 +72,42 @@ fn casts_caustics(m: &Standard) -> bool {
     /// At this roughness, light is spread over tens of degrees.
     const MAX_ROUGHNESS: f64 = 0.4;
     m.roughness.get() < MAX_ROUGHNESS && reflects_or_refracts(m)
+}
+
+/// The materials that manifold sampling of caustics knows. They are those of the scene, so that
+/// rules do not change the use of random numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CausticMaterials {
+    /// For each material, whether it is a mirror or clear glass, smooth and without normal maps.
+    pub casters: IdTable<Material, bool>,
+    /// For each material, whether it shines with the same radiance everywhere.
+    pub emitters: IdTable<Material, bool>,
+}
+
+impl CausticMaterials {
+    /// Those of a scene.
+    pub(super) fn of(materials: &IdTable<Material, Standard>) -> Self {
+        Self {
+            casters: materials.iter().map(is_smooth_caster).collect(),
+            emitters: materials.iter().map(is_even_emitter).collect(),
+        }
+    }
+}
+
+fn is_smooth_caster(m: &Standard) -> bool {
+    let is_smooth = m.roughness == UnitInterval::ZERO
+        && m.metallic_roughness_map.is_none()
+        && m.specular_glossiness.is_none();
+    let is_plain = m.transmission_map.is_none()
+        && m.normal_map.is_none()
+        && m.clearcoat == UnitInterval::ZERO
+        && m.anisotropy == UnitInterval::ZERO
+        && m.dispersion.get() == 0.0;
+    is_smooth && is_plain && m.alpha == Alpha::Opaque && reflects_or_refracts(m)
+}
+
+fn is_even_emitter(m: &Standard) -> bool {
+    !m.unlit && m.emissive_map.is_none() && m.emissive != Vec3::ZERO && m.alpha == Alpha::Opaque
 }
 
 /// Whether a material reflects or refracts most light.

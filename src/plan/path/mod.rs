@@ -23,7 +23,7 @@ mod status;
 mod texture;
 
 pub use builder::{RemainingEnvironment, RemainingLight};
-pub use caustics::Caustics;
+pub use caustics::{CausticMaterials, Caustics};
 pub(super) use texture::UvRect;
 
 use super::effect::{Effect, EffectStatus};
@@ -54,6 +54,8 @@ pub struct PathPlan {
     pub lights: IdTable<Punctual, RemainingLight>,
     /// The use of the environment.
     pub environment: RemainingEnvironment,
+    /// The materials of caustics, if these are estimated.
+    pub caustics: Option<CausticMaterials>,
     /// Whether the last ray of a path may hit an emitter.
     pub last_ray: bool,
     /// The features that the integrator needs.
@@ -103,6 +105,9 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: RuleSet) -> Pa
         }
     };
     // Start with everything that the scene requires.
+    let materials = scene.materials().iter();
+    let materials = materials.map(facts_seen::material::standard).collect();
+    let caustics = CausticMaterials::of(&materials);
     let requested = PathPlanBuilder {
         scene,
         path,
@@ -111,11 +116,8 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: RuleSet) -> Pa
         surface_bounds: &surface_bounds,
         screen_rects: &screen_rects,
         punctual: &punctual,
-        materials: scene
-            .materials()
-            .iter()
-            .map(facts_seen::material::standard)
-            .collect(),
+        materials,
+        caustics: &caustics,
         folded: vec![false; scene.textures().len()].into(),
         lights: vec![RemainingLight::All; punctual.len()].into(),
         environment: if scene.environment().radiance == Vec3::ZERO {
@@ -143,6 +145,7 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: RuleSet) -> Pa
         features: features(&reduced, rules),
         lights: reduced.lights,
         environment: reduced.environment,
+        caustics: path.caustics.then(|| caustics.clone()),
         last_ray: reduced.last_ray,
         materials: reduced.materials,
     };

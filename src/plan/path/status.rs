@@ -79,6 +79,7 @@ fn absence(effect: Effect) -> &'static str {
         Effect::DirectLight => "there is no light to sample",
         Effect::Shadows => "no light is sampled",
         Effect::Mis => "no light is found both by light sampling and by BSDF sampling",
+        Effect::Caustics => "no smooth surface leads light of a sampled light to another",
         Effect::Depth => "no path continues after its first hit",
         Effect::Refraction => "no material transmits light",
         Effect::Volume => "no medium absorbs light",
@@ -161,6 +162,10 @@ impl PathPlanBuilder<'_> {
             }
             Effect::Mis => reason_at(
                 "light sampling and BSDF sampling find the same light",
+                EntityKind::Light,
+            ),
+            Effect::Caustics => reason_at(
+                "a smooth surface may lead light of a sampled light to another",
                 EntityKind::Light,
             ),
             Effect::NormalInterpolation => {

@@ -403,7 +403,20 @@ impl<const F: u32> Microfacet<F> {
             return (wi.z > 0.0).then_some(direction);
         }
         // Or transmit through it.
-        let wi = match self.intersection {
+        let wi = self.transmitted(wo, h, cosine)?;
+        let single = self.smooth || self.intersection == BoundaryCrossing::Straight;
+        let direction = if single {
+            ScatteredDirection::Single(wi, weights.through, 1.0 - lobe_pdf)
+        } else {
+            ScatteredDirection::Lobe(wi)
+        };
+        (wi.z < 0.0).then_some(direction)
+    }
+
+    /// The direction through a microfacet with the normal `h`; `None` for total reflection.
+    #[inline]
+    fn transmitted(&self, wo: Vec3, h: Vec3, cosine: f64) -> Option<Vec3> {
+        Some(match self.intersection {
             BoundaryCrossing::Straight => -wo,
             BoundaryCrossing::Wall => {
                 let mirrored = h * (2.0 * cosine) - wo;
@@ -412,14 +425,21 @@ impl<const F: u32> Microfacet<F> {
             BoundaryCrossing::Refracted => {
                 h * (cosine / self.eta - refracted_cosine(cosine, self.eta)?) - wo / self.eta
             }
-        };
-        let single = self.smooth || self.intersection == BoundaryCrossing::Straight;
-        let direction = if single {
-            ScatteredDirection::Single(wi, weights.through, 1.0 - lobe_pdf)
+        })
+    }
+
+    /// The direction that a smooth boundary reflects or transmits light from, and the fraction that
+    /// it scatters so.
+    pub(super) fn smooth(&self, wo: Vec3, transmits: bool) -> Option<(Vec3, Vec3)> {
+        if !self.smooth {
+            return None;
+        }
+        let weights = self.weights(wo.z);
+        if transmits {
+            Some((self.transmitted(wo, Vec3::Z, wo.z)?, weights.through))
         } else {
-            ScatteredDirection::Lobe(wi)
-        };
-        (wi.z < 0.0).then_some(direction)
+            Some((Vec3::new(-wo.x, -wo.y, wo.z), weights.reflected))
+        }
     }
 }
 

@@ -383,6 +383,15 @@ impl<'world, const F: u32> BsdfLobes<'world, F> {
         }
     }
 
+    /// The direction of the light that the smooth boundary reflects or transmits to the viewer, and
+    /// the fraction that it scatters so; `None` for a rough boundary and for total reflection.
+    pub(super) fn smooth(&self, transmits: bool) -> Option<(Vec3, Vec3)> {
+        let (wi, fraction) = self.microfacet.smooth(self.wo, transmits)?;
+        let left = self.sheen().map_or(1.0, |sheen| sheen.left_for(wi));
+        let covered = self.coat().map_or(0.0, |coat| coat.weight);
+        Some((self.side.leave(wi), fraction * (left * (1.0 - covered))))
+    }
+
     fn glossy_sample(&self, wi: Vec3) -> Option<BsdfSample> {
         let BsdfEvaluation { f, pdf } = self.evaluate_entered(wi);
         (pdf > 0.0).then(|| BsdfSample {

@@ -145,6 +145,7 @@ impl RayCounts {
             | Effect::Unlit
             | Effect::Alpha
             | Effect::Mis
+            | Effect::Caustics
             | Effect::Microfacets
             | Effect::Compensation
             | Effect::Layer(_)

@@ -11,6 +11,7 @@
 //!
 //! A light of zero weight is never sampled; only BSDF sampling finds it.
 
+pub(crate) mod caustic;
 pub(crate) mod course;
 pub(crate) mod environment;
 pub(crate) mod punctual;
@@ -19,6 +20,7 @@ mod tree;
 mod triangle;
 
 use crate::integrator::path::SamplingStrategy;
+use crate::light::caustic::CausticLights;
 use crate::light::environment::EnvironmentRadiance;
 use crate::light::punctual::Punctual;
 use crate::light::shape::ShapeLight;
@@ -56,6 +58,8 @@ pub(crate) struct Lights<'world, S> {
     probabilities: IdTable<Light, f64>,
     /// The index of the first light of each surface that has some.
     first_light_of_surface: IdTable<Surface, Option<LightId>>,
+    /// What caustics are estimated for, if they are.
+    pub(crate) caustics: Option<CausticLights>,
 }
 
 /// One of the lights that the path tracer chooses from.
@@ -145,6 +149,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
             only: None,
             probabilities: IdTable::default(),
             first_light_of_surface,
+            caustics: None,
         };
         all.build_distribution(strategy);
         all
@@ -160,6 +165,9 @@ impl<'world, S: Intersect> Lights<'world, S> {
             .iter()
             .map(weight)
             .collect::<IdTable<Light, _>>();
+        if self.world.settings.caustics && strategy != SamplingStrategy::BsdfSampling {
+            self.caustics = CausticLights::new(self, &weights);
+        }
         let numbered = weights.entries();
         let emitters = numbered.filter_map(|(light, power)| self.emitter(light, *power));
         let emitters = emitters.collect::<Vec<_>>();

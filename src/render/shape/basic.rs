@@ -6,6 +6,7 @@ use crate::ray::{Interaction, Ray};
 use crate::shape::emitter::Emitter;
 use crate::shape::four::Shape4;
 use crate::shape::geometry::{AttributeRequest, Intersect, LocalRay, ShadingAttributes};
+use crate::shape::normal_field::NormalField;
 use crate::shape::tie;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, Vec3};

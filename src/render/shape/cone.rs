@@ -17,6 +17,7 @@ use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{Intersect, SolidCrossing};
 use crate::shape::interval::{Interval, between_planes, roots};
 use crate::shape::mesh::BaselineMesh;
+use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, Vec3, cross, difference_of_products, dot};
 use std::sync::Arc;
@@ -268,6 +269,14 @@ impl Intersect for Cone {
             self.base,
             self.height + self.radius,
         )
+    }
+
+    fn normal_field(&self) -> Option<NormalField<'_>> {
+        Some(NormalField::Revolution {
+            center: self.base,
+            axis: self.axis,
+            profile: 0.0,
+        })
     }
 
     fn emitter(&self) -> Option<Emitter> {

@@ -15,6 +15,7 @@ use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{Intersect, SolidCrossing};
 use crate::shape::interval::{Interval, between_planes, roots};
 use crate::shape::mesh::BaselineMesh;
+use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, Vec3, cross, dot, unit};
 use std::sync::Arc;
@@ -158,6 +159,14 @@ impl Intersect for Cylinder {
         self.interaction_on(part, ray, t)
     }
 
+    fn normal_field(&self) -> Option<NormalField<'_>> {
+        Some(NormalField::Revolution {
+            center: self.base,
+            axis: self.axis,
+            profile: 0.0,
+        })
+    }
+
     fn emitter(&self) -> Option<Emitter> {
         Some(Emitter::Frustum {
             base: self.base,
@@ -210,6 +219,10 @@ impl Intersect for InfiniteCylinder {
 
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
         self.0.interaction_on(CylinderFace::Side, ray, t)
+    }
+
+    fn normal_field(&self) -> Option<NormalField<'_>> {
+        <Cylinder as Intersect>::normal_field(&self.0)
     }
 
     fn emitter(&self) -> Option<Emitter> {

@@ -7,6 +7,7 @@ use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::emitter::Emitter;
 use crate::shape::geometry::Intersect;
 use crate::shape::mesh::BaselineMesh;
+use crate::shape::normal_field::NormalField;
 use crate::shape::plane::{BaselinePlane, Plane};
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, Vec3};
@@ -60,6 +61,10 @@ impl Intersect for Disc {
 
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
         self.interaction(ray, t)
+    }
+
+    fn normal_field(&self) -> Option<NormalField<'_>> {
+        Some(NormalField::Flat)
     }
 
     fn emitter(&self) -> Option<Emitter> {

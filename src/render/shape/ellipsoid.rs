@@ -11,6 +11,7 @@ use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes, SolidCrossing};
 use crate::shape::mesh::BaselineMesh;
+use crate::shape::normal_field::NormalField;
 use crate::shape::sphere::{Sphere, TexturedSphere};
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, Vec3, cross};
@@ -120,6 +121,10 @@ impl Intersect for Ellipsoid {
             tangent: attributes.tangent.and_then(to_world),
             ..attributes
         }
+    }
+
+    fn normal_field(&self) -> Option<NormalField<'_>> {
+        Some(NormalField::Ellipsoid(self.center, self.inverse))
     }
 
     fn emitter(&self) -> Option<Emitter> {

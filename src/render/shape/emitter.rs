@@ -185,7 +185,7 @@ impl Emitter {
     }
 
     /// The density per area at a point.
-    fn density(&self, at: &EmitterPoint) -> f64 {
+    pub(crate) fn density(&self, at: &EmitterPoint) -> f64 {
         match *self {
             Self::Ellipsoid {
                 center,

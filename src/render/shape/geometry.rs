@@ -4,6 +4,7 @@ use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
 use crate::shape::emitter::Emitter;
 use crate::shape::four::Shape4;
+use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, Vec3};
 
@@ -112,6 +113,13 @@ pub trait Intersect: Sized + Send + Sync {
     /// shapes that only BSDF sampling finds.
     #[must_use]
     fn emitter(&self) -> Option<Emitter>;
+
+    /// How its unit normals change along it; `None` where that is not known: ray differentials
+    /// then do not continue from it.
+    #[must_use]
+    fn normal_field(&self) -> Option<NormalField<'_>> {
+        None
+    }
 
     /// A bound on the rounding error of the corners.
     #[must_use]

@@ -10,6 +10,7 @@ use crate::shape::corners::{blend, corner_values, handedness, interpolate};
 use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, LocalRay, ShadingAttributes};
 use crate::shape::mesh::{BaselineMesh, PreparedMesh};
+use crate::shape::normal_field::{NormalDerivative, NormalField};
 use crate::shape::tie::{self, ClosestHit, ClosestHitCandidates};
 use crate::shape::triangle::{self, BaselineTriangle, Triangle, WatertightRay};
 use rtc_math::{Bounds, Vec3, cross, unit};
@@ -85,6 +86,35 @@ impl Instance {
     #[inline]
     fn normal_to_world(&self, n: Vec3) -> Vec3 {
         (self.inverse[0] * n.x + self.inverse[1] * n.y + self.inverse[2] * n.z).normalize_or_zero()
+    }
+
+    /// The derivative of the shading normal by the point, on a triangle.
+    pub(super) fn normal_derivative(&self, prim_id: u32, point: Vec3) -> NormalDerivative {
+        let corners = self.mesh.corners(prim_id);
+        let Some(normals) = corner_values(&self.mesh.attributes.normals, corners) else {
+            return NormalDerivative::ZERO;
+        };
+        let to_world =
+            |n: Vec3| self.inverse[0] * n.x + self.inverse[1] * n.y + self.inverse[2] * n.z;
+        let unit = |normal| to_world(unit(Vec3::from_array(normal)).unwrap_or(Vec3::ZERO));
+        let [first, second, third] = normals.map(unit);
+        let [along, across] = [second - first, third - first];
+        // The barycentric weights of the second and of the third corner are linear in the point.
+        let [a, b, c] = self
+            .mesh
+            .vertices(prim_id)
+            .map(|corner| self.to_world(corner));
+        let normal = (b - a).cross(c - a);
+        let weights = |step: Vec3| {
+            let square = normal.length_squared();
+            let second = step.cross(c - a).dot(normal) / square;
+            (second, (b - a).cross(step).dot(normal) / square)
+        };
+        let change = |step: Vec3| {
+            let (second, third) = weights(step);
+            along * second + across * third
+        };
+        NormalDerivative::of_direction(first + change(point - a), change)
     }
 
     /// The ray in object space; its `t` are those of the world.
@@ -321,6 +351,10 @@ impl Intersect for Instance {
 
     fn is_in_place(&self) -> bool {
         self.axes == Vec3::AXES && self.origin == Vec3::ZERO
+    }
+
+    fn normal_field(&self) -> Option<NormalField<'_>> {
+        Some(NormalField::Mesh(self))
     }
 
     fn emitter(&self) -> Option<Emitter> {

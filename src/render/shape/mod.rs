@@ -127,6 +127,12 @@ macro_rules! dispatch {
                 }
             }
 
+            fn normal_field(&self) -> Option<NormalField<'_>> {
+                match self {
+                    $(Self::$Name(shape) => <$Name as Intersect>::normal_field(shape),)*
+                }
+            }
+
             fn error_bound(&self) -> f64 {
                 match self {
                     $(Self::$Name(shape) => <$Name as Intersect>::error_bound(shape),)*
@@ -205,6 +211,7 @@ pub(crate) mod geometry;
 pub(crate) mod instance;
 pub(crate) mod interval;
 pub(crate) mod mesh;
+pub(crate) mod normal_field;
 pub(crate) mod paraboloid;
 pub(crate) mod plane;
 pub(crate) mod quad;
@@ -236,6 +243,7 @@ use crate::ray::{Interaction, Ray};
 use crate::shape::emitter::Emitter;
 use crate::shape::four::Shape4;
 use crate::shape::geometry::{AttributeRequest, Intersect, LocalRay, ShadingAttributes};
+use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::WatertightRay;
 use kinds::*;
 use rtc_math::{Bounds, Vec3};

@@ -9,6 +9,7 @@ use crate::shape::emitter::Emitter;
 use crate::shape::four::Shape4;
 use crate::shape::geometry::{Intersect, SolidCrossing};
 use crate::shape::mesh::BaselineMesh;
+use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, U, Vec3, cross, dot, two_difference, unit_scale};
 use std::sync::Arc;
@@ -241,6 +242,10 @@ impl Intersect for Plane {
     fn shape4(&self) -> Option<Shape4<'_>> {
         let axis = self.normal.axis()?;
         Some(Shape4::Plane(self, axis))
+    }
+
+    fn normal_field(&self) -> Option<NormalField<'_>> {
+        Some(NormalField::Flat)
     }
 
     fn emitter(&self) -> Option<Emitter> {

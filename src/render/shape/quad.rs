@@ -12,6 +12,7 @@ use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
 use crate::shape::mesh::BaselineMesh;
+use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::{BaselineTriangle, Triangle, WatertightRay};
 use rtc_math::{Bounds, Vec3, cross, is_flat};
 use std::sync::Arc;
@@ -253,6 +254,10 @@ impl Intersect for Quad {
             tangent: self.tangent(v),
             ..ShadingAttributes::default()
         }
+    }
+
+    fn normal_field(&self) -> Option<NormalField<'_>> {
+        matches!(self, Self::Flat { .. }).then_some(NormalField::Flat)
     }
 
     fn emitter(&self) -> Option<Emitter> {

@@ -18,6 +18,7 @@ use crate::shape::emitter::Emitter;
 use crate::shape::four::Shape4;
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes, SolidCrossing};
 use crate::shape::mesh::BaselineMesh;
+use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, DoubleDouble, U, Vec3, acos, atan2};
 use std::f64::consts::{PI, TAU};
@@ -254,6 +255,10 @@ impl Intersect for TexturedSphere {
     #[inline(always)]
     fn shape4(&self) -> Option<Shape4<'_>> {
         Some(Shape4::Sphere(&self.sphere))
+    }
+
+    fn normal_field(&self) -> Option<NormalField<'_>> {
+        Some(NormalField::Sphere(self.sphere.radius))
     }
 
     fn emitter(&self) -> Option<Emitter> {

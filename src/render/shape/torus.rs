@@ -17,6 +17,7 @@ use crate::shape::emitter::Emitter;
 use crate::shape::four::Shape4;
 use crate::shape::geometry::{Intersect, SolidCrossing};
 use crate::shape::mesh::BaselineMesh;
+use crate::shape::normal_field::NormalField;
 use crate::shape::plane::PlaneNormal;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, Vec3, cross, ldexp};
@@ -359,6 +360,14 @@ impl Intersect for Torus {
     #[inline(always)]
     fn shape4(&self) -> Option<Shape4<'_>> {
         Some(Shape4::Torus(self))
+    }
+
+    fn normal_field(&self) -> Option<NormalField<'_>> {
+        Some(NormalField::Revolution {
+            center: self.center,
+            axis: self.axis,
+            profile: 1.0 / self.minor,
+        })
     }
 
     fn emitter(&self) -> Option<Emitter> {

@@ -13,6 +13,7 @@ use crate::shape::corners::interpolate;
 use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
 use crate::shape::mesh::BaselineMesh;
+use crate::shape::normal_field::NormalField;
 use crate::shape::plane::PlaneNormal;
 use rtc_math::{Bounds, U, Vec3, difference_of_products};
 use std::sync::Arc;
@@ -252,6 +253,10 @@ impl Intersect for TexturedTriangle {
 
     fn corners(&self, _: u32) -> Option<[Vec3; 3]> {
         Some(*self.triangle.vertices())
+    }
+
+    fn normal_field(&self) -> Option<NormalField<'_>> {
+        Some(NormalField::Flat)
     }
 
     fn emitter(&self) -> Option<Emitter> {

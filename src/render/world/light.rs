@@ -25,7 +25,9 @@ impl<S> World<S> {
     /// See [`AnyWorld::brightest`](super::any::AnyWorld::brightest).
     pub(super) fn brightest(&self) -> f64 {
         let paths = self.plan.paths.as_ref();
-        if paths.is_some_and(PathPlan::has_unbounded_caustics) {
+        let is_unbounded =
+            |paths: &PathPlan| paths.caustics.is_some() || paths.has_unbounded_caustics();
+        if paths.is_some_and(is_unbounded) {
             return f64::INFINITY;
         }
         let surfaces = self.surfaces.iter();

@@ -24,6 +24,8 @@ pub(crate) struct Settings {
     /// Whether rough surfaces keep the light that bounces between their facets, where paths are
     /// traced.
     pub(crate) multiple_scattering: bool,
+    /// Whether caustics are estimated by manifold sampling, where paths are traced.
+    pub(crate) caustics: bool,
     /// The filter of the pixels, where paths are traced; `None` for the pixel itself.
     pub(crate) filter: Option<Arc<FilterSampler>>,
     /// The points of each soft light.
@@ -136,6 +138,7 @@ pub(super) fn settings(scene: &ValidScene) -> Settings {
     };
     let points = camera(scene.camera()).lens_samples;
     let multiple_scattering = matches!(mode, valid::Mode::Path(path) if path.multiple_scattering);
+    let caustics = matches!(mode, valid::Mode::Path(path) if path.caustics);
     let filter = match mode {
         valid::Mode::Path(path) => FilterSampler::new(&path.filter).map(Arc::new),
         valid::Mode::Phong | valid::Mode::Depth | valid::Mode::Normal | valid::Mode::Gooch(_) => {
@@ -152,6 +155,7 @@ pub(super) fn settings(scene: &ValidScene) -> Settings {
             valid::Ambient::Once(color) => Some(color),
         },
         multiple_scattering,
+        caustics,
         filter,
         light_samples: light_samples.get(),
         grid: match mode {

@@ -193,6 +193,7 @@ fn mode_of(word: &str, extras: ObjectFields<'_, '_>) -> Option<Mode> {
                 multiple_scattering: scatters.map_or(default.multiple_scattering, |extras| {
                     extras.boolean("multipleScattering")
                 }),
+                caustics: parameters.is_some_and(|extras| extras.boolean("caustics")),
                 filter: parameters
                     .and_then(|extras| extras.object("filter"))
                     .and_then(filter_of)

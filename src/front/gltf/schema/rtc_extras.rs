@@ -90,6 +90,7 @@ static GOOCH: ObjectSchema = rtc_object(&[
 static PATH: ObjectSchema = rtc_object(&[
     required("samples", Integer(1, MAX_COUNT)),
     optional("multipleScattering", Boolean),
+    optional("caustics", Boolean),
     optional("filter", One(&FILTER)),
 ]);
 /// The filter of the pixels: the first of these.

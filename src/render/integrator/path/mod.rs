@@ -5,6 +5,8 @@
 //! leak no light into closed meshes.
 
 mod aov;
+mod caustic;
+mod chain;
 mod scatter;
 mod state;
 mod vertex;

@@ -6,18 +6,19 @@ use super::{PathTracer, SamplingStrategy};
 use crate::bsdf::BsdfLobes;
 use crate::bsdf::standard::StandardParameters;
 use crate::light::IncidentLight;
+use crate::light::caustic::CausticLights;
 use crate::material::point::{MaterialPoint, ShadingFrame};
 use crate::sampler::sobol::SobolPair;
 use crate::shape::geometry::Intersect;
-use rtc_math::{Vec3, exp};
+use rtc_math::Vec3;
 use rtc_plan::{Effect, PathFeatures};
 
 /// The BSDF at a vertex, in its frame of shading.
-struct VertexBsdf<'vertex, const F: u32> {
-    frame: &'vertex ShadingFrame,
-    bsdf: &'vertex BsdfLobes<'vertex, F>,
+pub(super) struct VertexBsdf<'vertex, const F: u32> {
+    pub(super) frame: &'vertex ShadingFrame,
+    pub(super) bsdf: &'vertex BsdfLobes<'vertex, F>,
     /// The direction to the viewer in the frame.
-    wo: Vec3,
+    pub(super) wo: Vec3,
 }
 
 impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
@@ -48,10 +49,10 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         state: &mut PathState,
         vertex: &PathVertex<'_, 'world>,
     ) -> bool {
-        // Attenuate by the medium along the ray (Beer-Lambert).
+        // Attenuate by the medium along the ray.
         if Self::can(PathFeatures::TRANSMISSION) && state.absorption != Vec3::ZERO {
             self.counts.add(Effect::Volume);
-            state.beta *= (state.absorption * -state.travelled).map(exp);
+            state.attenuate();
         }
         if vertex.point.material.is_unlit {
             self.counts.add(Effect::Unlit);
@@ -81,11 +82,16 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             bsdf: &bsdf,
             wo,
         };
-        // Sample one light.
-        if self.does(PathFeatures::NEE) && !bsdf.is_delta() {
+        // Sample one light, and one through smooth surfaces.
+        let is_sampled = self.does(PathFeatures::NEE) && !bsdf.is_delta();
+        if is_sampled {
             state.radiance += state.beta * self.direct(state, vertex, &shading);
         }
-        state.bounces < self.max_bounces && self.turn(state, vertex, &shading)
+        let receives = is_sampled && self.receives(vertex, &standard);
+        if receives {
+            state.radiance += state.beta * self.caustic(state, vertex, &shading);
+        }
+        state.bounces < self.max_bounces && self.turn(state, vertex, &shading, receives)
     }
 
     /// Adds the emitted radiance of a surface.
@@ -99,6 +105,12 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             self.counts.add(Effect::Textures);
         }
         let (hit, wo) = (vertex.hit, -state.ray.direction);
+        // An estimated caustic counts once.
+        let is_aimed_at =
+            |caustics: &CausticLights| state.is_caustic() && caustics.is_aimed_at(hit.surface);
+        if self.lights.caustics.as_ref().is_some_and(is_aimed_at) {
+            return;
+        }
         let (lights, part) = (self.lights, (hit.surface, hit.prim_id));
         let place = (vertex.at.point, vertex.at.normal);
         let light_pdf = || lights.pdf_of_surface(part, place, -wo, state.travelled);
@@ -116,6 +128,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             bsdf,
             wo: local,
         }: &VertexBsdf<'_, F>,
+        receives: bool,
     ) -> bool {
         let (PathVertex { at, point, hit, .. }, wo) = (vertex, -state.ray.direction);
         let Some(sample) = bsdf.sample(state.pair(SobolPair::direction), || {
@@ -133,11 +146,16 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         state.beta *= sample.f * (sample.wi.z.abs() / sample.pdf);
         state.pdf = (!sample.delta).then_some(sample.pdf);
         if through && point.material.bounds_a_volume {
-            let enters = wi.dot(at.normal) < 0.0;
-            state.absorption = if enters {
-                point.material.absorption
-            } else {
-                Vec3::ZERO
+            state.enter(point.material, wi.dot(at.normal) < 0.0);
+        }
+        if self.has_caustics() {
+            let is_regular = || self.is_regular(vertex, frame.to_world(Vec3::Z));
+            state.caustic = match sample.delta {
+                true => state
+                    .caustic
+                    .filter(|_| is_regular())
+                    .map(|length| length + 1),
+                false => receives.then_some(0),
             };
         }
         (state.ray, state.from) = (at.ray(wi), (hit.surface, hit.prim_id));

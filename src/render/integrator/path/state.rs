@@ -1,9 +1,11 @@
 //! The state of a path between two vertices.
 
+use super::chain::MAX_CHAIN;
+use crate::material::standard::StandardMaterial;
 use crate::ray::Ray;
 use crate::sampler::sobol::{SobolPair, SobolPath};
 use crate::world::{NO_PRIMITIVE, SurfacePrimitive};
-use rtc_math::Vec3;
+use rtc_math::{Vec3, exp, to_u32};
 
 /// Bounces before Russian roulette may end a path.
 const RR_MIN_DEPTH: u32 = 3;
@@ -32,6 +34,9 @@ pub(super) struct PathState {
     pub(super) absorption: Vec3,
     /// The wavelength channel that dispersion picked.
     pub(super) channel: Option<usize>,
+    /// The number of smooth surfaces since a vertex whose caustics through such surfaces were
+    /// estimated; `None` if there was none, or something else in between.
+    pub(super) caustic: Option<u32>,
     /// The distance that the ray has travelled, through skipped surfaces too.
     pub(super) travelled: f64,
 }
@@ -50,6 +55,7 @@ impl PathState {
             pdf: None,
             absorption: Vec3::ZERO,
             channel: None,
+            caustic: None,
             travelled: 0.0,
         }
     }
@@ -57,6 +63,26 @@ impl PathState {
     /// A pair of numbers of this vertex.
     pub(super) fn pair(&self, of: impl FnOnce(u32) -> SobolPair) -> [f64; 2] {
         self.sobol.pair(of(self.bounces))
+    }
+
+    /// Attenuates by the medium along the ray (Beer-Lambert).
+    pub(super) fn attenuate(&mut self) {
+        self.beta *= (self.absorption * -self.travelled).map(exp);
+    }
+
+    /// Enters the medium that a surface of a material bounds, or leaves it.
+    pub(super) fn enter(&mut self, material: &StandardMaterial, enters: bool) {
+        self.absorption = if enters {
+            material.absorption
+        } else {
+            Vec3::ZERO
+        };
+    }
+
+    /// Whether the path came from a vertex whose caustics were estimated, through a chain of smooth
+    /// surfaces that the estimate covers.
+    pub(super) fn is_caustic(&self) -> bool {
+        (1..=to_u32(MAX_CHAIN)).contains(&self.caustic.unwrap_or(0))
     }
 
     /// Picks one colour channel, weighted by 3.

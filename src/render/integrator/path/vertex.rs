@@ -67,6 +67,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             };
             if opacity < 1.0 && state.sobol.uniform(state.bounces, skipped) >= opacity {
                 (state.ray, state.from) = (at.ray(state.ray.direction), (hit.surface, hit.prim_id));
+                state.caustic = None;
                 continue;
             }
             // Shade the vertex.

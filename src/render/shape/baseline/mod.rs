@@ -16,6 +16,7 @@ use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
 use crate::shape::kinds::*;
 use crate::shape::mesh::BaselineMesh;
+use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::WatertightRay;
 use ray::BaselineRay;
 use real::{Real, Vector};
@@ -160,6 +161,10 @@ impl<R: Real> Intersect for BaselineShape<R> {
 
     fn corners(&self, prim_id: u32) -> Option<[Vec3; 3]> {
         self.robust.corners(prim_id)
+    }
+
+    fn normal_field(&self) -> Option<NormalField<'_>> {
+        self.robust.normal_field()
     }
 
     fn emitter(&self) -> Option<Emitter> {
