@@ -9,6 +9,7 @@ import sys
 paths, folder = sys.argv[1:]
 HERE = os.path.join(os.path.dirname(__file__), "caustics")
 REFERENCE = int(os.environ.get("REFERENCE", "4096"))
+SIDE = int(os.environ.get("SIDE", "128"))
 BRIGHT = 10
 
 
@@ -72,14 +73,14 @@ def main():
     print("| --- | --- | --- | --- | --- | --- | --- | --- |")
     for name in sorted(os.listdir(HERE)):
         with open(os.path.join(HERE, name)) as file:
-            text = file.read()
+            text = file.read().replace("[128, 128]", f"[{SIDE}, {SIDE}]")
         scenes = {}
         for on in (False, True):
             scenes[on] = os.path.join(folder, f"{'on' if on else 'off'}-{name}")
             with open(scenes[on], "w") as file:
                 file.write(text.replace("caustics: true", f"caustics: {'true' if on else 'false'}"))
         # References of both, so that the means can be compared; the less noisy one is that of the estimate.
-        long_off, _ = render(scenes[False], 8 * REFERENCE, 7)
+        long_off, _ = render(scenes[False], 4 * REFERENCE, 7)
         reference, _ = render(scenes[True], REFERENCE, 8)
         samples = {True: 16}
         _, on_time = render(scenes[True], 16, 1)
