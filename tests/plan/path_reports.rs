@@ -31,6 +31,7 @@ emission:  no material emits light;
 unlit surfaces:  no material is unlit;
 alpha:  all materials are opaque;
 light weights:  no light is found both by light sampling and by BSDF sampling;
+caustics:  no smooth surface leads light of a sampled light to another;
 microfacets:  no material has a microfacet lobe;
 compensation:  there is no multiple scattering between microfacets;
 clearcoat:  no material has a clearcoat;

@@ -297,9 +297,9 @@ fn index_beyond(material: &StandardMaterial, is_behind: bool) -> f64 {
 }
 
 /// The probability of reflection in a random chain: about the fraction of the light reflected, but
-/// neither is improbable where both occur, so that no chain needs very many trials.
+/// never certain where light is transmitted, too.
 fn share_reflected(material: &StandardMaterial, vertex: &SmoothVertex, direction: Vec3) -> f64 {
-    const LEAST: f64 = 0.15;
+    const LEAST: f64 = 0.04;
     let BaseReflectance::Metallic { metallic, .. } = &material.reflection else {
         return 1.0;
     };
