@@ -155,7 +155,7 @@ mod tests {
         let axes = [Vec3::new(0.5, 0.1, 0.0), Vec3::Y, Vec3::new(0.0, 0.2, 0.8)];
         assert_derivative(&Ellipsoid::new(Vec3::ZERO, axes), origin, target);
         assert_derivative(&Cylinder::new(-axis, axis, 2.0, 0.5), origin, target);
-        assert_derivative(&Cone::new(-axis, axis * 2.0, 0.5), origin, target);
+        assert_derivative(&Cone::new(-axis, axis * 2.0, 0.8), origin, target);
         assert_derivative(
             &Torus::new(Vec3::ZERO, axis, 0.8, 0.3),
             origin,
