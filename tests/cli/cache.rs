@@ -239,7 +239,8 @@ fn only_a_trusted_project_names_a_cache() {
     );
 }
 
-/// A disk that is full while an entry is written: a warning and the right picture, no entry in part.
+/// A disk that is full while an entry is written: a warning and the right picture, and no part of an
+/// entry.
 #[test]
 #[cfg(unix)]
 fn a_full_disk_leaves_no_wrong_picture() {

@@ -3,11 +3,11 @@
 
 use rtc_front::{ForeignFormat, SupportLevel, SupportRow};
 use rtc_pipeline::SourceKind;
-use std::sync::LazyLock;
+use std::sync::OnceLock;
 
-/// The tables, which the readers fill the first time.
-static TABLES: LazyLock<[Vec<SupportRow>; 3]> =
-    LazyLock::new(|| ForeignFormat::ALL.map(ForeignFormat::support));
+/// The table of each format, which its reader fills the first time.
+static TABLES: [OnceLock<Vec<SupportRow>>; ForeignFormat::ALL.len()] =
+    [const { OnceLock::new() }; ForeignFormat::ALL.len()];
 
 /// The format of another program that a document has.
 pub(super) fn format(kind: SourceKind) -> Option<ForeignFormat> {
@@ -28,12 +28,8 @@ pub(super) fn meaning(
     let (start, end) = word(text, offset)?;
     let word = text.get(start..end)?;
     let quoted = format!("`{word}`");
-    let index = ForeignFormat::ALL
-        .iter()
-        .position(|known| *known == format)?;
-    let rows = TABLES[index]
-        .iter()
-        .filter(|row| row.name.contains(&quoted));
+    let table = TABLES[format as usize].get_or_init(|| format.support());
+    let rows = table.iter().filter(|row| row.name.contains(&quoted));
     let lines: Vec<_> = rows.map(line).collect();
     (!lines.is_empty()).then(|| (lines.join("\n\n"), (start, end)))
 }

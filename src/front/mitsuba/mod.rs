@@ -49,6 +49,7 @@ use rtc_source::{
     Budget, FileId, FileKind, FileSearch, LimitExceeded, Loader, Resource, SourceMap, Span,
 };
 use std::collections::{BTreeMap, BTreeSet};
+use std::io;
 use xml::PluginNode;
 
 /// The name of the root element.
@@ -105,8 +106,39 @@ pub fn lower(
 
 /// Why a mesh file is not read.
 enum MeshReadError {
-    Limit(LimitExceeded),
+    /// The file is damaged, with the error.
     Damaged(String),
+    Limit(LimitExceeded),
+}
+
+impl MeshReadError {
+    fn damaged(error: &str) -> Self {
+        Self::Damaged(error.to_owned())
+    }
+}
+
+impl From<io::Error> for MeshReadError {
+    fn from(_: io::Error) -> Self {
+        Self::damaged("its compressed data are damaged or too short")
+    }
+}
+
+impl From<LimitExceeded> for MeshReadError {
+    fn from(exceeded: LimitExceeded) -> Self {
+        Self::Limit(exceeded)
+    }
+}
+
+impl From<TextParseError> for MeshReadError {
+    fn from(error: TextParseError) -> Self {
+        match error {
+            TextParseError::Limit(exceeded) => Self::Limit(exceeded),
+            TextParseError::Faults(faults) => {
+                let messages = faults.into_iter().map(|fault| fault.message);
+                Self::Damaged(messages.collect::<Vec<_>>().join("; "))
+            }
+        }
+    }
 }
 
 /// A scene while it is lowered.
@@ -394,12 +426,7 @@ impl<'run> Lowering<'run> {
         if let Some(known) = self.serialized.get(&key) {
             return *known;
         }
-        let parse = |bytes: &[u8], budget: &Budget| {
-            serialized::read(bytes, index, budget).map_err(|error| match error {
-                serialized::SerializedError::Limit(limit) => MeshReadError::Limit(limit),
-                serialized::SerializedError::Damaged(why) => MeshReadError::Damaged(why.to_owned()),
-            })
-        };
+        let parse = |bytes: &[u8], budget: &Budget| serialized::read(bytes, index, budget);
         let id = self.read_mesh(path, &serialized::KIND, parse);
         self.serialized.insert(key, id);
         id
@@ -416,15 +443,7 @@ impl<'run> Lowering<'run> {
         if let Some(known) = self.colored.get(&key) {
             return *known;
         }
-        let parse = |bytes: &[u8], budget: &Budget| {
-            parse_colored_ply(bytes, colors, budget).map_err(|error| match error {
-                TextParseError::Limit(limit) => MeshReadError::Limit(limit),
-                TextParseError::Faults(faults) => {
-                    let messages = faults.into_iter().map(|fault| fault.message);
-                    MeshReadError::Damaged(messages.collect::<Vec<_>>().join("; "))
-                }
-            })
-        };
+        let parse = |bytes: &[u8], budget: &Budget| Ok(parse_colored_ply(bytes, colors, budget)?);
         let id = self.read_mesh(path, &PLY, parse);
         self.colored.insert(key, id);
         id

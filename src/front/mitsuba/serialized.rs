@@ -1,10 +1,11 @@
 //! Mitsuba's binary mesh files (`.serialized`, versions 3 and 4): several meshes, each compressed
 //! by zlib (RFC 1950), and a table of their offsets at the end.
 
+use super::MeshReadError;
 use flate2::read::ZlibDecoder;
 use rtc_ir::{Mesh, VertexColumn};
-use rtc_source::{Budget, FileKind, LimitExceeded, Resource};
-use std::io::{self, Read};
+use rtc_source::{Budget, FileKind, Resource};
+use std::io::Read;
 
 /// Such files.
 pub(super) const KIND: FileKind = FileKind {
@@ -24,41 +25,22 @@ const HAS_UVS: u32 = 0x2;
 const HAS_COLORS: u32 = 0x8;
 const IS_DOUBLE: u32 = 0x2000;
 
-/// Why a mesh cannot be read.
-pub(super) enum SerializedError {
-    /// The file is damaged, with the error.
-    Damaged(&'static str),
-    Limit(LimitExceeded),
-}
-
-impl From<io::Error> for SerializedError {
-    fn from(_: io::Error) -> Self {
-        Self::Damaged("its compressed data are damaged or too short")
-    }
-}
-
-impl From<LimitExceeded> for SerializedError {
-    fn from(exceeded: LimitExceeded) -> Self {
-        Self::Limit(exceeded)
-    }
-}
-
 /// The mesh with this index, from 0. Its memory is charged before it is taken.
-pub(super) fn read(bytes: &[u8], index: u32, budget: &Budget) -> Result<Mesh, SerializedError> {
+pub(super) fn read(bytes: &[u8], index: u32, budget: &Budget) -> Result<Mesh, MeshReadError> {
     // Find the mesh in the file.
     let (start, end) = range(bytes, index)?;
     let bytes = bytes
         .get(start..end)
-        .ok_or(SerializedError::Damaged("its table of offsets is damaged"))?;
+        .ok_or(MeshReadError::damaged("its table of offsets is damaged"))?;
     if !bytes.starts_with(&MAGIC) {
-        return Err(SerializedError::Damaged(
+        return Err(MeshReadError::damaged(
             "a mesh does not begin with the bytes 1c 04",
         ));
     }
     // Read the header; the rest is compressed.
     let version = match bytes.get(2..4) {
         Some(&[version @ (3 | 4), 0]) => version,
-        _ => return Err(SerializedError::Damaged("its version is neither 3 nor 4")),
+        _ => return Err(MeshReadError::damaged("its version is neither 3 nor 4")),
     };
     let mut stream = SerializedStream(ZlibDecoder::new(&bytes[4..]));
     let flags = stream.u32()?;
@@ -100,7 +82,7 @@ pub(super) fn read(bytes: &[u8], index: u32, budget: &Budget) -> Result<Mesh, Se
         };
         let triangle = [corner()?, corner()?, corner()?];
         if triangle.iter().any(|index| u64::from(*index) >= vertices) {
-            return Err(SerializedError::Damaged(
+            return Err(MeshReadError::damaged(
                 "a triangle has a vertex that does not exist",
             ));
         }
@@ -117,8 +99,8 @@ pub(super) fn read(bytes: &[u8], index: u32, budget: &Budget) -> Result<Mesh, Se
 
 /// The bytes of a mesh, by the table at the end of the file: an offset for each mesh, of 8 bytes in
 /// version 4 and of 4 in version 3, and their count.
-fn range(bytes: &[u8], index: u32) -> Result<(usize, usize), SerializedError> {
-    let damaged = SerializedError::Damaged("its table of offsets is damaged");
+fn range(bytes: &[u8], index: u32) -> Result<(usize, usize), MeshReadError> {
+    let damaged = MeshReadError::damaged("its table of offsets is damaged");
     let is_wide = bytes.get(2) == Some(&4);
     let width = if is_wide { 8 } else { 4 };
     let Some(table_end) = bytes.len().checked_sub(4) else {
@@ -126,7 +108,7 @@ fn range(bytes: &[u8], index: u32) -> Result<(usize, usize), SerializedError> {
     };
     let count = le(&bytes[table_end..]);
     if u64::from(index) >= count {
-        return Err(SerializedError::Damaged(
+        return Err(MeshReadError::damaged(
             "it has no mesh with this `shape_index`",
         ));
     }
@@ -160,22 +142,22 @@ fn le(bytes: &[u8]) -> u64 {
 struct SerializedStream<'a>(ZlibDecoder<&'a [u8]>);
 
 impl SerializedStream<'_> {
-    fn bytes<const N: usize>(&mut self) -> Result<[u8; N], SerializedError> {
+    fn bytes<const N: usize>(&mut self) -> Result<[u8; N], MeshReadError> {
         let mut bytes = [0; N];
         self.0.read_exact(&mut bytes)?;
         Ok(bytes)
     }
 
-    fn u32(&mut self) -> Result<u32, SerializedError> {
+    fn u32(&mut self) -> Result<u32, MeshReadError> {
         self.bytes().map(u32::from_le_bytes)
     }
 
-    fn u64(&mut self) -> Result<u64, SerializedError> {
+    fn u64(&mut self) -> Result<u64, MeshReadError> {
         self.bytes().map(u64::from_le_bytes)
     }
 
     /// A name ends with a byte 0.
-    fn skip_name(&mut self) -> Result<(), SerializedError> {
+    fn skip_name(&mut self) -> Result<(), MeshReadError> {
         while self.bytes::<1>()? != [0] {}
         Ok(())
     }
@@ -185,7 +167,7 @@ impl SerializedStream<'_> {
         &mut self,
         vertices: u64,
         is_double: bool,
-    ) -> Result<Vec<[f64; N]>, SerializedError> {
+    ) -> Result<Vec<[f64; N]>, MeshReadError> {
         let mut vectors = Vec::new();
         for _ in 0..vertices {
             let mut vector = [0.0; N];

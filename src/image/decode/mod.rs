@@ -6,8 +6,9 @@
 //! [`PixelFile::decode`].
 //!
 //! Each format has a module that opens a file and decodes into a buffer: `png`, `jpeg`, `webp`,
-//! [`ktx2`], and `raster` for the others. `layout` describes the channels that a decoder writes, and converts them to bytes
-//! of red, green, blue and opacity in the same buffer, so pixels are not copied.
+//! [`ktx2`], and `raster` for the others. `layout` describes the channels that a decoder writes,
+//! and converts them to bytes of red, green, blue and opacity in the same buffer, so pixels are not
+//! copied.
 //!
 //! The modules check what the decoder crates do not check: memory that a forged header would make
 //! them allocate, and data that would make them panic.

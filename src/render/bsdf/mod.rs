@@ -5,14 +5,12 @@
 //! basic radiance L/n², so `f` has no factor n².
 //!
 //! - [`BsdfLobes`] holds the lobes of a surface point for one direction `wo` to the viewer, with
-//!   the features
-//!   `F` compiled in. It evaluates ([`BsdfEvaluation`]) and samples ([`BsdfSample`]) the BSDF.
+//!   the features `F` compiled in. It evaluates ([`BsdfEvaluation`]) and samples ([`BsdfSample`])
+//!   the BSDF.
 //! - `standard` builds the lobes from the parameters of the material; `coat`, `sheen`, `thin_film`
-//!   add
-//!   its layers.
-//! - `microfacet`, `distribution` with `beckmann`, `fresnel` are the specular lobes; `compensation` with the tables of
-//!   `albedo`
-//!   restores the energy of multiple scattering.
+//!   add its layers.
+//! - `microfacet`, `distribution` with `beckmann`, and `fresnel` are the specular lobes;
+//!   `compensation` with the tables of `albedo` restores the energy of multiple scattering.
 //! - `lobe_pdf` chooses a lobe, `warp` maps the unit square to directions, `optics` reflects and
 //!   refracts.
 //!

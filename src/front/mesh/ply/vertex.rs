@@ -135,7 +135,8 @@ pub(super) fn read(
     let mut tangents = ColumnBuilder::<4>::new(TANGENT, &slots, count);
     let mut linear = ColumnBuilder::<4>::new(LINEAR_COLOR, &slots, count);
     let is_coded = !linear.exists() && has(&[COLOR, COLOR + 1, COLOR + 2]);
-    let is_opaque = !linear.exists() && !is_coded && has(&[OPAQUE_COLOR, 23, 24]);
+    let is_opaque =
+        !linear.exists() && !is_coded && has(&[OPAQUE_COLOR, OPAQUE_COLOR + 1, OPAQUE_COLOR + 2]);
     let mut colors = Vec::new();
     for _ in 0..count {
         let row = row(element, &slots, body)?;
