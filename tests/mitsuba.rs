@@ -559,6 +559,48 @@ fn plastics_and_facets_are_read_without_a_warning() {
 }
 
 #[test]
+fn a_mask_covers_by_the_luminance_of_its_texture() {
+    // Squares of white and red: the card covers all of one half and 0.2126 of the other.
+    let pixels = picture(
+        r#"<emitter type="constant"/>
+        <shape type="rectangle">
+            <transform name="to_world"><scale value="0.6"/></transform>
+            <bsdf type="mask">
+                <texture name="opacity" type="checkerboard">
+                    <rgb name="color0" value="1"/><rgb name="color1" value="1 0 0"/>
+                    <transform name="to_uv"><scale y="0.5"/></transform>
+                </texture>
+                <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>
+            </bsdf>
+        </shape>"#,
+    );
+    let at = |x: usize| pixels[8 * 4 + x][1];
+    assert!(at(2) < 0.02, "{}", at(2));
+    assert!((at(5) - (1.0 - 0.2126)).abs() < 0.15, "{}", at(5));
+}
+
+#[test]
+fn a_pane_reflects_between_its_faces() {
+    // Seen along the normal a face reflects R = 0.04 and a pane 2R/(1 + R) of the emitter behind
+    // the viewer; the rest of the light comes through.
+    let seen = |bsdf: &str| {
+        let pixels = picture(&format!(
+            r#"<shape type="rectangle"><transform name="to_world"><scale value="4"/>
+            </transform><bsdf type="{bsdf}"><float name="int_ior" value="1.5"/>
+            <float name="ext_ior" value="1"/></bsdf></shape>
+            <shape type="rectangle"><transform name="to_world"><scale value="40"/>
+            <translate z="-5"/></transform><bsdf type="diffuse"><rgb name="reflectance" value="0"/>
+            </bsdf><emitter type="area"/></shape>"#
+        ));
+        pixels.iter().map(|pixel| pixel[1]).sum::<f64>() / 64.0
+    };
+    let (face, expected) = (0.04, 1.0 - 2.0 * 0.04 / 1.04);
+    let pane = seen("thindielectric");
+    assert!((pane - expected).abs() < 0.02, "{pane}, not {expected}");
+    assert!(pane < 1.0 - face - 0.01);
+}
+
+#[test]
 fn an_edge_is_as_soft_as_the_filter_of_the_film() {
     for (filter, known) in [
         (

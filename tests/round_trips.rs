@@ -107,6 +107,11 @@ const CASES: &[Case] = &[
         "- {type: mesh, file: m.obj, position: [0, 0, 0], material: {type: standard, metallic: 0, specular: 0, \
 doubleSided: true, baseColor: [1, 0.5, 1, 1], baseColorMap: p.png}}\n",
     ),
+    objects(
+        "a mesh that a texture covers",
+        "- {type: mesh, file: m.obj, position: [0, 0, 0], material: {type: standard, metallic: 0, specular: 0, \
+doubleSided: true, baseColor: [0.5, 0.2, 0.5, 0.9], alpha: blend, opacityMap: p.png}}\n",
+    ),
     objects("a white mirror", ball!("doubleSided: true, roughness: 0")),
     objects(
         "a rough metal",
@@ -161,6 +166,10 @@ doubleSided: true, baseColor: [1, 0.5, 1, 1], baseColorMap: p.png}}\n",
     objects(
         "a thin pane",
         ball!("metallic: 0, roughness: 0, transmission: 1"),
+    ),
+    objects(
+        "a thin pane of two faces",
+        ball!("metallic: 0, roughness: 0, transmission: 1, thinDielectric: true"),
     ),
     objects(
         "a body that lets half of the light through",

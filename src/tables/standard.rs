@@ -37,6 +37,8 @@ macro_rules! parameters {
             normal_scale: number = 1.0, "is_one";
             /// The alpha mode: opaque, cut off, or blended.
             alpha: alpha = Alpha::Opaque, "is_default";
+            /// Its red multiplies the alpha of the base colour.
+            opacity_map: map = None, "Option::is_none";
             /// Whether camera rays of traced paths see the back. They always see the back of a
             /// transmitting material, and all other rays hit the back of any material.
             double_sided: flag = false, "is_default";
@@ -68,6 +70,9 @@ macro_rules! parameters {
             transmission: fraction = 0.0, "is_zero";
             /// Its red multiplies that.
             transmission_map: map = None, "Option::is_none";
+            /// Whether a smooth surface that transmits light and bounds no volume is a pane of two
+            /// faces, between which light is reflected again and again.
+            thin_dielectric: flag = false, "is_default";
             /// How thick it is; above 0 the surface bounds a volume.
             thickness: non_negative = 0.0, "is_zero";
             /// Its green multiplies it.

@@ -67,7 +67,7 @@ fn full() -> Standard {
         tree[key] = match key.as_str() {
             "name" => json!("a \"name\": #1"),
             "alpha" => json!({ "mask": 0.3 }),
-            "doubleSided" | "unlit" | "blackBack" => json!(true),
+            "doubleSided" | "unlit" | "blackBack" | "thinDielectric" => json!(true),
             "microfacets" => json!("beckmann"),
             "plastic" => json!("nonlinear"),
             "ior" | "iridescenceIor" => json!(1.4),

@@ -29,7 +29,7 @@ impl GltfWriter<'_> {
             return *known;
         }
         let path = ValuePath::new(EntityKind::Material, id.0 as usize, EntityField::Whole);
-        let (mut standard, rtc_extras) = match &self.scene.materials[id.0 as usize] {
+        let (mut standard, mut rtc_extras) = match &self.scene.materials[id.0 as usize] {
             Material::Standard(standard) => {
                 let mut rtc_extras = self.conductor(standard, path);
                 self.facets(standard, &mut rtc_extras, path);
@@ -41,6 +41,7 @@ impl GltfWriter<'_> {
             }
         };
         standard.retain_maps(|map| key.1[map.set.min(1) as usize]);
+        self.extra_maps(&standard, &mut rtc_extras, path);
         let material = self.standard(&standard, path);
         let material = document::Material {
             extras: extras(rtc_extras),
@@ -269,6 +270,26 @@ impl GltfWriter<'_> {
         }
         if standard.black_back {
             write("blackBack", "a back that reflects nothing", json!(true));
+        }
+        if standard.thin_dielectric {
+            write("thinDielectric", "the two faces of a pane", json!(true));
+        }
+    }
+
+    /// The maps for `extras.rtc`.
+    fn extra_maps(
+        &mut self,
+        standard: &Standard,
+        rtc_extras: &mut JsonObject<String, Value>,
+        path: ValuePath,
+    ) {
+        let maps = [("opacityTexture", "an opacity map", &standard.opacity_map)];
+        for (key, what, map) in maps {
+            if let Some(map) = map {
+                self.reporter.in_extras(what, path);
+                let info = json!(self.texture_info(map, path));
+                rtc_extras.insert(key.to_owned(), info);
+            }
         }
     }
 

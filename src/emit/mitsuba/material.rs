@@ -387,11 +387,15 @@ impl MitsubaPlugin {
             let message = "what shows its colour in any light is written as what shines with it";
             (Self::Black, Some(message))
         } else if is_glass(material) {
-            let message = match rough > 0.0 && material.thickness == 0.0 {
-                true => "a thin rough pane is written as the border of a solid",
-                false => "Mitsuba uses Fresnel's formula, not Schlick's, for transmissive surfaces",
+            let message = match (material.thickness == 0.0, rough > 0.0) {
+                (true, true) => Some("a thin rough pane is written as the border of a solid"),
+                (true, false) if material.thin_dielectric => None,
+                (true, false) => Some("a wall of one face is written as a pane of two"),
+                (false, _) => {
+                    Some("Mitsuba uses Fresnel's formula, not Schlick's, for transmissive surfaces")
+                }
             };
-            (Self::glass(material), Some(message))
+            (Self::glass(material), message)
         } else if metal == 0.0
             && material.specular == 0.0
             && material.transmission == 0.0

@@ -31,6 +31,7 @@ impl MitsubaWriter<'_> {
             | TextureChannel::Blue
             | TextureChannel::Alpha
             | TextureChannel::AlphaCut(_)
+            | TextureChannel::RedCut(_)
             | TextureChannel::Normal(_) => {
                 self.value(depth, "float", name, &shortest(slot.number()));
             }

@@ -133,7 +133,10 @@ impl<'w> SidecarWriter<'w> {
             let message = "a texture goes on in two ways beyond its edges: in one in the file";
             self.reporter.unsupported(message, path);
         }
-        let is_cut = matches!(channel, TextureChannel::AlphaCut(_));
+        let is_cut = matches!(
+            channel,
+            TextureChannel::AlphaCut(_) | TextureChannel::RedCut(_)
+        );
         Some(BitmapTexture {
             file,
             coding: channel.coding(),

@@ -2,7 +2,9 @@
 
 use super::textured_factor::{TextureChannel, TexturedFactor};
 use crate::approximation::approximate_phong;
-use rtc_ir::{Alpha, Map, Material, Mode, Scene, Shape, Standard, Surface, Texture};
+use rtc_ir::{
+    Alpha, ImageId, Map, Material, Mode, Pixels, Scene, Shape, Standard, Surface, Texture,
+};
 use rtc_math::ln;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -89,16 +91,20 @@ pub(crate) fn opacity(material: &Standard, of_corners: bool) -> Option<TexturedF
     let [.., alpha] = material.base_color;
     let channel = match material.alpha {
         Alpha::Opaque => return None,
+        Alpha::Mask(cutoff) if material.opacity_map.is_some() => TextureChannel::RedCut(cutoff),
         Alpha::Mask(cutoff) => TextureChannel::AlphaCut(cutoff),
+        Alpha::Blend if material.opacity_map.is_some() => TextureChannel::Red,
         Alpha::Blend => TextureChannel::Alpha,
     };
-    let channel = match of_corners && material.base_color_map.is_none() {
+    let map = material.opacity_map.as_ref();
+    let map = map.or(material.base_color_map.as_ref());
+    let channel = match of_corners && map.is_none() {
         true => TextureChannel::CornerOpacity,
         false => channel,
     };
     Some(TexturedFactor {
         factor: [alpha; 3],
-        map: material.base_color_map.as_ref(),
+        map,
         channel,
     })
 }
@@ -155,6 +161,10 @@ pub(crate) fn missing_features(
             "one-sidedness for the camera",
         ),
         (
+            has_two_opacities(scene, material),
+            "the opacity in the texture of its colour",
+        ),
+        (
             material.specular_glossiness.is_some(),
             "the colour of its mirror image",
         ),
@@ -181,4 +191,19 @@ pub(crate) fn missing_features(
     let features = common.into_iter().chain(own.iter().copied());
     let used = features.filter(|(is_used, _)| *is_used);
     used.map(|(_, name)| name).collect()
+}
+
+/// Whether both the image of the base colour and an opacity map hold an opacity.
+fn has_two_opacities(scene: &Scene, material: &Standard) -> bool {
+    let has_alpha = |map: &Map| match &scene.textures[map.texture.0 as usize] {
+        Texture::Image(image) => has_alpha(scene, *image),
+        Texture::Sampled(sampled) => has_alpha(scene, sampled.image),
+        Texture::Uv | Texture::Procedural(_) => false,
+    };
+    let is_covering = material.alpha != Alpha::Opaque && material.opacity_map.is_some();
+    is_covering && material.base_color_map.as_ref().is_some_and(has_alpha)
+}
+
+fn has_alpha(scene: &Scene, image: ImageId) -> bool {
+    scene.images[image.0 as usize].kind == Pixels::Rgba8
 }

@@ -28,6 +28,8 @@ pub(crate) enum TextureChannel {
     Alpha,
     /// 1 where alpha is at least this, else 0.
     AlphaCut(f64),
+    /// 1 where red is at least this, else 0.
+    RedCut(f64),
     /// A direction, of whose red and green this much counts.
     Normal(f64),
 }
@@ -84,6 +86,7 @@ impl TextureChannel {
             Self::Blue => [b * factor[0]; 3],
             Self::Alpha | Self::CornerOpacity => [a * factor[0]; 3],
             Self::AlphaCut(cutoff) => [f64::from(u8::from(a * factor[0] >= cutoff)); 3],
+            Self::RedCut(cutoff) => [f64::from(u8::from(r * factor[0] >= cutoff)); 3],
             Self::Normal(scale) => {
                 let part = |value: f64| (value * 2.0 - 1.0) * scale / 2.0 + 0.5;
                 [part(r), part(g), b]

@@ -341,12 +341,14 @@ fn approximation(material: &Standard) -> Option<&'static str> {
         return Some("what shows its colour in any light is written as what shines with it");
     }
     if is_glass(material) {
-        return Some(
-            match material.roughness > 0.0 && material.thickness == 0.0 {
-                true => "a thin rough pane is written as the border of a solid",
-                false => "pbrt uses Fresnel's formula, not Schlick's, for transmissive surfaces",
-            },
-        );
+        return match (material.thickness == 0.0, material.roughness > 0.0) {
+            (true, true) => Some("a thin rough pane is written as the border of a solid"),
+            (true, false) if material.thin_dielectric => None,
+            (true, false) => Some("a wall of one face is written as a pane of two"),
+            (false, _) => {
+                Some("pbrt uses Fresnel's formula, not Schlick's, for transmissive surfaces")
+            }
+        };
     }
     if is_metal(material) && is_bare && index(material).is_some() {
         return None;

@@ -1,10 +1,11 @@
 //! Modules shared by the readers of other renderers' scenes: affine maps, colours and spectra,
-//! checkerboards, materials, textures of images, round shapes, covers of shapes with one side,
-//! spots, and tessellations of shapes that the IR lacks.
+//! checkerboards, materials, images of numbers, textures of images, round shapes, covers of shapes
+//! with one side, spots, and tessellations of shapes that the IR lacks.
 
 pub(crate) mod checkerboard;
 pub(crate) mod color;
 pub(crate) mod material;
+pub(crate) mod number;
 pub(crate) mod one_sided;
 pub(crate) mod round;
 pub(crate) mod spot;

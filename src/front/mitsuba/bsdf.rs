@@ -4,6 +4,7 @@
 //! `mask` are exact, up to the quantization of images. For the others the closest standard material
 //! is used, with a warning that describes the difference.
 
+use super::number::NumberOrMap;
 use super::xml::{PluginNode, Value};
 use super::{AssetTarget, Lowering};
 use crate::exchange::SpannedText;
@@ -251,6 +252,7 @@ impl<'run> Lowering<'run> {
             specular: 1.0,
             transmission: 1.0,
             thickness: if is_solid { 1.0 } else { 0.0 },
+            thin_dielectric: !is_solid,
             ..self.with_facets(node, flip, matte([1.0; 3]))
         }
     }
@@ -322,19 +324,19 @@ impl<'run> Lowering<'run> {
     }
 
     fn mask(&mut self, node: &'run PluginNode, inner: Standard, flip: bool) -> Standard {
-        let opacity = node.number("opacity");
-        if let Some(map) = self.map(node, "opacity", flip) {
-            let _ = map;
-            self.approximate(node.plugin.span, "a texture of `opacity` is left out");
+        self.ignored(node, &["opacity"]);
+        let NumberOrMap { number, map } = self.number_or_map(node, "opacity", 0.5, (flip, false));
+        // One mask in another covers by the product of both.
+        let [r, g, b, alpha] = inner.base_color;
+        if map.is_some() && inner.opacity_map.is_some() {
+            let message = "of the textures of two masks the inner one is left out";
+            self.approximate(node.plugin.span, message);
         }
-        let [r, g, b, _] = inner.base_color;
-        match opacity {
-            Some(opacity) => Standard {
-                base_color: [r, g, b, opacity.clamp(0.0, 1.0)],
-                alpha: Alpha::Blend,
-                ..inner
-            },
-            None => inner,
+        Standard {
+            base_color: [r, g, b, alpha * number.clamp(0.0, 1.0)],
+            alpha: Alpha::Blend,
+            opacity_map: map.or(inner.opacity_map),
+            ..inner
         }
     }
 
@@ -389,7 +391,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// A texture as a map; `None` for one that is not supported.
-    fn texture(&mut self, node: &'run PluginNode, flip: bool) -> Option<Map> {
+    pub(super) fn texture(&mut self, node: &'run PluginNode, flip: bool) -> Option<Map> {
         // Find the image and the filter.
         let (image, filter) = match node.plugin.text.as_str() {
             "bitmap" => {
@@ -440,14 +442,20 @@ impl<'run> Lowering<'run> {
         })
     }
 
-    /// A checkerboard, of two squares along u and v: the diagonal has `color0`.
     fn checkerboard(&mut self, node: &PluginNode, flip: bool) -> Map {
-        let colors = [("color0", 0.4), ("color1", 0.2)];
-        let colors = colors.map(|(name, grey)| node.color(name).unwrap_or([grey; 3]));
-        let squares = rows(node, flip).map(|row| row.map(|number| 2.0 * number));
+        let (colors, squares) = checkerboard_colors(node, flip);
         self.record(EntityKind::Texture, self.scene.textures.len(), node.span);
         checkerboard(colors, squares, &mut self.scene)
     }
+}
+
+/// The colours of a checkerboard and the rows of the map to its squares, two along u and v: the
+/// diagonal has `color0`.
+pub(super) fn checkerboard_colors(node: &PluginNode, flip: bool) -> ([[f64; 3]; 2], [[f64; 3]; 2]) {
+    let colors = [("color0", 0.4), ("color1", 0.2)];
+    let colors = colors.map(|(name, grey)| node.color(name).unwrap_or([grey; 3]));
+    let squares = rows(node, flip).map(|row| row.map(|number| 2.0 * number));
+    (colors, squares)
 }
 
 /// The rows of the map from the texture coordinates of a surface to those of a texture; with `flip`

@@ -27,6 +27,7 @@
 mod bsdf;
 mod emitter;
 mod facets;
+mod number;
 mod one_sided;
 mod sensor;
 mod serialized;
@@ -81,6 +82,7 @@ pub fn lower(
     let one_sided = std::mem::take(&mut lowering.one_sided);
     let colorless: Vec<MeshId> = std::mem::take(&mut lowering.meshes).into_values().collect();
     let projectors = std::mem::take(&mut lowering.projectors);
+    let numbers = std::mem::take(&mut lowering.numbers);
     let draft = UnfinishedScene::new(
         LoweredScene {
             scene: lowering.scene,
@@ -95,6 +97,7 @@ pub fn lower(
             mesh.colors = VertexColumn::default();
         }
     }
+    number::read_numbers(&mut lowered.scene, &numbers, map.budget(), sink);
     one_sided::cover_backs(&mut lowered, &one_sided, sink);
     shape::flatten(&mut lowered.scene, &flat);
     for (light, node) in projectors {
@@ -172,6 +175,8 @@ struct Lowering<'run> {
     /// attribute of meshes that it shows.
     two_sided: BTreeMap<Span, bool>,
     attributes: BTreeMap<Span, Option<&'run str>>,
+    /// The textures of numbers.
+    numbers: Vec<number::NumberTexture>,
     /// Whether the budget is exceeded, which is reported once.
     is_exhausted: bool,
     has_sensor: bool,
@@ -213,6 +218,7 @@ impl<'run> Lowering<'run> {
             black: None,
             two_sided: BTreeMap::new(),
             attributes: BTreeMap::new(),
+            numbers: Vec::new(),
             is_exhausted: false,
             has_sensor: false,
             projectors: Vec::new(),

@@ -3,6 +3,7 @@
 use super::Lowering;
 use crate::exchange::SpannedText;
 use crate::exchange::color::encoded;
+use crate::exchange::number::{NumberCoding, NumberSource};
 use crate::pixels::{self, PICTURES, PixelDecodeError};
 use rtc_color::srgb_decoded;
 use rtc_image::{OpacityUse, is_radiance};
@@ -20,8 +21,16 @@ const TEXTURES: FileKind = FileKind {
     begins: |_| true,
 };
 
-/// What distinguishes images: the path, whether it is linear, and whether it is inverted.
-pub(super) type ImageKey = (String, bool, bool);
+/// What distinguishes images: the path, whether it is linear, whether it is inverted, and its use.
+pub(super) type ImageKey = (String, bool, bool, ImageUse);
+
+/// What the texels of an image are used as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum ImageUse {
+    Colors,
+    /// Numbers: alpha, or without it the mean of the channels.
+    Numbers,
+}
 
 /// A file with its sampler.
 #[derive(Clone, Debug)]
@@ -36,12 +45,12 @@ pub(super) struct ImageMap {
 
 impl Lowering<'_> {
     /// The texture of an image; `None` without its file, which is reported once.
-    pub(super) fn image_map(&mut self, map: &ImageMap) -> Option<TextureId> {
-        let key = (map.path.text.clone(), map.is_linear, map.is_inverted);
+    pub(super) fn image_map(&mut self, map: &ImageMap, usage: ImageUse) -> Option<TextureId> {
+        let key = (map.path.text.clone(), map.is_linear, map.is_inverted, usage);
         let image = match self.images.get(&key) {
             Some(known) => *known,
             None => {
-                let image = self.read_image(map);
+                let image = self.read_image(map, usage);
                 self.images.insert(key, image);
                 image
             }
@@ -49,12 +58,14 @@ impl Lowering<'_> {
         Some(self.sampled(image, map.wrap, map.filter, map.path.span))
     }
 
-    fn read_image(&mut self, map: &ImageMap) -> Option<ImageId> {
+    fn read_image(&mut self, map: &ImageMap, usage: ImageUse) -> Option<ImageId> {
         let bytes = self.file(&map.path, &TEXTURES, INSTEAD)?;
-        let image = if is_radiance(&bytes) {
-            pixels::environment(&map.path.text, &bytes, self.map.budget())
-        } else {
-            self.picture(&bytes, map)
+        let image = match usage {
+            ImageUse::Numbers => self.number_image(&bytes, map),
+            ImageUse::Colors if is_radiance(&bytes) => {
+                pixels::environment(&map.path.text, &bytes, self.map.budget())
+            }
+            ImageUse::Colors => self.picture(&bytes, map),
         };
         match image {
             Ok(image) => Some(self.add_image(image, map.path.span)),
@@ -90,6 +101,34 @@ impl Lowering<'_> {
             kind: Pixels::Rgb8,
             pixels: pixels.into(),
         })
+    }
+
+    /// The numbers of an image.
+    fn number_image(&self, bytes: &[u8], map: &ImageMap) -> Result<Image, PixelDecodeError> {
+        let budget = self.map.budget();
+        let image = if is_radiance(bytes) {
+            pixels::environment(&map.path.text, bytes, budget)?
+        } else {
+            let decoded = pixels::decode(bytes, OpacityUse::Kept, budget)?;
+            Image {
+                name: map.path.text.clone(),
+                width: decoded.width,
+                height: decoded.height,
+                kind: match decoded.has_alpha {
+                    true => Pixels::Rgba8,
+                    false => Pixels::Rgb8,
+                },
+                pixels: decoded.bytes.into(),
+            }
+        };
+        let coding = NumberCoding {
+            source: NumberSource::AlphaOrMean,
+            is_linear: map.is_linear,
+            is_inverted: map.is_inverted,
+        };
+        coding
+            .image(&image, budget)
+            .map_err(PixelDecodeError::Limit)
     }
 
     pub(super) fn reject(&mut self, fault: &PixelDecodeError, path: &SpannedText, instead: &str) {

@@ -6,7 +6,7 @@
 
 use super::Lowering;
 use super::parameter::Parameters;
-use super::texture::ColorWithMap;
+use super::texture::{ColorWithMap, NumberWithMap};
 use crate::exchange::SpannedText;
 use crate::exchange::color::{MIRROR, normal_reflectance, of_reflectance};
 use crate::exchange::material::{matte, opaque};
@@ -288,15 +288,9 @@ impl Lowering<'_> {
             standard.transmission = clear;
             standard.thickness = 1.0;
         }
-        let opacity = self.channel(parameters, "opacity", [1.0; 3]);
-        if opacity.map.is_some() {
-            self.approximate(plugin.span, "the texture of `opacity` is left out");
-        }
-        let [r, g, b] = opacity.color;
-        let opacity = ((r + g + b) / 3.0).clamp(0.0, 1.0);
-        if opacity < 1.0 {
-            standard.base_color[3] = opacity;
-            standard.alpha = Alpha::Blend;
+        let opacity = self.number_or_map(parameters, "opacity", 1.0);
+        if opacity.number < 1.0 || opacity.map.is_some() {
+            *standard = covering(standard.clone(), opacity);
         }
     }
 
@@ -351,6 +345,7 @@ impl Lowering<'_> {
             specular: 1.0,
             transmission: 1.0,
             thickness: if is_solid { 1.0 } else { 0.0 },
+            thin_dielectric: !is_solid,
             ..textured(tint)
         };
         rough(standard, alpha)
@@ -506,8 +501,8 @@ impl Lowering<'_> {
                 self.approximate(plugin.span, message);
                 Some(mixed(&first, &second, amount))
             }
-            (Some(shown), None) => Some(covering(shown, 1.0 - amount)),
-            (None, Some(shown)) => Some(covering(shown, amount)),
+            (Some(shown), None) => Some(covering(shown, (1.0 - amount).into())),
+            (None, Some(shown)) => Some(covering(shown, amount.into())),
             (None, None) => None,
         }
     }
@@ -564,6 +559,36 @@ impl Lowering<'_> {
             .map(|alpha| alpha.clamp(0.0, 1.0))
     }
 
+    /// A material that a map of an opacity covers.
+    pub(super) fn covered(
+        &mut self,
+        material: &Rc<LoweredMaterial>,
+        opacity: NumberWithMap,
+        span: Span,
+    ) -> Rc<LoweredMaterial> {
+        let Some(standard) = &material.standard else {
+            return Rc::clone(material);
+        };
+        if standard.opacity_map.is_some() {
+            let message = "the texture of `alpha` replaces that of the opacity of the material";
+            self.approximate(span, message);
+        }
+        let key = (material.index, format!("{:?}", opacity.map));
+        if let Some(known) = self.covered_materials.get(&key) {
+            return Rc::clone(known);
+        }
+        let standard = covering(standard.clone(), opacity);
+        self.charge(Resource::Memory, MATERIAL_BYTES, span);
+        self.material_count += 1;
+        let covered = Rc::new(LoweredMaterial {
+            index: self.material_count,
+            span: material.span,
+            standard: Some(standard),
+        });
+        self.covered_materials.insert(key, Rc::clone(&covered));
+        covered
+    }
+
     /// The material of the IR for a shape with its emission and opacity; `None` where light passes
     /// through.
     pub(super) fn material_id(
@@ -588,7 +613,7 @@ impl Lowering<'_> {
             ..standard.clone()
         };
         if opacity < 1.0 {
-            standard = covering(standard, opacity.max(0.0));
+            standard = covering(standard, opacity.into());
         }
         let index = self.scene.materials.len();
         self.record(EntityKind::Material, index, material.span.unwrap_or(span));
@@ -667,12 +692,13 @@ fn relative(color: [f64; 3], most: f64) -> [f64; 3] {
     }
 }
 
-/// A material with partial coverage.
-fn covering(standard: Standard, share: f64) -> Standard {
+/// A material with partial coverage. Of two maps of an opacity it has the outer one.
+fn covering(standard: Standard, share: NumberWithMap) -> Standard {
     let [r, g, b, alpha] = standard.base_color;
     Standard {
-        base_color: [r, g, b, alpha * share],
+        base_color: [r, g, b, alpha * share.number.clamp(0.0, 1.0)],
         alpha: Alpha::Blend,
+        opacity_map: share.map.or(standard.opacity_map),
         ..standard
     }
 }

@@ -126,6 +126,8 @@ struct Lowering<'run> {
     material_count: usize,
     /// The materials of the IR: a material with an emission and an opacity.
     placed_materials: BTreeMap<material::EmittingMaterialKey, MaterialId>,
+    /// The materials that a map of an opacity covers, by their index and the map.
+    covered_materials: BTreeMap<(usize, String), Rc<material::LoweredMaterial>>,
     colors: BTreeMap<String, ScaledTexture>,
     floats: BTreeMap<String, ScaledTexture>,
     images: BTreeMap<image::ImageKey, Option<ImageId>>,
@@ -169,6 +171,7 @@ impl<'run> Lowering<'run> {
             materials: BTreeMap::new(),
             material_count: 0,
             placed_materials: BTreeMap::new(),
+            covered_materials: BTreeMap::new(),
             colors: BTreeMap::new(),
             floats: BTreeMap::new(),
             images: BTreeMap::new(),

@@ -3,7 +3,7 @@
 use super::Lowering;
 use super::loop_subdivision;
 use super::material::LoweredMaterial;
-use super::parameter::{ParameterType, Parameters};
+use super::parameter::Parameters;
 use crate::exchange::SpannedText;
 use crate::exchange::one_sided::{behind, flat, flat_mesh};
 use crate::exchange::round::{disc, sphere};
@@ -78,8 +78,14 @@ impl Lowering<'_> {
             Some(material) => Rc::clone(material),
             None => self.default_material(),
         };
+        // A constant opacity is that of the shape, a texture is one of the material.
+        parameters.skip(&["shadowalpha"]);
+        let opacity = self.number_or_map(parameters, "alpha", 1.0);
+        let (material, opacity) = match opacity.map.is_some() {
+            true => (self.covered(&material, opacity, span), 1.0),
+            false => (material, opacity.number.clamp(0.0, 1.0)),
+        };
         let geometries = self.geometries(plugin, parameters, &material);
-        let opacity = self.opacity(parameters);
         self.ignored("shape", &plugin.text, parameters);
         let Some(geometries) = geometries else { return };
         let to_world = self.state.transform;
@@ -112,20 +118,6 @@ impl Lowering<'_> {
                 return;
             }
         }
-    }
-
-    /// The opacity by `alpha`; that of a texture is left out.
-    fn opacity(&mut self, parameters: &Parameters) -> f64 {
-        parameters.skip(&["shadowalpha"]);
-        let Some(parameter) = parameters.get("alpha") else {
-            return 1.0;
-        };
-        if parameter.kind == ParameterType::Texture {
-            let message = "a texture of `alpha` is left out: the shape is opaque";
-            self.report(&codes::PBRT_PLUGIN, parameter.name.span, message);
-            return 1.0;
-        }
-        parameters.number("alpha").unwrap_or(1.0).clamp(0.0, 1.0)
     }
 
     /// The radiance of a shape by the current area light, and the transform of a second shape that

@@ -2,7 +2,7 @@
 //! colour.
 
 use super::Lowering;
-use super::image::ImageMap;
+use super::image::{ImageMap, ImageUse};
 use super::parameter::{ParameterValues, Parameters};
 use crate::exchange::SpannedText;
 use crate::exchange::checkerboard::checkerboard;
@@ -66,6 +66,18 @@ impl ScaledTexture {
 pub(super) struct ColorWithMap {
     pub(super) color: [f64; 3],
     pub(super) map: Option<Map>,
+}
+
+/// A number with a map of the IR, whose red multiplies it.
+pub(super) struct NumberWithMap {
+    pub(super) number: f64,
+    pub(super) map: Option<Map>,
+}
+
+impl From<f64> for NumberWithMap {
+    fn from(number: f64) -> Self {
+        Self { number, map: None }
+    }
 }
 
 impl Lowering<'_> {
@@ -285,7 +297,10 @@ impl Lowering<'_> {
             };
         };
         let map = match pattern {
-            PbrtPattern::Image(image) => self.image_map(image).map(|id| mapping.map(id)),
+            PbrtPattern::Image(image) => {
+                let texture = self.image_map(image, ImageUse::Colors);
+                texture.map(|id| mapping.map(id))
+            }
             PbrtPattern::Checkerboard(colors) => {
                 Some(checkerboard(*colors, mapping.rows(), &mut self.scene))
             }
@@ -297,6 +312,30 @@ impl Lowering<'_> {
             },
             map,
         }
+    }
+
+    /// A number of a material or a shape: a constant, times the red of a map.
+    pub(super) fn number_or_map(
+        &mut self,
+        parameters: &Parameters,
+        name: &'static str,
+        default: f64,
+    ) -> NumberWithMap {
+        let texture = self.operand(parameters, name, [default; 3]);
+        let mean = |[r, g, b]: [f64; 3]| (r + g + b) / 3.0;
+        let number = mean(texture.factor);
+        let map = match &texture.pattern {
+            None => None,
+            Some((PbrtPattern::Image(image), mapping)) => {
+                let id = self.image_map(image, ImageUse::Numbers);
+                id.map(|id| mapping.map(id))
+            }
+            Some((PbrtPattern::Checkerboard(colors), mapping)) => {
+                let greys = colors.map(|color| [mean(color); 3]);
+                Some(checkerboard(greys, mapping.rows(), &mut self.scene))
+            }
+        };
+        NumberWithMap { number, map }
     }
 
     /// A number of a material; the mean of a texture, which is reported.

@@ -32,6 +32,8 @@ pub(super) struct Microfacet<const F: u32> {
     /// The fraction of the light in the dielectric that is transmitted, by channel.
     tint: Vec3,
     intersection: BoundaryCrossing,
+    /// Whether it is a smooth pane that reflects light inside it.
+    is_pane: bool,
     /// The index beyond divided by that on the side of the viewer.
     eta: f64,
     /// The index inside, if the material transmits: its reflectance is that of a dielectric.
@@ -97,6 +99,7 @@ impl<const F: u32> Microfacet<F> {
         film: None,
         tint: Vec3::ZERO,
         intersection: BoundaryCrossing::Wall,
+        is_pane: false,
         eta: 1.0,
         ior: None,
         gain: [1.0; 2],
@@ -162,6 +165,10 @@ impl<const F: u32> Microfacet<F> {
             film,
             tint: standard.base_color * standard.transmitting(),
             intersection,
+            is_pane: transmits
+                && standard.has_two_faces
+                && standard.thin_walled
+                && facets.is_smooth(),
             eta: if inside { 1.0 / ior } else { ior },
             ior: transmits.then_some(ior),
             gain: [1.0; 2],
@@ -304,8 +311,13 @@ impl<const F: u32> Microfacet<F> {
     }
 
     /// The Fresnel reflectance of the dielectric. Schlick's formula takes the angle in the medium
-    /// of the lower index; beyond the critical angle the reflectance is 1.
+    /// of the lower index; beyond the critical angle the reflectance is 1. A pane sends back
+    /// `R + T²R + T²R³ + … = 2R/(1 + R)` (Pharr, Jakob, Humphreys, §9.5.1).
     fn dielectric_at(&self, cosine: f64) -> Vec3 {
+        if self.is_pane {
+            let face = self.dielectric().at(cosine);
+            return face * 2.0 / (Vec3::ONE + face);
+        }
         if self.eta >= 1.0 {
             return self.dielectric().at(cosine);
         }

@@ -34,6 +34,8 @@ pub struct StandardParameters<'world> {
     pub transmission: f64,
     /// Whether the surface is a thin wall without an inside: light crosses it without refraction.
     pub thin_walled: bool,
+    /// Whether a smooth thin wall is a pane that reflects light inside it.
+    pub has_two_faces: bool,
     /// A direction in which the reflection is stretched.
     pub anisotropy: Option<Anisotropy>,
     /// A clear layer on top.
@@ -112,6 +114,7 @@ impl Default for StandardParameters<'_> {
             specular_color: Vec3::ONE,
             transmission: 0.0,
             thin_walled: true,
+            has_two_faces: false,
             anisotropy: None,
             clearcoat: None,
             sheen: None,

@@ -55,9 +55,13 @@ impl<'world> MaterialPoint<'world> {
     pub(crate) fn opacity(&self) -> f64 {
         match self.material.alpha {
             Alpha::Opaque => 1.0,
-            Alpha::Mask(cutoff) => f64::from(u8::from(self.base[3] >= cutoff)),
-            Alpha::Blend => self.base[3].clamp(0.0, 1.0),
+            Alpha::Mask(cutoff) => f64::from(u8::from(self.alpha() >= cutoff)),
+            Alpha::Blend => self.alpha().clamp(0.0, 1.0),
         }
+    }
+
+    fn alpha(&self) -> f64 {
+        self.base[3] * self.material.opacity.at(&self.uvs)
     }
 
     /// The colour, each channel at most 1.
@@ -99,6 +103,7 @@ impl<'world> MaterialPoint<'world> {
                 0.0
             },
             thin_walled: !m.bounds_a_volume,
+            has_two_faces: m.is_thin_dielectric,
             anisotropy: None,
             clearcoat: None,
             sheen: None,

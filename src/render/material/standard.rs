@@ -14,6 +14,8 @@ pub(crate) struct StandardMaterial {
     /// Whether a map other than a normal map changes the BSDF.
     pub(crate) has_shading_map: bool,
     pub(crate) alpha: Alpha,
+    /// The factor of the alpha.
+    pub(crate) opacity: MappedNumber,
     /// Whether camera rays skip back faces.
     pub(crate) is_seen_from_one_side: bool,
     pub(crate) is_unlit: bool,
@@ -33,6 +35,8 @@ pub(crate) struct StandardMaterial {
     /// The index of refraction, and those of red, green and blue if they differ.
     pub(crate) ior: f64,
     pub(crate) dispersed: Option<[f64; 3]>,
+    /// Whether a smooth pane reflects light inside it.
+    pub(crate) is_thin_dielectric: bool,
     /// Whether the surface bounds a medium.
     pub(crate) bounds_a_volume: bool,
     /// The absorption coefficient of that medium, per unit of length.

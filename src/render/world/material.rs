@@ -183,6 +183,7 @@ pub(super) fn standard(
             valid::Alpha::Mask(cutoff) => Alpha::Mask(cutoff.get()),
             valid::Alpha::Blend => Alpha::Blend,
         },
+        opacity: slots.number(UnitInterval::ONE, m.opacity_map.as_ref(), 0),
         is_seen_from_one_side: m.is_seen_from_one_side(),
         is_unlit: m.unlit,
         base_color: slots.rgba(m.base_color, m.base_color_map.as_ref()),
@@ -195,6 +196,7 @@ pub(super) fn standard(
         is_black_behind: m.black_back,
         ior: m.ior.get(),
         dispersed: (m.dispersion.get() > 0.0).then(|| dispersed(m.ior.get(), m.dispersion.get())),
+        is_thin_dielectric: m.thin_dielectric,
         bounds_a_volume: m.thickness.get() > 0.0,
         absorption: absorption(m),
         normal: slots.normal(m.normal_map.as_ref(), m.normal_scale),
@@ -251,6 +253,7 @@ impl MappedParameters<'_> {
     fn request(&self, m: &Standard) -> AttributeRequest {
         let others = [
             &m.base_color_map,
+            &m.opacity_map,
             &m.emissive_map,
             &m.normal_map,
             &m.clearcoat_normal_map,

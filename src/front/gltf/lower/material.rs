@@ -251,6 +251,7 @@ impl MaterialReader<'_, '_, '_, '_> {
         self.iridescence(fields, &mut standard);
         conductor(fields, &mut standard);
         facets(fields, &mut standard);
+        standard.opacity_map = self.map(fields.rtc_extras(), "opacityTexture");
         standard
     }
 
@@ -338,6 +339,7 @@ fn facets(fields: ObjectFields<'_, '_>, standard: &mut Standard) {
         _ => Plastic::None,
     };
     standard.black_back = extension.boolean("blackBack");
+    standard.thin_dielectric = extension.boolean("thinDielectric");
 }
 
 /// The object of a `KHR_materials_*` extension.

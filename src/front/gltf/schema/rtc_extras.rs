@@ -1,6 +1,7 @@
 //! The properties of `extras.rtc`: values that glTF can't express, as `emit/gltf` writes them.
 
 use super::Value::{Boolean, Index, Integer, Keyword, Number, Numbers, One, Text};
+use super::core::TEXTURE_INFO;
 use super::{
     FACTOR, FREE, IndexTarget, ObjectSchema, POSITIVE, PropertySchema, optional, required,
 };
@@ -154,13 +155,16 @@ static PHOTOMETRY: ObjectSchema = rtc_object(&[
 ]);
 
 /// Phong's model, or of the standard material the index of a metal with its base colour, the
-/// distribution of facets, the kind of plastic, and whether its back reflects nothing.
+/// distribution of facets, the kind of plastic, whether its back reflects nothing, the opacity, and
+/// whether it is a pane of two faces.
 static MATERIAL: ObjectSchema = rtc_object(&[
     optional("phong", One(&PHONG)),
     optional("conductor", One(&CONDUCTOR)),
     optional("microfacets", Keyword(&["separableGgx", "beckmann"])),
     optional("plastic", Keyword(&["linear", "nonlinear", "single"])),
     optional("blackBack", Boolean),
+    optional("opacityTexture", One(&TEXTURE_INFO)),
+    optional("thinDielectric", Boolean),
 ]);
 static CONDUCTOR: ObjectSchema = rtc_object(&[
     required("eta", Numbers(&[3], FACTOR)),

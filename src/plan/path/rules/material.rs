@@ -64,6 +64,7 @@ pub(crate) const UNLIT: PathRule = PathRule {
                 base_color: material.base_color,
                 base_color_map: material.base_color_map,
                 alpha: material.alpha,
+                opacity_map: material.opacity_map,
                 double_sided: !material.is_seen_from_one_side(),
                 unlit: true,
                 ..facts::material::WHITE.clone()
@@ -102,9 +103,13 @@ fn covers(builder: &PathPlanBuilder<'_>, index: MaterialId, material: &Standard)
     let factor = material.base_color[3].get();
     let (map, textures) = (material.base_color_map.as_ref(), builder.textures);
     let only_value = || map.map_or(Some(1.0), |map| uses.value(map, 3, textures));
+    let is_covered = |map: &Map| uses.value(map, 0, textures) == Some(1.0);
     match material.alpha {
         Alpha::Opaque => true,
         Alpha::Mask(_) | Alpha::Blend if uses.has_colors => false,
+        Alpha::Mask(_) | Alpha::Blend if !material.opacity_map.as_ref().is_none_or(is_covered) => {
+            false
+        }
         Alpha::Blend => factor >= 1.0 && only_value() == Some(1.0),
         Alpha::Mask(cutoff) => {
             let cutoff = cutoff.get();

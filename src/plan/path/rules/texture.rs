@@ -5,7 +5,7 @@ use crate::Layer;
 use crate::path::builder::PathPlanBuilder;
 use rtc_ir::{EntityField, EntityKind, ValuePath};
 use rtc_math::{UnitInterval, Vec3};
-use rtc_valid::{Map, MaterialId, Standard};
+use rtc_valid::{Alpha, Map, MaterialId, Standard};
 
 pub(crate) const UNSEEN: PathRule = PathRule {
     name: "P-TEX-UNSEEN",
@@ -24,6 +24,7 @@ fn without_unused_maps(builder: &PathPlanBuilder<'_>, index: MaterialId, m: &Sta
     let is_metal_or_rough = is_shaded && (is_nonzero(m.metallic) || is_nonzero(m.roughness));
     let conditions = [
         (&mut new.base_color_map, true),
+        (&mut new.opacity_map, m.alpha != Alpha::Opaque),
         (
             &mut new.metallic_roughness_map,
             is_metal_or_rough && m.specular_glossiness.is_none(),
