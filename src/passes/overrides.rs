@@ -22,6 +22,8 @@ pub struct Overrides {
     pub depth: Option<u32>,
     /// Paths per pixel, for path tracing.
     pub spp: Option<u32>,
+    /// Whether the caustics of small lights are estimated, for path tracing.
+    pub caustics: Option<bool>,
 }
 
 /// A number of samples or bounces that replaces that of a scene.
@@ -102,6 +104,7 @@ impl Overrides {
     #[must_use]
     pub fn or(mut self, mut others: Self) -> Self {
         self.size = self.size.or(others.size);
+        self.caustics = self.caustics.or(others.caustics);
         for CountSetting { of, .. } in &CountSetting::ALL {
             *of(&mut self) = of(&mut self).or(*of(&mut others));
         }
@@ -115,6 +118,9 @@ impl Overrides {
             scene.camera.right = scene.camera.right.map(|component| component * ratio);
             scene.camera.up = scene.camera.up.map(|component| component * ratio);
             scene.camera.size = size;
+        }
+        if let (Some(caustics), Mode::Path(path)) = (self.caustics, &mut scene.settings.mode) {
+            path.caustics = caustics;
         }
         for CountSetting { of, set, .. } in &CountSetting::ALL {
             if let Some(value) = *of(&mut self) {

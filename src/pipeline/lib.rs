@@ -248,6 +248,7 @@ pub fn validate(
     let valid_scene = valid_scene.filter(|_| !sink.has_errors())?;
     unseen(&valid_scene, lowered, sink);
     untextured(&valid_scene, lowered, sink);
+    focused(&valid_scene, lowered, sink);
     Some(valid_scene)
 }
 
@@ -299,6 +300,31 @@ fn untextured(scene: &ValidScene, lowered: &LoweredScene, sink: &mut DiagnosticS
             .hint("a pattern with `mapping: world` needs no texture coordinates");
         sink.push(diagnostic.pointer(texture.to_string()));
     }
+}
+
+/// Notes that the caustics of a small light are not estimated.
+fn focused(scene: &ValidScene, lowered: &LoweredScene, sink: &mut DiagnosticSink) {
+    let is_estimated = matches!(&scene.settings().mode, valid::Mode::Path(path) if path.caustics);
+    if is_estimated {
+        return;
+    }
+    let Some(plan::FocusedLight { light, caster }) = plan::focused_light(scene) else {
+        return;
+    };
+    let surface = ValuePath::new(EntityKind::Surface, caster, EntityField::Whole);
+    let message = if light.entity == EntityKind::Light {
+        "light that no path finds may be focused by a smooth surface"
+    } else {
+        "light that few paths find may be focused by a smooth surface"
+    };
+    let note = Diagnostic::new(&codes::CAUSTICS, message)
+        .at(
+            lowered.source_spans.span(surface),
+            "this surface focuses it",
+        )
+        .also(lowered.source_spans.span(light), "the light")
+        .hint("`--set caustics=true` estimates it; `rtc cost` measures whether that pays");
+    sink.push(note.pointer(light.to_string()));
 }
 
 /// The maximum number of objects with their own warning.

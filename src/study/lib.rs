@@ -277,11 +277,20 @@ impl StudyScope {
         self.rays / 100 * fraction
     }
 
-    /// The scene's setting with all sample counts set to one value.
+    /// The scene's setting with estimated caustics, where there are such: that of the reference.
+    fn complete(&self) -> Setting {
+        let has_caustics = self.used.contains(&Parameter::Caustics);
+        Setting {
+            caustics: self.scene_setting.caustics || has_caustics,
+            ..self.scene_setting
+        }
+    }
+
+    /// That setting with all sample counts set to one value.
     fn at(&self, value: u32) -> Setting {
         self.sampling
             .iter()
-            .fold(self.scene_setting, |setting, parameter| {
+            .fold(self.complete(), |setting, parameter| {
                 setting.with(*parameter, value)
             })
     }

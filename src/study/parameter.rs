@@ -3,7 +3,7 @@
 use super::setting::Setting;
 use rtc_ir::{Light, Material, Mode, Phong, Scene};
 use rtc_passes::CountSetting;
-use rtc_plan::{Arithmetic, Effect, EffectState, EffectStatus, Plan, RuleSet, loss};
+use rtc_plan::{Arithmetic, Effect, EffectState, EffectStatus, Plan, RuleSet, focused_light, loss};
 use rtc_valid::revalidate;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -24,6 +24,8 @@ pub enum Parameter {
     Glossy,
     /// Paths per pixel, where paths are traced.
     Paths,
+    /// Whether the caustics of small lights are estimated, where paths are traced: 0 or 1.
+    Caustics,
     /// Whether the picture is denoised, where paths are traced: 0 or 1.
     Denoise,
     /// Bounces after the first hit.
@@ -35,12 +37,13 @@ pub enum Parameter {
 
 impl Parameter {
     /// All variants.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Supersampling,
         Self::Aperture,
         Self::Lights,
         Self::Glossy,
         Self::Paths,
+        Self::Caustics,
         Self::Denoise,
         Self::Depth,
         Self::Precision,
@@ -55,13 +58,14 @@ impl Parameter {
             Self::Lights => "light samples",
             Self::Glossy => "glossy samples",
             Self::Paths => "paths",
+            Self::Caustics => "caustics",
             Self::Denoise => "denoising",
             Self::Depth => "depth",
             Self::Precision => "precision",
         }
     }
 
-    /// The number of the overrides that it is; none for denoising and precision.
+    /// The number of the overrides that it is; none for caustics, denoising and precision.
     #[must_use]
     pub fn count(self) -> Option<&'static CountSetting> {
         let flag = self.flag();
@@ -79,6 +83,7 @@ impl Parameter {
             Self::Lights => "--light-samples",
             Self::Glossy => "--glossy-samples",
             Self::Paths => "--spp",
+            Self::Caustics => "--set",
             Self::Denoise => "--denoise",
             Self::Depth => "--depth",
             Self::Precision => "--arithmetic",
@@ -94,6 +99,7 @@ impl Parameter {
             Self::Lights => "light",
             Self::Glossy => "gloss",
             Self::Paths => "spp",
+            Self::Caustics => "caus",
             Self::Denoise => "dn",
             Self::Depth => "depth",
             Self::Precision => "prec",
@@ -112,7 +118,17 @@ impl Parameter {
     /// The value after the flag; `None` for a flag without a value.
     #[must_use]
     pub fn flag_value(self, value: u32) -> Option<String> {
-        (self != Self::Denoise).then(|| self.cell(value))
+        match self {
+            Self::Caustics => Some(format!("caustics={}", value > 0)),
+            Self::Denoise => None,
+            Self::Supersampling
+            | Self::Aperture
+            | Self::Lights
+            | Self::Glossy
+            | Self::Paths
+            | Self::Depth
+            | Self::Precision => Some(self.cell(value)),
+        }
     }
 
     /// A short form of a value, for example "4" or "plain".
@@ -120,7 +136,7 @@ impl Parameter {
     pub fn cell(self, value: u32) -> String {
         if self == Self::Precision {
             arithmetic(value).name().to_owned()
-        } else if self == Self::Denoise {
+        } else if self.is_switch() {
             ["no", "yes"][usize::from(value > 0)].to_owned()
         } else {
             value.to_string()
@@ -143,6 +159,9 @@ impl Parameter {
                     }
                 )
             }
+            Self::Caustics => {
+                ["caustics by chance", "caustics estimated"][usize::from(value > 0)].to_owned()
+            }
             Self::Denoise => ["plain", "denoised"][usize::from(value > 0)].to_owned(),
             Self::Depth => format!("depth {value}"),
             Self::Precision => format!("{} arithmetic", self.cell(value)),
@@ -156,7 +175,7 @@ impl Parameter {
             Self::Supersampling => (10, |i| [1, 2, 3, 4, 6, 8, 12, 16, 24, 32][i as usize]),
             Self::Aperture | Self::Lights | Self::Glossy => (11, |i| 1 << i),
             Self::Paths => (15, |i| 1 << i),
-            Self::Denoise => (2, |i| i),
+            Self::Caustics | Self::Denoise => (2, |i| i),
             Self::Depth => (DEPTHS, |i| i),
             Self::Precision => (3, |i| i),
         };
@@ -169,10 +188,16 @@ impl Parameter {
         u32::from(self.samples_pixels())
     }
 
+    /// Whether it is on or off.
+    #[must_use]
+    pub fn is_switch(self) -> bool {
+        matches!(self, Self::Caustics | Self::Denoise)
+    }
+
     /// Whether its values are numbers of samples.
     #[must_use]
     pub fn samples_pixels(self) -> bool {
-        !matches!(self, Self::Denoise | Self::Depth | Self::Precision)
+        !self.is_switch() && !matches!(self, Self::Depth | Self::Precision)
     }
 
     /// The work of a value: samples or bounces.
@@ -183,7 +208,7 @@ impl Parameter {
             Self::Aperture | Self::Lights | Self::Glossy | Self::Paths | Self::Depth => {
                 f64::from(value)
             }
-            Self::Denoise | Self::Precision => 1.0,
+            Self::Caustics | Self::Denoise | Self::Precision => 1.0,
         }
     }
 }
@@ -242,7 +267,11 @@ fn pruned_reason(parameter: Parameter, scene: &Scene) -> Option<String> {
         Parameter::Lights => Effect::SoftLight,
         Parameter::Glossy => Effect::GlossyReflection,
         Parameter::Depth if scene.settings.mode == Mode::Phong => Effect::Depth,
-        Parameter::Depth | Parameter::Paths | Parameter::Denoise | Parameter::Precision => {
+        Parameter::Depth
+        | Parameter::Paths
+        | Parameter::Caustics
+        | Parameter::Denoise
+        | Parameter::Precision => {
             return None;
         }
     };
@@ -309,6 +338,13 @@ fn unused_reason(parameter: Parameter, scene: &Scene) -> Option<&'static str> {
             ),
         ],
         Parameter::Paths => &[(!paths, "the mode does not trace paths")],
+        Parameter::Caustics => &[
+            (!paths, "the mode does not trace paths"),
+            (
+                paths && focused_light(&revalidate(scene)).is_none(),
+                "no smooth surface leads the light of a small light to another",
+            ),
+        ],
         Parameter::Denoise => &[(
             tries_none,
             "the mode does not trace paths, or they are too few to reduce",

@@ -7,6 +7,7 @@ use super::outcome::StudyRow;
 use super::parameter::Parameter;
 use super::pareto;
 use super::reference::{self, Reference};
+use super::setting::Setting;
 use super::spread::ErrorSpread;
 use super::statistics::SplitMix64;
 use super::subject::{Stopped, StudySubject};
@@ -32,22 +33,30 @@ impl StudyScope {
             .used
             .iter()
             .copied()
-            .filter(|parameter| !matches!(parameter, Parameter::Denoise | Parameter::Precision))
+            .filter(|parameter| parameter.samples_pixels() || *parameter == Parameter::Depth)
             .collect();
-        let min = varied
-            .iter()
-            .fold(self.scene_setting, |setting, parameter| {
-                setting.with(*parameter, parameter.lowest())
-            });
+        let min = varied.iter().fold(self.complete(), |setting, parameter| {
+            setting.with(*parameter, parameter.lowest())
+        });
         let least_error = (3.0 * reference.floor).max(reference::MIN_ERROR);
         let best = pareto::candidates(model, min, &varied, budget as f64 / 10.0, least_error);
         // The denoiser needs the neighbours of tiles, too.
         let is_denoised = self.used.contains(&Parameter::Denoise) && subject.is_whole();
-        // Add cheaper arithmetics and denoised settings.
-        let settings = std::iter::once(self.scene_setting).chain(
-            best.into_iter()
-                .filter(|setting| *setting != self.scene_setting),
+        // Add the scene's setting with and without estimated caustics, cheaper arithmetics and
+        // denoised settings.
+        let mut own = vec![self.scene_setting];
+        own.extend(
+            self.used
+                .contains(&Parameter::Caustics)
+                .then(|| self.caustics())
+                .into_iter()
+                .flatten(),
         );
+        let best = best
+            .into_iter()
+            .filter(|setting| !own.contains(setting))
+            .collect::<Vec<_>>();
+        let settings = own.into_iter().chain(best);
         let settings = settings
             .flat_map(|setting| std::iter::once(setting).chain(pareto::cheaper(model, setting)))
             .chain(self.scene_setting.denoised().filter(|_| is_denoised));
@@ -84,6 +93,20 @@ impl StudyScope {
             ranked(rows, reference, subject.fraction()),
             benchmark.wall_over_cpu,
         ))
+    }
+}
+
+impl StudyScope {
+    /// The settings that show what the estimate of caustics gains: the other one of on and off, and
+    /// off with four times the paths.
+    fn caustics(&self) -> [Setting; 2] {
+        let own = self.scene_setting;
+        let other = own.with(Parameter::Caustics, u32::from(!own.caustics));
+        let off = own.with(Parameter::Caustics, 0);
+        [
+            other,
+            off.with(Parameter::Paths, own.paths.saturating_mul(4)),
+        ]
     }
 }
 

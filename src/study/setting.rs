@@ -21,6 +21,9 @@ pub struct Setting {
     pub glossy: u32,
     /// Paths per pixel; 1 without path tracing.
     pub paths: u32,
+    /// Whether caustics of small lights are estimated; false without path tracing.
+    #[serde(default)]
+    pub caustics: bool,
     /// Whether the picture is denoised.
     #[serde(default)]
     pub denoise: bool,
@@ -35,10 +38,12 @@ impl Setting {
     /// of rays, the largest is used.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
-        let (supersampling, aperture, paths) = if let Mode::Path(path) = &scene.settings.mode {
-            (1, 1, path.samples)
-        } else {
-            (scene.settings.supersampling, scene.camera.lens.samples, 1)
+        let settings = &scene.settings;
+        let (supersampling, aperture, paths, caustics) = match &settings.mode {
+            Mode::Path(path) => (1, 1, path.samples, path.caustics),
+            Mode::Phong | Mode::Depth | Mode::Normal | Mode::Gooch(_) => {
+                (settings.supersampling, scene.camera.lens.samples, 1, false)
+            }
         };
         Self {
             supersampling,
@@ -46,6 +51,7 @@ impl Setting {
             lights: scene.settings.light_samples,
             glossy: lobes(scene).max().unwrap_or(1),
             paths,
+            caustics,
             denoise: false,
             depth: scene.settings.max_depth,
             precision: Arithmetic::Robust,
@@ -61,6 +67,7 @@ impl Setting {
             Parameter::Lights => self.lights,
             Parameter::Glossy => self.glossy,
             Parameter::Paths => self.paths,
+            Parameter::Caustics => u32::from(self.caustics),
             Parameter::Denoise => u32::from(self.denoise),
             Parameter::Depth => self.depth,
             Parameter::Precision => precision_value(self.precision),
@@ -77,6 +84,10 @@ impl Setting {
             Parameter::Glossy => &mut self.glossy,
             Parameter::Paths => &mut self.paths,
             Parameter::Depth => &mut self.depth,
+            Parameter::Caustics => {
+                self.caustics = value > 0;
+                return self;
+            }
             Parameter::Denoise => {
                 self.denoise = value > 0;
                 return self;
@@ -125,18 +136,19 @@ impl Setting {
                 *(count.of)(&mut overrides) = Some(self.get(parameter));
             }
         }
+        overrides.caustics = matches!(scene.settings.mode, Mode::Path(_)).then_some(self.caustics);
         let largest = lobes(scene).max();
         overrides.glossy_samples = overrides.glossy_samples.filter(|own| largest != Some(*own));
         overrides
     }
 
     /// Formats the given parameters: "4×4 with 16 aperture samples, depth 3". The robust arithmetic
-    /// and a picture without denoising are not mentioned.
+    /// and what is off are not mentioned.
     #[must_use]
     pub fn label(&self, parameters: &[Parameter]) -> String {
         let is_named = |parameter: &&Parameter| {
             (**parameter != Parameter::Precision || self.precision != Arithmetic::Robust)
-                && (**parameter != Parameter::Denoise || self.denoise)
+                && (!parameter.is_switch() || self.get(**parameter) > 0)
         };
         let label: Vec<_> = parameters
             .iter()
@@ -221,6 +233,7 @@ mod tests {
             lights: 1,
             glossy: 1,
             paths: 1,
+            caustics: false,
             denoise: false,
             depth,
             precision,

@@ -66,7 +66,7 @@ fn others(parameter: Parameter, number: u64) -> SamplingSeeds {
         Parameter::Aperture => SamplingSeeds { lens: 0, ..seeds },
         Parameter::Lights | Parameter::Glossy => SamplingSeeds { path: 0, ..seeds },
         Parameter::Paths => SamplingSeeds::NONE,
-        Parameter::Denoise | Parameter::Depth | Parameter::Precision => seeds,
+        Parameter::Caustics | Parameter::Denoise | Parameter::Depth | Parameter::Precision => seeds,
     }
 }
 

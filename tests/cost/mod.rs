@@ -12,7 +12,7 @@ mod versus;
 use rtc::internals::codec;
 use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::image::Image;
-use rtc::internals::ir::Scene;
+use rtc::internals::ir::{Mode, Scene};
 use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::plan::{Arithmetic, Plan, RuleSet};

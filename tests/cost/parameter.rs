@@ -240,3 +240,40 @@ fn a_scene_without_knobs_has_one_row_without_error() {
     );
     assert!(study::html(&study).contains("</html>"));
 }
+
+/// Rows with and without estimated caustics; the reference has them.
+#[test]
+fn estimated_caustics_are_a_row_beside_those_by_chance() {
+    let text = include_str!("../../docs/book/src/reference/examples/scene/caustics.yaml");
+    let read = |text: String| {
+        let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
+        let file = map.add("caustics.yaml", text.into_bytes());
+        let loaded = pipeline::load(file, &mut map, &Options::default(), &mut sink);
+        loaded.unwrap().scene
+    };
+    let wide = read(text.replace("radius: 0.02", "radius: 2"));
+    let reason = study::not_applicable(Parameter::Caustics, &wide).unwrap();
+    assert!(reason.contains("small light"), "{reason}");
+    let mut scene = read(text.replace("[160, 120]", "[12, 9]"));
+    let Mode::Path(paths) = &mut scene.settings.mode else {
+        panic!("paths are traced");
+    };
+    paths.caustics = false;
+    let study = study_of(&scene, 600_000, 0);
+    let table = study::table(&study);
+    assert!(study.reference.setting.caustics, "{table}");
+    let error = |caustics: bool, factor: u32| {
+        let own = study.scene_row().unwrap().setting;
+        let wanted = |row: &&study::StudyRow| {
+            row.setting.caustics == caustics
+                && row.setting.paths == factor * own.paths
+                && row.setting.depth == own.depth
+                && !row.setting.denoise
+        };
+        study.rows.iter().find(wanted).unwrap().errors.rmse
+    };
+    assert!(error(true, 1) < 0.7 * error(false, 1), "{table}");
+    assert!(error(true, 1) < error(false, 4), "{table}");
+    let command = study.command.unwrap();
+    assert!(command.contains("--set caustics=true"), "{command}");
+}

@@ -50,7 +50,10 @@ impl SettingOverrides {
     /// The requested picture, in these settings.
     pub(super) fn settle(&self, setup: &PictureSetup) -> PictureSetup {
         let of = |parameter| self.values.get(&parameter).copied();
-        let mut chosen = Overrides::default();
+        let mut chosen = Overrides {
+            caustics: of(Parameter::Caustics).map(|value| value > 0),
+            ..Overrides::default()
+        };
         for (parameter, value) in &self.values {
             if let Some(count) = parameter.count() {
                 *(count.of)(&mut chosen) = Some(*value);
@@ -80,7 +83,7 @@ impl SettingOverrides {
 
 /// The text of a value of a parameter that is not a number.
 fn keywords(parameter: Parameter) -> Option<Vec<String>> {
-    let is_named = matches!(parameter, Parameter::Precision | Parameter::Denoise);
+    let is_named = parameter.is_switch() || parameter == Parameter::Precision;
     is_named.then(|| {
         parameter
             .levels()
@@ -141,6 +144,9 @@ mod tests {
         assert_eq!(denoised(0), Some(Vec::new()));
         assert_eq!(denoised(1), Some(vec![("--denoise", None)]));
         assert_eq!(denoised(2), None);
+        let caustics = read(r#"{"values": {"caustics": 0}, "integrator": null}"#).unwrap();
+        let off = ("--set", Some("caustics=false".to_owned()));
+        assert_eq!(caustics.flags(), [off]);
         for wrong in [
             r#"{"values": {"supersampling": 0}, "integrator": null}"#,
             r#"{"values": {"precision": 3}, "integrator": null}"#,

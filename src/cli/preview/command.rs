@@ -32,7 +32,9 @@ impl RenderCommand {
             .map(|(name, value)| (*name, Some(value.clone())));
         let more: Vec<_> = view.chain(choice.flags()).collect();
         let orbit = more.iter().any(|(name, _)| *name == EYE).then_some(ORBIT);
-        let replaced: Vec<_> = more.iter().map(|(name, _)| *name).chain(orbit).collect();
+        // `--set` can be repeated, and the last counts.
+        let names = more.iter().map(|(name, _)| *name);
+        let replaced: Vec<_> = names.filter(|name| *name != "--set").chain(orbit).collect();
         let kept = without(&self.0, &replaced).into_iter();
         let more = more
             .into_iter()

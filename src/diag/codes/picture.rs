@@ -14,4 +14,5 @@ super::codes! { RD:
     TOO_SHORT = "RD011", Warning, "the time budget is too short";
     UNTEXTURED = "RD012", Warning, "a surface has no texture coordinates for its texture";
     Z_UP = "RD013", Warning, "a mesh stands as if z pointed up";
+    CAUSTICS = "RD014", Note, "caustics of a small light are found by chance, or not at all";
 }

@@ -59,8 +59,8 @@ impl Caustics {
         match self {
             Self::ByChance => "found only by BSDF sampling, as noise; `--clamp` bounds it",
             Self::Estimated => {
-                "of small lights through smooth surfaces by manifold sampling, with at most 1024 \
-                 trials each; others only by BSDF sampling"
+                "of small lights through smooth surfaces by manifold sampling; light that it finds \
+                 in fewer than 1 of 1024 trials is partly lost; others only by BSDF sampling"
             }
             Self::LeftOut => "caustics of punctual lights are missing: no path finds them",
         }
@@ -86,7 +86,7 @@ pub struct CausticMaterials {
 
 impl CausticMaterials {
     /// Those of a scene.
-    pub(super) fn of(materials: &IdTable<Material, Standard>) -> Self {
+    pub(crate) fn of(materials: &IdTable<Material, Standard>) -> Self {
         Self {
             casters: materials.iter().map(is_smooth_caster).collect(),
             emitters: materials.iter().map(is_even_emitter).collect(),

@@ -165,6 +165,7 @@ pub(super) fn parameter(report: &ParameterReport) -> String {
         | Parameter::Lights
         | Parameter::Glossy
         | Parameter::Paths
+        | Parameter::Caustics
         | Parameter::Denoise
         | Parameter::Precision) => parameter.name(),
     };

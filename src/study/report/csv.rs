@@ -4,7 +4,7 @@
 use super::super::outcome::{Study, StudyRow};
 use super::super::parameter::Parameter;
 
-const NAMES: &str = "supersampling,aperture,lights,glossy,paths,denoise,depth,precision,own,front,judged,camera_rays,shadow_rays,mirror_rays,\
+const NAMES: &str = "supersampling,aperture,lights,glossy,paths,caustics,denoise,depth,precision,own,front,judged,camera_rays,shadow_rays,mirror_rays,\
 refracted_rays,seconds,seconds_low,seconds_high,ratio,ratio_low,ratio_high,rmse,rmse_low,rmse_high,relative_mse,\
 max,visible,flip,delta_e,model,renders,expected_rmse,rmse_deviation";
 

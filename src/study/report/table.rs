@@ -202,6 +202,8 @@ fn line(row: &StudyRow, used: &[Parameter], (columns, fraction): (&[usize], f64)
         )
     });
     // Write the measured columns that were chosen.
+    // The model knows estimated caustics alone.
+    let is_off = used.contains(&Parameter::Caustics) && !row.setting.caustics;
     let limit = if row.is_resolved { "" } else { "≤" };
     let cells = [
         count(row.rays.all() as f64 / fraction),
@@ -219,7 +221,7 @@ fn line(row: &StudyRow, used: &[Parameter], (columns, fraction): (&[usize], f64)
         format!("{limit}{}", digits(row.errors.rmse)),
         digits(row.spread.expected),
         format!("{:.1}", 100.0 * row.spread.relative()),
-        match row.setting.denoise {
+        match row.setting.denoise || is_off {
             true => "–".to_owned(),
             false => digits(row.model),
         },
@@ -303,6 +305,10 @@ pub(super) fn parameter_line(report: &ParameterReport, bounces: Option<&MoreBoun
             format!("{name}: error ∝ {samples}^−{p:.3} ± {half:.3}")
         }
         (None, Parameter::Depth, Some(bounces)) => depth_line(bounces, last),
+        (None, Parameter::Caustics, _) => format!(
+            "{name}: a row of the scene's paths is rendered with the estimate and one without, and \
+             one without of four times the paths; the reference is with it"
+        ),
         (None, Parameter::Denoise, _) => format!(
             "{name}: rows with fewer paths are also denoised; their time includes the error \
              estimate"
