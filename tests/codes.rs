@@ -47,7 +47,7 @@ fn summaries_are_one_line_without_a_stop_and_explanations_are_sentences() {
             code.summary
         );
         assert!(
-            code.explanation().ends_with('.') && code.page.contains("**Why it matters:**"),
+            code.explanation().ends_with('.') && code.page().contains("**Why it matters:**"),
             "{code}"
         );
     }

@@ -125,7 +125,10 @@ fn run(folder: &Path, commands: &[String]) -> String {
 
 /// What is wrong with the examples of a page.
 fn faults(code: &Code) -> Vec<String> {
-    let (example, fixed) = code.page.split_once("\nFixed:").unwrap_or((code.page, ""));
+    let (example, fixed) = code
+        .page()
+        .split_once("\nFixed:")
+        .unwrap_or((code.page(), ""));
     let (example, fixed) = (blocks(example), blocks(fixed));
     let id = code.id;
     let mut faults = Vec::new();

@@ -26,7 +26,6 @@ pub fn explain_code(code: &Code) -> String {
         id,
         severity,
         summary,
-        page,
         aliases,
     } = code;
     let severity = severity.name();
@@ -42,7 +41,7 @@ pub fn explain_code(code: &Code) -> String {
     };
     format!(
         "## {id} ({severity}): {summary}\n\n{}",
-        page.replacen("\n\n", &format!("\n{known}\n"), 1)
+        code.page().replacen("\n\n", &format!("\n{known}\n"), 1)
     )
 }
 

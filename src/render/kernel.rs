@@ -192,7 +192,8 @@ struct SumPaths<'run, S>(
 );
 
 impl<S: Intersect> KernelTask for SumPaths<'_, S> {
-    const HAS_KERNELS: bool = S::HAS_KERNELS;
+    /// A page downloads one path tracer, not three.
+    const HAS_KERNELS: bool = S::HAS_KERNELS && cfg!(not(target_family = "wasm"));
     type Output = Option<PictureSums>;
 
     fn run<const F: u32>(self) -> Option<PictureSums> {

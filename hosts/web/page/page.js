@@ -1,6 +1,7 @@
 // The page: a scene that is edited, what is found in it, and its picture.
 
 import { packed, unpacked } from "./link.js";
+import { load } from "./package/index.js";
 import { showEffects, showFindings } from "./told.js";
 
 const at = (id) => document.getElementById(id);
@@ -8,27 +9,27 @@ const REST = 400;
 const SCENE = /\.(ya?ml|json|gltf|glb|obj|ply|stl|off|rtir)$/i;
 const TEXT = /\.(ya?ml|json|gltf|obj)$/i;
 
-const module = await WebAssembly.compileStreaming(fetch("rtc_web_bg.wasm"));
 const [known, codes] = await Promise.all(["scenes.json", "codes.json"].map(async (name) => (await fetch(name)).json()));
 
 /** The scene: its path, the files beside its text, and the text as it was if it is one of the list. */
 let scene = { path: "scene.yaml", others: [], original: null };
-let worker = null;
-let job = 0;
-let isBusy = false;
+/** Ends the job that runs. */
+let running = new AbortController();
 let resting = null;
 
-/** Starts a job, instead of the one that runs. */
-function start(kind, more) {
-  if (isBusy || worker === null) {
-    worker?.terminate();
-    worker = new Worker("worker.js", { type: "module" });
-    worker.onmessage = ({ data }) => data.id === job && answers[data.kind](data);
-    worker.onerror = ({ message }) => answers.failed({ message, findings: [], isBroken: true });
+/** Reads the scene and works on it, instead of the job that runs. */
+async function start(work) {
+  running.abort();
+  const { signal } = (running = new AbortController());
+  let opened = null;
+  try {
+    opened = await load(scene.path, new Map(files()), { signal });
+    await work(opened, signal);
+  } catch (error) {
+    if (!signal.aborted) failed(error);
+  } finally {
+    opened?.close();
   }
-  isBusy = true;
-  job += 1;
-  worker.postMessage({ id: job, kind, module, path: scene.path, files: files(), ...more });
 }
 
 function files() {
@@ -63,7 +64,7 @@ function render() {
   resting = null;
   at("status").textContent = "rendering …";
   document.body.classList.add("is-old");
-  start("show", { settings: settings() });
+  start(show);
 }
 
 function later() {
@@ -87,47 +88,45 @@ function offer(id, name, bytes) {
 
 const hex = (bytes) => [...new Uint8Array(bytes)].map((byte) => byte.toString(16).padStart(2, "0")).join("");
 
-const answers = {
-  findings: ({ findings }) => tell(findings),
+/** The findings and the effects of the scene at once; then its picture. */
+async function show(opened, signal) {
+  tell(await opened.check());
+  const effects = await opened.effects(settings());
+  const { width, height, rgba, png, seconds, rays, findings } = await opened.render(settings(), { signal });
+  tell(findings);
+  showEffects(at("effects"), effects);
+  const canvas = at("picture");
+  [canvas.width, canvas.height] = [width, height];
+  canvas.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(rgba.buffer), width, height), 0, 0);
+  at("made").textContent = `${width} × ${height}, ${rays.toLocaleString("en")} rays in ${seconds.toFixed(2)} s`;
+  const hash = hex(await crypto.subtle.digest("SHA-256", png));
+  if (signal.aborted) return;
+  offer("file", scene.path.replace(/\.\w+$/, ".png"), png);
+  offer("source", ...files()[0]);
+  at("command").textContent = command();
+  at("hash").textContent = hash;
+  at("same").hidden = false;
+  document.body.classList.remove("is-old");
+  at("status").textContent = "finished";
+}
 
-  async picture({ id, width, height, rgba, png, seconds, rays, findings, effects }) {
-    isBusy = false;
-    tell(findings);
-    showEffects(at("effects"), effects);
-    const canvas = at("picture");
-    [canvas.width, canvas.height] = [width, height];
-    canvas.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(rgba.buffer), width, height), 0, 0);
-    at("made").textContent = `${width} × ${height}, ${rays.toLocaleString("en")} rays in ${seconds.toFixed(2)} s`;
-    const hash = hex(await crypto.subtle.digest("SHA-256", png));
-    if (id !== job) return;
-    offer("file", scene.path.replace(/\.\w+$/, ".png"), png);
-    offer("source", ...files()[0]);
-    at("command").textContent = command();
-    at("hash").textContent = hash;
-    at("same").hidden = false;
-    document.body.classList.remove("is-old");
-    at("status").textContent = "finished";
-  },
+/** The pictures of two settings: how long each takes, and how far they are apart. */
+async function compare(opened, signal, both) {
+  const [a, b] = [await opened.render(both[0], { signal }), await opened.render(both[1], { signal })];
+  let sum = 0;
+  a.rgba.forEach((byte, index) => (sum += index % 4 === 3 ? 0 : (byte - b.rgba[index]) ** 2));
+  const levels = Math.sqrt(sum / ((a.rgba.length / 4) * 3));
+  const ratio = (b.seconds / a.seconds).toFixed(1);
+  const times = `${a.seconds.toFixed(2)} s, with twice as many ${b.seconds.toFixed(2)} s: ${ratio} times as long`;
+  at("costs").textContent = `${times}. The pictures differ by ${levels.toFixed(2)} of 255 grey levels (root mean square).`;
+  at("status").textContent = "measured";
+}
 
-  compared({ seconds: [a, b], levels }) {
-    isBusy = false;
-    const times = `${a.toFixed(2)} s, with twice as many ${b.toFixed(2)} s: ${(b / a).toFixed(1)} times as long`;
-    at("costs").textContent = `${times}. The pictures differ by ${levels.toFixed(2)} of 255 grey levels (root mean square).`;
-    at("status").textContent = "measured";
-  },
-
-  failed({ message, findings, isBroken }) {
-    isBusy = false;
-    // What has panicked can't be used again.
-    if (isBroken) {
-      worker?.terminate();
-      worker = null;
-    }
-    tell(findings);
-    at("same").hidden = true;
-    at("status").textContent = findings.length > 0 ? "no picture: see the findings" : `no picture: ${message}`;
-  },
-};
+function failed({ message, findings = [] }) {
+  tell(findings);
+  at("same").hidden = true;
+  at("status").textContent = findings.length > 0 ? "no picture: see the findings" : `no picture: ${message}`;
+}
 
 function open(path, text, others) {
   const isText = typeof text === "string";
@@ -191,7 +190,8 @@ at("cost").addEventListener("submit", (event) => {
   event.preventDefault();
   const [knob, amount] = [at("knob").value, Number(at("amount").value)];
   at("costs").textContent = "measuring …";
-  start("compare", { both: [amount, 2 * amount].map((own) => ({ ...settings(), [knob]: own })) });
+  const both = [amount, 2 * amount].map((own) => ({ ...settings(), [knob]: own }));
+  start((opened, signal) => compare(opened, signal, both));
 });
 addEventListener("hashchange", openAddress);
 await openAddress();

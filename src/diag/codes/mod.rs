@@ -68,18 +68,38 @@ pub struct Code {
     pub severity: Severity,
     /// One line: the error.
     pub summary: &'static str,
-    /// The page of `rtc explain`, in Markdown: what the code finds, why it matters, an example that
-    /// raises it and the same example without the mistake.
-    pub page: &'static str,
     /// The codes of Khronos' glTF validator for it; empty outside `GL`.
     pub aliases: &'static [&'static str],
 }
 
 impl Code {
+    /// The page of `rtc explain`, in Markdown: what the code finds, why it matters, an example that
+    /// raises it and the same example without the mistake.
+    #[must_use]
+    pub fn page(&self) -> &'static str {
+        // No field, so that a program that shows no pages has none.
+        let families = [
+            container::page,
+            exports::page,
+            files::page,
+            gltf::page,
+            mitsuba::page,
+            pbrt::page,
+            picture::page,
+            references::page,
+            shape::page,
+            syntax::page,
+            usd::page,
+            values::page,
+        ];
+        let mut pages = families.iter().filter_map(|find| find(self.id));
+        pages.next().unwrap_or_default()
+    }
+
     /// The first paragraph of the page: what the code finds.
     #[must_use]
     pub fn explanation(&self) -> &'static str {
-        self.page.split("\n\n").next().unwrap_or_default()
+        self.page().split("\n\n").next().unwrap_or_default()
     }
 }
 
@@ -89,7 +109,8 @@ impl fmt::Display for Code {
     }
 }
 
-/// Declares a family: a static for each row, and `$family`, a list of all rows in order.
+/// Declares a family: a static for each row, `$family`, a list of all rows in order, and their
+/// pages.
 macro_rules! codes {
     ($family:ident: $($name:ident = $id:literal, $severity:ident, $summary:literal
         $(, [$($alias:literal),*])?;)*) => {
@@ -99,12 +120,19 @@ macro_rules! codes {
                 id: $id,
                 severity: $crate::Severity::$severity,
                 summary: $summary,
-                page: include_str!(concat!("pages/", $id, ".md")),
                 aliases: &[$($($alias),*)?],
             };
         )*
         /// The rows of this family, in order.
         pub static $family: &[&$crate::Code] = &[$(&$name),*];
+
+        /// The page of a code of this family.
+        pub(super) fn page(id: &str) -> Option<&'static str> {
+            match id {
+                $($id => Some(include_str!(concat!("pages/", $id, ".md"))),)*
+                _ => None,
+            }
+        }
     };
 }
 use codes;

@@ -1,5 +1,5 @@
-//! `rtc-web-bind MODULE FOLDER`: writes the module of the library and the JavaScript that joins it and
-//! the page into the folder. It is `wasm-bindgen --target web`, at the version of the lock file.
+//! `rtc-web-bind MODULE FOLDER`: writes the module of the library, the JavaScript around it and
+//! its types into the folder. It is `wasm-bindgen --target web`, at the version of the lock file.
 
 use std::env;
 use std::error::Error;
@@ -11,7 +11,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("rtc-web-bind MODULE FOLDER".into());
     };
     let mut bindgen = Bindgen::new();
-    bindgen.input_path(module).web(true)?.typescript(false);
+    bindgen.input_path(module).web(true)?.typescript(true);
+    bindgen
+        .remove_name_section(true)
+        .remove_producers_section(true);
     bindgen.generate(folder)?;
     Ok(())
 }
