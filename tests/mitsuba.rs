@@ -580,6 +580,46 @@ fn a_mask_covers_by_the_luminance_of_its_texture() {
 }
 
 #[test]
+fn a_blend_reflects_the_mean_of_its_materials() {
+    // In a white furnace a blend of blends shows the sum of the reflectances by the weights.
+    let diffuse = |value: f64| {
+        format!(r#"<bsdf type="diffuse"><rgb name="reflectance" value="{value}"/></bsdf>"#)
+    };
+    let blend = |weight: &str, first: &str, second: &str| {
+        format!(r#"<bsdf type="blendbsdf">{weight}{first}{second}</bsdf>"#)
+    };
+    let (weight, quarter) = (
+        r#"<texture name="weight" type="checkerboard"><rgb name="color0" value="0.25"/>
+        <rgb name="color1" value="0.25"/></texture>"#,
+        r#"<float name="weight" value="0.25"/>"#,
+    );
+    let (low, high) = (diffuse(0.2), diffuse(0.8));
+    let in_second = blend(
+        weight,
+        &low,
+        &blend(quarter, &high, r#"<bsdf type="null"/>"#),
+    );
+    let in_first = blend(
+        weight,
+        &blend(quarter, &high, r#"<bsdf type="null"/>"#),
+        &low,
+    );
+    for (bsdf, known) in [
+        (blend(quarter, &low, &high), 0.35),
+        // A part lets the light behind it through.
+        (in_second, 0.75 * 0.2 + 0.25 * (0.75 * 0.8 + 0.25)),
+        (in_first, 0.25 * 0.2 + 0.75 * (0.75 * 0.8 + 0.25)),
+    ] {
+        let pixels = picture(&format!(
+            r#"<emitter type="constant"/><shape type="rectangle">
+            <transform name="to_world"><scale value="4"/></transform>{bsdf}</shape>"#
+        ));
+        let mean = pixels.iter().map(|pixel| pixel[1]).sum::<f64>() / 64.0;
+        assert!((mean - known).abs() < 0.02, "{mean}, not {known}: {bsdf}");
+    }
+}
+
+#[test]
 fn a_pane_reflects_between_its_faces() {
     // Seen along the normal a face reflects R = 0.04 and a pane 2R/(1 + R) of the emitter behind
     // the viewer; the rest of the light comes through.

@@ -112,6 +112,12 @@ doubleSided: true, baseColor: [1, 0.5, 1, 1], baseColorMap: p.png}}\n",
         "- {type: mesh, file: m.obj, position: [0, 0, 0], material: {type: standard, metallic: 0, specular: 0, \
 doubleSided: true, baseColor: [0.5, 0.2, 0.5, 0.9], alpha: blend, opacityMap: p.png}}\n",
     ),
+    objects(
+        "a blend of copper and a leaf, by a texture",
+        "- {type: mesh, file: m.obj, position: [0, 0, 0], material: {type: standard, metallic: 0, specular: 0, \
+doubleSided: true, baseColor: [0.5, 0.2, 0.5, 1], blendWeight: 0.8, blendMap: p.png, \
+blendWith: {type: standard, doubleSided: true, conductor: copper, roughness: 0.4, microfacets: separable-ggx}}}\n",
+    ),
     objects("a white mirror", ball!("doubleSided: true, roughness: 0")),
     objects(
         "a rough metal",

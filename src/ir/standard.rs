@@ -1,6 +1,6 @@
 //! The material of glTF 2.0: metallic-roughness with the layers of its extensions.
 
-use super::TextureId;
+use super::{MaterialId, TextureId};
 use arbitrary::Arbitrary;
 use rtc_math::{ComplexIndex, Microfacets, Plastic, Vec3};
 use rtc_tables::{camel_case, parameters};
@@ -106,6 +106,7 @@ macro_rules! stored {
     (flag) => { bool };
     (alpha) => { Alpha };
     (map) => { Option<Map> };
+    (material) => { Option<MaterialId> };
 }
 
 /// The setter of a parameter of each kind of the table: of an optional one it takes the value.
@@ -129,6 +130,13 @@ macro_rules! setter {
         #[must_use]
         pub fn $field(self, $field: [f64; 4]) -> Self {
             Self { $field: Some($field), ..self }
+        }
+    };
+    (material, $(#[$about:meta])* $field:ident) => {
+        $(#[$about])*
+        #[must_use]
+        pub fn $field(self, material: MaterialId) -> Self {
+            Self { $field: Some(material), ..self }
         }
     };
     (conductor, $(#[$about:meta])* $field:ident) => {

@@ -292,6 +292,7 @@ fn is_invisible(material: &Material) -> bool {
         return false;
     };
     match standard.alpha {
+        _ if standard.blend_with.is_some() => false,
         Alpha::Opaque => false,
         Alpha::Blend => standard.base_color[3] == 0.0,
         Alpha::Mask(cutoff) => standard.base_color[3] < cutoff,

@@ -68,6 +68,7 @@ effects! {
     Emission "emission",
     Unlit "unlit surfaces",
     Alpha "alpha",
+    Blend "blends",
     Mis "light weights",
     Caustics "caustics",
     Microfacets "microfacets",
@@ -91,7 +92,7 @@ impl Effect {
 }
 
 /// The effects of path tracing before the layers of the glTF material, and after them.
-const OF_PATHS: ([Effect; 13], [Effect; 9]) = (
+const OF_PATHS: ([Effect; 14], [Effect; 9]) = (
     [
         Effect::Surfaces,
         Effect::Environment,
@@ -99,6 +100,7 @@ const OF_PATHS: ([Effect; 13], [Effect; 9]) = (
         Effect::Emission,
         Effect::Unlit,
         Effect::Alpha,
+        Effect::Blend,
         Effect::DirectLight,
         Effect::Shadows,
         Effect::Mis,
@@ -122,9 +124,9 @@ const OF_PATHS: ([Effect; 13], [Effect; 9]) = (
 
 impl Effect {
     /// The effects that path tracing may have.
-    pub const OF_PATHS: [Self; 22 + Layer::ALL.len()] = {
+    pub const OF_PATHS: [Self; 23 + Layer::ALL.len()] = {
         let ((before, after), layers) = (OF_PATHS, Layer::ALL);
-        let mut all = [Self::Surfaces; 22 + Layer::ALL.len()];
+        let mut all = [Self::Surfaces; 23 + Layer::ALL.len()];
         let mut at = 0;
         while at < all.len() {
             all[at] = if at < before.len() {

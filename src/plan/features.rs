@@ -66,7 +66,7 @@ pub struct PathFeatures(pub u32);
 impl PathFeatures {
     /// Diffuse surfaces only, without light sampling.
     pub const NONE: Self = Self(0);
-    /// Alpha blending (stochastic) and alpha masks.
+    /// Alpha blending and blends of materials (both stochastic), and alpha masks.
     pub const ALPHA: Self = Self(1);
     /// Next-event estimation: lights are sampled.
     pub const NEE: Self = Self(1 << 1);

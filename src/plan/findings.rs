@@ -37,11 +37,7 @@ impl<'scene> SceneFacts<'scene> {
         } else {
             vec![None; scene.textures().len()].into()
         };
-        let materials = scene
-            .materials()
-            .iter()
-            .map(facts::material::phong)
-            .collect::<IdTable<_, _>>();
+        let materials = facts::material::phongs(scene.materials());
         let summary = |surface: &Surface| {
             MaterialSummary::of(surface, &materials[surface.material], scene, &constants)
         };

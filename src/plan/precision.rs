@@ -102,7 +102,7 @@ fn sends_rays(scene: &ValidScene, surface: &Surface, has_shadows: bool) -> bool 
         Mode::Path(_) => return true,
         Mode::Normal | Mode::Gooch(_) | Mode::Depth => return false,
     }
-    let phong = facts::material::phong(&scene.materials()[surface.material]);
+    let phong = facts::material::shown_phong(scene.materials(), surface.material);
     let bounces = phong.most_mirror_weight() > 0.0 || phong.kt.get() > 0.0;
     has_shadows || settings.max_depth > 0 && bounces
 }

@@ -54,6 +54,13 @@ macro_rules! parameters {
             /// How light leaves the diffuse base below a boundary of the index: as glTF says, or as
             /// from a plastic, whose mirror image has the specular strength and colour as a factor.
             plastic: plastic = Plastic::None, "is_default";
+            /// The other material of a blend: light meets it in place of this one with the
+            /// probability of the weight. What the surface emits is of this one.
+            blend_with: material = None, "Option::is_none";
+            /// How much of the surface has the other material.
+            blend_weight: fraction = 0.0, "is_zero";
+            /// Its red multiplies that.
+            blend_map: map = None, "Option::is_none";
             /// Whether its back reflects nothing.
             black_back: flag = false, "is_default";
             /// The dispersion of the index: 20 over the Abbe number.

@@ -53,7 +53,7 @@ pub use texture::{Filter, Map, Sampled, Texture, UvSet, Wrap};
 use check::{Checker, EntityCounts};
 use rtc_diag::DiagnosticSink;
 use rtc_ir::{self as ir, SourceSpans};
-use rtc_math::{Id, IdTable, StoredTree};
+use rtc_math::{Id, IdTable, StoredTree, UnitInterval};
 use rtc_source::Limits;
 use std::sync::Arc;
 
@@ -134,6 +134,14 @@ impl ValidScene {
     #[must_use]
     pub fn meshes(&self) -> &IdTable<Mesh, Arc<Mesh>> {
         &self.meshes
+    }
+
+    /// A material, and those that light meets in its place where it is a blend.
+    pub fn blended(&self, material: MaterialId) -> impl Iterator<Item = MaterialId> {
+        std::iter::successors(Some(material), |part| match &self.materials[*part] {
+            Material::Standard(part) if part.blend_weight > UnitInterval::ZERO => part.blend_with,
+            Material::Standard(_) | Material::Phong(_) => None,
+        })
     }
 
     /// The materials.
@@ -239,6 +247,7 @@ pub fn validate(
     let valid_materials = check.all(materials, |material, index, check| {
         material::material(material, index, &counts, check)
     });
+    material::blends(materials, &mut check);
     let valid_surfaces = check.all(surfaces, |surface, index, check| {
         shape::surface(surface, index, &counts, check)
     });

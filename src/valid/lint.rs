@@ -211,6 +211,7 @@ fn unsupported_features(scene: &ir::Scene, check: &mut Checker<'_>) {
             *is_used = true;
         }
     }
+    report_blends(scene, &is_used, is_traced, check);
     for (index, material) in scene.materials.iter().enumerate() {
         let (message, hint) = match material {
             _ if !is_used[index] => continue,
@@ -232,6 +233,25 @@ fn unsupported_features(scene: &ir::Scene, check: &mut Checker<'_>) {
             label,
             diagnostic,
         );
+    }
+}
+
+/// Warns about blends that the integrator shows as one of their materials.
+fn report_blends(scene: &ir::Scene, is_used: &[bool], is_traced: bool, check: &mut Checker<'_>) {
+    for (index, material) in scene.materials.iter().enumerate() {
+        let is_blend = match material {
+            ir::Material::Phong(_) => false,
+            ir::Material::Standard(standard) => standard.blend_with.is_some(),
+        };
+        if is_traced || !is_blend || !is_used[index] {
+            continue;
+        }
+        let message =
+            "a blend of materials shows the one of the larger weight in this `RenderMode`";
+        let hint = "path tracing shows both: `RenderMode: path`, or `--integrator path`";
+        let diagnostic = Diagnostic::new(&codes::LOST_PARTS, message).hint(hint);
+        let path = ValuePath::new(EntityKind::Material, index, EntityField::Whole);
+        check.report(path, "its other material is left out", diagnostic);
     }
 }
 

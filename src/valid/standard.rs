@@ -1,11 +1,12 @@
 //! Validates the glTF material: every factor is in the range of its specification.
 
+use super::MaterialId;
 use super::check::{Checker, EntityCounts, LARGEST};
 use super::texture::{self, Map};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
 use rtc_math::{
-    ComplexIndex, Microfacets, NonNegative, Plastic, Positive, UnitInterval, Vec3, shortest,
+    ComplexIndex, Id, Microfacets, NonNegative, Plastic, Positive, UnitInterval, Vec3, shortest,
 };
 use rtc_tables::{camel_case, parameters};
 use std::any::Any;
@@ -29,6 +30,7 @@ macro_rules! validated {
     (flag) => { bool };
     (alpha) => { Alpha };
     (map) => { Option<Map> };
+    (material) => { Option<MaterialId> };
 }
 
 /// A default of the table as a valid value.
@@ -311,6 +313,25 @@ impl ParameterCheck<'_, '_> {
     )]
     fn flag(&self, value: &bool, _name: &str) -> Option<bool> {
         Some(*value)
+    }
+
+    /// The other material of a blend, an earlier one: so blends end.
+    fn material(
+        &mut self,
+        material: &Option<ir::MaterialId>,
+        name: &str,
+    ) -> Option<Option<MaterialId>> {
+        let Some(ir::MaterialId(id)) = *material else {
+            return Some(None);
+        };
+        let is_earlier = (id as usize) < self.index;
+        if !is_earlier {
+            let message = format!("a blend is with material {id}, which does not come before it");
+            let at = self.at(name);
+            self.check
+                .report(at, "", Diagnostic::new(&codes::BAD_HANDLE, message));
+        }
+        is_earlier.then(|| Some(Id::new(id as usize)))
     }
 
     fn map(&mut self, map: &Option<ir::Map>, name: &str) -> Option<Option<Map>> {

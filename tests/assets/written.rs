@@ -66,6 +66,7 @@ fn full() -> Standard {
     {
         tree[key] = match key.as_str() {
             "name" => json!("a \"name\": #1"),
+            "blendWith" => json!(0),
             "alpha" => json!({ "mask": 0.3 }),
             "doubleSided" | "unlit" | "blackBack" | "thinDielectric" => json!(true),
             "microfacets" => json!("beckmann"),
@@ -161,7 +162,7 @@ fn surface(mesh: u32, material: u32) -> Surface {
     }
 }
 
-/// A full material, one with a map, and the default one.
+/// A material, a full one that is a blend with it, one with a map, and the default one.
 fn materials() -> Vec<Material> {
     let plain = Map {
         texture: TextureId(1),
@@ -173,7 +174,11 @@ fn materials() -> Vec<Material> {
         alpha: Alpha::Blend,
         ..Standard::default()
     };
-    [full(), simple, Standard::default()]
+    let other = Standard {
+        metallic: 0.5,
+        ..Standard::default()
+    };
+    [other, full(), simple, Standard::default()]
         .map(|own| Material::Standard(Box::new(own)))
         .to_vec()
 }
@@ -209,7 +214,7 @@ fn everything() -> Scene {
         textures: textures(),
         meshes: vec![mesh("first"), flat],
         materials: materials(),
-        surfaces: vec![surface(0, 0), surface(1, 1), surface(0, 1), surface(1, 2)],
+        surfaces: vec![surface(0, 1), surface(1, 2), surface(0, 2), surface(1, 3)],
         names: ["", "a: b", "", ""].map(str::to_owned).to_vec(),
         environment: Some(Environment {
             radiance: [0.5, 0.6, 1.0 / 3.0],

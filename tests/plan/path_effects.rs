@@ -5,7 +5,7 @@ use super::path_rules::{light_source, traced, white};
 use super::scenes::{ball, disc};
 use super::validated;
 use crate::ray_counts::{contradictions, film};
-use rtc::internals::ir::{Alpha, Scene, Standard};
+use rtc::internals::ir::{Alpha, MaterialId, Scene, Standard};
 use rtc::internals::plan::{Effect, EffectState, Layer, PathFeatures, Plan, RuleSet};
 
 /// A sphere of a material before a white disc, under a light.
@@ -245,4 +245,31 @@ fn each_parameter_of_a_material_brings_its_effects() {
         assert_eq!(beyond(&before, &after), [], "{name}");
         assert_eq!(of_kernel, features, "{name}");
     }
+}
+
+#[test]
+fn a_blend_has_the_effects_of_both_materials_unless_its_weight_is_0() {
+    let (before, _) = needs(&illuminated(&white()));
+    let blended = |weight: f64| {
+        let mut scene = illuminated(&white());
+        // The ball has the last material, after that which it is blended with.
+        let metal = Standard {
+            metallic: 1.0,
+            ..white()
+        };
+        let blend = Standard {
+            blend_with: Some(MaterialId(2)),
+            blend_weight: weight,
+            ..white()
+        };
+        scene.materials.push(metal.into());
+        scene.materials.push(blend.into());
+        scene.surfaces[0].material = MaterialId(3);
+        needs(&scene)
+    };
+    let (both, features) = blended(0.5);
+    let added = [Effect::Blend, Effect::Microfacets];
+    assert_eq!(beyond(&both, &before), added);
+    assert_eq!(features, GLOSSY.with(PathFeatures::ALPHA));
+    assert_eq!(blended(0.0), (before, LIT));
 }

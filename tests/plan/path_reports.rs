@@ -30,6 +30,7 @@ environment map:  the environment has no image;
 emission:  no material emits light;
 unlit surfaces:  no material is unlit;
 alpha:  all materials are opaque;
+blends:  no material is a blend;
 light weights:  no light is found both by light sampling and by BSDF sampling;
 caustics:  no smooth surface leads light of a sampled light to another;
 microfacets:  no material has a microfacet lobe;

@@ -2,7 +2,9 @@
 
 use super::material::exists;
 use super::{SceneWriter, quoted};
-use rtc_ir::{Alpha, Conductor, Filter, Map, Sampled, Scene, Standard, Texture, Wrap};
+use rtc_ir::{
+    Alpha, Conductor, Filter, Map, Material, MaterialId, Sampled, Scene, Standard, Texture, Wrap,
+};
 use rtc_math::{Microfacets, Plastic, shortest};
 use rtc_tables::{camel_case, parameters};
 
@@ -26,12 +28,28 @@ macro_rules! material {
                 if !name.is_empty() {
                     self.line(6, &format!("name: {}", quoted(name)));
                 }
-                let mut parameters = ParameterWriter { text: self, scene };
+                let mut parameters = ParameterWriter { text: self, scene, left: MOST_BLENDED };
                 $(if *$field != default.$field {
                     let value = parameters.$kind($field)?;
                     parameters.text.line(6, &format!("{}: {value}", camel_case!($field)));
                 })*
                 Ok(())
+            }
+        }
+
+        impl ParameterWriter<'_, '_> {
+            /// A material as a flow map.
+            fn flow(&mut self, material: &Standard) -> WrittenValue {
+                let default = Standard::default();
+                let Standard { name, $($field),* } = material;
+                let mut text = "{type: standard".to_owned();
+                if !name.is_empty() {
+                    text += &format!(", name: {}", quoted(name));
+                }
+                $(if *$field != default.$field {
+                    text += &format!(", {}: {}", camel_case!($field), self.$kind($field)?);
+                })*
+                Ok(text + "}")
             }
         }
     };
@@ -43,7 +61,12 @@ parameters!(material);
 struct ParameterWriter<'t, 's> {
     text: &'t mut SceneWriter<'s>,
     scene: &'s Scene,
+    /// How many more materials of a blend may be written.
+    left: usize,
 }
+
+/// The most materials of a blend.
+const MOST_BLENDED: usize = 16;
 
 /// The text of a value, or why it can't be written.
 type WrittenValue = Result<String, String>;
@@ -138,6 +161,19 @@ impl ParameterWriter<'_, '_> {
             Alpha::Opaque => Ok("opaque".to_owned()),
             Alpha::Blend => Ok("blend".to_owned()),
             Alpha::Mask(cutoff) => Ok(format!("{{mask: {}}}", self.number(cutoff)?)),
+        }
+    }
+
+    /// The other material of a blend, which comes before it.
+    fn material(&mut self, material: &Option<MaterialId>) -> WrittenValue {
+        let scene = self.scene;
+        let found = material.and_then(|id| scene.materials.get(id.0 as usize));
+        match found {
+            Some(Material::Standard(standard)) if self.left > 0 => {
+                self.left -= 1;
+                self.flow(standard)
+            }
+            _ => Err("a blend is not with an earlier standard material".to_owned()),
         }
     }
 

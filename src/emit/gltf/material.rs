@@ -21,9 +21,9 @@ impl GltfWriter<'_> {
     pub(super) fn material(
         &mut self,
         id: MaterialId,
-        mesh: MeshId,
+        mesh_id: MeshId,
     ) -> GltfIndex<document::Material> {
-        let mesh = &self.scene.meshes[mesh.0 as usize];
+        let mesh = &self.scene.meshes[mesh_id.0 as usize];
         let key = (id.0, [!mesh.uvs.is_empty(), !mesh.second_uvs.is_empty()]);
         if let Some(known) = self.materials.get(&key) {
             return *known;
@@ -42,6 +42,13 @@ impl GltfWriter<'_> {
         };
         standard.retain_maps(|map| key.1[map.set.min(1) as usize]);
         self.extra_maps(&standard, &mut rtc_extras, path);
+        if let Some(other) = standard.blend_with {
+            self.reporter
+                .in_extras("the other material of a blend", path);
+            let other = self.material(other, mesh_id).value();
+            rtc_extras.insert("blendWith".to_owned(), json!(other));
+            rtc_extras.insert("blendWeight".to_owned(), json!(standard.blend_weight));
+        }
         let material = self.standard(&standard, path);
         let material = document::Material {
             extras: extras(rtc_extras),
@@ -283,7 +290,10 @@ impl GltfWriter<'_> {
         rtc_extras: &mut JsonObject<String, Value>,
         path: ValuePath,
     ) {
-        let maps = [("opacityTexture", "an opacity map", &standard.opacity_map)];
+        let maps = [
+            ("opacityTexture", "an opacity map", &standard.opacity_map),
+            ("blendTexture", "the map of a blend", &standard.blend_map),
+        ];
         for (key, what, map) in maps {
             if let Some(map) = map {
                 self.reporter.in_extras(what, path);

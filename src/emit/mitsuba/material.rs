@@ -5,8 +5,8 @@ use super::MitsubaWriter;
 use crate::approximation::without_index;
 use crate::export::{called, enumeration};
 use crate::path_tracer::{
-    SurfaceMaterial, TextureChannel, TexturedFactor, absorption, is_glass, missing_features,
-    opacity,
+    SurfaceMaterial, TextureChannel, TexturedFactor, absorption, blend_weight, is_glass,
+    missing_features, opacity, other_material,
 };
 use rtc_ir::{Conductor, EntityField, EntityKind, Standard, ValuePath};
 use rtc_math::{Microfacets, Plastic, shortest};
@@ -29,19 +29,17 @@ impl MitsubaWriter<'_> {
             let index = variant.material as usize;
             let path = ValuePath::new(EntityKind::Material, index, EntityField::Whole);
             let material = variant.standard(scene);
-            let (plugin, message) = MitsubaPlugin::of(&material);
-            let material = match plugin {
-                MitsubaPlugin::Conductor(_) | MitsubaPlugin::Plastic(_) => material,
-                MitsubaPlugin::Black
-                | MitsubaPlugin::Diffuse
-                | MitsubaPlugin::Mirror
-                | MitsubaPlugin::Glass(_)
-                | MitsubaPlugin::Layered => without_index(&material),
-            };
             if reported.insert(index) {
-                self.report_material(&material, (plugin, message), path);
+                let mut next = Some(material.clone());
+                while let Some(part) = next {
+                    let (shown, plugin, message) = shown(&part);
+                    self.report_material(&shown, (plugin, message), path);
+                    next = other_material(scene, &part);
+                }
             }
-            self.material(variant, &material, plugin, path)?;
+            let id = format!(r#" id="{}""#, variant.id());
+            self.material((1, &id), variant, &material, path)?;
+            self.volume(variant, &material);
         }
         Some(())
     }
@@ -82,28 +80,53 @@ impl MitsubaWriter<'_> {
         }
     }
 
+    /// A material or a blend.
     fn material(
         &mut self,
+        (depth, id): (usize, &str),
         variant: SurfaceMaterial,
         material: &Standard,
-        plugin: MitsubaPlugin,
         path: ValuePath,
     ) -> Option<()> {
+        let Some(other) = other_material(self.scene, material) else {
+            return self.part((depth, id), variant, material, path);
+        };
+        let first = Standard {
+            blend_with: None,
+            ..material.clone()
+        };
+        self.line(depth, &format!(r#"<bsdf type="blendbsdf"{id}>"#));
+        self.slot(depth + 1, "weight", blend_weight(material), path)?;
+        self.part((depth + 1, ""), variant, &first, path)?;
+        self.material((depth + 1, ""), variant, &other, path)?;
+        self.line(depth, "</bsdf>");
+        Some(())
+    }
+
+    /// A material that is no blend.
+    fn part(
+        &mut self,
+        (outer, id): (usize, &str),
+        variant: SurfaceMaterial,
+        material: &Standard,
+        path: ValuePath,
+    ) -> Option<()> {
+        let (material, plugin, _) = shown(material);
+        let material = &material;
         // A mask applies the opacity.
-        let id = format!(r#" id="{}""#, variant.id());
         let cut = opacity(material, variant.has_opacity);
-        let (depth, id) = match &cut {
-            Some(_) => (2, String::new()),
-            None => (1, id),
+        let (depth, inner_id) = match &cut {
+            Some(_) => (outer + 1, ""),
+            None => (outer, id),
         };
         if let Some(opacity) = cut {
-            self.line(1, &format!(r#"<bsdf type="mask" id="{}">"#, variant.id()));
-            self.slot(2, "opacity", opacity, path)?;
+            self.line(outer, &format!(r#"<bsdf type="mask"{id}>"#));
+            self.slot(depth, "opacity", opacity, path)?;
         }
         // A partly transmissive material blends layers with glass.
         let is_mixed = plugin == MitsubaPlugin::Layered && material.transmission > 0.0;
         if is_mixed {
-            self.line(depth, &format!(r#"<bsdf type="blendbsdf"{id}>"#));
+            self.line(depth, &format!(r#"<bsdf type="blendbsdf"{inner_id}>"#));
             let weight = TexturedFactor {
                 factor: [material.transmission; 3],
                 map: material.transmission_map.as_ref(),
@@ -115,15 +138,14 @@ impl MitsubaWriter<'_> {
             self.bsdf(depth + 1, "", variant, (glass, material), path)?;
             self.line(depth, "</bsdf>");
         } else if matches!(plugin, MitsubaPlugin::Glass(_)) {
-            self.bsdf(depth, &id, variant, (plugin, material), path)?;
+            self.bsdf(depth, inner_id, variant, (plugin, material), path)?;
         } else {
-            self.two_sided(depth, &id, variant, (plugin, material), path)?;
+            self.two_sided(depth, inner_id, variant, (plugin, material), path)?;
         }
-        // Close the mask and write the interior medium.
-        if depth == 2 {
-            self.line(1, "</bsdf>");
+        // Close the mask.
+        if depth > outer {
+            self.line(outer, "</bsdf>");
         }
-        self.volume(variant, material);
         Some(())
     }
 
@@ -334,6 +356,20 @@ fn principled_color(material: &Standard, color: [f64; 3]) -> [f64; 3] {
         let metal = (channel * (1.0 + channel * again)).min(1.0);
         channel * diffuse * (1.0 - metallic) + metal * metallic
     })
+}
+
+/// A material as its plugin shows it, and a message if that differs.
+fn shown(material: &Standard) -> (Standard, MitsubaPlugin, Option<&'static str>) {
+    let (plugin, message) = MitsubaPlugin::of(material);
+    let material = match plugin {
+        MitsubaPlugin::Conductor(_) | MitsubaPlugin::Plastic(_) => material.clone(),
+        MitsubaPlugin::Black
+        | MitsubaPlugin::Diffuse
+        | MitsubaPlugin::Mirror
+        | MitsubaPlugin::Glass(_)
+        | MitsubaPlugin::Layered => without_index(material),
+    };
+    (material, plugin, message)
 }
 
 /// Whether facets have a width in some direction.

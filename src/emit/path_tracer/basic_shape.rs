@@ -1,6 +1,6 @@
 //! Surfaces as shapes that path tracers have.
 
-use super::surface_material::{SurfaceMaterial, standard};
+use super::surface_material::{SurfaceMaterial, other_material, standard};
 use crate::flat::{around, finite, side, split, square};
 use crate::reporter::ExportReporter;
 use rtc_ir::{
@@ -181,5 +181,12 @@ pub(crate) fn is_basic(scene: &Scene, surface: &Surface) -> bool {
 /// Whether the material of a surface looks up a texture.
 pub(crate) fn has_maps(scene: &Scene, surface: &Surface) -> bool {
     let material = standard(&scene.materials[surface.material.0 as usize]);
-    material.maps().next().is_some()
+    let mut next = Some(material.into_owned());
+    while let Some(part) = next {
+        if part.maps().next().is_some() {
+            return true;
+        }
+        next = other_material(scene, &part);
+    }
+    false
 }

@@ -68,6 +68,21 @@ impl SurfaceMaterial {
     }
 }
 
+/// The other material of a blend; `None` if the material is no blend.
+pub(crate) fn other_material(scene: &Scene, material: &Standard) -> Option<Standard> {
+    let other = scene.materials.get(material.blend_with?.0 as usize)?;
+    Some(standard(other).into_owned())
+}
+
+/// How much of a blend is its other material.
+pub(crate) fn blend_weight(material: &Standard) -> TexturedFactor<'_> {
+    TexturedFactor {
+        factor: [material.blend_weight; 3],
+        map: material.blend_map.as_ref(),
+        channel: TextureChannel::Red,
+    }
+}
+
 /// The set of texture coordinates that is written for a material: that of its first map.
 pub(crate) fn uv_set(material: &Standard) -> u32 {
     material.maps().next().map_or(0, |map| map.set)

@@ -7,10 +7,10 @@ use super::{PbrtWriter, numbers, string};
 use crate::approximation::without_index;
 use crate::export::{called, enumeration};
 use crate::path_tracer::{
-    SurfaceMaterial, TextureChannel, TexturedFactor, absorption, is_glass, missing_features,
-    radiance,
+    SurfaceMaterial, TextureChannel, TexturedFactor, absorption, blend_weight, is_glass,
+    missing_features, other_material, radiance,
 };
-use rtc_ir::{Conductor, EntityField, EntityKind, Scene, Shape, Standard, ValuePath};
+use rtc_ir::{Alpha, Conductor, EntityField, EntityKind, Scene, Shape, Standard, ValuePath};
 use rtc_math::{Microfacets, Plastic};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
@@ -31,6 +31,20 @@ impl PbrtWriter<'_> {
             let path = ValuePath::new(EntityKind::Material, index, EntityField::Whole);
             if reported.insert(index) {
                 self.report_material(&shown, path);
+                let mut next = other_material(self.scene, &shown.standard);
+                while let Some(part) = next {
+                    next = other_material(self.scene, &part);
+                    if part.alpha != Alpha::Opaque {
+                        let name = called(&part.name);
+                        let message = format!("{name} is written without its opacity in a blend");
+                        self.beside.reporter.unsupported(&message, path);
+                    }
+                    let shown = ShownMaterial {
+                        standard: Rc::new(part),
+                        has_mean: false,
+                    };
+                    self.report_material(&shown, path);
+                }
             }
             self.material(&variant.id(), &shown.standard, path)?;
             self.medium(variant, &shown.standard);
@@ -59,7 +73,19 @@ impl PbrtWriter<'_> {
         }
     }
 
+    /// A material or a blend.
     fn material(&mut self, id: &str, material: &Standard, path: ValuePath) -> Option<()> {
+        let Some(other) = other_material(self.scene, material) else {
+            return self.part(id, material, path);
+        };
+        let [first, second] = ["first", "second"].map(|part| format!("{id}.{part}"));
+        self.part(&first, material, path)?;
+        self.material(&second, &other, path)?;
+        self.mix(id, [&first, &second], blend_weight(material), path)
+    }
+
+    /// A material that is no blend.
+    fn part(&mut self, id: &str, material: &Standard, path: ValuePath) -> Option<()> {
         if material.unlit {
             let black = numbers("rgb", "reflectance", [0.0; 3]);
             self.named(id, "diffuse", &black);

@@ -149,6 +149,18 @@ impl PovWriter<'_> {
             called(&material.name)
         );
         self.reporter.unsupported(&message, path);
+        for (is_lost, what) in [
+            (
+                material.blend_with.is_some(),
+                "the other material of its blend",
+            ),
+            (material.opacity_map.is_some(), "the texture of its opacity"),
+        ] {
+            if is_lost {
+                let message = format!("{} is written without {what}", called(&material.name));
+                self.reporter.unsupported(&message, path);
+            }
+        }
         let Standard {
             base_color: [r, g, b, alpha],
             metallic,

@@ -370,7 +370,7 @@ impl Lowering {
         id
     }
 
-    fn add_material(&mut self, material: ir::Material) -> MaterialId {
+    pub(super) fn add_material(&mut self, material: ir::Material) -> MaterialId {
         let id = MaterialId(u32::try_from(self.scene.materials.len()).unwrap_or(u32::MAX));
         self.scene.materials.push(material);
         id

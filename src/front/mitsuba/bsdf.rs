@@ -67,6 +67,14 @@ impl<'run> Lowering<'run> {
             self.channel(emitter, "radiance", [1.0; 3], flip)
         });
         let id = standard.map(|standard| {
+            let with_back = |part: &Standard| Standard {
+                black_back,
+                ..part.clone()
+            };
+            let standard = match black_back {
+                true => self.each_other(standard, with_back),
+                false => standard,
+            };
             let standard = Standard {
                 emissive: radiance.color,
                 emissive_map: radiance.map,
@@ -131,27 +139,71 @@ impl<'run> Lowering<'run> {
             "normalmap" => {
                 let inner = self.inner(node, flip, depth)?;
                 let normal_map = self.map(node, "normalmap", flip);
-                Standard {
-                    normal_map,
-                    ..inner
-                }
+                let with_map = |part: &Standard| Standard {
+                    normal_map: normal_map.clone(),
+                    ..part.clone()
+                };
+                let first = with_map(&inner);
+                self.each_other(first, with_map)
             }
             "bumpmap" => {
                 self.unsupported(node, "the surface is shown smooth");
                 return self.inner(node, flip, depth);
             }
-            "blendbsdf" => {
-                let weight = node.number("weight").unwrap_or(0.5);
-                self.unsupported(node, "the BSDF of the larger weight replaces it");
-                let parts: Vec<_> = self.bsdf_children(node);
-                let part = parts.get(usize::from(weight > 0.5)).or(parts.first())?;
-                return self.standard(part, flip, depth + 1);
-            }
+            "blendbsdf" => return self.blend(node, flip, depth),
             "null" => return None,
             _ => {
                 self.unsupported(node, "diffuse grey replaces it");
                 matte([0.5; 3])
             }
+        })
+    }
+
+    /// A blend of two BSDFs, of which either may be a blend: the first material of a chain. `None`
+    /// if light passes through both.
+    fn blend(&mut self, node: &'run PluginNode, flip: bool, depth: usize) -> Option<Standard> {
+        self.ignored(node, &["weight"]);
+        let parts: Vec<_> = self.bsdf_children(node);
+        let [first, second, ..] = parts[..] else {
+            self.approximate(
+                node.plugin.span,
+                "a blend of fewer than two BSDFs is no blend",
+            );
+            return self.standard(parts.first()?, flip, depth + 1);
+        };
+        let [first, second] = [first, second].map(|part| self.standard(part, flip, depth + 1));
+        // The first material of a chain is no blend.
+        let is_chain =
+            |part: &Option<Standard>| part.as_ref().is_some_and(|part| part.blend_with.is_some());
+        let is_swapped = is_chain(&first);
+        if is_swapped && is_chain(&second) {
+            let message = "of a blend of two blends the second one is shown as its first BSDF";
+            self.approximate(node.plugin.span, message);
+        }
+        let weight = self.number_or_map(node, "weight", 0.5, (flip, is_swapped));
+        let (first, second) = match is_swapped {
+            true => (second, first),
+            false => (first, second),
+        };
+        let clear = || Standard {
+            base_color: [0.0; 4],
+            alpha: Alpha::Blend,
+            ..matte([0.0; 3])
+        };
+        if first.is_none() && second.is_none() {
+            return None;
+        }
+        let second = second.unwrap_or_else(clear);
+        let index = self.scene.materials.len();
+        self.record(EntityKind::Material, index, node.span);
+        self.scene
+            .materials
+            .push(Material::Standard(Box::new(second)));
+        Some(Standard {
+            blend_with: Some(MaterialId(rtc_math::to_u32(index))),
+            blend_weight: weight.number.clamp(0.0, 1.0),
+            blend_map: weight.map,
+            ..first.unwrap_or_else(clear)
         })
     }
 
@@ -332,11 +384,50 @@ impl<'run> Lowering<'run> {
             let message = "of the textures of two masks the inner one is left out";
             self.approximate(node.plugin.span, message);
         }
+        let inner = self.each_other(inner, |part| {
+            let [r, g, b, alpha] = part.base_color;
+            Standard {
+                base_color: [r, g, b, alpha * number.clamp(0.0, 1.0)],
+                alpha: Alpha::Blend,
+                opacity_map: map.clone().or(part.opacity_map.clone()),
+                ..part.clone()
+            }
+        });
         Standard {
             base_color: [r, g, b, alpha * number.clamp(0.0, 1.0)],
             alpha: Alpha::Blend,
             opacity_map: map.or(inner.opacity_map),
             ..inner
+        }
+    }
+
+    /// Changes the other materials of a chain of blends; they become new ones.
+    fn each_other(&mut self, first: Standard, change: impl Fn(&Standard) -> Standard) -> Standard {
+        // Find the chain, the last one first.
+        let mut chain = Vec::new();
+        let mut next = first.blend_with;
+        while let Some(Material::Standard(part)) =
+            next.and_then(|id| self.scene.materials.get(id.0 as usize))
+        {
+            next = part.blend_with;
+            chain.push(change(part));
+        }
+        // Link the new ones.
+        let mut other = None;
+        for part in chain.into_iter().rev() {
+            let index = self.scene.materials.len();
+            let material = Standard {
+                blend_with: other,
+                ..part
+            };
+            self.scene
+                .materials
+                .push(Material::Standard(Box::new(material)));
+            other = Some(MaterialId(rtc_math::to_u32(index)));
+        }
+        Standard {
+            blend_with: other,
+            ..first
         }
     }
 

@@ -8,7 +8,7 @@ use super::Lowering;
 use super::parameter::Parameters;
 use super::texture::{ColorWithMap, NumberWithMap};
 use crate::exchange::SpannedText;
-use crate::exchange::color::{MIRROR, normal_reflectance, of_reflectance};
+use crate::exchange::color::{MIRROR, of_reflectance};
 use crate::exchange::material::{matte, opaque};
 use rtc_diag::{clip, codes};
 use rtc_ir::{Alpha, Conductor, EntityKind, Map, Material, MaterialId, Standard};
@@ -465,7 +465,7 @@ impl Lowering<'_> {
         textured(base)
     }
 
-    /// A mix of two materials: the mean of their parameters.
+    /// A mix of two materials.
     fn mix(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Option<Standard> {
         let names: Vec<SpannedText> = match parameters.strings("materials") {
             Some(names) => names.to_vec(),
@@ -492,19 +492,49 @@ impl Lowering<'_> {
         let (Some(first), Some(second)) = (first, second) else {
             return Some(matte([0.5; 3]));
         };
-        let amount = self.scalar(parameters, "amount", 0.5).clamp(0.0, 1.0);
+        let amount = self.number_or_map(parameters, "amount", 0.5);
+        let share = amount.number.clamp(0.0, 1.0);
         match (first, second) {
-            (first, _) if amount == 0.0 => first,
-            (_, second) if amount == 1.0 => second,
-            (Some(first), Some(second)) => {
-                let message = "a mix is shown as one material with the mean of their parameters";
-                self.approximate(plugin.span, message);
-                Some(mixed(&first, &second, amount))
-            }
-            (Some(shown), None) => Some(covering(shown, (1.0 - amount).into())),
-            (None, Some(shown)) => Some(covering(shown, amount.into())),
+            (first, _) if share == 0.0 => first,
+            (_, second) if share == 1.0 && amount.map.is_none() => second,
             (None, None) => None,
+            (first, second) => self.blend(plugin, [first, second], amount),
         }
+    }
+
+    /// A blend of two materials; light passes through what is none.
+    fn blend(
+        &mut self,
+        plugin: &SpannedText,
+        [first, second]: [Option<Standard>; 2],
+        amount: NumberWithMap,
+    ) -> Option<Standard> {
+        let clear = || covering(matte([0.0; 3]), 0.0.into());
+        let [first, second] = [first, second].map(|part| part.unwrap_or_else(clear));
+        // The first material of a chain is no blend.
+        let (first, second, amount) = match (&first.blend_with, &second.blend_with) {
+            (Some(_), None) if amount.map.is_none() => {
+                (second, first, (1.0 - amount.number).into())
+            }
+            (Some(_), _) => {
+                let message = "a mix of mixes shows one material of its first one";
+                self.approximate(plugin.span, message);
+                (first, second, amount)
+            }
+            (None, _) => (first, second, amount),
+        };
+        self.charge(Resource::Memory, MATERIAL_BYTES, plugin.span)?;
+        let index = self.scene.materials.len();
+        self.record(EntityKind::Material, index, plugin.span);
+        self.scene
+            .materials
+            .push(Material::Standard(Box::new(second)));
+        Some(Standard {
+            blend_with: Some(MaterialId(rtc_math::to_u32(index))),
+            blend_weight: amount.number.clamp(0.0, 1.0),
+            blend_map: amount.map,
+            ..first
+        })
     }
 
     /// Bump maps are left out; maps of normals are not.
@@ -665,20 +695,6 @@ fn metallic((tint, conductor): (ColorWithMap, Option<Conductor>)) -> Standard {
     }
 }
 
-/// A metal by Schlick's approximation instead of its index.
-fn without_index(standard: &Standard) -> Standard {
-    let Some(conductor) = standard.conductor else {
-        return standard.clone();
-    };
-    let [r, g, b] = normal_reflectance(conductor);
-    let base = standard.base_color;
-    Standard {
-        base_color: [base[0] * r, base[1] * g, base[2] * b, base[3]],
-        conductor: None,
-        ..standard.clone()
-    }
-}
-
 /// The greatest channel of a colour, at least 0.
 fn greatest(color: [f64; 3]) -> f64 {
     color.into_iter().fold(0.0, f64::max)
@@ -700,30 +716,6 @@ fn covering(standard: Standard, share: NumberWithMap) -> Standard {
         alpha: Alpha::Blend,
         opacity_map: share.map.or(standard.opacity_map),
         ..standard
-    }
-}
-
-/// The mean of two materials; maps are those of the one with the larger weight.
-fn mixed(first: &Standard, second: &Standard, amount: f64) -> Standard {
-    let number = |a: f64, b: f64| a * (1.0 - amount) + b * amount;
-    let triple = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|c| number(a[c], b[c]));
-    let (first, second) = match first.conductor == second.conductor {
-        true => (first.clone(), second.clone()),
-        false => (without_index(first), without_index(second)),
-    };
-    let shown = if amount > 0.5 { &second } else { &first };
-    Standard {
-        base_color: std::array::from_fn(|c| number(first.base_color[c], second.base_color[c])),
-        metallic: number(first.metallic, second.metallic),
-        roughness: number(first.roughness, second.roughness),
-        specular: number(first.specular, second.specular),
-        specular_color: triple(first.specular_color, second.specular_color),
-        transmission: number(first.transmission, second.transmission),
-        thickness: number(first.thickness, second.thickness),
-        clearcoat: number(first.clearcoat, second.clearcoat),
-        clearcoat_roughness: number(first.clearcoat_roughness, second.clearcoat_roughness),
-        diffuse_transmission: number(first.diffuse_transmission, second.diffuse_transmission),
-        ..shown.clone()
     }
 }
 

@@ -1,15 +1,36 @@
 //! Materials as each integrator uses them: the Whitted integrator uses the Phong model, the path
 //! integrator the glTF material.
 
-use rtc_math::{NonNegative, Positive, UnitInterval, Vec3};
+use rtc_math::{IdTable, NonNegative, Positive, UnitInterval, Vec3};
 use rtc_tables::{PhongTerms, fit_phong};
-use rtc_valid::{Map, Material, Phong, Standard, TextureId, UvSet};
+use rtc_valid::{Map, Material, MaterialId, Phong, Standard, TextureId, UvSet};
 use std::num::NonZeroU32;
+
+/// The materials of the Whitted integrator: of a blend the one of the larger weight.
+#[must_use]
+pub fn phongs(materials: &IdTable<Material>) -> IdTable<Material, Phong> {
+    materials
+        .ids()
+        .map(|id| shown_phong(materials, id))
+        .collect()
+}
+
+/// One of [`phongs`].
+pub(crate) fn shown_phong(materials: &IdTable<Material>, mut id: MaterialId) -> Phong {
+    let other = |material: &Material| match material {
+        Material::Standard(standard) if standard.blend_weight.get() > 0.5 => standard.blend_with,
+        Material::Standard(_) | Material::Phong(_) => None,
+    };
+    while let Some(next) = other(&materials[id]) {
+        id = next;
+    }
+    phong(&materials[id])
+}
 
 /// The material of the Whitted integrator. A glTF material is converted by its colour, without
 /// emission.
 #[must_use]
-pub fn phong(material: &Material) -> Phong {
+fn phong(material: &Material) -> Phong {
     match material {
         Material::Phong(phong) => phong.clone(),
         Material::Standard(standard) => phong_of_standard(standard),

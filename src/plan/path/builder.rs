@@ -167,7 +167,7 @@ impl PathPlanBuilder<'_> {
             Effect::EnvironmentMap => {
                 self.environment == RemainingEnvironment::All && self.has_environment_image()
             }
-            Effect::Emission | Effect::Unlit | Effect::Alpha => self
+            Effect::Emission | Effect::Unlit | Effect::Alpha | Effect::Blend => self
                 .used_materials()
                 .any(|(_, material)| material_requires(material, effect)),
             Effect::DirectLight => self.samples_lights(),
@@ -353,6 +353,7 @@ pub(super) fn material_requires(m: &Standard, effect: Effect) -> bool {
         Effect::Emission => !m.unlit && m.emissive != Vec3::ZERO,
         Effect::Unlit => m.unlit,
         Effect::Alpha => m.alpha != Alpha::Opaque,
+        Effect::Blend => m.blend_with.is_some(),
         Effect::Microfacets => {
             let is_dielectric = is_nonzero(m.specular) || m.specular_glossiness.is_some();
             is_dielectric

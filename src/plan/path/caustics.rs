@@ -103,11 +103,13 @@ fn is_smooth_caster(m: &Standard) -> bool {
         && m.clearcoat == UnitInterval::ZERO
         && m.anisotropy == UnitInterval::ZERO
         && m.dispersion.get() == 0.0;
-    is_smooth && is_plain && m.alpha == Alpha::Opaque && reflects_or_refracts(m)
+    let is_whole = m.alpha == Alpha::Opaque && m.blend_with.is_none();
+    is_smooth && is_plain && is_whole && reflects_or_refracts(m)
 }
 
 fn is_even_emitter(m: &Standard) -> bool {
-    !m.unlit && m.emissive_map.is_none() && m.emissive != Vec3::ZERO && m.alpha == Alpha::Opaque
+    let is_whole = m.alpha == Alpha::Opaque && m.blend_with.is_none();
+    !m.unlit && m.emissive_map.is_none() && m.emissive != Vec3::ZERO && is_whole
 }
 
 /// Whether a material reflects or refracts most light.

@@ -53,16 +53,18 @@ impl MaterialUses {
         // Each mesh is scanned once, however many instances it has.
         let mut of_meshes = IdTable::<Mesh, _>::from(vec![None; scene.meshes().len()]);
         for (index, surface) in scene.surfaces().iter().enumerate() {
-            let used_materials = &mut uses[surface.material];
             let areas = || shape_facts(&surface.shape).uv_areas(scene);
-            let areas = if let Shape::Instance(instance) = &surface.shape {
-                let mesh = &scene.meshes()[instance.mesh];
-                used_materials.has_colors |= !mesh.colors.is_empty();
-                *of_meshes[instance.mesh].get_or_insert_with(areas)
+            let (areas, has_colors) = if let Shape::Instance(instance) = &surface.shape {
+                let has_colors = !scene.meshes()[instance.mesh].colors.is_empty();
+                let areas = of_meshes[instance.mesh].get_or_insert_with(areas);
+                (*areas, has_colors)
             } else {
-                areas()
+                (areas(), false)
             };
-            used_materials.add(index, areas);
+            for material in scene.blended(surface.material) {
+                uses[material].has_colors |= has_colors;
+                uses[material].add(index, areas);
+            }
         }
         uses
     }

@@ -181,7 +181,10 @@ fn features(builder: &PathPlanBuilder<'_>, rules: RuleSet) -> PathFeatures {
     }
     let requires = |effects: &[Effect]| effects.iter().any(|effect| builder.requires(*effect));
     let all = [
-        (PathFeatures::ALPHA, requires(&[Effect::Alpha])),
+        (
+            PathFeatures::ALPHA,
+            requires(&[Effect::Alpha, Effect::Blend]),
+        ),
         (PathFeatures::NEE, requires(&[Effect::DirectLight])),
         (PathFeatures::MICROFACETS, requires(&[Effect::Microfacets])),
         (PathFeatures::TRANSMISSION, builder.transmits()),

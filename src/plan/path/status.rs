@@ -76,6 +76,7 @@ fn absence(effect: Effect) -> &'static str {
         Effect::Emission => "no material emits light",
         Effect::Unlit => "no material is unlit",
         Effect::Alpha => "all materials are opaque",
+        Effect::Blend => "no material is a blend",
         Effect::DirectLight => "there is no light to sample",
         Effect::Shadows => "no light is sampled",
         Effect::Mis => "no light is found both by light sampling and by BSDF sampling",
@@ -177,6 +178,7 @@ impl PathPlanBuilder<'_> {
             Effect::Emission
             | Effect::Unlit
             | Effect::Alpha
+            | Effect::Blend
             | Effect::Microfacets
             | Effect::Refraction
             | Effect::Volume

@@ -144,6 +144,7 @@ impl RayCounts {
             | Effect::Emission
             | Effect::Unlit
             | Effect::Alpha
+            | Effect::Blend
             | Effect::Mis
             | Effect::Caustics
             | Effect::Microfacets

@@ -31,8 +31,7 @@ use crate::material::standard::{Alpha, StandardMaterial};
 use crate::ray::{Interaction, Ray};
 use crate::sampler::discrete::DiscreteDistribution;
 use crate::shape::emitter::{Emitter, EmitterPoint};
-use crate::shape::geometry::AttributeRequest;
-use crate::shape::geometry::Intersect;
+use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
 use crate::world::{PunctualId, Surface, SurfaceId, SurfacePrimitive, World};
 use rtc_math::{Bounds, Id, IdTable, Vec3, to_u32};
 use rtc_plan::RemainingLight;
@@ -292,7 +291,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
         }
         let [a, b, c] = triangle.corners;
         let at = |[u, v, w]: [f64; 3]| triangle.at(a * u + b * v + c * w);
-        let emission = |weights| self.point(triangle.surface, &at(weights)).emission();
+        let emission = |weights| self.point(triangle.surface, &at(weights)).0.emission();
         mean(&WEIGHTS.map(emission))
     }
 
@@ -308,13 +307,17 @@ impl<'world, S: Intersect> Lights<'world, S> {
         let at = |cell: u32| {
             let u = [middle(cell % CELLS), middle(cell / CELLS)];
             let at = light.emitter.sample(light.bounds.center(), u);
-            self.point(light.surface, &at).emission()
+            self.point(light.surface, &at).0.emission()
         };
         mean(&(0..CELLS * CELLS).map(at).collect::<Vec<_>>())
     }
 
     /// The material at a point of a surface.
-    fn point(&self, surface: SurfaceId, at: &EmitterPoint) -> MaterialPoint<'world> {
+    fn point(
+        &self,
+        surface: SurfaceId,
+        at: &EmitterPoint,
+    ) -> (MaterialPoint<'world>, ShadingAttributes) {
         let ray = Ray {
             origin: at.point,
             direction: at.normal,
@@ -331,17 +334,20 @@ impl<'world, S: Intersect> Lights<'world, S> {
         };
         let shape = &self.world.surfaces[surface].shape;
         let attributes = shape.shading_attributes(&ray, &interaction, at.prim_id, request);
-        MaterialPoint::new(self.material(surface), &attributes, at.point)
+        let point = MaterialPoint::new(self.material(surface), &attributes, at.point);
+        (point, attributes)
     }
 
     /// The radiance that a point of a surface emits on average: alpha leaves out the rest.
     fn emission(&self, surface: SurfaceId, at: &EmitterPoint) -> Vec3 {
         let material = self.material(surface);
-        if material.emission.map.is_none() && material.alpha == Alpha::Opaque {
+        let is_whole = material.alpha == Alpha::Opaque && material.blend.is_none();
+        if material.emission.map.is_none() && is_whole {
             return material.emission.factor;
         }
-        let point = self.point(surface, at);
-        point.emission() * point.opacity()
+        let (point, attributes) = self.point(surface, at);
+        let emission = point.emission();
+        emission * point.mean_opacity(&self.world.standards, &attributes)
     }
 
     fn material(&self, surface: SurfaceId) -> &'world StandardMaterial {

@@ -8,11 +8,14 @@ use crate::material::standard::{
 use crate::ray::Interaction;
 use crate::shape::geometry::ShadingAttributes;
 use crate::texture::sampled::UvSets;
-use rtc_math::{OrthonormalBasis, Vec3};
+use crate::world::Material;
+use rtc_math::{IdTable, OrthonormalBasis, Vec3};
 
 /// A material at one point of a surface.
 pub(crate) struct MaterialPoint<'world> {
     pub(crate) material: &'world StandardMaterial,
+    /// The material of the surface, of which `material` may be a part.
+    surface: &'world StandardMaterial,
     uvs: UvSets,
     /// Base colour and alpha at the point, vertex colours included.
     base: [f64; 4],
@@ -34,16 +37,65 @@ impl<'world> MaterialPoint<'world> {
     ) -> Self {
         let sets = [shading_attributes.uv, shading_attributes.second_uv];
         let uvs = UvSets::new(sets, point);
-        let (own, corners) = (
-            material.base_color.at(&uvs),
-            shading_attributes.color.unwrap_or([1.0; 4]),
-        );
-        let base = |k: usize| own[k] * corners[k];
         Self {
             material,
+            surface: material,
+            base: base(material, &uvs, shading_attributes),
             uvs,
-            base: [base(0), base(1), base(2), base(3)],
         }
+    }
+
+    /// Another part of the material of the surface at the point.
+    fn of_part(
+        self,
+        material: &'world StandardMaterial,
+        shading_attributes: &ShadingAttributes,
+    ) -> Self {
+        Self {
+            material,
+            base: base(material, &self.uvs, shading_attributes),
+            ..self
+        }
+    }
+
+    /// Whether the material is a blend.
+    pub(crate) fn is_blend(&self) -> bool {
+        self.material.blend.is_some()
+    }
+
+    /// The part of a blend that a number in [0, 1) chooses: each with the probability of its
+    /// weight, as in pbrt (Pharr, Jakob, Humphreys, §10.5.1).
+    pub(crate) fn chosen(
+        mut self,
+        mut u: f64,
+        materials: &'world IdTable<Material, StandardMaterial>,
+        shading_attributes: &ShadingAttributes,
+    ) -> Self {
+        while let Some(blend) = &self.material.blend {
+            let weight = blend.weight.at(&self.uvs).clamp(0.0, 1.0);
+            if u >= weight {
+                break;
+            }
+            u /= weight;
+            self = self.of_part(&materials[blend.other], shading_attributes);
+        }
+        self
+    }
+
+    /// The opacity of all parts of a blend by their weights.
+    pub(crate) fn mean_opacity(
+        mut self,
+        materials: &'world IdTable<Material, StandardMaterial>,
+        shading_attributes: &ShadingAttributes,
+    ) -> f64 {
+        let (mut sum, mut left) = (0.0, 1.0);
+        while let Some(blend) = &self.material.blend {
+            let weight = blend.weight.at(&self.uvs).clamp(0.0, 1.0);
+            sum += left * (1.0 - weight) * self.opacity();
+            left *= weight;
+            self = self.of_part(&materials[blend.other], shading_attributes);
+        }
+        sum + left * self.opacity()
     }
 
     /// The first texture coordinates.
@@ -70,9 +122,17 @@ impl<'world> MaterialPoint<'world> {
         Vec3::new(r, g, b).min(Vec3::ONE)
     }
 
-    /// The emitted radiance.
+    /// The radiance that the surface emits.
     pub(crate) fn emission(&self) -> Vec3 {
-        self.material.emission.at(&self.uvs)
+        if self.surface.is_unlit {
+            return Vec3::ZERO;
+        }
+        self.surface.emission.at(&self.uvs)
+    }
+
+    /// Whether the emission is looked up.
+    pub(crate) fn has_emission_map(&self) -> bool {
+        self.surface.emission.map.is_some()
     }
 
     /// The parameters of the BSDF that the [`PathFeatures`](rtc_plan::PathFeatures) `F` need;
@@ -269,6 +329,17 @@ impl ShadingFrame {
     pub(crate) fn to_world(&self, w: Vec3) -> Vec3 {
         self.basis.to_world(w)
     }
+}
+
+/// The base colour and alpha of a material at a point, vertex colours included.
+fn base(
+    material: &StandardMaterial,
+    uvs: &UvSets,
+    shading_attributes: &ShadingAttributes,
+) -> [f64; 4] {
+    let own = material.base_color.at(uvs);
+    let corners = shading_attributes.color.unwrap_or([1.0; 4]);
+    [0, 1, 2, 3].map(|k: usize| own[k] * corners[k])
 }
 
 /// A basis around a normal, with the surface's tangent if there is one.

@@ -4,6 +4,7 @@ use crate::bsdf::PlasticBoundary;
 use crate::bsdf::standard::*;
 use crate::shape::geometry::AttributeRequest;
 use crate::texture::sampled::{Map, UvSets};
+use crate::world::MaterialId;
 use rtc_math::{ComplexIndex, Microfacets, Vec3, Weight};
 
 /// A prepared material: constants are numbers, everything else has a map.
@@ -16,6 +17,8 @@ pub(crate) struct StandardMaterial {
     pub(crate) alpha: Alpha,
     /// The factor of the alpha.
     pub(crate) opacity: MappedNumber,
+    /// The other material, if it is a blend.
+    pub(crate) blend: Option<BlendPart>,
     /// Whether camera rays skip back faces.
     pub(crate) is_seen_from_one_side: bool,
     pub(crate) is_unlit: bool,
@@ -46,6 +49,15 @@ pub(crate) struct StandardMaterial {
     pub(crate) clearcoat: Option<ClearcoatLayer>,
     pub(crate) anisotropy: Option<AnisotropyLayer>,
     pub(crate) iridescence: Option<IridescenceLayer>,
+}
+
+/// The other material of a blend.
+#[derive(Clone, Debug)]
+pub(crate) struct BlendPart {
+    /// Its index, below that of the blend.
+    pub(crate) other: MaterialId,
+    /// The probability that it takes the place of the first one.
+    pub(crate) weight: MappedNumber,
 }
 
 /// The opacity of a surface.

@@ -26,7 +26,10 @@ impl AlphaTested {
         let tested = scene.materials().iter().map(|m| alpha(m) != Alpha::Opaque);
         let tested: IdTable<Material, bool> = tested.collect();
         let surfaces = scene.surfaces().iter().zip(flattened_surfaces(scene));
-        let surfaces = surfaces.filter(|(surface, _)| tested[surface.material]);
+        let surfaces = surfaces.filter(|(surface, _)| {
+            let mut parts = scene.blended(surface.material);
+            parts.any(|part| tested[part])
+        });
         surfaces.fold(Self::None, |all, (_, is_flattened)| match all {
             Self::None | Self::Triangles if is_flattened && S::FLATTENS => Self::Triangles,
             Self::None | Self::Triangles | Self::Solids => Self::Solids,

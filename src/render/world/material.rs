@@ -184,6 +184,10 @@ pub(super) fn standard(
             valid::Alpha::Blend => Alpha::Blend,
         },
         opacity: slots.number(UnitInterval::ONE, m.opacity_map.as_ref(), 0),
+        blend: m.blend_with.map(|other| BlendPart {
+            other: unchanged(other),
+            weight: slots.number(m.blend_weight, m.blend_map.as_ref(), 0),
+        }),
         is_seen_from_one_side: m.is_seen_from_one_side(),
         is_unlit: m.unlit,
         base_color: slots.rgba(m.base_color, m.base_color_map.as_ref()),
@@ -205,6 +209,21 @@ pub(super) fn standard(
         anisotropy: (m.anisotropy > UnitInterval::ZERO).then(|| slots.anisotropy(m)),
         iridescence: (m.iridescence > UnitInterval::ZERO).then(|| slots.iridescence(m)),
     }
+}
+
+/// Adds to the request of each blend those of its other materials, which come before it.
+pub(super) fn with_requests(
+    mut materials: IdTable<Material, StandardMaterial>,
+) -> IdTable<Material, StandardMaterial> {
+    for index in materials.ids() {
+        let other = materials[index].blend.as_ref().map(|blend| blend.other);
+        if let Some(other) = other {
+            let AttributeRequest { uv, tangent } = materials[other].request;
+            let request = &mut materials[index].request;
+            (request.uv, request.tangent) = (request.uv | uv, request.tangent | tangent);
+        }
+    }
+    materials
 }
 
 /// The boundary of a plastic; its roughness has no map.
@@ -254,6 +273,7 @@ impl MappedParameters<'_> {
         let others = [
             &m.base_color_map,
             &m.opacity_map,
+            &m.blend_map,
             &m.emissive_map,
             &m.normal_map,
             &m.clearcoat_normal_map,

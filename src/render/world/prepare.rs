@@ -3,7 +3,7 @@
 
 use super::alpha::AlphaTested;
 use super::flattened::{FlattenedInstances, flattened_surfaces};
-use super::material::{PhongList, standard, unchanged};
+use super::material::{PhongList, standard, unchanged, with_requests};
 use super::settings::{camera, settings};
 use super::shape::Prepare;
 use super::small_scene::SmallScene;
@@ -35,7 +35,8 @@ impl<S: Prepare> World<S> {
         let lights = light::lights_for(scene, plan, &textures);
         let (surfaces, phongs, standards) = match &plan.paths {
             None => {
-                let materials = scene.materials().iter().map(material::phong).collect();
+                let materials = material::phongs(scene.materials());
+                let materials = materials.into_iter().collect();
                 let mut list = PhongList::new(materials, scene.textures(), plan);
                 let surfaces = surfaces(scene, plan, simd, |material, has_uv| {
                     list.of(material, has_uv)
@@ -47,7 +48,11 @@ impl<S: Prepare> World<S> {
                 let prepared =
                     materials.map(|(index, material)| standard(index, material, &textures, paths));
                 let surfaces = surfaces(scene, plan, simd, |material, _| unchanged(material));
-                (surfaces, IdTable::default(), prepared.collect())
+                (
+                    surfaces,
+                    IdTable::default(),
+                    with_requests(prepared.collect()),
+                )
             }
         };
         // Build the hierarchies over the surfaces.

@@ -6,8 +6,8 @@ use crate::{FrontOptions, gltf, over_limit};
 use glam::DAffine3;
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{
-    EntityField, EntityKind, ImageId, Light, LoweredScene, Material, MeshId, Punctual, Scene,
-    Shape, SourceSpans, Surface, Texture, TextureId, ValuePath,
+    EntityField, EntityKind, ImageId, Light, LoweredScene, Material, MaterialId, MeshId, Punctual,
+    Scene, Shape, SourceSpans, Surface, Texture, TextureId, ValuePath,
 };
 use rtc_math::Vec3;
 use rtc_source::{Budget, FileId, FileKind, FoundFile, LimitExceeded, Resource};
@@ -166,6 +166,9 @@ impl IndexOffsets {
             standard
                 .maps_mut()
                 .for_each(|map| map.texture = TextureId(map.texture.0 + self.textures));
+            if let Some(MaterialId(other)) = &mut standard.blend_with {
+                *other += self.materials;
+            }
         }
         material
     }

@@ -22,8 +22,9 @@ use super::reader::MapReader;
 use super::record::{FieldDeclaration, FieldRequirement, FieldResult, FieldValue, Record};
 use super::schema::{self, SchemaDefinitions};
 use super::value::{AnyScalar, Color, DisplayName};
-use rtc_ir::{self as ir, Alpha};
+use rtc_ir::{self as ir, Alpha, EntityField, EntityKind, MaterialId};
 use rtc_math::{Microfacets, Plastic};
+use rtc_source::Span;
 use rtc_source::tree::NodeId;
 use rtc_tables::{camel_case, parameters};
 use serde_json::Value as Json;
@@ -89,10 +90,16 @@ macro_rules! written {
     (map) => {
         MapOrFile
     };
+    (material) => {
+        BlendedMaterial
+    };
 }
 
 /// The default for each kind of parameter.
 macro_rules! requirement {
+    (material, $default:expr) => {
+        FieldRequirement::Optional
+    };
     (map, $default:expr) => {
         FieldRequirement::Optional
     };
@@ -115,6 +122,9 @@ macro_rules! requirement {
 
 /// The value in the IR for each kind of parameter.
 macro_rules! lowered {
+    (material, $written:expr, $lowering:expr) => {
+        $lowering.blended(&$written.value, $written.span)
+    };
     (map, $written:expr, $lowering:expr) => {
         Some($lowering.texture_map(&$written.value, $written.span))
     };
@@ -215,9 +225,39 @@ macro_rules! material {
 
 parameters!(material);
 
+/// The other material of a blend: a standard material, too.
+pub(crate) struct BlendedMaterial(Box<StandardMaterial>);
+
+impl Decode for BlendedMaterial {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
+        StandardMaterial::decode(node, context).map(|material| Self(Box::new(material)))
+    }
+
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
+        StandardMaterial::schema(definitions)
+    }
+}
+
 impl Lowering {
     /// Lowers a standard material.
     pub(super) fn standard(&mut self, material: &StandardMaterial) -> ir::Material {
         ir::Material::Standard(Box::new(material.lowered(self)))
+    }
+
+    /// Lowers the other material of a blend, which comes before the blend.
+    fn blended(
+        &mut self,
+        BlendedMaterial(material): &BlendedMaterial,
+        span: Option<Span>,
+    ) -> Option<MaterialId> {
+        let lowered = self.standard(material);
+        let id = self.add_material(lowered);
+        self.record_span(
+            EntityKind::Material,
+            id.0 as usize,
+            EntityField::Whole,
+            span,
+        );
+        Some(id)
     }
 }

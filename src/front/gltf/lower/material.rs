@@ -132,6 +132,29 @@ impl ImportedMaterials {
         if let Some(known) = known {
             return known;
         }
+        // The other materials of a blend come before it.
+        let mut chain: Vec<usize> = material.into_iter().collect();
+        while let Some(other) = chain.last().and_then(|last| blended(doc, *last, report))
+            && chain.len() < MOST_BLENDED
+        {
+            chain.push(other);
+        }
+        for other in chain.iter().skip(1).rev() {
+            if self.made[*other].is_none() {
+                self.make_one(doc, Some(*other), scene, source_spans, report);
+            }
+        }
+        self.make_one(doc, material, scene, source_spans, report)
+    }
+
+    fn make_one(
+        &mut self,
+        doc: &Document<'_>,
+        material: Option<usize>,
+        scene: &mut Scene,
+        source_spans: &mut SourceSpans,
+        report: &mut AssetReport<'_, '_>,
+    ) -> MaterialId {
         let id = MaterialId(to_u32(scene.materials.len()));
         let mut standard = match material {
             None => Standard::default(),
@@ -157,7 +180,11 @@ impl ImportedMaterials {
                     self.made[material] = Some(id);
                     return id;
                 }
-                reader.material(fields)
+                let mut standard = reader.material(fields);
+                if let Some(other) = blended(doc, material, report) {
+                    standard.blend_with = self.made[other];
+                }
+                standard
             }
         };
         // Two sets of texture coordinates at most remain in a material.
@@ -193,6 +220,16 @@ impl ImportedMaterials {
         }
         id
     }
+}
+
+/// The most materials of a blend.
+const MOST_BLENDED: usize = 16;
+
+/// The other material of a blend in `extras.rtc`, an earlier one.
+fn blended(doc: &Document<'_>, material: usize, report: &AssetReport<'_, '_>) -> Option<usize> {
+    let fields = ObjectFields::new(report.json, doc.materials[material]);
+    let other = fields.rtc_extras()?.index("blendWith");
+    other.filter(|other| *other < material)
 }
 
 /// Reads materials, bringing the textures they name.
@@ -251,7 +288,10 @@ impl MaterialReader<'_, '_, '_, '_> {
         self.iridescence(fields, &mut standard);
         conductor(fields, &mut standard);
         facets(fields, &mut standard);
-        standard.opacity_map = self.map(fields.rtc_extras(), "opacityTexture");
+        let extension = fields.rtc_extras();
+        standard.opacity_map = self.map(extension, "opacityTexture");
+        standard.blend_weight = number(extension, "blendWeight", 0.0);
+        standard.blend_map = self.map(extension, "blendTexture");
         standard
     }
 

@@ -155,8 +155,8 @@ static PHOTOMETRY: ObjectSchema = rtc_object(&[
 ]);
 
 /// Phong's model, or of the standard material the index of a metal with its base colour, the
-/// distribution of facets, the kind of plastic, whether its back reflects nothing, the opacity, and
-/// whether it is a pane of two faces.
+/// distribution of facets, the kind of plastic, whether its back reflects nothing, the opacity,
+/// whether it is a pane of two faces, and the other material of a blend.
 static MATERIAL: ObjectSchema = rtc_object(&[
     optional("phong", One(&PHONG)),
     optional("conductor", One(&CONDUCTOR)),
@@ -165,6 +165,9 @@ static MATERIAL: ObjectSchema = rtc_object(&[
     optional("blackBack", Boolean),
     optional("opacityTexture", One(&TEXTURE_INFO)),
     optional("thinDielectric", Boolean),
+    optional("blendWith", Index(IndexTarget::Materials)),
+    optional("blendWeight", Number(FACTOR)),
+    optional("blendTexture", One(&TEXTURE_INFO)),
 ]);
 static CONDUCTOR: ObjectSchema = rtc_object(&[
     required("eta", Numbers(&[3], FACTOR)),

@@ -10,7 +10,7 @@ use rtc_valid::{Alpha, Map, MaterialId, Standard};
 pub(crate) const ZERO: PathRule = PathRule {
     name: "P-WEIGHT-ZERO",
     text: "Transmission, specular reflection, emission and layers of weight 0 contribute nothing, \
-           nor does the index of a metal where none is. \
+           nor does the index of a metal where none is, nor the other material of a blend. \
            The weight is 0 if the factor is 0, or if the texture is 0 in the used channel \
            everywhere on the surfaces.",
     reason: "its textures are 0 everywhere on the surfaces",
@@ -44,6 +44,9 @@ fn without_zeros(builder: &PathPlanBuilder<'_>, index: MaterialId, m: &Standard)
     if m.metallic == UnitInterval::ZERO || builder.is_zero(index, metals, 2..3) {
         new.conductor = None;
     }
+    if m.blend_weight == UnitInterval::ZERO || is_zero(&m.blend_map, 0) {
+        new.blend_with = None;
+    }
     if m.emissive != Vec3::ZERO && are_zero(&m.emissive_map) {
         new.emissive = Vec3::ZERO;
     }
@@ -65,6 +68,9 @@ pub(crate) const UNLIT: PathRule = PathRule {
                 base_color_map: material.base_color_map,
                 alpha: material.alpha,
                 opacity_map: material.opacity_map,
+                blend_with: material.blend_with,
+                blend_weight: material.blend_weight,
+                blend_map: material.blend_map,
                 double_sided: !material.is_seen_from_one_side(),
                 unlit: true,
                 ..facts::material::WHITE.clone()

@@ -25,6 +25,7 @@ fn without_unused_maps(builder: &PathPlanBuilder<'_>, index: MaterialId, m: &Sta
     let conditions = [
         (&mut new.base_color_map, true),
         (&mut new.opacity_map, m.alpha != Alpha::Opaque),
+        (&mut new.blend_map, m.blend_with.is_some()),
         (
             &mut new.metallic_roughness_map,
             is_metal_or_rough && m.specular_glossiness.is_none(),

@@ -101,7 +101,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             return;
         }
         self.counts.add(Effect::Emission);
-        if vertex.point.material.emission.map.is_some() {
+        if vertex.point.has_emission_map() {
             self.counts.add(Effect::Textures);
         }
         let (hit, wo) = (vertex.hit, -state.ray.direction);

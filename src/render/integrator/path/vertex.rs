@@ -58,6 +58,11 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
                     .shape
                     .shading_attributes(&state.ray, &at, hit.prim_id, request);
             let point = self.point(surface.material, &shading_attributes, at.point);
+            let point = if Self::can(PathFeatures::ALPHA) && point.is_blend() {
+                self.part(state, point, skipped, &shading_attributes)
+            } else {
+                point
+            };
             state.travelled += hit.t;
             // Skip the hit with the probability of its transparency.
             let opacity = if skips_back(state, &at, point.material) {
@@ -80,6 +85,29 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             return Some(shade(self, state, &vertex));
         }
         None
+    }
+
+    /// The part of a blend that a hit shows.
+    fn part(
+        &mut self,
+        state: &PathState,
+        point: MaterialPoint<'world>,
+        skipped: u32,
+        shading_attributes: &ShadingAttributes,
+    ) -> MaterialPoint<'world> {
+        self.count_blend(&point);
+        // The alpha test has the numbers before these.
+        let u = state.sobol.uniform(state.bounces, MAX_SKIPPED + skipped);
+        point.chosen(u, &self.world.standards, shading_attributes)
+    }
+
+    /// Counts the evaluation of a blend.
+    fn count_blend(&mut self, point: &MaterialPoint<'_>) {
+        self.counts.add(Effect::Blend);
+        let blend = point.material.blend.as_ref();
+        if blend.is_some_and(|blend| blend.weight.map.is_some()) {
+            self.counts.add(Effect::Textures);
+        }
     }
 
     /// The closest hit of the ray. It is a separate function, as is [`Self::visibility`], so that
@@ -120,8 +148,33 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         if !Self::can(PathFeatures::ALPHA) || point.material.alpha == Alpha::Opaque {
             return 1.0;
         }
-        self.counts.add(Effect::Alpha);
+        self.count_alpha(point.material);
         point.opacity()
+    }
+
+    /// The opacity at a point of a surface, of a blend that of all its parts.
+    pub(super) fn whole_opacity(
+        &mut self,
+        point: MaterialPoint<'world>,
+        shading_attributes: &ShadingAttributes,
+    ) -> f64 {
+        if !point.is_blend() {
+            return self.opacity(&point);
+        }
+        self.count_blend(&point);
+        self.count_alpha(point.material);
+        point.mean_opacity(&self.world.standards, shading_attributes)
+    }
+
+    /// Counts the evaluation of an opacity.
+    fn count_alpha(&mut self, material: &StandardMaterial) {
+        if material.alpha == Alpha::Opaque {
+            return;
+        }
+        self.counts.add(Effect::Alpha);
+        if material.opacity.map.is_some() {
+            self.counts.add(Effect::Textures);
+        }
     }
 }
 

@@ -45,7 +45,8 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     /// The interaction of a hit, and the transmittance of the surface there.
     fn transmittance(&mut self, ray: &Ray, hit: &Hit) -> (Option<Interaction>, f64) {
         let surface = &self.world.surfaces[hit.surface];
-        if self.world.standards[surface.material].alpha == Alpha::Opaque {
+        let material = &self.world.standards[surface.material];
+        if material.alpha == Alpha::Opaque && material.blend.is_none() {
             return (None, 0.0);
         }
         let at = surface.shape.interaction(ray, hit.t, hit.prim_id);
@@ -54,7 +55,10 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             .shape
             .shading_attributes(ray, &at, hit.prim_id, request);
         let point = self.point(surface.material, &shading_attributes, at.point);
-        (Some(at), 1.0 - self.opacity(&point))
+        (
+            Some(at),
+            1.0 - self.whole_opacity(point, &shading_attributes),
+        )
     }
 
     /// As [`Self::visibility`], for surfaces that a ray may cross more than once.
