@@ -110,11 +110,12 @@ impl Light {
         self
     }
 
-    /// The kind of the light, as scene texts name it: `point`, `sun`, `spot` or `ies`.
+    /// The kind of the light, as scene texts name it: `point`, `sun`, `spot` or `ies`; or `plain`
+    /// for one without falloff.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match &self.0 {
-            ir::Light::Point(_) => "point",
+            ir::Light::Point(_) => "plain",
             ir::Light::Punctual(light) => light.emitter.spelling().kind,
         }
     }

@@ -1,14 +1,14 @@
 //! Findings as dictionaries, and the errors of the library as the exception that holds them.
 
-use pyo3::exceptions::PyException;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rtc::{Error, Diagnostic, Severity};
+use rtc::{Diagnostic, Error, Severity};
 
 pyo3::create_exception!(
     rtc,
     SceneError,
-    PyException,
+    PyValueError,
     "A scene that can't be read or rendered; `findings` says what was found in it."
 );
 
@@ -33,14 +33,26 @@ pub(crate) fn told(py: Python<'_>, finding: &Diagnostic) -> PyResult<Py<PyAny>> 
         .map(|hint| hint.text.as_str())
         .collect();
     dict.set_item("hints", hints)?;
+    dict.set_item("path", &finding.path)?;
     dict.set_item("text", finding.to_string())?;
     Ok(dict.into_any().unbind())
 }
 
 /// The exception of an error.
 pub(crate) fn raised(py: Python<'_>, error: &Error) -> PyErr {
-    let findings = error.diagnostics().iter().map(|finding| told(py, finding));
-    let raised = SceneError::new_err(error.to_string());
+    with_findings(py, error.to_string(), error.diagnostics())
+}
+
+/// The exception of a scene that is not valid.
+pub(crate) fn invalid(py: Python<'_>, found: &[Diagnostic]) -> PyErr {
+    let is_error = |found: &&Diagnostic| found.severity == Severity::Error;
+    let first = found.iter().find(is_error).map(Diagnostic::short);
+    with_findings(py, first.unwrap_or_default(), found)
+}
+
+fn with_findings(py: Python<'_>, message: String, found: &[Diagnostic]) -> PyErr {
+    let findings = found.iter().map(|finding| told(py, finding));
+    let raised = SceneError::new_err(message);
     let set = findings
         .collect::<PyResult<Vec<_>>>()
         .and_then(|findings| raised.value(py).setattr("_findings", findings));

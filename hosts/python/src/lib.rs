@@ -1,25 +1,26 @@
 //! The module `rtc._rtc`: the scenes of the library `rtc` for Python, which `python/rtc` makes pleasant. Renders
 //! let other threads of Python run, and end at Ctrl-C.
 
+mod builder;
 mod findings;
 mod picture;
 
 use findings::{SceneError, raised, told};
 use picture::Picture;
 use pyo3::prelude::*;
-use rtc::{Aov, Format, Options, Reading, Tone};
+use rtc::{Aov, Effort, Error, Format, Options, Reading, Tone};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
 /// How long a signal waits at most.
 const WAIT: Duration = Duration::from_millis(50);
 
-/// A scene that was read.
+/// A scene that was read or built.
 #[pyclass]
 struct Scene(rtc::Scene);
 
@@ -171,44 +172,89 @@ impl Scene {
         findings.iter().map(|finding| told(py, finding)).collect()
     }
 
-    /// Its picture. It is rendered beside the thread of Python, which looks for signals meanwhile.
-    fn render(&self, py: Python<'_>, words: PictureWords) -> PyResult<Picture> {
-        let (options, format) = (words.options()?, format(&words.format)?);
-        let is_stopped = AtomicBool::new(false);
-        let stop = || is_stopped.load(Ordering::Relaxed);
-        thread::scope(|scope| {
-            let (sender, receiver) = channel();
-            scope.spawn(|| {
-                let picture = self.0.render_until(&options, &stop);
-                // Whoever was stopped by a signal does not wait for it.
-                let _ = sender.send(picture);
-                drop(sender);
+    /// Its picture; `on_progress` is called with the share that is done.
+    fn render(
+        &self,
+        py: Python<'_>,
+        words: PictureWords,
+        on_progress: Option<Py<PyAny>>,
+    ) -> PyResult<Picture> {
+        let (mut options, format) = (words.options()?, format(&words.format)?);
+        let share = Arc::new(AtomicU64::new(0));
+        if on_progress.is_some() {
+            let share = Arc::clone(&share);
+            options = options.on_progress(move |progress| {
+                share.store(progress.done.to_bits(), Ordering::Relaxed)
             });
-            let receiver = Mutex::new(receiver);
-            let wait = || {
-                let receiver = receiver.lock().unwrap_or_else(|poison| poison.into_inner());
-                receiver.recv_timeout(WAIT)
-            };
-            loop {
-                match py.detach(wait) {
-                    Ok(picture) => {
-                        let picture = picture.map_err(|error| raised(py, &error));
-                        return picture.map(|picture| Picture::new(picture, format));
-                    }
-                    Err(RecvTimeoutError::Timeout) => {
-                        if let Err(signal) = py.check_signals() {
-                            is_stopped.store(true, Ordering::Relaxed);
-                            return Err(signal);
-                        }
-                    }
-                    Err(RecvTimeoutError::Disconnected) => {
-                        let words = "internal error: the render ended without a picture";
-                        return Err(SceneError::new_err(words));
+        }
+        let report = |py: Python<'_>| match &on_progress {
+            Some(report) => report
+                .call1(py, (f64::from_bits(share.load(Ordering::Relaxed)),))
+                .map(drop),
+            None => Ok(()),
+        };
+        let picture = beside(py, &report, |stop| self.0.render_until(&options, stop))?;
+        Ok(Picture::new(picture, format))
+    }
+
+    /// A copy, to be changed.
+    fn copy(&self) -> Self {
+        Self(self.0.clone())
+    }
+
+    /// What accuracy costs in time, as JSON.
+    fn cost(&self, py: Python<'_>, effort: &str) -> PyResult<String> {
+        let effort = match effort {
+            "quick" => Effort::Quick,
+            "normal" => Effort::Normal,
+            "thorough" => Effort::Thorough,
+            _ => return Err(unknown("effort", effort, "quick, normal, thorough")),
+        };
+        let cost = beside(py, &|_| Ok(()), |stop| self.0.cost_until(effort, stop))?;
+        Ok(cost.json())
+    }
+}
+
+/// Does some work beside the thread of Python, which reports progress and looks for signals meanwhile.
+fn beside<T: Send>(
+    py: Python<'_>,
+    report: &dyn Fn(Python<'_>) -> PyResult<()>,
+    work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> Result<T, Error> + Send,
+) -> PyResult<T> {
+    let is_stopped = AtomicBool::new(false);
+    let stop = || is_stopped.load(Ordering::Relaxed);
+    thread::scope(|scope| {
+        let (sender, receiver) = channel();
+        scope.spawn(|| {
+            let done = work(&stop);
+            // Whoever was stopped by a signal does not wait for it.
+            let _ = sender.send(done);
+            drop(sender);
+        });
+        let receiver = Mutex::new(receiver);
+        let wait = || {
+            let receiver = receiver.lock().unwrap_or_else(|poison| poison.into_inner());
+            receiver.recv_timeout(WAIT)
+        };
+        loop {
+            match py.detach(wait) {
+                Ok(done) => {
+                    report(py)?;
+                    return done.map_err(|error| raised(py, &error));
+                }
+                Err(RecvTimeoutError::Timeout) => {
+                    if let Err(signal) = py.check_signals().and_then(|()| report(py)) {
+                        is_stopped.store(true, Ordering::Relaxed);
+                        return Err(signal);
                     }
                 }
+                Err(RecvTimeoutError::Disconnected) => {
+                    let words = "internal error: the work ended without a result";
+                    return Err(SceneError::new_err(words));
+                }
             }
-        })
-    }
+        }
+    })
 }
 
 impl Scene {
@@ -275,6 +321,8 @@ fn _rtc(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("SceneError", module.py().get_type::<SceneError>())?;
     module.add_class::<Scene>()?;
+    module.add_class::<builder::Builder>()?;
     module.add_class::<Picture>()?;
+    module.add_function(wrap_pyfunction!(builder::material_values, module)?)?;
     module.add_function(wrap_pyfunction!(command, module)?)
 }

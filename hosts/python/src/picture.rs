@@ -1,8 +1,8 @@
-//! A picture for Python: its numbers as bytes, which numpy reads without a copy of each.
+//! A picture for Python: its numbers as arrays of bytes, which numpy reads and writes without a copy.
 
 use crate::findings::raised;
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::types::{PyByteArray, PyBytes};
 use rtc::{Aov, Format};
 use std::path::PathBuf;
 
@@ -29,27 +29,31 @@ impl Picture {
     }
 
     /// All channels of all pixels as 32-bit floats of this machine.
-    fn values<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+    fn values<'py>(&self, py: Python<'py>) -> Bound<'py, PyByteArray> {
         let alpha = |at: usize| self.made.alpha().map(|alpha| alpha[at]);
         let pixels = self.made.pixels().iter().enumerate();
         let values = pixels.flat_map(|(at, pixel)| {
             let color = pixel.map(|value| value as f32);
             color.into_iter().chain(alpha(at))
         });
-        PyBytes::new(py, &values.flat_map(f32::to_ne_bytes).collect::<Vec<u8>>())
+        PyByteArray::new(py, &values.flat_map(f32::to_ne_bytes).collect::<Vec<u8>>())
     }
 
     /// Red, green, blue and opacity of all pixels in a byte each, as a display shows them.
-    fn rgba8<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
-        PyBytes::new(py, &self.made.rgba8())
+    fn rgba8<'py>(&self, py: Python<'py>) -> Bound<'py, PyByteArray> {
+        PyByteArray::new(py, &self.made.rgba8())
     }
 
     /// The values of a layer as 32-bit floats of this machine, and its channels.
-    fn layer<'py>(&self, py: Python<'py>, name: &str) -> PyResult<(Bound<'py, PyBytes>, usize)> {
+    fn layer<'py>(
+        &self,
+        py: Python<'py>,
+        name: &str,
+    ) -> PyResult<(Bound<'py, PyByteArray>, usize)> {
         let aov: Aov = crate::aov(name)?;
         let values = self.made.layer(aov).unwrap_or_default();
         let bytes: Vec<u8> = values.into_iter().flat_map(f32::to_ne_bytes).collect();
-        Ok((PyBytes::new(py, &bytes), aov.channels().len()))
+        Ok((PyByteArray::new(py, &bytes), aov.channels().len()))
     }
 
     /// The bytes of its file.

@@ -46,9 +46,35 @@ def test_arrays_have_their_shape_and_kind(ball):
     assert clear.array.shape == (24, 32, 4) and clear.array[0, 0, 3] == 0
 
 
+def test_arrays_can_be_written(ball):
+    image = rtc.load(ball).render(aovs=["depth"])
+    for values in (image.array, image.rgba8, image.aovs["depth"]):
+        values[0, 0] = 0
+    assert image.aovs["depth"][0, 0, 0] == 1e10
+
+
+def test_numbers_of_numpy_are_taken(ball):
+    scene = rtc.load(ball)
+    image = scene.render(size=np.int64(8), settings={"supersampling": np.int32(2), "toon": np.bool_(False)})
+    assert image.array.shape == (8, 8, 3)
+    assert scene.render(size=np.array([4, 6])).array.shape == (6, 4, 3)
+
+
+def test_progress_is_told(ball, capfd):
+    shares = []
+    rtc.load(ball).render(size=200, supersampling=4, progress=shares.append)
+    assert shares[-1] == 1 and shares == sorted(shares)
+    rtc.load(ball).render(size=8, progress=True)
+    assert "100%" in capfd.readouterr().err
+    with pytest.raises(ZeroDivisionError):
+        rtc.load(ball).render(progress=lambda share: 1 / 0)
+
+
 def test_linear_values_and_their_files(tmp_path, ball):
     image = rtc.load(ball).render(format="exr")
-    assert image._repr_png_() is None
+    shown = image._repr_png_()
+    (tmp_path / "shown.png").write_bytes(shown)
+    assert rtc.diff(tmp_path / "shown.png", rtc.load(ball).render()).max <= 1
     image.save(tmp_path / "x.exr")
     assert (tmp_path / "x.exr").read_bytes()[:4] == b"\x76\x2f\x31\x01"
     with pytest.raises(rtc.SceneError, match="made for a .exr"):

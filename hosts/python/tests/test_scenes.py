@@ -36,9 +36,11 @@ def test_a_scene_with_errors_raises_what_was_found(ball):
 
 
 def test_what_is_not_there_raises(tmp_path):
-    with pytest.raises(rtc.SceneError) as raised:
+    with pytest.raises(FileNotFoundError, match="none.yaml"):
         rtc.load(tmp_path / "none.yaml")
-    assert raised.value.findings[0].code == "IO001"
+    with pytest.raises(rtc.SceneError) as raised:
+        rtc.load(tmp_path)
+    assert isinstance(raised.value, ValueError) and raised.value.findings[0].code == "IO001"
 
 
 def test_words_that_do_not_fit_are_told(ball):

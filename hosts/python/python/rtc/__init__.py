@@ -15,14 +15,19 @@ from __future__ import annotations
 import sys
 
 from . import _rtc
+from ._builder import (
+    Camera, Light, Material, Object, Phong, SceneBuilder, Shape, Standard, cone, cylinder, disc, ellipsoid, plain, plane,
+    point, quad, sphere, spot, sun, torus, triangle,
+)
 from ._meshes import from_trimesh, mesh
 from ._pictures import Difference, Image, diff
 from ._scenes import Finding, Rows, Scene, SceneError, load
 
 __version__ = _rtc.__version__
 __all__ = [
-    "Difference", "Finding", "Image", "Rows", "Scene", "SceneError",
-    "diff", "from_trimesh", "load", "main", "mesh",
+    "Camera", "Difference", "Finding", "Image", "Light", "Material", "Object", "Phong", "Rows", "Scene", "SceneBuilder",
+    "SceneError", "Shape", "Standard", "cone", "cylinder", "diff", "disc", "ellipsoid", "from_trimesh", "load", "main",
+    "mesh", "plain", "plane", "point", "quad", "sphere", "spot", "sun", "torus", "triangle",
 ]
 
 

@@ -1,56 +1,93 @@
-"""Meshes of other programs as scenes: they become a PLY in memory."""
+"""Meshes of other programs as scenes."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, List, Optional, Tuple, Union
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from ._scenes import Scene, load
+if TYPE_CHECKING:
+    import trimesh
+
+    from ._builder import Material
+    from ._scenes import Scene
 
 
-def mesh(vertices: Any, faces: Any, *, normals: Any = None, colors: Any = None, **reading: Any) -> Scene:
-    """A scene of one mesh, shown as `rtc render mesh.ply` shows it.
+def mesh(
+    vertices: ArrayLike,
+    faces: ArrayLike,
+    *,
+    normals: Optional[ArrayLike] = None,
+    uvs: Optional[ArrayLike] = None,
+    colors: Optional[ArrayLike] = None,
+    material: Optional[Material] = None,
+) -> Scene:
+    """A scene of one mesh; without lights of its own, it is rendered in the studio.
 
-    `vertices` are n × 3 numbers, kept in double precision; `faces` m × 3 indices; `normals` n × 3; `colors`
-    n × 3 or n × 4 in 8 bits, or from 0 to 1. `reading` is that of `load`.
+    `vertices` are n × 3 numbers, kept in double precision; `faces` m × 3 indices; `normals` n × 3; `uvs` n × 2;
+    `colors` n × 3 or n × 4 in 8 bits, or from 0 to 1. `SceneBuilder` holds several meshes, lights and textures.
     """
-    vertices = np.asarray(vertices, np.float64)
-    faces = np.asarray(faces)
-    if vertices.ndim != 2 or vertices.shape[1] != 3:
-        raise ValueError(f"vertices are n × 3 numbers, not {vertices.shape}")
-    if faces.ndim != 2 or faces.shape[1] != 3 or not np.issubdtype(faces.dtype, np.integer):
-        raise ValueError("faces are m × 3 whole numbers")
-    if faces.size and (faces.min() < 0 or faces.max() >= len(vertices)):
-        raise ValueError(f"faces name vertices from 0 to {len(vertices) - 1}")
-    columns = [(name, "<f8", vertices[:, k]) for k, name in enumerate("xyz")]
+    from ._scenes import load
+
+    points = vertices_of(vertices)
+    corners = faces_of(faces, len(points))
+    columns = [(name, "<f8", points[:, k]) for k, name in enumerate("xyz")]
     if normals is not None:
-        normals = _per_vertex(normals, vertices, "normals")
-        columns += [("n" + name, "<f8", normals[:, k]) for k, name in enumerate("xyz")]
+        directions = per_vertex(normals, points, "normals", (3,))
+        columns += [("n" + name, "<f8", directions[:, k]) for k, name in enumerate("xyz")]
+    if uvs is not None:
+        places = per_vertex(uvs, points, "uvs", (2,))
+        columns += [(name, "<f8", places[:, k]) for k, name in enumerate("st")]
     if colors is not None:
-        colors = _bytes(_per_vertex(colors, vertices, "colors"))
+        tints = _bytes(per_vertex(colors, points, "colors", (3, 4)))
         names = ["red", "green", "blue", "alpha"]
-        columns += [(names[k], "u1", colors[:, k]) for k in range(colors.shape[1])]
-    content = _ply(columns, faces.astype("<u4"))
-    return load(content, name="mesh.ply", **reading)
+        columns += [(names[k], "u1", tints[:, k]) for k in range(tints.shape[1])]
+    scene = load(_ply(columns, corners.astype("<u4")), name="mesh.ply")
+    if material is not None:
+        scene.materials = [material] * len(scene.materials)
+    return scene
 
 
-def from_trimesh(shape: Any, **reading: Any) -> Scene:
-    """A scene of a `trimesh.Trimesh`, with the colours of its vertices if it has some, or of a
-    `trimesh.Scene`, with all its materials, as glTF."""
-    if hasattr(shape, "geometry"):
-        return load(shape.export(file_type="glb"), name="scene.glb", **reading)
+def from_trimesh(shape: Union[trimesh.Trimesh, trimesh.Scene], *, material: Optional[Material] = None) -> Scene:
+    """A scene of a `trimesh.Trimesh`, with the colours of its vertices or its texture if it has one, or of a
+    `trimesh.Scene`, with all its materials, as glTF. A `material` takes the place of all."""
+    from ._scenes import load
+
     visual = getattr(shape, "visual", None)
+    if hasattr(shape, "geometry") or getattr(visual, "kind", None) == "texture":
+        scene = load(shape.export(file_type="glb"), name="scene.glb")
+        if material is not None:
+            scene.materials = [material] * len(scene.materials)
+        return scene
     colors = visual.vertex_colors if getattr(visual, "kind", None) == "vertex" else None
-    return mesh(shape.vertices, shape.faces, colors=colors, **reading)
+    return mesh(shape.vertices, shape.faces, colors=colors, material=material)
 
 
-def _per_vertex(values: Any, vertices: np.ndarray, name: str) -> np.ndarray:
-    values = np.asarray(values)
-    widths = (3, 4) if name == "colors" else (3,)
-    if values.ndim != 2 or len(values) != len(vertices) or values.shape[1] not in widths:
-        raise ValueError(f"{name} are one for each of the {len(vertices)} vertices, not {values.shape}")
-    return values
+def vertices_of(vertices: ArrayLike) -> NDArray[np.float64]:
+    """n × 3 numbers."""
+    points = np.asarray(vertices, np.float64)
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise ValueError(f"vertices are n × 3 numbers, not {points.shape}")
+    return points
+
+
+def faces_of(faces: ArrayLike, count: int) -> NDArray[np.integer]:
+    """m × 3 indices of so many vertices."""
+    corners = np.asarray(faces)
+    if corners.ndim != 2 or corners.shape[1] != 3 or not np.issubdtype(corners.dtype, np.integer):
+        raise ValueError("faces are m × 3 whole numbers")
+    if corners.size and (corners.min() < 0 or corners.max() >= count):
+        raise ValueError(f"faces name vertices from 0 to {count - 1}")
+    return corners
+
+
+def per_vertex(values: ArrayLike, points: np.ndarray, name: str, widths: Tuple[int, ...]) -> np.ndarray:
+    """One row of a width for each vertex."""
+    rows = np.asarray(values)
+    if rows.ndim != 2 or len(rows) != len(points) or rows.shape[1] not in widths:
+        raise ValueError(f"{name} are one for each of the {len(points)} vertices, not {rows.shape}")
+    return rows
 
 
 def _bytes(colors: np.ndarray) -> np.ndarray:
@@ -59,7 +96,7 @@ def _bytes(colors: np.ndarray) -> np.ndarray:
     return np.rint(np.clip(colors, 0.0, 1.0) * 255).astype(np.uint8)
 
 
-def _ply(columns: list[tuple[str, str, np.ndarray]], faces: np.ndarray) -> bytes:
+def _ply(columns: List[Tuple[str, str, np.ndarray]], faces: np.ndarray) -> bytes:
     kinds = {"<f8": "double", "u1": "uchar"}
     count = len(columns[0][2])
     vertices = np.empty(count, [(name, kind) for name, kind, _ in columns])
