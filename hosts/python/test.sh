@@ -14,4 +14,5 @@ target/fresh/bin/pip install --quiet "$(ls target/wheels/*.whl)[test]"
 # From elsewhere, so that what is tested is what was installed.
 cd tests
 ../target/fresh/bin/python -m pytest -q -p no:cacheprovider .
+../target/fresh/bin/python -m mypy --strict -p rtc
 ls -l ../target/wheels

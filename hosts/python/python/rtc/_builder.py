@@ -125,6 +125,8 @@ class Material:
     """
 
     kind: str
+    _scene: Optional[Tuple[Scene, int]]
+    _values: Dict[str, Json]
 
     def __init__(self, kind: str, values: Mapping[str, object]):
         object.__setattr__(self, "_scene", None)
@@ -134,7 +136,7 @@ class Material:
             setattr(self, name, value)
 
     @classmethod
-    def _of(cls, text: str, scene: object, index: int) -> Material:
+    def _of(cls, text: str, scene: Scene, index: int) -> Material:
         [(kind, values)] = json.loads(text).items()
         material = cls(kind, {})
         material._values.update(values)

@@ -32,7 +32,7 @@ def mesh(
 
     points = vertices_of(vertices)
     corners = faces_of(faces, len(points))
-    columns = [(name, "<f8", points[:, k]) for k, name in enumerate("xyz")]
+    columns: List[Tuple[str, str, np.ndarray]] = [(name, "<f8", points[:, k]) for k, name in enumerate("xyz")]
     if normals is not None:
         directions = per_vertex(normals, points, "normals", (3,))
         columns += [("n" + name, "<f8", directions[:, k]) for k, name in enumerate("xyz")]
@@ -55,12 +55,15 @@ def from_trimesh(shape: Union[trimesh.Trimesh, trimesh.Scene], *, material: Opti
     from ._scenes import load
 
     visual = getattr(shape, "visual", None)
-    if hasattr(shape, "geometry") or getattr(visual, "kind", None) == "texture":
-        scene = load(shape.export(file_type="glb"), name="scene.glb")
+    kind = getattr(visual, "kind", None)
+    if hasattr(shape, "geometry") or kind == "texture":
+        content = shape.export(file_type="glb")
+        assert isinstance(content, bytes), "a .glb is bytes"
+        scene = load(content, name="scene.glb")
         if material is not None:
             scene.materials = [material] * len(scene.materials)
         return scene
-    colors = visual.vertex_colors if getattr(visual, "kind", None) == "vertex" else None
+    colors = getattr(visual, "vertex_colors", None) if kind == "vertex" else None
     return mesh(shape.vertices, shape.faces, colors=colors, material=material)
 
 
@@ -90,10 +93,10 @@ def per_vertex(values: ArrayLike, points: np.ndarray, name: str, widths: Tuple[i
     return rows
 
 
-def _bytes(colors: np.ndarray) -> np.ndarray:
-    if np.issubdtype(colors.dtype, np.integer):
-        return np.clip(colors, 0, 255).astype(np.uint8)
-    return np.rint(np.clip(colors, 0.0, 1.0) * 255).astype(np.uint8)
+def _bytes(colors: np.ndarray) -> NDArray[np.uint8]:
+    is_whole = np.issubdtype(colors.dtype, np.integer)
+    levels = np.clip(colors, 0, 255) if is_whole else np.rint(np.clip(colors, 0.0, 1.0) * 255)
+    return np.asarray(levels, np.uint8)
 
 
 def _ply(columns: List[Tuple[str, str, np.ndarray]], faces: np.ndarray) -> bytes:

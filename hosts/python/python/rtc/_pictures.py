@@ -45,7 +45,7 @@ class Image:
         shown; of exr linear values (Rec. 709), times the opacity where there is one."""
         return np.frombuffer(self._made.values(), np.float32).reshape(self._made.shape)
 
-    def __array__(self, dtype: DTypeLike = None, copy: Optional[bool] = None) -> np.ndarray:
+    def __array__(self, dtype: Optional[DTypeLike] = None, copy: Optional[bool] = None) -> np.ndarray:
         return self.array if dtype is None else self.array.astype(dtype)
 
     @property
@@ -102,7 +102,7 @@ def _png(rgba: NDArray[np.uint8]) -> bytes:
         return len(content).to_bytes(4, "big") + body + zlib.crc32(body).to_bytes(4, "big")
 
     head = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows.tobytes())) + chunk(b"IEND", b"")
 
 
 @dataclass(frozen=True)

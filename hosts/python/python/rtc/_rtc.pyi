@@ -8,7 +8,7 @@ __version__: str
 Vector = Tuple[float, float, float]
 
 class SceneError(ValueError):
-    ...
+    findings: property
 
 class FindingWords(TypedDict):
     code: str

@@ -10,7 +10,7 @@ import time as clock
 from dataclasses import dataclass
 from operator import index
 from pathlib import Path
-from typing import TYPE_CHECKING, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, SupportsIndex, Tuple, Union
+from typing import TYPE_CHECKING, Callable, Dict, Iterable, List, Mapping, NoReturn, Optional, Sequence, SupportsIndex, Tuple, Union
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from ._values import Json, plain
 
 if TYPE_CHECKING:
     import pandas
+    from tqdm.auto import tqdm
 
 Progress = Union[bool, Callable[[float], object]]
 
@@ -52,8 +53,8 @@ class Finding:
 class Rows(List[Dict[str, Json]]):
     """The rows of a study: a list of dictionaries; `study` is the whole report."""
 
-    def __init__(self, study: Dict[str, Json]):
-        super().__init__(study["rows"])
+    def __init__(self, study: Dict[str, Json], rows: Iterable[Dict[str, Json]]):
+        super().__init__(rows)
         self.study = study
 
     def to_pandas(self) -> pandas.DataFrame:
@@ -239,7 +240,8 @@ class Scene:
 
         Raises SceneError if the scene has errors.
         """
-        return Rows(json.loads(self._held.cost(effort)))
+        study = json.loads(self._held.cost(effort))
+        return Rows(study, study["rows"])
 
 
 def _size(size: Optional[Union[Tuple[int, int], SupportsIndex]]) -> Optional[Tuple[int, int]]:
@@ -253,7 +255,8 @@ class _Bar:
     """What shows the progress of a render: a function, a bar of tqdm, or a line."""
 
     def __init__(self, progress: Progress):
-        self._progress, self._bar = progress, None
+        self._progress = progress
+        self._bar: Optional[tqdm[NoReturn]] = None
 
     def __enter__(self) -> Optional[Callable[[float], object]]:
         if not isinstance(self._progress, bool):

@@ -23,7 +23,8 @@ def vector(values: ArrayLike) -> Vector:
 def plain(value: object) -> Json:
     """A value of numpy or Python, as JSON has it."""
     if isinstance(value, (np.ndarray, np.generic)):
-        return value.tolist()
+        numbers: Json = value.tolist()
+        return numbers
     if isinstance(value, dict):
         return {str(key): plain(own) for key, own in value.items()}
     if isinstance(value, (list, tuple)):
