@@ -93,6 +93,8 @@ fn traced_paths_become_a_scene_of_mitsuba() {
         r#"<emitter type="point"> <point name="position" value="1, 2, 3"/> <rgb name="intensity" value="4 5 6"/>"#,
         r#"<bsdf type="diffuse"> <rgb name="reflectance" value="0.25 0.3 0.4"/> </bsdf>"#,
         r#"<bsdf type="conductor"> <string name="material" value="none"/>"#,
+        // Mitsuba refuses a radius of its box, which is always half a pixel.
+        r#"<rfilter type="box"> </rfilter>"#,
     ] {
         assert!(squeezed.contains(part), "{part} is missing: {text}");
     }

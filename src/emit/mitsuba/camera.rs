@@ -98,7 +98,8 @@ impl MitsubaWriter<'_> {
     fn filter(&mut self) {
         let filter = pixel_filter(&self.scene.settings);
         let (plugin, values) = match filter {
-            PixelFilter::Box { radius } => ("box", vec![("radius", radius)]),
+            // The radius of a box is always 1/2: Mitsuba refuses one.
+            PixelFilter::Box { .. } => ("box", vec![]),
             PixelFilter::Tent { radius } => ("tent", vec![("radius", radius)]),
             PixelFilter::Gaussian { deviation, .. } => ("gaussian", vec![("stddev", deviation)]),
             PixelFilter::Mitchell { b, c, .. } => ("mitchell", vec![("A", b), ("B", c)]),
@@ -106,7 +107,8 @@ impl MitsubaWriter<'_> {
         };
         // The radii that Mitsuba has.
         let is_same = match filter {
-            PixelFilter::Box { .. } | PixelFilter::Tent { .. } => true,
+            PixelFilter::Box { radius } => radius == 0.5,
+            PixelFilter::Tent { .. } => true,
             PixelFilter::Gaussian { deviation, radius } => radius == 4.0 * deviation,
             PixelFilter::Mitchell { radius, .. } => radius == 2.0,
             PixelFilter::Lanczos { window, radius } => window == radius && radius.fract() == 0.0,
