@@ -6,6 +6,7 @@ use rtc_emit::{self as emit, ExportedScene, gltf::GltfAsset};
 use rtc_front::{gltf, pixels};
 use rtc_ir::{EntityField, EntityKind, Light, LoweredScene, Scene, SourceSpans, ValuePath};
 use rtc_passes::{EnvironmentOverride, FillLight, Framing, SceneKind, ViewAndLight};
+use rtc_source::tree::DetachedTree;
 use rtc_source::{FileId, LoadError, Loader, MemoryFiles, Resource, SourceMap, Span};
 use rtc_valid::ValidScene;
 use std::io::Read;
@@ -100,6 +101,17 @@ impl Input {
     pub fn edited(path: &Path, bytes: Vec<u8>, options: Options) -> Self {
         let name = path.display().to_string();
         Self::new(name, options, |_, map| Ok(map.add_from(path, bytes)))
+    }
+
+    /// As [`Self::edited`], of a text of YAML or JSON that was parsed without a mistake.
+    #[must_use]
+    pub fn parsed(path: &Path, bytes: Vec<u8>, tree: Arc<DetachedTree>, options: Options) -> Self {
+        let name = path.display().to_string();
+        Self::new(name, options, |_, map| {
+            let file = map.add_from(path, bytes);
+            map.keep_tree(file, tree);
+            Ok(file)
+        })
     }
 
     /// Reads all of `reader`, for example standard input, under a name.

@@ -2,6 +2,7 @@
 
 use super::memory::resolved;
 use super::record::SharedRecord;
+use super::tree::{DetachedTree, SyntaxTree};
 use super::{Budget, EditedFiles, Folder, FoundFile, Limits, MemoryFiles, ReadRecord};
 use rtc_math::to_u32;
 use std::collections::BTreeSet;
@@ -91,6 +92,8 @@ pub struct SourceMap {
     edited: EditedFiles,
     /// A record of the lookups and files, if it is kept.
     record: Option<SharedRecord>,
+    /// The tree of a file that was parsed before it was added.
+    parsed: Option<(FileId, Arc<DetachedTree>)>,
 }
 
 impl SourceMap {
@@ -178,6 +181,19 @@ impl SourceMap {
     pub fn add_from(&mut self, path: &Path, bytes: Vec<u8>) -> FileId {
         let folder = Folder::new(path.parent().unwrap_or(Path::new("")));
         self.push(path.display().to_string(), folder, bytes)
+    }
+
+    /// Keeps the tree of a file, so that it is not parsed again.
+    pub fn keep_tree(&mut self, file: FileId, tree: Arc<DetachedTree>) {
+        self.parsed = Some((file, tree));
+    }
+
+    /// The tree of a file, if it is kept.
+    #[must_use]
+    pub fn tree(&self, file: FileId) -> Option<SyntaxTree<'_>> {
+        let (own, tree) = self.parsed.as_ref()?;
+        let text = self.text(file).filter(|_| *own == file)?;
+        Some(tree.attach(file, text))
     }
 
     /// Adds a file in memory.

@@ -20,6 +20,10 @@ pub(super) struct Anchor<'t> {
 /// The anchors of a text, in its order.
 pub(super) fn anchors<'t>(text: &'t str, tree: &SyntaxTree<'_>) -> Vec<Anchor<'t>> {
     let mut found = Vec::new();
+    // Most texts have none.
+    if !text.contains('&') {
+        return found;
+    }
     let mut end = 0;
     for node in tree.nodes() {
         // Anchors stand before nodes, between scalars.

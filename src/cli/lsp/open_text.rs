@@ -13,7 +13,8 @@ use ropey::Rope;
 use rtc_diag::{Diagnostic, Severity};
 use rtc_ir::LoweredScene;
 use rtc_pipeline::{Input, Options, SourceKind};
-use rtc_source::tree::{DetachedTree, SyntaxTree, yaml};
+use rtc_source::tree::yaml::{self, TextChange};
+use rtc_source::tree::{DetachedTree, SyntaxTree};
 use rtc_source::{EditedFiles, FileId, SourceMap};
 use std::cell::OnceCell;
 use std::panic::{self, AssertUnwindSafe};
@@ -31,7 +32,7 @@ pub(super) struct OpenText {
     /// Shared with the others that name it.
     pub(super) text: Arc<String>,
     /// The tree of the text and its lines, once they are asked for.
-    parsed: OnceCell<Option<DetachedTree>>,
+    parsed: OnceCell<Option<ParsedText>>,
     lines: OnceCell<(Columns, Arc<LineTable>)>,
     /// The other open documents; they replace the files that this one names.
     pub(super) others: EditedFiles,
@@ -42,6 +43,13 @@ pub(super) struct OpenText {
     pub(super) checks: u64,
     /// Whether it is to be checked again although the editor did not change it.
     pub(super) is_stale: bool,
+}
+
+/// The tree of a text of YAML or JSON.
+struct ParsedText {
+    tree: Arc<DetachedTree>,
+    /// Whether it was parsed without a mistake.
+    is_clean: bool,
 }
 
 /// The result of a check.
@@ -129,19 +137,35 @@ impl OpenText {
         columns: Columns,
     ) {
         let mut rope = Rope::from_str(&self.text);
+        // A single change inside an object leaves most of the tree as it is.
+        let mut only = None;
+        let is_single = changes.len() == 1;
         for change in changes {
             match change.range {
                 None => rope = Rope::from_str(&change.text),
                 Some(range) => {
                     let start = columns.letter(&rope, range.start);
                     let end = columns.letter(&rope, range.end).max(start);
+                    only = is_single.then(|| TextChange {
+                        replaced: rope.char_to_byte(start)..rope.char_to_byte(end),
+                        inserted: change.text.len(),
+                    });
                     rope.remove(start..end);
                     rope.insert(start, &change.text);
                 }
             }
         }
         self.text = Arc::new(rope.into());
-        (self.parsed, self.lines) = (OnceCell::new(), OnceCell::new());
+        let before = self.parsed.take().flatten();
+        let spliced = only.zip(before.filter(|parsed| parsed.is_clean));
+        let spliced = spliced
+            .and_then(|(change, before)| yaml::splice(&before.tree, &change, &self.text))
+            .map(|tree| ParsedText {
+                tree: Arc::new(tree),
+                is_clean: true,
+            });
+        self.parsed = spliced.map_or_else(OnceCell::new, |parsed| OnceCell::from(Some(parsed)));
+        self.lines = OnceCell::new();
         (self.version, self.checked) = (version, None);
     }
 
@@ -183,7 +207,12 @@ impl OpenText {
     fn checked_anew(&self, reading: &ReadArgs) -> Result<CheckedScene, Failure> {
         let (options, project) = self.options(reading)?;
         let bytes = self.text.as_bytes().to_vec();
-        let mut input = Input::edited(&self.path, bytes, options);
+        let is_text = self.kind() == SourceKind::Scene;
+        let parsed = self.parsed().filter(|parsed| is_text && parsed.is_clean);
+        let mut input = match parsed {
+            Some(parsed) => Input::parsed(&self.path, bytes, Arc::clone(&parsed.tree), options),
+            None => Input::edited(&self.path, bytes, options),
+        };
         if let Some(project) = project {
             project.report_diagnostics(&mut input);
         }
@@ -219,16 +248,31 @@ impl OpenText {
         Ok((options, project))
     }
 
-    /// The text as a tree, if it is one of YAML or JSON without mistakes.
+    /// The text as a tree, if it is one of YAML or JSON without mistakes that prevent one.
     pub(super) fn tree(&self) -> Option<SyntaxTree<'_>> {
-        let parse = || tree(&self.text).map(SyntaxTree::detach);
-        let kept = self.parsed.get_or_init(parse).as_ref();
-        kept.map(|tree| tree.attach(&self.text))
+        let parsed = self.parsed()?;
+        Some(parsed.tree.attach(own_file(), &self.text))
+    }
+
+    fn parsed(&self) -> Option<&ParsedText> {
+        let parse = || {
+            let mut mistakes = 0;
+            let tree = yaml::parse(own_file(), self.text.as_bytes(), &mut |_| mistakes += 1)?;
+            Some(ParsedText {
+                tree: Arc::new(tree.detach()),
+                is_clean: mistakes == 0,
+            })
+        };
+        self.parsed.get_or_init(parse).as_ref()
     }
 }
 
 /// A text as a tree.
 pub(super) fn tree(text: &str) -> Option<SyntaxTree<'_>> {
-    let file = SourceMap::default().add("", Vec::new());
-    yaml::parse(file, text.as_bytes(), &mut |_| ())
+    yaml::parse(own_file(), text.as_bytes(), &mut |_| ())
+}
+
+/// The only file of an empty map.
+fn own_file() -> FileId {
+    SourceMap::default().add("", Vec::new())
 }

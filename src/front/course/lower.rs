@@ -34,7 +34,10 @@ pub fn lower(
     sink: &mut DiagnosticSink,
 ) -> Option<UnfinishedScene> {
     let report = &mut |mistake: YamlError<'_>| sink.push(syntax::diagnostic(mistake));
-    let tree = yaml::parse(file, map.bytes(file), report)?;
+    let tree = match map.tree(file) {
+        Some(tree) => tree,
+        None => yaml::parse(file, map.bytes(file), report)?,
+    };
     match tree.shape(tree.root()) {
         NodeContent::Map => {}
         NodeContent::Word("" | "~" | "null" | "Null" | "NULL") => {

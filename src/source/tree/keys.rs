@@ -21,6 +21,29 @@ impl KeyIndex {
         self.sorted.get(&map).map(Vec::as_slice)
     }
 
+    /// The keys of two trees without duplicates, where each has its nodes renamed, or dropped.
+    pub(super) fn joined(
+        trees: [&Self; 2],
+        first: impl Fn(NodeId) -> Option<NodeId>,
+        second: impl Fn(NodeId) -> Option<NodeId>,
+    ) -> Self {
+        let [a, b] = trees;
+        let renamed = |own: &Self, rename: &dyn Fn(NodeId) -> Option<NodeId>| {
+            let sorted = own.sorted.iter().filter_map(|(map, keys)| {
+                Some((
+                    rename(*map)?,
+                    keys.iter().copied().filter_map(rename).collect(),
+                ))
+            });
+            sorted.collect::<Vec<_>>()
+        };
+        let sorted = renamed(a, &first).into_iter().chain(renamed(b, &second));
+        Self {
+            duplicates: Vec::new(),
+            sorted: sorted.collect(),
+        }
+    }
+
     /// The duplicate keys so far.
     pub(super) fn duplicates(&self) -> &[(NodeId, NodeId)] {
         &self.duplicates

@@ -169,10 +169,13 @@ pub enum NodeContent<'t> {
 pub struct DetachedTree(SyntaxTree<'static>);
 
 impl DetachedTree {
-    /// The tree of its text, which must be the one that was parsed.
+    /// The tree of its text, which must be the one that was parsed, in a file.
     #[must_use]
-    pub fn attach<'s>(&self, source: &'s str) -> SyntaxTree<'s> {
-        self.0.clone().of_text(source)
+    pub fn attach<'s>(&self, file: FileId, source: &'s str) -> SyntaxTree<'s> {
+        SyntaxTree {
+            file,
+            ..self.0.clone().of_text(source)
+        }
     }
 }
 

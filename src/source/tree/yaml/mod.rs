@@ -6,11 +6,13 @@ mod fault;
 mod layout;
 mod lookalike;
 mod mistake;
+mod splice;
 mod text;
 mod typo;
 
 pub use layout::{FormatTextFault, layout};
 pub use mistake::{MissingSeparator, YamlError};
+pub use splice::{TextChange, splice};
 
 use super::{NodeId, NodeSyntax, SyntaxTree, TreeNode, inside_quotes, keys};
 use crate::{FileId, Span};
