@@ -2,7 +2,7 @@
 //! the rare cases that one f64 cannot decide.
 
 use super::{two_difference, two_product, two_sum};
-use std::ops::{Add, Div, Mul, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// `high + low`, with `|low| ≤ ½ ulp(high)`.
 ///
@@ -86,14 +86,22 @@ impl Add for DoubleDouble {
     }
 }
 
+impl Neg for DoubleDouble {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self {
+            high: -self.high,
+            low: -self.low,
+        }
+    }
+}
+
 impl Sub for DoubleDouble {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
-        self + Self {
-            high: -other.high,
-            low: -other.low,
-        }
+        self + -other
     }
 }
 

@@ -3,12 +3,12 @@
 //! Exact unless a product leaves ±2^996 or its error falls below the subnormals; `valid` keeps
 //! scenes far inside.
 
-use super::Vec3;
+use super::{Double, Number, Vec3, Vector};
 
 /// The sum and its rounding error: `a + b = s + e` exactly (Knuth, TAOCP 2, §4.2.2, theorem B).
 #[must_use]
 #[inline(always)]
-pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
+pub fn two_sum<N: Number>(a: N, b: N) -> (N, N) {
     let s = a + b;
     let b_virtual = s - a;
     (s, (a - (s - b_virtual)) + (b - b_virtual))
@@ -17,24 +17,20 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
 /// The difference and its rounding error: `a − b = s + e` exactly.
 #[must_use]
 #[inline(always)]
-pub fn two_difference(a: f64, b: f64) -> (f64, f64) {
+pub fn two_difference<N: Number>(a: N, b: N) -> (N, N) {
     two_sum(a, -b)
 }
 
 /// The product and its rounding error: `a·b = p + e` exactly.
 ///
-/// With an FMA unit known at build time the error is one instruction, else Dekker's product
-/// (Numerische Mathematik 18, 1971); both are exact, so the bits are the same.
+/// By an FMA, or by Dekker's product (Numerische Mathematik 18, 1971); both are exact, so the bits
+/// are the same.
 #[must_use]
 #[inline(always)]
-#[expect(
-    clippy::disallowed_methods,
-    reason = "only where it is one instruction"
-)]
-pub fn two_product(a: f64, b: f64) -> (f64, f64) {
+pub fn two_product<N: Double>(a: N, b: N) -> (N, N) {
     let p = a * b;
-    if cfg!(target_feature = "fma") {
-        return (p, a.mul_add(b, -p));
+    if let Some(e) = a.fused_error(b, p) {
+        return (p, e);
     }
     let (a_high, a_low) = split(a);
     let (b_high, b_low) = split(b);
@@ -43,12 +39,12 @@ pub fn two_product(a: f64, b: f64) -> (f64, f64) {
 }
 
 /// The factor of Veltkamp's splitting: 2²⁷ + 1.
-pub const SPLITTER: f64 = 134_217_729.0;
+const SPLITTER: f64 = 134_217_729.0;
 
 /// Veltkamp's splitting into two halves of at most 26 bits each.
 #[inline(always)]
-fn split(a: f64) -> (f64, f64) {
-    let c = SPLITTER * a;
+fn split<N: Double>(a: N) -> (N, N) {
+    let c = a.constant(SPLITTER) * a;
     let high = c - (c - a);
     (high, a - high)
 }
@@ -60,7 +56,7 @@ fn split(a: f64) -> (f64, f64) {
 /// 82 (2013).
 #[must_use]
 #[inline(always)]
-pub fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
+pub fn difference_of_products<N: Double>(a: N, b: N, c: N, d: N) -> N {
     let (p, p_error) = two_product(a, b);
     let (q, q_error) = two_product(c, d);
     (p - q) + (p_error - q_error)
@@ -70,11 +66,8 @@ pub fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
 #[must_use]
 #[inline(always)]
 pub fn cross(a: Vec3, b: Vec3) -> Vec3 {
-    Vec3::new(
-        difference_of_products(a.y, b.z, a.z, b.y),
-        difference_of_products(a.z, b.x, a.x, b.z),
-        difference_of_products(a.x, b.y, a.y, b.x),
-    )
+    let [a, b] = [a, b].map(|v| Vector::constant(0.0, v));
+    a.accurate_cross(b).lane(0)
 }
 
 /// The dot product as if computed in twice the precision and rounded once (Ogita, Rump, Oishi,

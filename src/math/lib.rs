@@ -5,6 +5,8 @@
 //! - Vectors: [`Vec3`] (glam, f64), [`Bounds`], [`OrthonormalBasis`], [`unit()`] and [`length()`]
 //!   for vectors of any size, [`camera_basis`] and [`view_basis`], rotations ([`rotated_about`],
 //!   [`axis_and_angle`]).
+//! - [`Number`], over which a formula is written once, and its [`Vector`]s: f32, f64, four lanes of
+//!   f64 ([`Double`] is one or the other), double-double, enclosures.
 //! - Exact arithmetic: error-free transformations ([`two_sum`], [`two_product`]), compensated sums
 //!   ([`dot`], [`cross`], [`difference_of_products`]), and [`DoubleDouble`] with 106 bits.
 //! - Elementary functions from `libm`: [`sin`], [`pow`], [`ln`] and others. std's differ between
@@ -32,6 +34,7 @@
 //! - Functions accept any f64. Where a result may be undefined, the type says so (`Option`,
 //!   [`Weight`]).
 
+mod arithmetic;
 mod basis;
 mod bounds;
 mod column;
@@ -53,8 +56,10 @@ mod set;
 mod solid_texture;
 mod stored_tree;
 mod turns;
+mod vector;
 mod weight;
 
+pub use arithmetic::{Double, Number};
 pub use basis::{CameraBasisError, camera_basis, fallback_up, view_basis};
 pub use bounds::Bounds;
 pub use column::{SharedList, VertexColumn};
@@ -62,9 +67,7 @@ pub use complex_index::ComplexIndex;
 pub use count::to_u32;
 pub use direction::{length, unit, unit_scale};
 pub use double::DoubleDouble;
-pub use exact::{
-    SPLITTER, cross, difference_of_products, dot, two_difference, two_product, two_sum,
-};
+pub use exact::{cross, difference_of_products, dot, two_difference, two_product, two_sum};
 pub use facets::{Microfacets, Plastic};
 pub use flat::is_flat;
 pub use func::{acos, atan2, cos, erf, exp, ldexp, ln, pow, sin, sin_cos};
@@ -80,6 +83,7 @@ pub use set::{MAX_SET_OPERANDS, SetStep, evaluate_set, is_set_expression};
 pub use solid_texture::{GradientNoise, SolidTexture, TextureMapping, TexturePattern};
 pub use stored_tree::StoredTree;
 pub use turns::{cos_sin_revolutions, golden_revolutions};
+pub use vector::Vector;
 pub use weight::Weight;
 
 /// The unit round-off of f64, u = 2⁻⁵³.

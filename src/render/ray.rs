@@ -1,6 +1,6 @@
-//! Rays, and interactions of rays with surfaces.
+//! Rays, and interactions of rays with surfaces: alone, or in lanes.
 
-use rtc_math::{U, Vec3, ldexp, unit_scale};
+use rtc_math::{Double, U, Vec3, Vector, ldexp, unit_scale};
 
 /// How far from a surface rays start, in units of its rounding error: enough for the error of the
 /// point, of the surface's own numbers, and of the sum that moves the point.
@@ -69,14 +69,8 @@ impl Interaction {
     /// |aᵢ|) + extent).
     #[must_use]
     pub fn new(ray: &Ray, point: Vec3, normal: Vec3, anchor: Vec3, extent: f64) -> Self {
-        let size = normal.abs().dot(point.abs() + anchor.abs()) + extent;
-        let back = -ray.direction / ray.direction.abs().element_sum();
-        Self {
-            point,
-            normal,
-            offset: OFFSET * U * size,
-            back,
-        }
+        let [point, normal] = [point, normal].map(|v| Vector::constant(0.0, v));
+        Interactions::new(&Rays::one(ray), point, normal, anchor, extent).lane(0)
     }
 
     /// A start for rays along `direction`, on the side of the surface the direction points to.
@@ -85,19 +79,16 @@ impl Interaction {
     /// is hit: so a ray from the very edge of two mirrors starts on the inner side of both.
     #[must_use]
     pub fn start(&self, direction: Vec3) -> Vec3 {
-        let side = if direction.dot(self.normal) < 0.0 {
-            -self.offset
-        } else {
-            self.offset
+        let [point, normal, back] =
+            [self.point, self.normal, self.back].map(|v| Vector::constant(0.0, v));
+        let offset = self.offset;
+        let all = Interactions {
+            point,
+            normal,
+            offset,
+            back,
         };
-        let returns = (self.back.dot(self.normal) < 0.0) == (side < 0.0);
-        let step = self.normal * side;
-        self.point
-            + if returns {
-                step + self.back * self.offset
-            } else {
-                step
-            }
+        all.start(Vector::constant(0.0, direction)).lane(0)
     }
 
     /// The ray from this point along `direction`.
@@ -107,5 +98,98 @@ impl Interaction {
             origin: self.start(direction),
             direction,
         }
+    }
+}
+
+/// A ray, or a ray in each lane.
+#[derive(Clone, Copy)]
+pub(crate) struct Rays<N> {
+    pub(crate) origin: Vector<N>,
+    pub(crate) direction: Vector<N>,
+}
+
+impl Rays<f64> {
+    /// One ray.
+    #[inline(always)]
+    pub(crate) fn one(ray: &Ray) -> Self {
+        Self {
+            origin: Vector::constant(0.0, ray.origin),
+            direction: Vector::constant(0.0, ray.direction),
+        }
+    }
+}
+
+impl<N: Double> Rays<N> {
+    /// The ray of a lane.
+    #[inline(always)]
+    pub(crate) fn lane(&self, lane: usize) -> Ray {
+        Ray {
+            origin: self.origin.lane(lane),
+            direction: self.direction.lane(lane),
+        }
+    }
+}
+
+/// An [`Interaction`], or one in each lane.
+#[derive(Clone, Copy)]
+pub(crate) struct Interactions<N> {
+    pub(crate) point: Vector<N>,
+    pub(crate) normal: Vector<N>,
+    pub(crate) offset: N,
+    pub(crate) back: Vector<N>,
+}
+
+impl<N: Double> Interactions<N> {
+    /// See [`Interaction::new`].
+    #[inline(always)]
+    pub(crate) fn new(
+        rays: &Rays<N>,
+        point: Vector<N>,
+        normal: Vector<N>,
+        anchor: Vec3,
+        extent: f64,
+    ) -> Self {
+        let number = |x: f64| point.x.constant(x);
+        let sizes = point.abs() + Vector::constant(point.x, anchor.abs());
+        let size = normal.abs().dot(sizes) + number(extent);
+        Self {
+            point,
+            normal,
+            offset: number(OFFSET * U) * size,
+            back: -rays.direction / rays.direction.abs().sum(),
+        }
+    }
+
+    /// The interaction of a lane.
+    #[inline(always)]
+    pub(crate) fn lane(&self, lane: usize) -> Interaction {
+        Interaction {
+            point: self.point.lane(lane),
+            normal: self.normal.lane(lane),
+            offset: self.offset.lane(lane),
+            back: self.back.lane(lane),
+        }
+    }
+
+    /// Selects `self` in the lanes of a mask, and `other` elsewhere.
+    #[inline(always)]
+    pub(crate) fn select(self, mask: N::Mask, other: Self) -> Self {
+        Self {
+            point: self.point.select(mask, other.point),
+            normal: self.normal.select(mask, other.normal),
+            offset: N::select(mask, self.offset, other.offset),
+            back: self.back.select(mask, other.back),
+        }
+    }
+
+    /// See [`Interaction::start`].
+    #[inline(always)]
+    pub(crate) fn start(&self, direction: Vector<N>) -> Vector<N> {
+        let zero = self.offset.constant(0.0);
+        let is_below = direction.dot(self.normal).less(zero);
+        let side = N::select(is_below, -self.offset, self.offset);
+        let returns = !(self.back.dot(self.normal).less(zero) ^ side.less(zero));
+        let step = self.normal * side;
+        self.point + (step + self.back * self.offset).select(returns, step)
     }
 }

@@ -87,7 +87,8 @@ pub use advice::{advice, recommended};
 pub use batch::WorkBatch;
 pub use budget::CoarsePicture;
 pub use certify::{
-    CertifiedNumber, DoubleDoubleBall, Doubts, Enclosure, PixelCertificate, certify, first_distance,
+    Certainty, CertifiedNumber, DoubleDoubleBall, Doubts, Enclosure, PixelCertificate, certify,
+    first_distance,
 };
 pub use difference::{Difference, heat_map};
 pub use effects::EffectCost;

@@ -7,7 +7,7 @@
 
 pub(crate) mod grid;
 
-use crate::lanes::{FourVectors, LANES, Ray4};
+use crate::lanes::{LANES, Ray4, splat};
 use crate::ray::Ray;
 use crate::sampler::PathVertexKey;
 use fearless_simd::prelude::*;
@@ -114,19 +114,17 @@ pub(crate) fn pinhole_rays<S: Simd>(
     places: [[f64; 2]; LANES],
 ) -> Ray4<S> {
     let number = |x: f64| f64x4::splat(simd, x);
-    let vector = |v: Vec3| FourVectors::splat(simd, v);
+    let vector = |v: Vec3| splat(simd, v);
     let [left, top] = [0, 1].map(|axis| f64x4::simd_from(simd, places.map(|place| place[axis])));
     let across = number(f64::from(x)) + left - number(f64::from(camera.size[0]) / 2.0);
     let upward = number(f64::from(camera.size[1]) / 2.0) - number(f64::from(y)) - top;
-    let target = vector(camera.center)
-        .plus(vector(camera.right).times(across))
-        .plus(vector(camera.up).times(upward));
+    let target = vector(camera.center) + vector(camera.right) * across + vector(camera.up) * upward;
     let eye = vector(camera.eye);
     let origin = match camera.projection {
         Projection::Perspective => eye,
-        Projection::Orthographic => eye.plus(target.minus(vector(camera.center))),
+        Projection::Orthographic => eye + (target - vector(camera.center)),
     };
-    let (_, direction) = target.minus(origin).normalized();
+    let (_, direction) = (target - origin).try_normalize();
     Ray4 { origin, direction }
 }
 

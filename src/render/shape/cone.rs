@@ -9,7 +9,7 @@
 
 use crate::ray::{Interaction, Ray};
 use crate::shape::baseline::ray::BaselineRay;
-use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::real::{Real, RealVector};
 use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::disc::BaselineDisc;
@@ -19,7 +19,7 @@ use crate::shape::interval::{Interval, between_planes, roots};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::WatertightRay;
-use rtc_math::{Bounds, Vec3, cross, difference_of_products, dot};
+use rtc_math::{Bounds, Vec3, Vector, cross, difference_of_products, dot};
 use std::sync::Arc;
 
 /// A cone is flat if its radius is more than this many times its height.

@@ -8,14 +8,14 @@
 use super::Shape;
 use crate::ray::{Interaction, Ray};
 use crate::shape::baseline::ray::BaselineRay;
-use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::real::{Real, RealVector};
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes, SolidCrossing};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::tie;
 use crate::shape::triangle::WatertightRay;
-use rtc_math::{Bounds, SetStep, Vec3, evaluate_set};
+use rtc_math::{Bounds, SetStep, Vec3, Vector, evaluate_set};
 use rtc_plan::MIN_HIT_DISTANCE;
 use std::sync::Arc;
 

@@ -2,7 +2,7 @@
 
 use crate::ray::{Interaction, Ray};
 use crate::shape::baseline::ray::BaselineRay;
-use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::real::{Real, RealVector};
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::emitter::Emitter;
 use crate::shape::geometry::Intersect;
@@ -10,7 +10,7 @@ use crate::shape::mesh::BaselineMesh;
 use crate::shape::normal_field::NormalField;
 use crate::shape::plane::{BaselinePlane, Plane};
 use crate::shape::triangle::WatertightRay;
-use rtc_math::{Bounds, Vec3};
+use rtc_math::{Bounds, Vec3, Vector};
 use std::sync::Arc;
 
 /// A prepared disc, rim included.

@@ -5,7 +5,7 @@
 
 use crate::ray::{Interaction, Ray};
 use crate::shape::baseline::ray::BaselineRay;
-use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::real::{Real, RealVector};
 use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::emitter::Emitter;
@@ -14,7 +14,7 @@ use crate::shape::mesh::BaselineMesh;
 use crate::shape::normal_field::NormalField;
 use crate::shape::sphere::{Sphere, TexturedSphere};
 use crate::shape::triangle::WatertightRay;
-use rtc_math::{Bounds, Vec3, cross};
+use rtc_math::{Bounds, Vec3, Vector, cross};
 use std::sync::Arc;
 
 /// The sphere of radius 1 about 0, with its texture.

@@ -4,7 +4,7 @@
 use crate::accel::wide::{Candidate, TriangleVisitor};
 use crate::ray::{Interaction, Ray};
 use crate::shape::baseline::ray::BaselineRay;
-use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::real::{Real, RealVector};
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::corners::{blend, corner_values, handedness, interpolate};
 use crate::shape::emitter::Emitter;
@@ -13,7 +13,7 @@ use crate::shape::mesh::{BaselineMesh, PreparedMesh};
 use crate::shape::normal_field::{NormalDerivative, NormalField};
 use crate::shape::tie::{self, ClosestHit, ClosestHitCandidates};
 use crate::shape::triangle::{self, BaselineTriangle, Triangle, WatertightRay};
-use rtc_math::{Bounds, Vec3, cross, unit};
+use rtc_math::{Bounds, Vec3, Vector, cross, unit};
 use std::sync::Arc;
 
 /// A prepared instance of a mesh.

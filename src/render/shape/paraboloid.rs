@@ -10,7 +10,7 @@
 
 use crate::ray::{Interaction, Ray};
 use crate::shape::baseline::ray::BaselineRay;
-use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::real::{Real, RealVector};
 use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::disc::BaselineDisc;
@@ -20,8 +20,8 @@ use crate::shape::interval::{Interval, between_planes, roots};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{
-    Bounds, DoubleDouble, OrthonormalBasis, U, Vec3, atan2, cross, difference_of_products, dot,
-    ldexp, unit_scale,
+    Bounds, DoubleDouble, OrthonormalBasis, U, Vec3, Vector, atan2, cross, difference_of_products,
+    dot, ldexp, unit_scale,
 };
 use std::f64::consts::TAU;
 use std::sync::Arc;

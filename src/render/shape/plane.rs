@@ -1,9 +1,9 @@
 //! The plane: t from compensated dot products with the raw normal, accurate at any slope and
 //! distance.
 
-use crate::ray::{Interaction, Ray};
+use crate::ray::{Interaction, Interactions, Ray, Rays};
 use crate::shape::baseline::ray::BaselineRay;
-use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::real::{Real, RealVector};
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::emitter::Emitter;
 use crate::shape::four::Shape4;
@@ -11,7 +11,7 @@ use crate::shape::geometry::{Intersect, SolidCrossing};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::WatertightRay;
-use rtc_math::{Bounds, U, Vec3, cross, dot, two_difference, unit_scale};
+use rtc_math::{Bounds, Double, U, Vec3, Vector, cross, dot, two_difference, unit_scale};
 use std::sync::Arc;
 
 /// The orientation of a plane.
@@ -35,16 +35,19 @@ pub struct PlaneAxis {
 impl PlaneAxis {
     /// N·(anchor − p), but for the sign of a 0.
     #[inline(always)]
-    fn distance(self, anchor: Vec3, p: Vec3) -> f64 {
-        let (step, error) = two_difference(anchor[self.index], p[self.index]);
-        self.sign * step + self.sign * error
+    fn distance<N: Double>(self, anchor: Vec3, p: Vector<N>) -> N {
+        let number = |x: f64| p.x.constant(x);
+        let (step, error) = two_difference(number(anchor[self.index]), p.along(self.index));
+        number(self.sign) * step + number(self.sign) * error
     }
 
     /// Whether a point lies on the plane through `anchor`, and has no 0 whose sign a sum may
     /// change.
     #[inline(always)]
-    fn is_on(self, anchor: Vec3, p: Vec3) -> bool {
-        p[self.index] == anchor[self.index] && p.x != 0.0 && p.y != 0.0 && p.z != 0.0
+    fn is_on<N: Double>(self, anchor: Vec3, p: Vector<N>) -> N::Mask {
+        let number = |x: f64| p.x.constant(x);
+        let [x, y, z] = p.map(|x| x.equal(number(0.0))).into_array();
+        p.along(self.index).equal(number(anchor[self.index])) & !(x | y | z)
     }
 }
 
@@ -121,7 +124,7 @@ impl PlaneNormal {
     #[inline(always)]
     fn distance(&self, axis: Option<PlaneAxis>, anchor: Vec3, p: Vec3) -> f64 {
         // The sign of a 0 is that of the sum.
-        if let Some(distance) = axis.map(|axis| axis.distance(anchor, p))
+        if let Some(distance) = axis.map(|axis| axis.distance(anchor, Vector::constant(0.0, p)))
             && distance != 0.0
         {
             return distance;
@@ -161,7 +164,7 @@ impl PlaneNormal {
         let near = ray.origin + ray.direction * t;
         let Self { raw, square, unit } = *self;
         let axis = self.axis();
-        let point = if axis.is_some_and(|axis| axis.is_on(anchor, near)) {
+        let point = if axis.is_some_and(|axis| axis.is_on(anchor, Vector::constant(0.0, near))) {
             near
         } else {
             near + raw * (self.distance(axis, anchor, near) / square)
@@ -211,6 +214,45 @@ impl Plane {
     #[must_use]
     pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
         self.normal.interaction(self.anchor, ray, t)
+    }
+
+    /// As [`Self::intersect`] for a plane along an axis, where `active`; infinite for a miss.
+    #[inline(always)]
+    pub(super) fn roots<N: Double>(&self, axis: PlaneAxis, rays: &Rays<N>, active: N::Mask) -> N {
+        let number = |x: f64| rays.origin.x.constant(x);
+        let zero = number(0.0);
+        let slope = number(axis.sign) * rays.direction.along(axis.index);
+        // A distance of 0 gives no root above 0, whatever its sign.
+        let t = axis.distance(self.anchor, rays.origin) / slope;
+        N::select(
+            active & !slope.equal(zero) & zero.less(t),
+            t,
+            number(f64::INFINITY),
+        )
+    }
+
+    /// As [`Self::interaction`] for a plane along an axis.
+    #[inline(always)]
+    pub(super) fn interactions<N: Double>(
+        &self,
+        axis: PlaneAxis,
+        rays: &Rays<N>,
+        t: N,
+    ) -> Interactions<N> {
+        let near = rays.origin + rays.direction * t;
+        let is_on = axis.is_on(self.anchor, near);
+        let distance = axis.distance(self.anchor, near);
+        let step = distance / t.constant(self.normal.square);
+        let moved = near + Vector::constant(t, self.normal.raw) * step;
+        let mut point = near.select(is_on, moved);
+        let doubted = !is_on & distance.equal(t.constant(0.0));
+        if !N::is_nowhere(doubted) {
+            for lane in N::lanes(doubted) {
+                point.put(lane, self.interaction(&rays.lane(lane), t.lane(lane)).point);
+            }
+        }
+        let normal = Vector::constant(t, self.normal());
+        Interactions::new(rays, point, normal, self.anchor, 0.0)
     }
 }
 

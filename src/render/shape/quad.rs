@@ -6,7 +6,7 @@
 
 use crate::ray::{Interaction, Ray};
 use crate::shape::baseline::ray::BaselineRay;
-use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::real::{Real, RealVector};
 use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::emitter::Emitter;
@@ -14,7 +14,7 @@ use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::{BaselineTriangle, Triangle, WatertightRay};
-use rtc_math::{Bounds, Vec3, cross, is_flat};
+use rtc_math::{Bounds, Vec3, Vector, cross, is_flat};
 use std::sync::Arc;
 
 /// A prepared quadrilateral.

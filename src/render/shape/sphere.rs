@@ -7,11 +7,9 @@
 //! the sign or the root reported is in doubt, it is computed again.
 
 use crate::accel::bounds::BoundingSphere;
-use crate::lanes::number::Number;
-use crate::lanes::{Rays, Vectors};
-use crate::ray::{Interaction, Ray};
+use crate::ray::{Interaction, Interactions, Ray, Rays};
 use crate::shape::baseline::ray::BaselineRay;
-use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::real::{Real, RealVector};
 use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::emitter::Emitter;
@@ -20,7 +18,7 @@ use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes, Sol
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::WatertightRay;
-use rtc_math::{Bounds, DoubleDouble, U, Vec3, acos, atan2};
+use rtc_math::{Bounds, Double, DoubleDouble, Number, U, Vec3, Vector, acos, atan2};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -52,11 +50,11 @@ impl Sphere {
 
     /// As [`Self::intersect`], where `active`; infinite for a miss.
     #[inline(always)]
-    pub(super) fn roots<N: Number>(&self, rays: &Rays<N>, active: N::Mask) -> N {
+    pub(super) fn roots<N: Double>(&self, rays: &Rays<N>, active: N::Mask) -> N {
         let d = rays.direction;
         let number = |x: f64| d.x.constant(x);
         let (zero, none) = (number(0.0), number(f64::INFINITY));
-        let f = rays.origin.minus(Vectors::constant(d.x, self.center));
+        let f = rays.origin - Vector::constant(d.x, self.center);
         let (f2, b, a) = (f.dot(f), -f.dot(d), d.dot(d));
         let r2 = number(self.radius * self.radius);
 
@@ -72,37 +70,33 @@ impl Sphere {
             return none;
         }
 
-        // Compute the discriminant, r² minus the squared distance of the centre from the line, from
-        // the foot of the perpendicular.
-        let nearest = b / a;
-        let foot = f.plus(d.times(nearest));
+        let line = SphereLine::new([f, d], [a, b], r2);
+        let SphereLine {
+            nearest,
+            foot,
+            discriminant,
+            ..
+        } = line;
         let foot2 = foot.dot(foot);
-        let discriminant = r2 - foot2;
         let extent = f.abs().sum();
         let sizes = r2 + foot2 + number(self.radius) * extent;
         let error_bound = number(16.0 * U) * (sizes + number(16.0 * U) * extent * extent);
         let hits = near & !discriminant.less(-error_bound);
         let is_tangent = hits & discriminant.less_or_equal(error_bound);
 
-        // Compute the roots without cancellation (from afar, as a step back from the foot), and
-        // take the first positive root: q = b ± sqrt(a D), t = c / q or q / a.
+        // Take the first positive root; from afar, as a step back from the foot.
         let c = f2 - r2;
-        let a_discriminant = a * discriminant;
-        let root = a_discriminant.sqrt();
-        let is_ahead = zero.less_or_equal(b);
-        let q = N::select(is_ahead, b + root, b - root);
+        let (root, q, takes_first, near_root) = line.root(c);
         let from_afar = (number(FAR) * r2).less(f2);
-        let (first, second) = (c / q, q / a);
-        let takes_first = is_ahead & zero.less(first) | !(is_ahead | zero.less(second));
         let by_step = nearest - (foot.dot(d) + root) / a;
-        let t = N::select(from_afar, by_step, N::select(takes_first, first, second));
+        let t = N::select(from_afar, by_step, near_root);
         let is_root = hits & zero.less(t);
 
         // Recompute the root in double-double if the error of c or of the discriminant is
         // amplified.
         let is_cancelled = (from_afar | takes_first) & (number(AMPLIFIED) * c.abs()).less(f2 + r2);
-        let is_amplified =
-            (number(AMPLIFIED * AMPLIFIED) * a_discriminant * q * q).less(r2 * (r2 + f2) * a * a);
+        let is_amplified = (number(AMPLIFIED * AMPLIFIED) * (a * discriminant) * q * q)
+            .less(r2 * (r2 + f2) * a * a);
         let mut found = N::select(is_root, t, none);
         let doubted = is_tangent | (is_root & (is_cancelled | is_amplified));
         if !N::is_nowhere(doubted) {
@@ -119,35 +113,17 @@ impl Sphere {
     #[inline(never)]
     fn intersect_precisely(&self, ray: &Ray) -> Option<f64> {
         let f = [0, 1, 2].map(|k| DoubleDouble::difference(ray.origin[k], self.center[k]));
-        let d = [0, 1, 2].map(|k| DoubleDouble::from(ray.direction[k]));
-        let dot =
-            |u: [DoubleDouble; 3], v: [DoubleDouble; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-        let zero = DoubleDouble::from(0.0);
-        let radius = DoubleDouble::from(self.radius);
-        let a = dot(d, d);
-        let b = zero - dot(f, d);
-        // Compute the discriminant from the foot of the perpendicular.
-        let step = b / a;
-        let foot = [0, 1, 2].map(|k| f[k] + d[k] * step);
-        let discriminant = radius * radius - dot(foot, foot);
-        if discriminant.to_f64().is_nan() || discriminant.to_f64() < 0.0 {
+        let (f, d) = (
+            Vector::from(f),
+            Vector::constant(DoubleDouble::ZERO, ray.direction),
+        );
+        let r2 = DoubleDouble::from(self.radius).square();
+        let line = SphereLine::new([f, d], [d.dot(d), -f.dot(d)], r2);
+        if line.discriminant.to_f64().is_nan() || line.discriminant.to_f64() < 0.0 {
             return None;
         }
-
-        // Compute the roots without cancellation, and take the first positive root.
-        let c = dot(f, f) - radius * radius;
-        let root = (a * discriminant).sqrt();
-        let forward = b.to_f64() >= 0.0;
-        let q = if forward { b + root } else { b - root };
-        let quotient = (c / q).to_f64();
-        let other = (q / a).to_f64();
-        let (near, far) = if forward {
-            (quotient, other)
-        } else {
-            (other, quotient)
-        };
-        let t = if near > 0.0 { near } else { far };
-        (t > 0.0).then_some(t)
+        let (.., t) = line.root(f.dot(f) - r2);
+        (t.to_f64() > 0.0).then_some(t.to_f64())
     }
 
     /// The interval of the ray inside, over the whole line. The end ahead is that of
@@ -166,23 +142,22 @@ impl Sphere {
         })
     }
 
-    /// The point at `t`; see [`Self::points`].
+    /// The point at `t`; see [`Self::interactions`].
     #[inline(always)]
     #[must_use]
     pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
-        let [point, normal] = self.points(&Rays::one(ray), t).map(|v| v.lane(0));
-        Interaction::new(ray, point, normal, self.center, self.radius)
+        self.interactions(&Rays::one(ray), t).lane(0)
     }
 
-    /// The points at `t`, where that is finite, and their normals: along the ray or projected onto
-    /// the sphere in its own frame, whichever rounds less.
+    /// The points at `t`, where that is finite: along the ray or projected onto the sphere in its
+    /// own frame, whichever rounds less.
     #[inline(always)]
-    pub(super) fn points<N: Number>(&self, rays: &Rays<N>, t: N) -> [Vectors<N>; 2] {
-        let center = Vectors::constant(t, self.center);
-        let step = rays.direction.times(t);
-        let local = rays.origin.minus(center).plus(step);
+    pub(super) fn interactions<N: Double>(&self, rays: &Rays<N>, t: N) -> Interactions<N> {
+        let center = Vector::constant(t, self.center);
+        let step = rays.direction * t;
+        let local = rays.origin - center + step;
         let length = local.length();
-        let mut normal = local.over(length);
+        let mut normal = local / length;
         let is_hit = t.less(t.constant(f64::INFINITY));
         let has_none = is_hit & !t.constant(0.0).less(length);
         if !N::is_nowhere(has_none) {
@@ -190,12 +165,53 @@ impl Sphere {
                 normal.put(lane, rays.lane(lane).outward(local.lane(lane)));
             }
         }
-        let along_ray = rays.origin.abs().plus(step.abs()).sum();
+        let along_ray = (rays.origin.abs() + step.abs()).sum();
         let along_radius = t.constant(self.center.abs().element_sum() + self.radius);
-        let on_sphere = center.plus(normal.times(t.constant(self.radius)));
-        let on_ray = rays.origin.plus(step);
+        let on_sphere = center + normal * t.constant(self.radius);
+        let on_ray = rays.origin + step;
         let point = on_ray.select(along_ray.less(along_radius), on_sphere);
-        [point, normal]
+        Interactions::new(rays, point, normal, self.center, self.radius)
+    }
+}
+
+/// The line of a ray near a sphere: the quadratic `a·t² − 2·b·t + c`.
+#[derive(Clone, Copy)]
+struct SphereLine<N> {
+    a: N,
+    b: N,
+    /// The t of the foot of the perpendicular from the centre, and the foot from there.
+    nearest: N,
+    foot: Vector<N>,
+    /// r² minus the squared distance of the centre from the line.
+    discriminant: N,
+}
+
+impl<N: Number> SphereLine<N> {
+    /// The line from `f`, as seen from the centre, along `d`, with `a = d·d` and `b = −f·d`.
+    #[inline(always)]
+    fn new([f, d]: [Vector<N>; 2], [a, b]: [N; 2], r2: N) -> Self {
+        let nearest = b / a;
+        let foot = f + d * nearest;
+        Self {
+            a,
+            b,
+            nearest,
+            foot,
+            discriminant: r2 - foot.dot(foot),
+        }
+    }
+
+    /// The first positive root without cancellation, `t = c / q` or `q / a` with `q = b ± √(a·D)`:
+    /// the root of a·D, q, where t is the quotient of c, and t.
+    #[inline(always)]
+    fn root(&self, c: N) -> (N, N, N::Mask, N) {
+        let zero = c.constant(0.0);
+        let root = (self.a * self.discriminant).sqrt();
+        let is_ahead = zero.less_or_equal(self.b);
+        let q = N::select(is_ahead, self.b + root, self.b - root);
+        let (first, second) = (c / q, q / self.a);
+        let takes_first = is_ahead & zero.less(first) | !(is_ahead | zero.less(second));
+        (root, q, takes_first, N::select(takes_first, first, second))
     }
 }
 

@@ -8,9 +8,9 @@
 //! on it.
 
 use crate::accel::bounds::BoundingSphere;
-use crate::ray::{Interaction, Ray};
+use crate::ray::{Interaction, Interactions, Ray, Rays};
 use crate::shape::baseline::ray::BaselineRay;
-use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::real::{Real, RealVector};
 use crate::shape::baseline::roots::quartic;
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::emitter::Emitter;
@@ -20,229 +20,360 @@ use crate::shape::mesh::BaselineMesh;
 use crate::shape::normal_field::NormalField;
 use crate::shape::plane::PlaneNormal;
 use crate::shape::triangle::WatertightRay;
-use rtc_math::{Bounds, Vec3, cross, ldexp};
+use rtc_math::{Bounds, Double, Number, Vec3, Vector, ldexp};
 use std::sync::Arc;
 
 /// Steps of a bracketed search: bisection alone would need 60.
-pub(super) const MAX_STEPS: usize = 100;
+const MAX_STEPS: usize = 100;
 
 /// The rounding error of lengths in units of the torus.
-pub(super) const ROUNDING: f64 = 0.5 * f64::EPSILON;
+const ROUNDING: f64 = 0.5 * f64::EPSILON;
 
 /// Where a ray starts so near the surface, in units of the torus, it starts on it.
-pub(super) const ON_SURFACE: f64 = 16.0 * ROUNDING;
+const ON_SURFACE: f64 = 16.0 * ROUNDING;
 
 /// The margin of planes that touch the torus, in its units, where lengths are about 1: far above
 /// rounding.
-pub(super) const TOUCH: f64 = 1.0 / 1_048_576.0;
+const TOUCH: f64 = 1.0 / 1_048_576.0;
 
 /// A square larger by this factor is larger by more than rounding.
-pub(super) const NEARLY_ONE: f64 = 1.0 + 1e-12;
+const NEARLY_ONE: f64 = 1.0 + 1e-12;
 
 /// A prepared torus.
 #[derive(Clone, Copy, Debug)]
 pub struct Torus {
-    pub(super) center: Vec3,
+    center: Vec3,
     /// A unit vector along the axis.
-    pub(super) axis: Vec3,
+    axis: Vec3,
     /// From the centre to the middle of the tube.
-    pub(super) major: f64,
+    major: f64,
     /// The radius of the tube.
-    pub(super) minor: f64,
+    minor: f64,
     /// The power of two near the outer radius, a normal number as its reciprocal is.
-    pub(super) unit: f64,
+    unit: f64,
 }
 
-/// A ray near the torus, in units of about its outer radius, as seen from the axis.
-struct TorusRay {
+/// A ray near the torus, or one in each lane, in units of about its outer radius, as seen from the
+/// axis.
+struct TorusRay<N> {
     /// Of the point nearest to the centre: the square of its distance, its height along the axis,
     /// and its cross product with the axis, as long as it is off the axis.
-    square: f64,
-    height: f64,
-    off: Vec3,
+    square: N,
+    height: N,
+    off: Vector<N>,
     /// The height and the cross product a step adds.
-    rise: f64,
-    turn: Vec3,
+    rise: N,
+    turn: Vector<N>,
     major: f64,
     minor: f64,
 }
 
 /// The interval of a ray that may hit the torus.
-struct TorusStretch {
-    line: TorusRay,
-    low: f64,
-    high: f64,
+struct TorusStretch<N: Double> {
+    line: TorusRay<N>,
+    low: N,
+    high: N,
+    /// Where there is one.
+    near: N::Mask,
     /// The t of the point nearest to the centre, and its change per step.
-    nearest: f64,
-    pace: f64,
+    nearest: N,
+    pace: N,
 }
 
-impl TorusStretch {
-    fn t(&self, s: f64) -> f64 {
+impl<N: Double> TorusStretch<N> {
+    #[inline(always)]
+    fn t(&self, s: N) -> N {
         self.nearest + s * self.pace
     }
 }
 
-impl TorusRay {
-    /// The signed distance of the point at `s` from the surface, from the factored difference of
-    /// squares: its digits survive where the ray only grazes.
-    fn distance(&self, s: f64) -> f64 {
-        let z = (self.height + self.rise * s).abs();
-        let off = ((self.off + self.turn * s).length() - self.major).abs();
-        let (large, small) = if z > off { (z, off) } else { (off, z) };
-        let square = small * small + (large - self.minor) * (large + self.minor);
-        square / ((off * off + z * z).sqrt() + self.minor)
+/// A point of a ray and its signed distance from the surface.
+#[derive(Clone, Copy)]
+struct TorusProbe<N> {
+    s: N,
+    distance: N,
+}
+
+impl<N: Double> TorusProbe<N> {
+    /// Selects `self` where a condition holds, and `other` elsewhere.
+    #[inline(always)]
+    fn select(self, mask: N::Mask, other: Self) -> Self {
+        Self {
+            s: N::select(mask, self.s, other.s),
+            distance: N::select(mask, self.distance, other.distance),
+        }
     }
 
-    /// As [`Self::distance`] at the start of the ray; on the surface 1 or −1, by the side that the
-    /// ray points to: it does not hit its own surface.
-    fn start_distance(&self, s: f64) -> f64 {
-        let distance = self.distance(s);
-        if distance.abs() > ON_SURFACE {
-            return distance;
+    #[inline(always)]
+    fn is_inside(&self) -> N::Mask {
+        self.distance.less(self.s.constant(0.0))
+    }
+}
+
+/// The search for the points of a stretch where the distance changes sign, in order.
+struct TorusSearch<N> {
+    low: N,
+    cubic: DepressedCubic<N>,
+    /// The next of the intervals between these, which have one critical point each; the stretch
+    /// ends behind the last.
+    next: usize,
+    borders: [N; 4],
+    /// The last point searched.
+    before: TorusProbe<N>,
+}
+
+impl<N: Double> TorusRay<N> {
+    /// The ray through the point nearest to the centre along a step of length 1.
+    #[inline(always)]
+    fn new(torus: &Torus, from: Vector<N>, step: Vector<N>) -> Self {
+        let axis = Vector::constant(from.x, torus.axis);
+        Self {
+            square: from.dot(from),
+            height: from.dot(axis),
+            off: from.accurate_cross(axis),
+            rise: step.dot(axis),
+            turn: step.accurate_cross(axis),
+            major: torus.major / torus.unit,
+            minor: torus.minor / torus.unit,
         }
-        let off = self.off + self.turn * s;
-        let length = off.length();
-        let outwards = (length - self.major) * off.dot(self.turn) / length;
-        let rise = (self.height + self.rise * s) * self.rise;
-        if outwards + rise < 0.0 { -1.0 } else { 1.0 }
+    }
+
+    #[inline(always)]
+    fn number(&self, x: f64) -> N {
+        self.square.constant(x)
+    }
+
+    /// The point at `s`; its distance is from the factored difference of squares: its digits
+    /// survive where the ray only grazes.
+    #[inline(always)]
+    fn at(&self, s: N) -> TorusProbe<N> {
+        let minor = self.number(self.minor);
+        let z = (self.height + self.rise * s).abs();
+        let off = ((self.off + self.turn * s).length() - self.number(self.major)).abs();
+        let is_high = off.less(z);
+        let (large, small) = (N::select(is_high, z, off), N::select(is_high, off, z));
+        let square = small * small + (large - minor) * (large + minor);
+        TorusProbe {
+            s,
+            distance: square / ((off * off + z * z).sqrt() + minor),
+        }
+    }
+
+    /// As [`Self::at`] for the start of the ray; on the surface the distance is 1 or −1, by the
+    /// side that the ray points to: it does not hit its own surface.
+    #[inline(always)]
+    fn start(&self, s: N) -> TorusProbe<N> {
+        let mut probe = self.at(s);
+        let is_on = probe.distance.abs().less_or_equal(self.number(ON_SURFACE));
+        if !N::is_nowhere(is_on) {
+            let off = self.off + self.turn * s;
+            let length = off.length();
+            let outwards = (length - self.number(self.major)) * off.dot(self.turn) / length;
+            let rise = (self.height + self.rise * s) * self.rise;
+            let is_inwards = (outwards + rise).less(self.number(0.0));
+            let side = N::select(is_inwards, self.number(-1.0), self.number(1.0));
+            probe.distance = N::select(is_on, side, probe.distance);
+        }
+        probe
     }
 
     /// Whether the ray certainly misses the torus from `low` to `high`: it stays outside of the two
     /// planes that touch the torus, or in the hole. All with a margin far above rounding; the
     /// distance from the axis is largest at an end of the interval.
-    fn passes(&self, low: f64, high: f64) -> bool {
+    #[inline(always)]
+    fn passes(&self, low: N, high: N) -> N::Mask {
         let above = self.minor + TOUCH;
-        let ends = [-above, above].map(|height| (height - self.height) / self.rise);
-        let (enter, leave) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+        let ends = [-above, above].map(|end| (self.number(end) - self.height) / self.rise);
+        let (enter, leave) = (ends[0].least(ends[1]), ends[0].greatest(ends[1]));
+        let touch = self.number(TOUCH);
+        let is_outside = (high + touch).less(enter) | leave.less(low - touch);
         let hole = self.major - self.minor - TOUCH;
-        let is_in_hole = |s: f64| {
-            let off = self.off + self.turn * s;
-            off.dot(off) < hole * hole
+        if hole <= 0.0 || N::is_nowhere(!is_outside) {
+            return is_outside;
+        }
+        let is_in_hole = |s: N| {
+            (self.off + self.turn * s)
+                .square()
+                .less(self.number(hole * hole))
         };
-        enter > high + TOUCH
-            || leave < low - TOUCH
-            || hole > 0.0 && is_in_hole(enter) && is_in_hole(leave)
+        is_outside | is_in_hole(enter) & is_in_hole(leave)
     }
 
-    /// The coefficients of the quartic's derivative over 4, `s³ + linear·s + constant`: there is no
-    /// square term, as a step has length 1 and is perpendicular to the vector from the centre.
-    fn derivative(&self) -> (f64, f64) {
+    /// The quartic's derivative over 4: there is no square term, as a step has length 1 and is
+    /// perpendicular to the vector from the centre.
+    #[inline(always)]
+    fn derivative(&self) -> DepressedCubic<N> {
         // (|p|² + R² − r²)² − 4R²ρ², with |p|² = f² + s² and ρ² = |w + x·s|².
         let (w, x) = (self.off, self.turn);
-        let k = self.square + (self.major - self.minor) * (self.major + self.minor);
+        let k = self.square + self.number((self.major - self.minor) * (self.major + self.minor));
         let square = 2.0 * self.major * self.major;
-        (k - square * x.dot(x), -square * w.dot(x))
-    }
-
-    /// The `s` in `(low, high)` at which the distance changes sign, from that at `low` on, in
-    /// brackets of the quartic's critical points; each with whether the ray was inside before it.
-    fn roots(&self, low: f64, high: f64) -> impl Iterator<Item = (f64, bool)> {
-        let (linear, constant) = self.derivative();
-        let borders = cubic_roots(linear, constant, low, high).chain(std::iter::once(high));
-        let mut before = (low, self.start_distance(low));
-        borders.filter_map(move |split_plane| {
-            let there = (split_plane, self.distance(split_plane));
-            let last = std::mem::replace(&mut before, there);
-            let was_inside = last.1 < 0.0;
-            if there.1 == 0.0 && split_plane > low {
-                return Some((split_plane, was_inside));
-            }
-            let root = || (self.root(last, there), was_inside);
-            ((there.1 < 0.0) != was_inside).then(root)
-        })
-    }
-
-    /// The root between two points with distances of opposite signs: steps of inverse quadratic
-    /// interpolation where the last three points allow it, else bisection. Chandrupatla, "A new
-    /// hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function without
-    /// using derivatives" (Advances in Engineering Software 28, 1997). It ends where the distance
-    /// is below its rounding error, or the bracket has no midpoint.
-    fn root(&self, mut last: (f64, f64), mut other: (f64, f64)) -> f64 {
-        let mut before;
-        let mut fraction = 0.5;
-        for _ in 0..MAX_STEPS {
-            let at = last.0 + fraction * (other.0 - last.0);
-            let there = (at, self.distance(at));
-            if (there.1 < 0.0) == (last.1 < 0.0) {
-                before = last;
-            } else {
-                (before, other) = (other, last);
-            }
-            last = there;
-            let best = if last.1.abs() < other.1.abs() {
-                last
-            } else {
-                other
-            };
-            let finest = ROUNDING / (other.0 - last.0).abs();
-            if best.1.abs() <= ROUNDING || finest > 0.5 {
-                return best.0;
-            }
-            fraction = fraction_of(last, other, before).clamp(finest, 1.0 - finest);
+        DepressedCubic {
+            linear: k - self.number(square) * x.dot(x),
+            constant: self.number(-square) * w.dot(x),
         }
-        last.0
+    }
+
+    /// A search from `low` to `high`.
+    #[inline(always)]
+    fn search(&self, low: N, high: N) -> TorusSearch<N> {
+        let cubic = self.derivative();
+        TorusSearch {
+            low,
+            cubic,
+            next: 0,
+            borders: cubic.borders(low, high),
+            before: self.start(low),
+        }
+    }
+
+    /// The next root where `wanted`: where there is one, the root, and where the ray was inside
+    /// before it. The search may go on if it is that of a single ray.
+    #[inline(always)]
+    fn next_root(&self, search: &mut TorusSearch<N>, wanted: N::Mask) -> (N::Mask, N, N::Mask) {
+        let (mut before, mut after) = (search.before, search.before);
+        let none = wanted & !wanted;
+        let (mut searched, mut exact, mut bracketed) = (wanted, none, none);
+        while search.next <= 3 {
+            // Split the stretch at the critical points, where the distance is monotonic.
+            let (k, borders) = (search.next, &search.borders);
+            search.next += 1;
+            let (has, s) = match k {
+                3 => (searched, borders[3]),
+                _ => search.cubic.root([borders[k], borders[k + 1]], searched),
+            };
+            if N::is_nowhere(has) {
+                continue;
+            }
+            // A change of sign brackets a root.
+            let there = self.at(s);
+            let is_root = has & there.distance.equal(self.number(0.0)) & search.low.less(s);
+            let crosses = has & !is_root & (there.is_inside() ^ before.is_inside());
+            after = there.select(is_root | crosses, after);
+            (exact, bracketed) = (exact | is_root, bracketed | crosses);
+            searched = searched & !(is_root | crosses);
+            if N::is_nowhere(searched) {
+                break;
+            }
+            before = there.select(has & searched, before);
+        }
+        // Refine the bracketed root.
+        let root = if N::is_nowhere(bracketed) {
+            after.s
+        } else {
+            self.root(before, after, bracketed)
+        };
+        search.before = after;
+        let root = N::select(exact, after.s, root);
+        (exact | bracketed, root, before.is_inside())
+    }
+
+    /// The root between two points with distances of opposite signs, where `active`: steps of
+    /// inverse quadratic interpolation where the last three points allow it, else bisection.
+    /// Chandrupatla, "A new hybrid quadratic/bisection algorithm for finding the zero of a
+    /// nonlinear function without using derivatives" (Advances in Engineering Software 28, 1997).
+    /// It ends where the distance is below its rounding error, or the bracket has no midpoint.
+    #[inline(always)]
+    fn root(&self, mut last: TorusProbe<N>, mut other: TorusProbe<N>, mut active: N::Mask) -> N {
+        let rounding = self.number(ROUNDING);
+        let (mut found, mut fraction) = (last.s, self.number(0.5));
+        for _ in 0..MAX_STEPS {
+            let there = self.at(last.s + fraction * (other.s - last.s));
+            let differs = there.is_inside() ^ last.is_inside();
+            let before = other.select(differs, last);
+            other = last.select(differs, other);
+            last = there;
+            let is_best = last.distance.abs().less(other.distance.abs());
+            let best = last.select(is_best, other);
+            let finest = rounding / (other.s - last.s).abs();
+            let ends = best.distance.abs().less_or_equal(rounding) | self.number(0.5).less(finest);
+            found = N::select(active & ends, best.s, found);
+            active = active & !ends;
+            if N::is_nowhere(active) {
+                return found;
+            }
+            let next = fraction_of(last, other, before);
+            fraction = clamp(next, finest, self.number(1.0) - finest);
+        }
+        N::select(active, last.s, found)
     }
 }
 
 /// The next point between two points of opposite signs, as a fraction from the last to the other:
 /// the root of the parabola through both and the point before, if that is safe, else the midpoint.
-fn fraction_of(last: (f64, f64), other: (f64, f64), before: (f64, f64)) -> f64 {
-    let along = (last.0 - other.0) / (before.0 - other.0);
-    let up = (last.1 - other.1) / (before.1 - other.1);
-    let is_safe = up * up < along && (1.0 - up) * (1.0 - up) < 1.0 - along;
-    if !is_safe {
-        return 0.5;
-    }
-    let linear = last.1 / (other.1 - last.1) * before.1 / (other.1 - before.1);
-    let latus_rectum = (before.0 - last.0) / (other.0 - last.0) * last.1 / (before.1 - last.1)
-        * other.1
-        / (before.1 - other.1);
-    linear + latus_rectum
+#[inline(always)]
+fn fraction_of<N: Double>(last: TorusProbe<N>, other: TorusProbe<N>, before: TorusProbe<N>) -> N {
+    let one = last.s.constant(1.0);
+    let along = (last.s - other.s) / (before.s - other.s);
+    let up = (last.distance - other.distance) / (before.distance - other.distance);
+    let is_safe = (up * up).less(along) & ((one - up) * (one - up)).less(one - along);
+    let linear = last.distance / (other.distance - last.distance) * before.distance
+        / (other.distance - before.distance);
+    let latus_rectum = (before.s - last.s) / (other.s - last.s) * last.distance
+        / (before.distance - last.distance)
+        * other.distance
+        / (before.distance - other.distance);
+    N::select(is_safe, linear + latus_rectum, one.constant(0.5))
 }
 
-/// The real roots of `s³ + linear·s + constant` in `[low, high]`, in order, computed lazily.
-fn cubic_roots(linear: f64, constant: f64, low: f64, high: f64) -> impl Iterator<Item = f64> {
-    // Bracket the roots by the extrema of the cubic.
-    let spread = (-linear / 3.0).max(0.0).sqrt();
-    let borders = [
-        low,
-        (-spread).clamp(low, high),
-        spread.clamp(low, high),
-        high,
-    ];
-    (0..3).filter_map(move |k| cubic_root(linear, constant, borders[k], borders[k + 1]))
+/// As [`f64::clamp`].
+#[inline(always)]
+fn clamp<N: Number>(x: N, low: N, high: N) -> N {
+    let x = N::select(x.less(low), low, x);
+    N::select(high.less(x), high, x)
 }
 
-/// The root of the cubic between two points, if it changes sign there.
-fn cubic_root(linear: f64, constant: f64, mut a: f64, mut b: f64) -> Option<f64> {
-    let value = |s: f64| (s * s + linear) * s + constant;
-    let (first, last) = (value(a), value(b));
-    if a >= b || (first < 0.0) == (last < 0.0) {
-        return None;
+/// `s³ + linear·s + constant`.
+#[derive(Clone, Copy)]
+struct DepressedCubic<N> {
+    linear: N,
+    constant: N,
+}
+
+impl<N: Double> DepressedCubic<N> {
+    #[inline(always)]
+    fn value(&self, s: N) -> N {
+        (s * s + self.linear) * s + self.constant
     }
-    let rises = last > first;
-    let mut at = 0.5 * (a + b);
-    for _ in 0..MAX_STEPS {
-        let height = value(at);
-        if (height > 0.0) == rises {
-            b = at
-        } else {
-            a = at
-        }
-        // Take a Newton step, or bisect if the step leaves the bracket.
-        let newton = at - height / (3.0 * at * at + linear);
-        let next = if newton > a && newton < b {
-            newton
-        } else {
-            0.5 * (a + b)
-        };
-        if next == at || next <= a || next >= b {
-            break;
-        }
-        at = next;
+
+    /// The ends and the extrema between them, which bracket its roots.
+    #[inline(always)]
+    fn borders(&self, low: N, high: N) -> [N; 4] {
+        let spread = -self.linear / low.constant(3.0);
+        let spread = spread.greatest(low.constant(0.0)).sqrt();
+        [
+            low,
+            clamp(-spread, low, high),
+            clamp(spread, low, high),
+            high,
+        ]
     }
-    Some(at)
+
+    /// The root between two points where `wanted`, and where it changes sign there.
+    #[inline(always)]
+    fn root(&self, [mut a, mut b]: [N; 2], wanted: N::Mask) -> (N::Mask, N) {
+        let number = |x: f64| a.constant(x);
+        let (zero, half, three) = (number(0.0), number(0.5), number(3.0));
+        let (first, last) = (self.value(a), self.value(b));
+        let has = wanted & !b.less_or_equal(a) & (first.less(zero) ^ last.less(zero));
+        let rises = first.less(last);
+        let (mut at, mut active) = (half * (a + b), has);
+        for _ in 0..MAX_STEPS {
+            if N::is_nowhere(active) {
+                break;
+            }
+            let height = self.value(at);
+            let is_low = zero.less(height) ^ rises;
+            (a, b) = (N::select(is_low, at, a), N::select(is_low, b, at));
+            // Take a Newton step, or bisect if the step leaves the bracket.
+            let newton = at - height / (three * at * at + self.linear);
+            let fits = a.less(newton) & newton.less(b);
+            let next = N::select(fits, newton, half * (a + b));
+            let ends = next.equal(at) | next.less_or_equal(a) | b.less_or_equal(next);
+            active = active & !ends;
+            at = N::select(active, next, at);
+        }
+        (has, at)
+    }
 }
 
 impl Torus {
@@ -261,62 +392,83 @@ impl Torus {
     /// The first root above 0.
     #[must_use]
     pub fn intersect(&self, ray: &Ray) -> Option<f64> {
-        let stretch = self.stretch(ray)?;
-        let (s, _) = stretch.line.roots(stretch.low, stretch.high).next()?;
-        let t = stretch.t(s);
-        (t > 0.0).then_some(t)
+        let t = self.roots(&Rays::one(ray), true);
+        (t < f64::INFINITY).then_some(t)
     }
 
-    /// The interval of a ray near the torus; `None` for a miss.
-    #[inline]
-    fn stretch(&self, ray: &Ray) -> Option<TorusStretch> {
-        let f = ray.origin - self.center;
-        let d = ray.direction;
+    /// As [`Self::intersect`], where `wanted`; infinite for a miss. A lane whose search has ended
+    /// continues without effect until all have.
+    #[inline(always)]
+    pub(super) fn roots<N: Double>(&self, rays: &Rays<N>, wanted: N::Mask) -> N {
+        let number = |x: f64| rays.origin.x.constant(x);
+        let none = number(f64::INFINITY);
+        let Some(stretch) = self.stretch(rays, wanted) else {
+            return none;
+        };
+        let (line, near) = (&stretch.line, stretch.near);
+        let mut search = line.search(stretch.low, stretch.high);
+        let (has, root, _) = line.next_root(&mut search, near);
+        let t = stretch.t(root);
+        N::select(has & number(0.0).less(t), t, none)
+    }
+
+    /// The interval of a ray near the torus, where `wanted`; `None` if all miss.
+    #[inline(always)]
+    fn stretch<N: Double>(&self, rays: &Rays<N>, wanted: N::Mask) -> Option<TorusStretch<N>> {
+        let number = |x: f64| rays.origin.x.constant(x);
+        let f = rays.origin - Vector::constant(rays.origin.x, self.center);
+        let d = rays.direction;
         let length2 = d.dot(d);
         let nearest = -f.dot(d) / length2;
         let foot = f + d * nearest;
         let outer = self.major + self.minor;
-        let half2 = outer * outer * NEARLY_ONE - foot.dot(foot);
-        if half2 < 0.0 || half2.is_nan() {
+        let half2 = number(outer * outer * NEARLY_ONE) - foot.dot(foot);
+        let near = wanted & number(0.0).less_or_equal(half2);
+        if N::is_nowhere(near) {
             return None;
         }
-        // Scale by a power of two near the outer radius, which is exact.
-        let unit = self.unit;
+        // Scale by a power of two near the outer radius, which is exact, as is its reciprocal.
+        let per_unit = number(self.unit.recip());
         let length = length2.sqrt();
-        let (from, step) = (foot / unit, d / length);
-        let line = TorusRay {
-            square: from.dot(from),
-            height: from.dot(self.axis),
-            off: cross(from, self.axis),
-            rise: step.dot(self.axis),
-            turn: cross(step, self.axis),
-            major: self.major / unit,
-            minor: self.minor / unit,
-        };
-        let half = half2.sqrt() / unit;
-        let start = -nearest * length / unit;
-        let low = if start > -half { start } else { -half };
-        if low >= half || line.passes(low, half) {
-            return None;
-        }
-        Some(TorusStretch {
+        let line = TorusRay::new(self, foot * per_unit, d / length);
+        let high = half2.sqrt() * per_unit;
+        let low = (-nearest * length * per_unit).greatest(-high);
+        let near = near & low.less(high) & !line.passes(low, high);
+        (!N::is_nowhere(near)).then(|| TorusStretch {
             line,
             low,
-            high: half,
+            high,
+            near,
             nearest,
-            pace: unit / length,
+            pace: number(self.unit) / length,
         })
     }
 
-    /// The point at `t`, moved onto the tube in its own frame.
+    /// The point at `t`; see [`Self::interactions`].
     #[must_use]
     pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
-        let local = (ray.origin - self.center) + ray.direction * t;
-        let z = local.dot(self.axis);
-        let ring = (local - self.axis * z).normalize_or_zero() * self.major;
-        let normal = ray.outward(local - ring);
-        let point = self.center + ring + normal * self.minor;
-        Interaction::new(ray, point, normal, self.center, self.major + self.minor)
+        self.interactions(&Rays::one(ray), t).lane(0)
+    }
+
+    /// The points at `t`, where that is finite, moved onto the tube in its own frame.
+    #[inline(always)]
+    pub(super) fn interactions<N: Double>(&self, rays: &Rays<N>, t: N) -> Interactions<N> {
+        let number = |x: f64| t.constant(x);
+        let [center, axis] = [self.center, self.axis].map(|v| Vector::constant(t, v));
+        let local = rays.origin - center + rays.direction * t;
+        let (is_beside, outward) = (local - axis * local.dot(axis)).try_normalize();
+        let on_axis = Vector::constant(t, Vec3::ZERO);
+        let ring = outward.select(is_beside, on_axis) * number(self.major);
+        let out = local - ring;
+        let (has_normal, mut normal) = out.try_normalize();
+        let has_none = t.less(number(f64::INFINITY)) & !has_normal;
+        if !N::is_nowhere(has_none) {
+            for lane in N::lanes(has_none) {
+                normal.put(lane, rays.lane(lane).outward(out.lane(lane)));
+            }
+        }
+        let point = center + ring + normal * number(self.minor);
+        Interactions::new(rays, point, normal, self.center, self.major + self.minor)
     }
 
     /// A box around the torus.
@@ -334,17 +486,18 @@ impl Intersect for Torus {
     }
 
     fn visit_crossings(&self, ray: &Ray, visit: &mut dyn FnMut(SolidCrossing)) {
-        let Some(stretch) = self.stretch(ray) else {
+        let Some(stretch) = self.stretch(&Rays::one(ray), true) else {
             return;
         };
-        if stretch.line.start_distance(stretch.low) < 0.0 {
+        let mut search = stretch.line.search(stretch.low, stretch.high);
+        if search.before.is_inside() {
             visit(SolidCrossing {
                 t: f64::NEG_INFINITY,
                 enters: true,
                 part: 0,
             });
         }
-        for (s, was_inside) in stretch.line.roots(stretch.low, stretch.high) {
+        while let (true, s, was_inside) = stretch.line.next_root(&mut search, true) {
             visit(SolidCrossing {
                 t: stretch.t(s),
                 enters: !was_inside,

@@ -7,7 +7,7 @@
 
 use crate::ray::{Interaction, Ray};
 use crate::shape::baseline::ray::BaselineRay;
-use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::real::{Real, RealVector};
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::corners::interpolate;
 use crate::shape::emitter::Emitter;
@@ -15,7 +15,7 @@ use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::normal_field::NormalField;
 use crate::shape::plane::PlaneNormal;
-use rtc_math::{Bounds, U, Vec3, difference_of_products};
+use rtc_math::{Bounds, U, Vec3, Vector, difference_of_products};
 use std::sync::Arc;
 
 /// The change of coordinates that turns a ray's direction into the z axis: a permutation and a

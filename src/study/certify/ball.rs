@@ -5,8 +5,8 @@
 //! ACM TOMS 44, 2017); 64 u² are allowed.
 
 use super::enclosure::{EXACT, Enclosure, level};
-use super::number::CertifiedNumber;
-use rtc_math::{DoubleDouble, U, atan2, two_product, two_sum};
+use super::number::{Certainty, CertifiedNumber};
+use rtc_math::{DoubleDouble, Number, U, atan2, two_product, two_sum};
 use std::f64::consts::TAU;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -99,6 +99,52 @@ fn sin_cos_series(angle: DoubleDouble) -> [DoubleDouble; 2] {
     [angle * nested(1), nested(0)]
 }
 
+impl Number for DoubleDoubleBall {
+    type Mask = Certainty;
+
+    #[inline]
+    fn constant(self, x: f64) -> Self {
+        Self::point(x)
+    }
+
+    fn sqrt(self) -> Self {
+        if self.high() <= 0.0 {
+            return Self::ZERO;
+        }
+        if !self.is_positive() {
+            let high = Enclosure::between(0.0, self.high()).sqrt().high();
+            return Self::between(0.0, high);
+        }
+        let root = self.middle.sqrt();
+        let nearest = root.to_f64();
+        if self
+            .as_f64()
+            .is_some_and(|value| two_product(nearest, nearest) == (value, 0.0))
+        {
+            return Self::point(nearest);
+        }
+        // |√x − √m| = |x − m|/(√x + √m).
+        Self::rounded(root, self.radius / (nearest * (1.0 - 4.0 * U)))
+    }
+
+    fn abs(self) -> Self {
+        Self::select(self.less(Self::ZERO), -self, self)
+    }
+
+    fn less(self, other: Self) -> Certainty {
+        let fails = other.is_below(self) || (other - self).is_zero();
+        Certainty::new(self.is_below(other), fails)
+    }
+
+    fn less_or_equal(self, other: Self) -> Certainty {
+        !other.less(self)
+    }
+
+    fn select(mask: Certainty, yes: Self, no: Self) -> Self {
+        mask.select(yes, no)
+    }
+}
+
 impl CertifiedNumber for DoubleDoubleBall {
     const ZERO: Self = Self {
         middle: DoubleDouble::ZERO,
@@ -186,30 +232,6 @@ impl CertifiedNumber for DoubleDoubleBall {
             return self;
         }
         Self::between(self.low().max(least), self.high().min(most))
-    }
-
-    fn square(self) -> Self {
-        self * self
-    }
-
-    fn sqrt(self) -> Self {
-        if self.high() <= 0.0 {
-            return Self::ZERO;
-        }
-        if !self.is_positive() {
-            let high = Enclosure::between(0.0, self.high()).sqrt().high();
-            return Self::between(0.0, high);
-        }
-        let root = self.middle.sqrt();
-        let nearest = root.to_f64();
-        if self
-            .as_f64()
-            .is_some_and(|value| two_product(nearest, nearest) == (value, 0.0))
-        {
-            return Self::point(nearest);
-        }
-        // |√x − √m| = |x − m|/(√x + √m).
-        Self::rounded(root, self.radius / (nearest * (1.0 - 4.0 * U)))
     }
 
     /// Products for whole exponents, else the power of intervals.

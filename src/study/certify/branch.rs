@@ -5,8 +5,8 @@ use super::reason::Doubts;
 use super::sampling::{CertifiedKey, spiral_turns};
 use super::shade::{CertifiedPoint, CertifiedScene, frame};
 use super::shape::CertifiedRay;
-use super::vector::CertifiedVector;
 use rtc_ir::Phong;
+use rtc_math::Vector;
 
 /// A ray to follow.
 pub(super) struct CertifiedBranch<N> {
@@ -40,7 +40,7 @@ impl<N: CertifiedNumber> CertifiedScene<'_, N> {
             Some(_) => reflected_part(direction, point),
             None => N::ONE,
         };
-        let mut push = |direction: CertifiedVector<N>, weight: N, key: CertifiedKey| {
+        let mut push = |direction: Vector<N>, weight: N, key: CertifiedKey| {
             let beta = branch.beta * weight;
             if !beta.is_zero() {
                 pending.push(CertifiedBranch {
@@ -78,8 +78,8 @@ impl<N: CertifiedNumber> CertifiedScene<'_, N> {
     fn lobe(
         &self,
         point: &CertifiedPoint<'_, N>,
-        mirror: CertifiedVector<N>,
-    ) -> Result<Vec<(u32, CertifiedVector<N>)>, Doubts> {
+        mirror: Vector<N>,
+    ) -> Result<Vec<(u32, Vector<N>)>, Doubts> {
         let [across, upward] = frame(mirror).ok_or(Doubts::SEAM)?;
         let Phong {
             n, glossy_samples, ..
@@ -112,11 +112,11 @@ impl<N: CertifiedNumber> CertifiedScene<'_, N> {
 /// d − 2·(d·n)·n with the shading normal, or with the geometric one where the former leads into the
 /// surface.
 fn mirrored<N: CertifiedNumber>(
-    direction: CertifiedVector<N>,
+    direction: Vector<N>,
     point: &CertifiedPoint<'_, N>,
-) -> Result<CertifiedVector<N>, Doubts> {
+) -> Result<Vector<N>, Doubts> {
     let two = N::point(2.0);
-    let about = |normal: CertifiedVector<N>| direction - normal * (two * direction.dot(normal));
+    let about = |normal: Vector<N>| direction - normal * (two * direction.dot(normal));
     let mirror = about(point.normal);
     if !point.has_shading_normal {
         return Ok(mirror);
@@ -135,9 +135,9 @@ fn mirrored<N: CertifiedNumber>(
 /// Snell's law: the unit direction beyond the surface; `None` for a surface that transmits nothing,
 /// or for total reflection.
 fn transmit<N: CertifiedNumber>(
-    direction: CertifiedVector<N>,
+    direction: Vector<N>,
     point: &CertifiedPoint<'_, N>,
-) -> Result<Option<CertifiedVector<N>>, Doubts> {
+) -> Result<Option<Vector<N>>, Doubts> {
     let Phong { kt, ior, .. } = *point.material;
     if kt == 0.0 {
         return Ok(None);
@@ -162,15 +162,12 @@ fn transmit<N: CertifiedNumber>(
     let along = direction - point.normal * direction.dot(point.normal);
     // The length of the sum is the index beyond.
     let refracted = along * from - point.normal * square.sqrt();
-    Ok(Some(refracted.over(to)))
+    Ok(Some(refracted / to))
 }
 
 /// The part of kt that is reflected: Schlick's approximation of Fresnel's equations, by the angle
 /// on the side of the ray.
-fn reflected_part<N: CertifiedNumber>(
-    direction: CertifiedVector<N>,
-    point: &CertifiedPoint<'_, N>,
-) -> N {
+fn reflected_part<N: CertifiedNumber>(direction: Vector<N>, point: &CertifiedPoint<'_, N>) -> N {
     let Phong { ior, fresnel, .. } = *point.material;
     if !fresnel || ior == 1.0 {
         return N::ZERO;

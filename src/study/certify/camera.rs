@@ -5,19 +5,19 @@ use super::sampling::{CertifiedKey, spiral_turns};
 use super::shape::CertifiedRay;
 use super::vector::CertifiedVector;
 use rtc_ir::{Camera, Pattern, Projection, Scene};
-use rtc_math::Vec3;
+use rtc_math::{Vec3, Vector};
 
 /// A camera, and the arrangement of its samples.
 pub(super) struct CertifiedCamera<N> {
-    eye: CertifiedVector<N>,
-    center: CertifiedVector<N>,
-    right: CertifiedVector<N>,
-    up: CertifiedVector<N>,
+    eye: Vector<N>,
+    center: Vector<N>,
+    right: Vector<N>,
+    up: Vector<N>,
     size: [u32; 2],
     factor: u32,
     pattern: Pattern,
     /// The points of the lens from the eye.
-    lens: Vec<CertifiedVector<N>>,
+    lens: Vec<Vector<N>>,
     projection: Projection,
 }
 
@@ -33,7 +33,7 @@ impl<N: CertifiedNumber> CertifiedCamera<N> {
             projection,
         } = &scene.camera;
         let [eye, center, right, up] =
-            [eye, center, right, up].map(|v| CertifiedVector::point(Vec3::from_array(*v)));
+            [eye, center, right, up].map(|v| Vector::point(Vec3::from_array(*v)));
         let count = if lens.radius == 0.0 { 1 } else { lens.samples };
         // Point k of Vogel's spiral: r = R·√(k/n)/‖up‖, θ = k golden angles.
         let point = |k: u32| {
@@ -74,7 +74,7 @@ impl<N: CertifiedNumber> CertifiedCamera<N> {
 
     /// The ray through the middle of a pixel.
     pub(super) fn middle(&self, pixel: [u32; 2]) -> CertifiedRay<N> {
-        let none = CertifiedVector::point(Vec3::ZERO);
+        let none = Vector::point(Vec3::ZERO);
         self.ray(none, self.target(pixel, [N::point(0.5); 2]))
     }
 
@@ -98,7 +98,7 @@ impl<N: CertifiedNumber> CertifiedCamera<N> {
     }
 
     /// `center + (x + place₀ − width/2)·right + (height/2 − y − place₁)·up`.
-    fn target(&self, [x, y]: [u32; 2], place: [N; 2]) -> CertifiedVector<N> {
+    fn target(&self, [x, y]: [u32; 2], place: [N; 2]) -> Vector<N> {
         let number = |x: f64| N::point(x);
         let [half_width, half_height] = self.size.map(|side| number(f64::from(side) / 2.0));
         let across = number(f64::from(x)) + place[0] - half_width;
@@ -107,7 +107,7 @@ impl<N: CertifiedNumber> CertifiedCamera<N> {
     }
 
     /// The ray from a point of the lens through a point of the image.
-    fn ray(&self, lens: CertifiedVector<N>, target: CertifiedVector<N>) -> CertifiedRay<N> {
+    fn ray(&self, lens: Vector<N>, target: Vector<N>) -> CertifiedRay<N> {
         let lens = self.eye + lens;
         let origin = match self.projection {
             Projection::Perspective => lens,

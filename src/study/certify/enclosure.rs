@@ -5,8 +5,8 @@
 //! unit of rounding; sums, products and roots of single numbers stay single numbers where they are
 //! exact. An end of ±∞ says that there is no bound.
 
-use super::number::CertifiedNumber;
-use rtc_math::{U, atan2, cos_sin_revolutions, pow, two_product, two_sum};
+use super::number::{Certainty, CertifiedNumber};
+use rtc_math::{Number, U, atan2, cos_sin_revolutions, pow, two_product, two_sum};
 use std::f64::consts::TAU;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -80,6 +80,52 @@ impl Enclosure {
     /// The least distance of its numbers from 0.
     fn least(self) -> f64 {
         self.low.max(-self.high).max(0.0)
+    }
+}
+
+impl Number for Enclosure {
+    type Mask = Certainty;
+
+    #[inline]
+    fn constant(self, x: f64) -> Self {
+        Self::point(x)
+    }
+
+    #[inline]
+    fn square(self) -> Self {
+        if self.is_point() {
+            return self * self;
+        }
+        let (a, b) = (self.low.abs(), self.high.abs());
+        let (near, far) = if a < b { (a, b) } else { (b, a) };
+        let near = if self.has_sign() { near } else { 0.0 };
+        Self::outward(near * near, far * far).at_least_zero()
+    }
+
+    #[inline]
+    fn sqrt(self) -> Self {
+        let (low, high) = (self.low.max(0.0).sqrt(), self.high.max(0.0).sqrt());
+        if self.is_point() && two_product(low, low) == (self.low, 0.0) {
+            return Self::single(low);
+        }
+        Self::outward(low, high).at_least_zero()
+    }
+
+    fn abs(self) -> Self {
+        Self::select(self.less(Self::ZERO), -self, self)
+    }
+
+    fn less(self, other: Self) -> Certainty {
+        let fails = other.is_below(self) || (other - self).is_zero();
+        Certainty::new(self.is_below(other), fails)
+    }
+
+    fn less_or_equal(self, other: Self) -> Certainty {
+        !other.less(self)
+    }
+
+    fn select(mask: Certainty, yes: Self, no: Self) -> Self {
+        mask.select(yes, no)
     }
 }
 
@@ -160,26 +206,6 @@ impl CertifiedNumber for Enclosure {
             low: self.low.clamp(least, most),
             high: self.high.clamp(least, most),
         }
-    }
-
-    #[inline]
-    fn square(self) -> Self {
-        if self.is_point() {
-            return self * self;
-        }
-        let (a, b) = (self.low.abs(), self.high.abs());
-        let (near, far) = if a < b { (a, b) } else { (b, a) };
-        let near = if self.has_sign() { near } else { 0.0 };
-        Self::outward(near * near, far * far).at_least_zero()
-    }
-
-    #[inline]
-    fn sqrt(self) -> Self {
-        let (low, high) = (self.low.max(0.0).sqrt(), self.high.max(0.0).sqrt());
-        if self.is_point() && two_product(low, low) == (self.low, 0.0) {
-            return Self::single(low);
-        }
-        Self::outward(low, high).at_least_zero()
     }
 
     /// The `pow` of `libm` is that of FreeBSD (`e_pow.c`), whose error is stated to be below 0.70
@@ -353,7 +379,7 @@ mod tests {
     use super::*;
     use crate::certify::vector::CertifiedVector;
     use proptest::prelude::*;
-    use rtc_math::{DoubleDouble, Vec3};
+    use rtc_math::{DoubleDouble, Vec3, Vector};
 
     /// An enclosure, and two numbers in it.
     fn enclosures() -> impl Strategy<Value = (Enclosure, [f64; 2])> {
@@ -415,9 +441,9 @@ mod tests {
         fn a_unit_vector_of_a_box_holds_that_of_its_corner(x in -9.0..9.0, y in -9.0..9.0) {
             let corner = Vec3::new(x, y, 1.5);
             let wide = corner.to_array().map(|k: f64| Enclosure::between(k, k + 1e-9));
-            let unit = CertifiedVector(wide).normalized();
+            let unit = Vector::from(wide).normalized();
             for (axis, part) in corner.normalize().to_array().into_iter().enumerate() {
-                let Enclosure { low, high } = unit.0[axis];
+                let Enclosure { low, high } = unit.into_array()[axis];
                 prop_assert!(low <= part + 4.0 * U && part - 4.0 * U <= high);
                 prop_assert!(high - low < 1e-8);
             }

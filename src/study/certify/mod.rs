@@ -33,14 +33,14 @@ mod vector;
 
 pub use ball::DoubleDoubleBall;
 pub use enclosure::Enclosure;
-pub use number::CertifiedNumber;
+pub use number::{Certainty, CertifiedNumber};
 pub use reason::Doubts;
 
 use camera::CertifiedCamera;
 use rayon::prelude::*;
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use rtc_ir::{Mode, Scene};
-use rtc_math::Vec3;
+use rtc_math::{Vec3, Vector};
 use shade::{CertifiedScene, Color, plus};
 use shape::{CertifiedRay, CertifiedSurfaces, FirstHit};
 use std::sync::OnceLock;
@@ -148,8 +148,8 @@ pub fn first_distance<N: CertifiedNumber>(
     scene: &Scene,
     [origin, direction]: [Vec3; 2],
 ) -> Result<Option<N>, Doubts> {
-    let along = CertifiedVector::<N>::point(direction);
-    let ray = CertifiedRay::new(CertifiedVector::point(origin), along.normalized(), None);
+    let along = Vector::<N>::point(direction);
+    let ray = CertifiedRay::new(Vector::point(origin), along.normalized(), None);
     match CertifiedSurfaces::new(scene).first_hit(&ray) {
         FirstHit::Nothing => Ok(None),
         FirstHit::Surface(_, hit) => Ok(Some(hit.t / along.length())),

@@ -1,22 +1,79 @@
 //! What the evaluation asks of a number that stands for a set of real numbers.
 
+use rtc_math::Number;
 use std::fmt::Debug;
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::ops::{BitAnd, BitOr, BitXor, Not};
+
+/// What is known of a condition on all numbers of a set.
+#[derive(Clone, Copy)]
+pub struct Certainty {
+    can_hold: bool,
+    can_fail: bool,
+}
+
+impl Certainty {
+    /// A condition that certainly holds, certainly fails, or may do either.
+    #[must_use]
+    pub fn new(holds: bool, fails: bool) -> Self {
+        Self {
+            can_hold: !fails,
+            can_fail: !holds,
+        }
+    }
+
+    /// The numbers of `yes` if the condition holds, those of `no` if it fails, and of both if
+    /// either may be.
+    #[must_use]
+    pub fn select<N: CertifiedNumber>(self, yes: N, no: N) -> N {
+        match (self.can_hold, self.can_fail) {
+            (true, true) => yes.hull(no),
+            (true, false) => yes,
+            (false, _) => no,
+        }
+    }
+}
+
+impl Not for Certainty {
+    type Output = Self;
+
+    fn not(self) -> Self {
+        Self {
+            can_hold: self.can_fail,
+            can_fail: self.can_hold,
+        }
+    }
+}
+
+impl BitAnd for Certainty {
+    type Output = Self;
+
+    fn bitand(self, other: Self) -> Self {
+        Self {
+            can_hold: self.can_hold && other.can_hold,
+            can_fail: self.can_fail || other.can_fail,
+        }
+    }
+}
+
+impl BitOr for Certainty {
+    type Output = Self;
+
+    fn bitor(self, other: Self) -> Self {
+        !(!self & !other)
+    }
+}
+
+impl BitXor for Certainty {
+    type Output = Self;
+
+    fn bitxor(self, other: Self) -> Self {
+        (self & !other) | (!self & other)
+    }
+}
 
 /// A set of real numbers. Each operation contains the results of the real operation on all numbers
-/// of its operands.
-pub trait CertifiedNumber:
-    Copy
-    + Debug
-    + PartialEq
-    + Send
-    + Sync
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Neg<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-{
+/// of its operands; the square root is that of the numbers that are not negative.
+pub trait CertifiedNumber: Number<Mask = Certainty> + Debug + PartialEq + Send + Sync {
     /// 0.
     const ZERO: Self;
     /// 1.
@@ -65,14 +122,6 @@ pub trait CertifiedNumber:
     /// within.
     #[must_use]
     fn clamp(self, least: f64, most: f64) -> Self;
-
-    /// The square.
-    #[must_use]
-    fn square(self) -> Self;
-
-    /// The square root of the numbers that are not negative.
-    #[must_use]
-    fn sqrt(self) -> Self;
 
     /// `max(0, x)^exponent` with x at most 1 and an exponent of at least 0: 0 for x ≤ 0 unless the
     /// exponent is 0.

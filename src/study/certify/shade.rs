@@ -9,7 +9,7 @@ use super::shape::{CertifiedRay, CertifiedSurfaces, FirstHit, RayStart, SurfaceH
 use super::texture::look_up;
 use super::vector::CertifiedVector;
 use rtc_ir::{Ambient, Gooch, Light, Mode, Phong, PointLight, Scene};
-use rtc_math::Vec3;
+use rtc_math::{Vec3, Vector};
 
 /// The most branches that are followed for a camera ray.
 const MAX_BRANCHES: usize = 1 << 14;
@@ -32,19 +32,19 @@ pub(super) struct CertifiedValue<N> {
 
 /// A point seen from one side.
 pub(super) struct CertifiedPoint<'scene, N> {
-    point: CertifiedVector<N>,
+    point: Vector<N>,
     surface: usize,
     part: u8,
     /// The geometric unit normal as declared, and on the side of the viewer.
-    pub(super) declared: CertifiedVector<N>,
-    pub(super) geometric: CertifiedVector<N>,
+    pub(super) declared: Vector<N>,
+    pub(super) geometric: Vector<N>,
     /// Whether the viewer is on the side of the declared normal.
     pub(super) is_front: bool,
     /// The unit shading normal on the side of the viewer.
-    pub(super) normal: CertifiedVector<N>,
+    pub(super) normal: Vector<N>,
     /// Whether it differs from the geometric one.
     pub(super) has_shading_normal: bool,
-    pub(super) to_viewer: CertifiedVector<N>,
+    pub(super) to_viewer: Vector<N>,
     pub(super) material: &'scene Phong,
     /// C and ks at this point.
     color: Color<N>,
@@ -137,7 +137,7 @@ impl<'scene, N: CertifiedNumber> CertifiedScene<'scene, N> {
             return Err(Doubts::SILHOUETTE);
         }
         let is_front = slope.is_negative();
-        let turned = |normal: CertifiedVector<N>| if is_front { normal } else { -normal };
+        let turned = |normal: Vector<N>| if is_front { normal } else { -normal };
         let point = ray.at(hit.t);
         let shading = self.surfaces.shading_normal(surface, point);
         // Look the textures up.
@@ -164,7 +164,7 @@ impl<'scene, N: CertifiedNumber> CertifiedScene<'scene, N> {
         &self,
         material: &Phong,
         (surface, hit): (usize, &SurfaceHit<N>),
-        place: [CertifiedVector<N>; 2],
+        place: [Vector<N>; 2],
     ) -> Result<(Color<N>, N), Doubts> {
         let own = (colored(material.color), N::point(material.ks));
         if !material.has_texture() {
@@ -194,7 +194,7 @@ impl<'scene, N: CertifiedNumber> CertifiedScene<'scene, N> {
             Mode::Gooch(parameters) => self.gooch(point, parameters),
             Mode::Normal | Mode::Depth => {
                 let half = N::point(0.5);
-                point.normal.0.map(|x| (x + N::ONE) * half)
+                point.normal.map(|x| (x + N::ONE) * half).into_array()
             }
         };
         CertifiedValue::certain(color)
@@ -266,11 +266,7 @@ impl<'scene, N: CertifiedNumber> CertifiedScene<'scene, N> {
     }
 
     /// `kd·C·max(0, N·L) + ks·max(0, R·V)ⁿ`, with shadows as the scene has them.
-    fn direct(
-        &self,
-        point: &CertifiedPoint<'_, N>,
-        light: CertifiedVector<N>,
-    ) -> CertifiedValue<N> {
+    fn direct(&self, point: &CertifiedPoint<'_, N>, light: Vector<N>) -> CertifiedValue<N> {
         let CertifiedShading {
             color,
             n_dot_l,
@@ -311,14 +307,10 @@ impl<'scene, N: CertifiedNumber> CertifiedScene<'scene, N> {
     }
 
     /// The terms of a light without its shadows.
-    fn shading(
-        &self,
-        point: &CertifiedPoint<'_, N>,
-        light: CertifiedVector<N>,
-    ) -> CertifiedShading<N> {
+    fn shading(&self, point: &CertifiedPoint<'_, N>, light: Vector<N>) -> CertifiedShading<N> {
         let offset = light - point.point;
         let distance = offset.length();
-        let to_light = CertifiedVector(offset.0.map(|x| (x / distance).clamp(-1.0, 1.0)));
+        let to_light = offset.map(|x| (x / distance).clamp(-1.0, 1.0));
         let n_dot_l = point.normal.dot(to_light);
         let diffuse = N::point(point.material.kd) * n_dot_l.clamp(0.0, 1.0);
         let highlight = match point.ks.is_zero() {
@@ -359,7 +351,7 @@ impl<'scene, N: CertifiedNumber> CertifiedScene<'scene, N> {
 /// max(0, R·V)ⁿ.
 fn highlight<N: CertifiedNumber>(
     point: &CertifiedPoint<'_, N>,
-    to_light: CertifiedVector<N>,
+    to_light: Vector<N>,
     n_dot_l: N,
 ) -> N {
     let reflected = point.normal * (N::point(2.0) * n_dot_l) - to_light;
@@ -371,7 +363,7 @@ fn highlight<N: CertifiedNumber>(
 struct CertifiedShading<N> {
     color: Color<N>,
     n_dot_l: N,
-    to_light: CertifiedVector<N>,
+    to_light: Vector<N>,
     distance: N,
 }
 
@@ -384,7 +376,7 @@ impl<N: CertifiedNumber> CertifiedValue<N> {
 
 impl<N: CertifiedNumber> CertifiedPoint<'_, N> {
     /// The ray from here.
-    pub(super) fn ray(&self, direction: CertifiedVector<N>) -> CertifiedRay<N> {
+    pub(super) fn ray(&self, direction: Vector<N>) -> CertifiedRay<N> {
         let start = RayStart {
             surface: self.surface,
             part: self.part,
@@ -396,9 +388,7 @@ impl<N: CertifiedNumber> CertifiedPoint<'_, N> {
 
 /// Two unit vectors at right angles to a unit vector (Duff et al., "Building an orthonormal basis,
 /// revisited", JCGT 6, 2017); `None` near the plane where they jump.
-pub(super) fn frame<N: CertifiedNumber>(
-    CertifiedVector([x, y, z]): CertifiedVector<N>,
-) -> Option<[CertifiedVector<N>; 2]> {
+pub(super) fn frame<N: CertifiedNumber>(Vector { x, y, z }: Vector<N>) -> Option<[Vector<N>; 2]> {
     if !z.has_sign() {
         return None;
     }
@@ -406,13 +396,13 @@ pub(super) fn frame<N: CertifiedNumber>(
     let a = -N::ONE / (sign + z);
     let b = x * y * a;
     Some([
-        CertifiedVector([N::ONE + sign * x.square() * a, sign * b, -sign * x]),
-        CertifiedVector([b, sign + y.square() * a, -y]),
+        Vector::from([N::ONE + sign * x.square() * a, sign * b, -sign * x]),
+        Vector::from([b, sign + y.square() * a, -y]),
     ])
 }
 
-fn vector<N: CertifiedNumber>(position: [f64; 3]) -> CertifiedVector<N> {
-    CertifiedVector::point(Vec3::from_array(position))
+fn vector<N: CertifiedNumber>(position: [f64; 3]) -> Vector<N> {
+    Vector::point(Vec3::from_array(position))
 }
 
 fn colored<N: CertifiedNumber>(color: [f64; 3]) -> Color<N> {

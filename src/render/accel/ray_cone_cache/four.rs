@@ -3,7 +3,7 @@
 
 use super::{BoundingSpheres, LEVELS, ONE, RayCone, RayConeCache, Shaft};
 use crate::accel::bounds::BoundingSphere;
-use crate::lanes::{FourVectors, LANES, Ray4, lanes_of};
+use crate::lanes::{FourVectors, LANES, Ray4, lanes_of, splat};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4};
 
@@ -11,10 +11,8 @@ impl RayCone {
     /// The lanes whose rays the cone contains.
     #[inline(always)]
     fn holds_each<S: Simd>(&self, simd: S, rays: &Ray4<S>) -> u64 {
-        let from = rays.origin.minus(FourVectors::splat(simd, self.origin));
-        let along = rays
-            .direction
-            .minus(FourVectors::splat(simd, self.direction));
+        let from = rays.origin - splat(simd, self.origin);
+        let along = rays.direction - splat(simd, self.direction);
         let is_near = from.dot(from).simd_le(f64x4::splat(simd, self.near));
         let is_alike = along.dot(along).simd_le(f64x4::splat(simd, self.alike));
         (is_near & is_alike).to_bitmask()
@@ -28,7 +26,7 @@ impl Shaft {
         if self.light != light {
             return 0;
         }
-        let step = from.minus(FourVectors::splat(from.x.simd, self.from));
+        let step = from - splat(from.x.simd, self.from);
         let is_near = step.dot(step).simd_le(f64x4::splat(from.x.simd, self.near));
         is_near.to_bitmask()
     }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::accel::simd::baseline;
-use crate::lanes::Ray4;
+use crate::lanes::four_rays;
 use crate::sampler::PathVertexKey;
 use crate::shape::geometry::Intersect;
 use crate::shape::sphere::{Sphere, TexturedSphere};
@@ -180,7 +180,7 @@ fn four_lanes_are_told_of_all_that_each_may_hit() {
                     direction: (case.ray.direction + aside).normalize(),
                 }
             });
-            let four = Ray4::each(simd, &rays);
+            let four = four_rays(simd, &rays);
             let (answered, items) = bundles.along_each(simd, &balls, 0, &four, 0b1101);
             assert_eq!(answered, 0b1101);
             let between = bundles.towards_each(&balls, [0, 0, 1], four.origin, 0b1011, || target);
@@ -220,7 +220,7 @@ fn rays_that_are_not_of_length_one_or_not_finite_have_no_cone() {
         assert!(RayCone::EMPTY.around(&ray, &balls).is_none());
         // With a requested cone, and while the cache is skipped.
         let (simd, mut bundles) = (baseline(), RayConeCache::EMPTY);
-        let four = Ray4::each(simd, &[ray, case.ray, case.ray, ray]);
+        let four = four_rays(simd, &[ray, case.ray, case.ray, ray]);
         for pause in [0, ConeSizeHeuristic::PAUSE] {
             bundles.cones[0].near = -1.0;
             bundles.cones[0].pace.pause = pause;

@@ -19,8 +19,8 @@ use crate::shape::mesh::BaselineMesh;
 use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::WatertightRay;
 use ray::BaselineRay;
-use real::{Real, Vector};
-use rtc_math::{Bounds, Vec3};
+use real::{Real, RealVector};
+use rtc_math::{Bounds, Vec3, Vector};
 use std::fmt::Debug;
 use std::sync::Arc;
 

@@ -1,7 +1,8 @@
 //! The ray of the baseline formulas, and the selection of valid roots.
 
-use super::real::{Real, Vector};
+use super::real::{Real, RealVector};
 use crate::ray::Ray;
+use rtc_math::Vector;
 use rtc_plan::MIN_HIT_DISTANCE;
 
 /// A ray in the numbers of the baseline formulas.

@@ -6,7 +6,7 @@ use crate::certify::number::CertifiedNumber;
 use crate::certify::reason::Doubts;
 use crate::certify::vector::CertifiedVector;
 use rtc_ir::Mesh;
-use rtc_math::Vec3;
+use rtc_math::{Vec3, Vector};
 
 /// A triangle of its own, or one of a placed mesh.
 pub(super) enum CertifiedTriangle<'scene> {
@@ -18,12 +18,9 @@ pub(super) enum CertifiedTriangle<'scene> {
 
 impl CertifiedTriangle<'_> {
     /// The corners in world coordinates.
-    pub(super) fn vertices<N: CertifiedNumber>(
-        &self,
-        placed: &[PlacedMesh<N>],
-    ) -> [CertifiedVector<N>; 3] {
+    pub(super) fn vertices<N: CertifiedNumber>(&self, placed: &[PlacedMesh<N>]) -> [Vector<N>; 3] {
         match self {
-            Self::Own(vertices, _) => vertices.map(CertifiedVector::point),
+            Self::Own(vertices, _) => vertices.map(Vector::point),
             Self::Placed(mesh, corners, index) => corners.map(|corner| {
                 let position = Vec3::from_array(mesh.positions.at(corner as usize));
                 placed[*index].point(position)
@@ -32,10 +29,7 @@ impl CertifiedTriangle<'_> {
     }
 
     /// The geometric normal as declared, of any length.
-    pub(super) fn raw_normal<N: CertifiedNumber>(
-        &self,
-        placed: &[PlacedMesh<N>],
-    ) -> CertifiedVector<N> {
+    pub(super) fn raw_normal<N: CertifiedNumber>(&self, placed: &[PlacedMesh<N>]) -> Vector<N> {
         let normal = raw_normal(self.vertices(placed));
         match self {
             Self::Placed(_, _, index) if placed[*index].mirrors => -normal,
@@ -47,7 +41,7 @@ impl CertifiedTriangle<'_> {
     pub(super) fn uv<N: CertifiedNumber>(
         &self,
         placed: &[PlacedMesh<N>],
-        point: CertifiedVector<N>,
+        point: Vector<N>,
     ) -> Option<[N; 2]> {
         let uvs = match self {
             Self::Own(_, uvs) => (*uvs)?,
@@ -70,8 +64,8 @@ impl CertifiedTriangle<'_> {
     pub(super) fn shading_normal<N: CertifiedNumber>(
         &self,
         placed: &[PlacedMesh<N>],
-        point: CertifiedVector<N>,
-    ) -> Option<CertifiedVector<N>> {
+        point: Vector<N>,
+    ) -> Option<Vector<N>> {
         let Self::Placed(mesh, corners, index) = self else {
             return None;
         };
@@ -80,23 +74,21 @@ impl CertifiedTriangle<'_> {
         }
         let normals = corners.map(|corner| {
             let normal = Vec3::from_array(mesh.normals.at(corner as usize));
-            CertifiedVector::point(normal).normalized()
+            Vector::point(normal).normalized()
         });
         let weights = weights(self.vertices(placed), point);
-        let mean = CertifiedVector(weights).combined(normals);
+        let mean = Vector::from(weights).combined(normals);
         Some(placed[*index].normal(mean).normalized())
     }
 }
 
 /// (v1 − v0) × (v2 − v0).
-pub(super) fn raw_normal<N: CertifiedNumber>(
-    [a, b, c]: [CertifiedVector<N>; 3],
-) -> CertifiedVector<N> {
+pub(super) fn raw_normal<N: CertifiedNumber>([a, b, c]: [Vector<N>; 3]) -> Vector<N> {
     (b - a).cross(c - a)
 }
 
 /// The barycentric weights of a point of a triangle: the areas of its parts.
-fn weights<N: CertifiedNumber>(vertices: [CertifiedVector<N>; 3], p: CertifiedVector<N>) -> [N; 3] {
+fn weights<N: CertifiedNumber>(vertices: [Vector<N>; 3], p: Vector<N>) -> [N; 3] {
     let [a, b, c] = vertices;
     let normal = raw_normal(vertices);
     let area = normal.square();
@@ -107,8 +99,8 @@ fn weights<N: CertifiedNumber>(vertices: [CertifiedVector<N>; 3], p: CertifiedVe
 
 /// `t = N·(a − o) / N·d`; `None` without a hit in front.
 pub(super) fn meet_plane<N: CertifiedNumber>(
-    center: CertifiedVector<N>,
-    normal: CertifiedVector<N>,
+    center: Vector<N>,
+    normal: Vector<N>,
     ray: &CertifiedRay<N>,
     range: [f64; 2],
 ) -> Option<Meeting<N>> {
@@ -133,12 +125,12 @@ pub(super) fn meet_plane<N: CertifiedNumber>(
 /// The hit of the plane, if the volumes spanned by the direction and each edge have one sign
 /// (Plücker coordinates; Segura, Feito, "Algorithms to test ray-triangle intersection", WSCG 2001).
 pub(super) fn meet_triangle<N: CertifiedNumber>(
-    vertices: [CertifiedVector<N>; 3],
+    vertices: [Vector<N>; 3],
     ray: &CertifiedRay<N>,
     range: [f64; 2],
 ) -> Option<Meeting<N>> {
     let [a, b, c] = vertices.map(|v| v - ray.origin);
-    let volume = |p: CertifiedVector<N>, q: CertifiedVector<N>| ray.direction.dot(p.cross(q));
+    let volume = |p: Vector<N>, q: Vector<N>| ray.direction.dot(p.cross(q));
     let volumes = [volume(a, b), volume(b, c), volume(c, a)];
     let some = |sign: fn(N) -> bool| volumes.into_iter().any(sign);
     if some(N::is_positive) && some(N::is_negative) {
@@ -154,7 +146,7 @@ pub(super) fn meet_triangle<N: CertifiedNumber>(
 
 /// The hit of the plane, if it lies within the radius.
 pub(super) fn meet_disc<N: CertifiedNumber>(
-    [center, normal]: [CertifiedVector<N>; 2],
+    [center, normal]: [Vector<N>; 2],
     radius: N,
     ray: &CertifiedRay<N>,
     range: [f64; 2],

@@ -22,15 +22,15 @@ use super::vector::CertifiedVector;
 use flat::CertifiedTriangle;
 use patch::CertifiedPatch;
 use rtc_ir::{Phong, Sphere};
-use rtc_math::Vec3;
+use rtc_math::{Vec3, Vector};
 use solid::{CertifiedSolid, CertifiedSphere};
 use torus::CertifiedTorus;
 
 /// A ray.
 pub(super) struct CertifiedRay<N> {
-    pub(super) origin: CertifiedVector<N>,
+    pub(super) origin: Vector<N>,
     /// A unit vector.
-    pub(super) direction: CertifiedVector<N>,
+    pub(super) direction: Vector<N>,
     /// Where it starts on a surface.
     start: Option<RayStart<N>>,
     /// A ray about in the middle, with bounds on the distances of the other origins and of the
@@ -46,16 +46,12 @@ pub(super) struct RayStart<N> {
     /// Its part.
     pub(super) part: u8,
     /// The geometric normal there.
-    pub(super) normal: CertifiedVector<N>,
+    pub(super) normal: Vector<N>,
 }
 
 impl<N: CertifiedNumber> CertifiedRay<N> {
     /// A ray from a point, which may lie on a surface.
-    pub(super) fn new(
-        origin: CertifiedVector<N>,
-        direction: CertifiedVector<N>,
-        start: Option<RayStart<N>>,
-    ) -> Self {
+    pub(super) fn new(origin: Vector<N>, direction: Vector<N>, start: Option<RayStart<N>>) -> Self {
         Self {
             origin,
             direction,
@@ -65,7 +61,7 @@ impl<N: CertifiedNumber> CertifiedRay<N> {
     }
 
     /// The point at `t`.
-    pub(super) fn at(&self, t: N) -> CertifiedVector<N> {
+    pub(super) fn at(&self, t: N) -> Vector<N> {
         self.origin + self.direction * t
     }
 

@@ -5,16 +5,16 @@ use super::{CertifiedRay, Meeting, SurfaceHit, Visit};
 use crate::certify::number::CertifiedNumber;
 use crate::certify::reason::Doubts;
 use crate::certify::vector::CertifiedVector;
-use rtc_math::Vec3;
+use rtc_math::{Vec3, Vector};
 
 /// The corners at (0, 0), (1, 0), (1, 1) and (0, 1).
 pub(super) struct CertifiedPatch(pub(super) [Vec3; 4]);
 
 impl CertifiedPatch {
     /// The derivatives along u and v.
-    fn tangents<N: CertifiedNumber>(&self, [u, v]: [N; 2]) -> [CertifiedVector<N>; 2] {
-        let [q00, q10, q11, q01] = self.0.map(CertifiedVector::point);
-        let between = |a: CertifiedVector<N>, b: CertifiedVector<N>, s: N| a + (b - a) * s;
+    fn tangents<N: CertifiedNumber>(&self, [u, v]: [N; 2]) -> [Vector<N>; 2] {
+        let [q00, q10, q11, q01] = self.0.map(Vector::point);
+        let between = |a: Vector<N>, b: Vector<N>, s: N| a + (b - a) * s;
         [
             between(q10 - q00, q11 - q01, v),
             between(q01 - q00, q11 - q10, u),
@@ -22,7 +22,7 @@ impl CertifiedPatch {
     }
 
     /// The normal at a point, of any length.
-    pub(super) fn raw_normal<N: CertifiedNumber>(&self, place: [N; 2]) -> CertifiedVector<N> {
+    pub(super) fn raw_normal<N: CertifiedNumber>(&self, place: [N; 2]) -> Vector<N> {
         let [across, upward] = self.tangents(place);
         across.cross(upward)
     }
@@ -71,7 +71,7 @@ impl CertifiedPatch {
     /// The roots of a + b·u + c·u²; `None` if it is not clear how many there are.
     fn roots<N: CertifiedNumber>(&self, ray: &CertifiedRay<N>) -> Option<[Option<N>; 2]> {
         let d = ray.direction;
-        let [q00, q10, q11, q01] = self.0.map(|v| CertifiedVector::point(v) - ray.origin);
+        let [q00, q10, q11, q01] = self.0.map(|v| Vector::point(v) - ray.origin);
         let a = q00.cross(d).dot(q01 - q00);
         let c = (q10 - q00).cross(q01 - q11).dot(d);
         let b = q10.cross(d).dot(q11 - q10) - a - c;
@@ -96,7 +96,7 @@ impl CertifiedPatch {
     /// The point of the ray on the line at u: its t, and its place.
     fn along<N: CertifiedNumber>(&self, ray: &CertifiedRay<N>, u: N) -> (N, [N; 2]) {
         let d = ray.direction;
-        let [q00, q10, q11, q01] = self.0.map(|v| CertifiedVector::point(v) - ray.origin);
+        let [q00, q10, q11, q01] = self.0.map(|v| Vector::point(v) - ray.origin);
         let start = q00 + (q10 - q00) * u;
         let left = q01 - q00;
         let line = left + (q11 - q10 - left) * u;

@@ -7,7 +7,7 @@ use crate::certify::number::CertifiedNumber;
 use crate::certify::reason::Doubts;
 use crate::certify::vector::CertifiedVector;
 use rtc_ir::{Cone, Cylinder, Ellipsoid, InfiniteCylinder, Paraboloid};
-use rtc_math::Vec3;
+use rtc_math::{Vec3, Vector};
 
 /// The parts of a solid.
 const SIDE: u8 = 0;
@@ -31,7 +31,7 @@ impl CertifiedSphere<'_> {
         range: [f64; 2],
         visit: Visit<'_, N>,
     ) {
-        let f = ray.origin - CertifiedVector::point(self.center);
+        let f = ray.origin - Vector::point(self.center);
         let b = -f.dot(ray.direction);
         let foot = f + ray.direction * b;
         let discriminant = N::point(self.radius).square() - foot.square();
@@ -75,31 +75,22 @@ impl CertifiedSphere<'_> {
     }
 
     /// The outward unit normal at a hit.
-    pub(super) fn normal<N: CertifiedNumber>(
-        &self,
-        ray: &CertifiedRay<N>,
-        t: N,
-    ) -> CertifiedVector<N> {
-        let local = ray.origin - CertifiedVector::point(self.center) + ray.direction * t;
-        local.over(N::point(self.radius))
+    pub(super) fn normal<N: CertifiedNumber>(&self, ray: &CertifiedRay<N>, t: N) -> Vector<N> {
+        let local = ray.origin - Vector::point(self.center) + ray.direction * t;
+        local / N::point(self.radius)
     }
 
     /// The texture coordinates at a normal.
-    pub(super) fn uv<N: CertifiedNumber>(
-        &self,
-        normal: CertifiedVector<N>,
-    ) -> Result<[N; 2], Doubts> {
+    pub(super) fn uv<N: CertifiedNumber>(&self, normal: Vector<N>) -> Result<[N; 2], Doubts> {
         let rows = self.texture_from_world.copied();
-        let rows = rows.map(|rows| rows.map(|row| CertifiedVector::point(Vec3::from_array(row))));
-        let direction = rows.map(|rows| CertifiedVector(rows.map(|row| row.dot(normal))));
+        let rows = rows.map(|rows| rows.map(|row| Vector::point(Vec3::from_array(row))));
+        let direction = rows.map(|rows| Vector::from(rows.map(|row| row.dot(normal))));
         uv_of(direction.unwrap_or(normal))
     }
 }
 
 /// u = φ/2π and v = 1 − θ/π of a direction, about the third axis.
-fn uv_of<N: CertifiedNumber>(
-    CertifiedVector([x, y, z]): CertifiedVector<N>,
-) -> Result<[N; 2], Doubts> {
+fn uv_of<N: CertifiedNumber>(Vector { x, y, z }: Vector<N>) -> Result<[N; 2], Doubts> {
     // The angle from the other side has its jump where u has.
     let turns = N::turns(-y, -x);
     let z = z.clamp(-1.0, 1.0);
@@ -138,30 +129,30 @@ enum SolidProfile<N> {
         radius: N,
     },
     Ellipsoid {
-        center: CertifiedVector<N>,
-        inverse: [CertifiedVector<N>; 3],
+        center: Vector<N>,
+        inverse: [Vector<N>; 3],
     },
 }
 
 /// The axis of a solid: its points have a height along it.
 #[derive(Clone, Copy)]
 struct SolidAxis<N> {
-    base: CertifiedVector<N>,
+    base: Vector<N>,
     /// A unit vector.
-    axis: CertifiedVector<N>,
+    axis: Vector<N>,
     height: N,
 }
 
 /// A ray as a solid sees it: at `s` it is at `w + x·s` from the axis, at height `h + rise·s`.
 struct AxisRay<N> {
-    w: CertifiedVector<N>,
-    x: CertifiedVector<N>,
+    w: Vector<N>,
+    x: Vector<N>,
     h: N,
     rise: N,
 }
 
 impl<N: CertifiedNumber> SolidAxis<N> {
-    fn ray(&self, from: CertifiedVector<N>, direction: CertifiedVector<N>) -> AxisRay<N> {
+    fn ray(&self, from: Vector<N>, direction: Vector<N>) -> AxisRay<N> {
         let f = from - self.base;
         let (h, rise) = (f.dot(self.axis), direction.dot(self.axis));
         AxisRay {
@@ -177,8 +168,8 @@ impl<N: CertifiedNumber> CertifiedSolid<N> {
     pub(super) fn cylinder(shape: &Cylinder) -> Self {
         let [base, along] = [shape.base, shape.axis].map(Vec3::from_array);
         let axis = SolidAxis {
-            base: CertifiedVector::point(base),
-            axis: CertifiedVector::point(along).normalized(),
+            base: Vector::point(base),
+            axis: Vector::point(along).normalized(),
             height: N::point(shape.height),
         };
         let radius = N::point(shape.radius);
@@ -190,8 +181,8 @@ impl<N: CertifiedNumber> CertifiedSolid<N> {
     pub(super) fn infinite(shape: &InfiniteCylinder) -> Self {
         let [center, along] = [shape.center, shape.axis].map(Vec3::from_array);
         let axis = SolidAxis {
-            base: CertifiedVector::point(center),
-            axis: CertifiedVector::point(along).normalized(),
+            base: Vector::point(center),
+            axis: Vector::point(along).normalized(),
             height: N::ZERO,
         };
         let radius = N::point(shape.radius);
@@ -218,10 +209,10 @@ impl<N: CertifiedNumber> CertifiedSolid<N> {
     pub(super) fn ellipsoid(shape: &Ellipsoid) -> Option<Self> {
         let center = Vec3::from_array(shape.center);
         let axes = shape.axes.map(Vec3::from_array);
-        let inverse = inverse(axes.map(CertifiedVector::point))?;
+        let inverse = inverse(axes.map(Vector::point))?;
         let reach = axes.iter().map(|axis| axis.length()).sum::<f64>();
         let profile = SolidProfile::Ellipsoid {
-            center: CertifiedVector::point(center),
+            center: Vector::point(center),
             inverse,
         };
         Some(Self::new(center, reach, profile))
@@ -230,9 +221,9 @@ impl<N: CertifiedNumber> CertifiedSolid<N> {
     /// The axis of a solid over a base.
     fn over(base: [f64; 3], up: [f64; 3], radius: f64) -> (SolidAxis<N>, Vec3, f64) {
         let [base, up] = [base, up].map(Vec3::from_array);
-        let along = CertifiedVector::point(up);
+        let along = Vector::point(up);
         let axis = SolidAxis {
-            base: CertifiedVector::point(base),
+            base: Vector::point(base),
             axis: along.normalized(),
             height: along.length(),
         };
@@ -291,11 +282,7 @@ impl<N: CertifiedNumber> CertifiedSolid<N> {
 
     /// The ray as the axis sees it, if there is one, and `a`, `b`, `c` of the quadratic
     /// `a·s² + 2·b·s + c`, which is negative inside; `from` is the point at s = 0.
-    fn quadratic(
-        &self,
-        from: CertifiedVector<N>,
-        direction: CertifiedVector<N>,
-    ) -> (Option<AxisRay<N>>, [N; 3]) {
+    fn quadratic(&self, from: Vector<N>, direction: Vector<N>) -> (Option<AxisRay<N>>, [N; 3]) {
         match &self.profile {
             SolidProfile::Cylinder { axis, radius } | SolidProfile::Infinite { axis, radius } => {
                 let ray = axis.ray(from, direction);
@@ -321,7 +308,7 @@ impl<N: CertifiedNumber> CertifiedSolid<N> {
                 (Some(ray), [a, b, c])
             }
             SolidProfile::Ellipsoid { center, inverse } => {
-                let unit = |v: CertifiedVector<N>| CertifiedVector(inverse.map(|row| row.dot(v)));
+                let unit = |v: Vector<N>| Vector::from(inverse.map(|row| row.dot(v)));
                 let (f, d) = (unit(from - *center), unit(direction));
                 (None, [d.square(), f.dot(d), f.square() - N::ONE])
             }
@@ -439,7 +426,7 @@ impl<N: CertifiedNumber> CertifiedSolid<N> {
     }
 
     /// The outward unit normal at a hit.
-    pub(super) fn normal(&self, ray: &CertifiedRay<N>, hit: &SurfaceHit<N>) -> CertifiedVector<N> {
+    pub(super) fn normal(&self, ray: &CertifiedRay<N>, hit: &SurfaceHit<N>) -> Vector<N> {
         // A cap has that of its plane.
         if let Some((axis, ..)) = self.caps()
             && hit.part != SIDE
@@ -460,7 +447,7 @@ impl<N: CertifiedNumber> CertifiedSolid<N> {
         };
         match &self.profile {
             SolidProfile::Cylinder { axis, radius } | SolidProfile::Infinite { axis, radius } => {
-                radial(axis).over(*radius)
+                radial(axis) / *radius
             }
             SolidProfile::Cone { axis, radius } => {
                 let outward = radial(axis).normalized();
@@ -472,17 +459,17 @@ impl<N: CertifiedNumber> CertifiedSolid<N> {
             }
             SolidProfile::Ellipsoid { center, inverse } => {
                 let f = from - *center + direction * s;
-                let local = CertifiedVector(inverse.map(|row| row.dot(f)));
+                let local = Vector::from(inverse.map(|row| row.dot(f)));
                 local.combined(*inverse).normalized()
             }
         }
     }
 
     /// The texture coordinates of a point of the ellipsoid; others have none here.
-    pub(super) fn uv(&self, point: CertifiedVector<N>) -> Result<Option<[N; 2]>, Doubts> {
+    pub(super) fn uv(&self, point: Vector<N>) -> Result<Option<[N; 2]>, Doubts> {
         match &self.profile {
             SolidProfile::Ellipsoid { center, inverse } => {
-                let local = CertifiedVector(inverse.map(|row| row.dot(point - *center)));
+                let local = Vector::from(inverse.map(|row| row.dot(point - *center)));
                 uv_of(local).map(Some)
             }
             SolidProfile::Paraboloid { .. } => Err(Doubts::unsupported("textures")),

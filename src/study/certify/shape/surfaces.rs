@@ -11,7 +11,7 @@ use crate::certify::number::CertifiedNumber;
 use crate::certify::reason::Doubts;
 use crate::certify::vector::CertifiedVector;
 use rtc_ir::{Instance, Material, Quad, Scene, Shape, Surface};
-use rtc_math::{Vec3, to_u32};
+use rtc_math::{Vec3, Vector, to_u32};
 
 /// More triangles of placed meshes are not evaluated.
 const MAX_TRIANGLES: usize = 1 << 20;
@@ -159,7 +159,7 @@ impl<'scene, N: CertifiedNumber> CertifiedSurfaces<'scene, N> {
                 None
             }
             Formula::Plane { center, normal } => {
-                let [center, normal] = [*center, *normal].map(CertifiedVector::point);
+                let [center, normal] = [*center, *normal].map(Vector::point);
                 meet_plane(center, normal, ray, range)
             }
             Formula::Triangle(triangle) => {
@@ -170,7 +170,7 @@ impl<'scene, N: CertifiedNumber> CertifiedSurfaces<'scene, N> {
                 normal,
                 radius,
             } => {
-                let plane = [*center, *normal].map(CertifiedVector::point);
+                let plane = [*center, *normal].map(Vector::point);
                 meet_disc(plane, N::point(*radius), ray, range)
             }
         };
@@ -185,11 +185,11 @@ impl<'scene, N: CertifiedNumber> CertifiedSurfaces<'scene, N> {
         index: usize,
         ray: &CertifiedRay<N>,
         hit: &SurfaceHit<N>,
-    ) -> CertifiedVector<N> {
+    ) -> Vector<N> {
         match &self.surfaces[index].formula {
             Formula::Sphere(sphere) => sphere.normal(ray, hit.t),
             Formula::Plane { normal, .. } | Formula::Disc { normal, .. } => {
-                CertifiedVector::point(*normal).normalized()
+                Vector::point(*normal).normalized()
             }
             Formula::Triangle(triangle) => triangle.raw_normal(&self.placed).normalized(),
             Formula::Patch(patch) => {
@@ -198,7 +198,7 @@ impl<'scene, N: CertifiedNumber> CertifiedSurfaces<'scene, N> {
             }
             Formula::Solid(solid) => solid.normal(ray, hit),
             Formula::Torus(torus) => torus.normal(ray, hit.t),
-            Formula::Unsupported(_) => CertifiedVector([N::ALL; 3]),
+            Formula::Unsupported(_) => Vector::from([N::ALL; 3]),
         }
     }
 
@@ -206,8 +206,8 @@ impl<'scene, N: CertifiedNumber> CertifiedSurfaces<'scene, N> {
     pub(in crate::certify) fn shading_normal(
         &self,
         index: usize,
-        point: CertifiedVector<N>,
-    ) -> Option<CertifiedVector<N>> {
+        point: Vector<N>,
+    ) -> Option<Vector<N>> {
         match &self.surfaces[index].formula {
             Formula::Triangle(triangle) => triangle.shading_normal(&self.placed, point),
             Formula::Sphere(_)
@@ -225,7 +225,7 @@ impl<'scene, N: CertifiedNumber> CertifiedSurfaces<'scene, N> {
         &self,
         index: usize,
         hit: &SurfaceHit<N>,
-        [point, normal]: [CertifiedVector<N>; 2],
+        [point, normal]: [Vector<N>; 2],
     ) -> Result<Option<[N; 2]>, Doubts> {
         match &self.surfaces[index].formula {
             Formula::Sphere(sphere) => sphere.uv(normal).map(Some),
@@ -439,8 +439,7 @@ fn solid<'scene, N>(solid: CertifiedSolid<N>) -> Formula<'scene, N> {
 /// The corners of the halves of a flat quadrilateral, split along the inner diagonal; `None` if it
 /// is not clear which one that is.
 fn split<N: CertifiedNumber>(vertices: [Vec3; 4]) -> Option<[[usize; 3]; 2]> {
-    let normal =
-        |half: [usize; 3]| raw_normal(half.map(|k| CertifiedVector::<N>::point(vertices[k])));
+    let normal = |half: [usize; 3]| raw_normal(half.map(|k| Vector::<N>::point(vertices[k])));
     let along = |[a, b]: [[usize; 3]; 2]| normal(a).dot(normal(b));
     let splits = [[[0, 1, 2], [0, 2, 3]], [[0, 1, 3], [1, 2, 3]]];
     let first = along(splits[0]);

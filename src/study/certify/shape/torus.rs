@@ -6,14 +6,14 @@ use crate::certify::number::CertifiedNumber;
 use crate::certify::reason::Doubts;
 use crate::certify::vector::CertifiedVector;
 use rtc_ir::Torus;
-use rtc_math::Vec3;
+use rtc_math::{Vec3, Vector};
 
 /// A torus.
 pub(super) struct CertifiedTorus<N> {
     middle: Vec3,
-    center: CertifiedVector<N>,
+    center: Vector<N>,
     /// A unit vector.
-    axis: CertifiedVector<N>,
+    axis: Vector<N>,
     major: N,
     minor: N,
     /// More than the distance of its points from its centre.
@@ -25,8 +25,8 @@ impl<N: CertifiedNumber> CertifiedTorus<N> {
         let [middle, axis] = [shape.center, shape.axis].map(Vec3::from_array);
         Self {
             middle,
-            center: CertifiedVector::point(middle),
-            axis: CertifiedVector::point(axis).normalized(),
+            center: Vector::point(middle),
+            axis: Vector::point(axis).normalized(),
             major: N::point(shape.major),
             minor: N::point(shape.minor),
             reach: 1.01 * (shape.major + shape.minor),
@@ -77,11 +77,11 @@ impl<N: CertifiedNumber> CertifiedTorus<N> {
     }
 
     /// The outward unit normal at a hit.
-    pub(super) fn normal(&self, ray: &CertifiedRay<N>, t: N) -> CertifiedVector<N> {
+    pub(super) fn normal(&self, ray: &CertifiedRay<N>, t: N) -> Vector<N> {
         let nearest = ray.nearest_to(self.middle);
         let p = ray.at(nearest) - self.center + ray.direction * (t - nearest);
         let off = p - self.axis * p.dot(self.axis);
-        (p - off.normalized() * self.major).over(self.minor)
+        (p - off.normalized() * self.major) / self.minor
     }
 }
 

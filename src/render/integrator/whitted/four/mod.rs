@@ -12,8 +12,8 @@ use crate::camera::pinhole_rays;
 use crate::film::SamplingSeeds;
 use crate::film::pixel::{PixelSample, SampleId, SampleStream};
 use crate::integrator::Integrator;
-use crate::lanes::{ALL, FourVectors, LANES, Ray4, lanes_of};
-use crate::shape::four::Interactions;
+use crate::lanes::{ALL, FourVectors, LANES, Ray4, four_interactions, four_rays, lanes_of, splat};
+use crate::ray::Interactions;
 use crate::shape::geometry::Intersect;
 use crate::shape::tie::CLOSE;
 use crate::world::settings::Mode;
@@ -36,7 +36,7 @@ struct FourHits<V: Simd> {
 
 /// Points as their viewers see them.
 struct FourPoints<V: Simd> {
-    at: Interactions<V>,
+    at: Interactions<f64x4<V>>,
     /// The normal on the side of the viewer.
     normal: FourVectors<V>,
     to_viewer: FourVectors<V>,
@@ -96,7 +96,7 @@ impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
         if !self.grid.starts_at_eye(camera, seeds) {
             // Written out: `map` of an array is not inlined here.
             let mut next = || self.ray_of_picture(pixel, seeds);
-            return Ray4::each(simd, &[next(), next(), next(), next()]);
+            return four_rays(simd, &[next(), next(), next(), next()]);
         }
         let grid = self.grid;
         let mut next = || {
@@ -112,7 +112,7 @@ impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
     fn radiances<V: Simd>(&mut self, simd: V, mut rays: Ray4<V>) -> [PixelSample; LANES] {
         let depth = self.world.plan.max_depth;
         let number = |x: f64| f64x4::splat(simd, x);
-        let mut sum = FourVectors::splat(simd, Vec3::ZERO);
+        let mut sum = splat(simd, Vec3::ZERO);
         let (mut beta, mut active, mut first) = (number(1.0), ALL, 0);
         self.counts.camera += LANES as u64;
         for bounce in 0..=depth {
@@ -130,9 +130,9 @@ impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
                 break;
             };
             // Add the local shading, weighted by the path.
-            let value = self.phong_of(simd, &points).times(beta);
+            let value = self.phong_of(simd, &points) * beta;
             let hit_lanes = mask64x4::from_bitmask(simd, hits.hit_lanes);
-            sum = sum.plus(value).select(hit_lanes, sum);
+            sum = (sum + value).select(hit_lanes, sum);
             if !Self::can(WhittedFeatures::BOUNCE) || bounce == depth {
                 break;
             }
@@ -184,7 +184,7 @@ impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
         while let Some(surface) = SmallScene::pop(&mut items) {
             let shape = &world.surfaces[surface].shape;
             let t = match shape.shape4() {
-                Some(shape) => shape.intersect(simd, rays, cone_lanes),
+                Some(shape) => shape.intersect(rays, cone_lanes),
                 None => roots(shape, rays, &mut hits, bundled),
             };
             let closer = t.simd_lt(hits.t);
@@ -236,15 +236,15 @@ impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
             let shape = &surface.shape;
             // Compute the surface points and the material of these lanes.
             let at = match shape.shape4() {
-                Some(shape) => shape.interactions(simd, rays, hits.t),
+                Some(shape) => shape.interactions(rays, hits.t),
                 None => interactions(simd, shape, rays, hits, same),
             };
             let is_back = rays.direction.dot(at.normal).simd_gt(number(0.0));
             let of_surface = FourPoints {
                 at,
-                normal: at.normal.negated().select(is_back, at.normal),
-                to_viewer: rays.direction.negated(),
-                color: FourVectors::splat(simd, material.color),
+                normal: (-at.normal).select(is_back, at.normal),
+                to_viewer: -rays.direction,
+                color: splat(simd, material.color),
                 ka: number(material.ka.get()),
                 kd: number(material.kd.get()),
                 ks: number(material.ks.get()),
@@ -313,10 +313,10 @@ impl<V: Simd> FourPoints<V> {
 fn mirrored<V: Simd>(simd: V, rays: &Ray4<V>, points: &FourPoints<V>) -> Ray4<V> {
     let number = |x: f64| f64x4::splat(simd, x);
     let (d, n) = (rays.direction, points.normal);
-    let along = d.minus(n.times(number(2.0) * d.dot(n)));
-    let direction = along.times(number(1.0) / along.length());
+    let along = d - n * (number(2.0) * d.dot(n));
+    let direction = along * (number(1.0) / along.length());
     Ray4 {
-        origin: points.at.start(simd, direction),
+        origin: points.at.start(direction),
         direction,
     }
 }
@@ -349,11 +349,11 @@ fn interactions<V: Simd, S: Intersect>(
     rays: &Ray4<V>,
     hits: &FourHits<V>,
     lanes: u64,
-) -> Interactions<V> {
+) -> Interactions<f64x4<V>> {
     let at = |lane: usize| shape.interaction(&rays.lane(lane), hits.t[lane], hits.prims[lane]);
     let mut all = [at(lanes.trailing_zeros() as usize); LANES];
     for lane in lanes_of(lanes & (lanes - 1)) {
         all[lane] = at(lane);
     }
-    Interactions::each(simd, &all)
+    four_interactions(simd, &all)
 }

@@ -4,7 +4,7 @@ use super::FourPoints;
 use crate::bsdf::optics::highlight;
 use crate::integrator::whitted::WhittedTracer;
 use crate::lanes::pow::powers;
-use crate::lanes::{FourVectors, LANES, Ray4, lanes_of};
+use crate::lanes::{FourVectors, LANES, Ray4, lanes_of, splat};
 use crate::shape::geometry::Intersect;
 use crate::world::CourseLightId;
 use crate::world::END;
@@ -19,10 +19,10 @@ impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
     #[inline(always)]
     pub(super) fn phong_of<V: Simd>(&mut self, simd: V, points: &FourPoints<V>) -> FourVectors<V> {
         let world = self.world;
-        let zero = FourVectors::splat(simd, Vec3::ZERO);
-        let ambient = points.color.times(points.ka);
+        let zero = splat(simd, Vec3::ZERO);
+        let ambient = points.color * points.ka;
         let (mut sum, ambient) = match world.settings.ambient_light {
-            Some(light) => (FourVectors::splat(simd, light).times_each(ambient), zero),
+            Some(light) => (splat(simd, light).times_each(ambient), zero),
             None => (zero, ambient),
         };
         for (index, light) in world.lights.course.entries() {
@@ -34,7 +34,7 @@ impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
             if Self::can(WhittedFeatures::LIGHT) && plan.direct {
                 term = self.with_direct(simd, points, term, index);
             }
-            sum = sum.plus(FourVectors::splat(simd, light.color).times_each(term));
+            sum = sum + splat(simd, light.color).times_each(term);
         }
         sum
     }
@@ -51,7 +51,7 @@ impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
         let number = |x: f64| f64x4::splat(simd, x);
         let zero = number(0.0);
         let place = self.world.lights.course[light].position;
-        let diffuse = points.color.times(points.kd);
+        let diffuse = points.color * points.kd;
         let is_black = diffuse.x.simd_eq(zero) & diffuse.y.simd_eq(zero) & diffuse.z.simd_eq(zero);
         let mut shines = points.ks.simd_gt(zero).to_bitmask();
         if !Self::can(WhittedFeatures::HIGHLIGHT) {
@@ -63,10 +63,8 @@ impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
             .add_several(Effect::DirectLight, lit.count_ones());
 
         // Exclude lanes that face away from the light, or are in its shadow.
-        let to_light = FourVectors::splat(simd, place).minus(points.at.point);
-        let inverse = number(1.0) / to_light.length();
-        let has_way = inverse.simd_gt(zero) & inverse.simd_lt(number(f64::INFINITY));
-        let to_light = to_light.times(inverse);
+        let to_light = splat(simd, place) - points.at.point;
+        let (has_way, to_light) = to_light.try_normalize();
         let n_dot_l = points.normal.dot(to_light);
         let is_before = n_dot_l.simd_gt(zero);
         lit &= has_way.to_bitmask();
@@ -81,24 +79,18 @@ impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
         }
         // Add the diffuse term.
         let cosine = is_before.select(n_dot_l, zero);
-        let mut direct = points.color.times(points.kd * cosine);
+        let mut direct = points.color * (points.kd * cosine);
         // Add the highlight.
         shines &= lit;
         if shines != 0 {
             self.counts
                 .add_several(Effect::Highlight, shines.count_ones());
-            let reflected = points.normal.times(number(2.0) * n_dot_l).minus(to_light);
+            let reflected = points.normal * (number(2.0) * n_dot_l) - to_light;
             let gloss = points.ks * highlights(reflected.dot(points.to_viewer), points.n, shines);
             let shines = mask64x4::from_bitmask(simd, shines);
-            let whole = FourVectors {
-                x: direct.x + gloss,
-                y: direct.y + gloss,
-                z: direct.z + gloss,
-            };
-            direct = whole.select(shines, direct);
+            direct = direct.map(|channel| channel + gloss).select(shines, direct);
         }
-        term.plus(direct)
-            .select(mask64x4::from_bitmask(simd, lit), term)
+        (term + direct).select(mask64x4::from_bitmask(simd, lit), term)
     }
 
     /// As `WhittedTracer::towards`, from the points of some lanes.
@@ -156,9 +148,9 @@ impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
         }
         // Trace the shadow rays against the remaining occluders.
         let target = world.lights.course[light].position;
-        let to = FourVectors::splat(simd, target);
-        let origin = points.at.start(simd, to.minus(points.at.point));
-        let direction = to.minus(origin);
+        let to = splat(simd, target);
+        let origin = points.at.start(to - points.at.point);
+        let direction = to - origin;
         let rays = Ray4 { origin, direction };
         let mut hidden = 0;
         // Rays that need scaling are traced one by one.
@@ -180,7 +172,7 @@ impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
             }
             let shape = &world.surfaces[surface].shape;
             let t = match shape.shape4() {
-                Some(shape) => shape.intersect(simd, &rays, mask64x4::from_bitmask(simd, lanes)),
+                Some(shape) => shape.intersect(&rays, mask64x4::from_bitmask(simd, lanes)),
                 None => first_roots(shape, &rays, lanes),
             };
             hidden |= t.simd_lt(end).to_bitmask() & lanes;
@@ -194,7 +186,7 @@ impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
 #[inline(always)]
 fn ends<V: Simd>(simd: V, rays: &Ray4<V>, to: FourVectors<V>) -> f64x4<V> {
     let number = |x: f64| f64x4::splat(simd, x);
-    let size = rays.origin.abs().plus(to.abs()).sum();
+    let size = (rays.origin.abs() + to.abs()).sum();
     let length = rays.direction.length();
     number(1.0) - number(END) * (number(1.0) + size / length)
 }

@@ -1,17 +1,10 @@
-//! Shapes that are intersected with four rays at once, and surface interactions in four lanes: the
-//! steps of [`Interaction`].
-
-mod plane;
-mod torus;
+//! Shapes that are intersected with four rays at once.
 
 use super::plane::{Plane, PlaneAxis};
 use super::sphere::Sphere;
 use super::torus::Torus;
-use crate::lanes::{FourVectors, LANES, Ray4};
-use crate::ray::{Interaction, OFFSET};
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x4, mask64x4};
-use rtc_math::{U, Vec3};
+use crate::ray::{Interactions, Rays};
+use rtc_math::Double;
 
 /// A shape that intersects four rays at once.
 #[derive(Clone, Copy)]
@@ -27,101 +20,22 @@ pub enum Shape4<'a> {
 impl Shape4<'_> {
     /// The roots above 0 of the lanes `active`; infinite for a miss.
     #[inline(always)]
-    pub(crate) fn intersect<S: Simd>(
-        self,
-        simd: S,
-        rays: &Ray4<S>,
-        active: mask64x4<S>,
-    ) -> f64x4<S> {
+    pub(crate) fn intersect<N: Double>(self, rays: &Rays<N>, active: N::Mask) -> N {
         match self {
             Self::Sphere(sphere) => sphere.roots(rays, active),
-            Self::Torus(torus) => torus::intersect(simd, torus, rays, active),
-            Self::Plane(plane, axis) => plane::intersect(simd, plane, axis, rays, active),
+            Self::Torus(torus) => torus.roots(rays, active),
+            Self::Plane(plane, axis) => plane.roots(axis, rays, active),
         }
     }
 
     /// The interactions at `t`, in the lanes where that is finite.
     #[inline(always)]
-    pub(crate) fn interactions<S: Simd>(
-        self,
-        simd: S,
-        rays: &Ray4<S>,
-        t: f64x4<S>,
-    ) -> Interactions<S> {
+    pub(crate) fn interactions<N: Double>(self, rays: &Rays<N>, t: N) -> Interactions<N> {
         match self {
-            Self::Sphere(sphere) => {
-                let [point, normal] = sphere.points(rays, t);
-                Interactions::new(simd, rays, point, normal, sphere.center, sphere.radius)
-            }
-            Self::Torus(torus) => torus::interactions(simd, torus, rays, t),
-            Self::Plane(plane, axis) => plane::interactions(simd, plane, axis, rays, t),
+            Self::Sphere(sphere) => sphere.interactions(rays, t),
+            Self::Torus(torus) => torus.interactions(rays, t),
+            Self::Plane(plane, axis) => plane.interactions(axis, rays, t),
         }
-    }
-}
-
-/// Interactions of four rays.
-#[derive(Clone, Copy)]
-pub(crate) struct Interactions<S: Simd> {
-    pub(crate) point: FourVectors<S>,
-    pub(crate) normal: FourVectors<S>,
-    pub(crate) offset: f64x4<S>,
-    pub(crate) back: FourVectors<S>,
-}
-
-impl<S: Simd> Interactions<S> {
-    /// As [`Interaction::new`].
-    #[inline(always)]
-    fn new(
-        simd: S,
-        rays: &Ray4<S>,
-        point: FourVectors<S>,
-        normal: FourVectors<S>,
-        anchor: Vec3,
-        extent: f64,
-    ) -> Self {
-        let sizes = point.abs().plus(FourVectors::splat(simd, anchor.abs()));
-        let size = normal.abs().dot(sizes) + f64x4::splat(simd, extent);
-        let direction = rays.direction;
-        Self {
-            point,
-            normal,
-            offset: f64x4::splat(simd, OFFSET * U) * size,
-            back: direction.negated().over(direction.abs().sum()),
-        }
-    }
-
-    /// One in each lane.
-    #[inline(always)]
-    pub(crate) fn each(simd: S, all: &[Interaction; LANES]) -> Self {
-        Self {
-            point: FourVectors::each(simd, all.map(|at| at.point)),
-            normal: FourVectors::each(simd, all.map(|at| at.normal)),
-            offset: f64x4::simd_from(simd, all.map(|at| at.offset)),
-            back: FourVectors::each(simd, all.map(|at| at.back)),
-        }
-    }
-
-    /// Selects `self` in the lanes of a mask, and `other` elsewhere.
-    #[inline(always)]
-    pub(crate) fn select(self, mask: mask64x4<S>, other: Self) -> Self {
-        Self {
-            point: self.point.select(mask, other.point),
-            normal: self.normal.select(mask, other.normal),
-            offset: mask.select(self.offset, other.offset),
-            back: self.back.select(mask, other.back),
-        }
-    }
-
-    /// As [`Interaction::start`].
-    #[inline(always)]
-    pub(crate) fn start(&self, simd: S, direction: FourVectors<S>) -> FourVectors<S> {
-        let zero = f64x4::splat(simd, 0.0);
-        let is_below = direction.dot(self.normal).simd_lt(zero);
-        let side = is_below.select(-self.offset, self.offset);
-        let returns = !(self.back.dot(self.normal).simd_lt(zero) ^ side.simd_lt(zero));
-        let step = self.normal.times(side);
-        let back = step.plus(self.back.times(self.offset));
-        self.point.plus(back.select(returns, step))
     }
 }
 
@@ -129,9 +43,13 @@ impl<S: Simd> Interactions<S> {
 mod tests {
     use super::*;
     use crate::accel::simd::baseline;
-    use crate::ray::Ray;
+    use crate::lanes::{LANES, four_rays};
+    use crate::ray::{Interaction, Ray};
     use crate::sampler::PathVertexKey;
     use crate::shape::geometry::Intersect;
+    use fearless_simd::prelude::*;
+    use fearless_simd::{Simd, f64x4, mask64x4};
+    use rtc_math::Vec3;
 
     /// Rays from near and far, at the sphere and past it, from its surface and along it.
     fn rays(index: u64) -> [Ray; LANES] {
@@ -167,9 +85,9 @@ mod tests {
             let torus = Torus::new(Vec3::new(0.1, -0.2, 0.05), axis, major, minor);
             for index in 0..5_000 {
                 let each = rays(index);
-                let four = Ray4::each(simd, &each);
-                let t = torus::intersect(simd, &torus, &four, all);
-                let at = torus::interactions(simd, &torus, &four, t);
+                let four = four_rays(simd, &each);
+                let t = torus.roots(&four, all);
+                let at = torus.interactions(&four, t);
                 for (lane, ray) in each.iter().enumerate() {
                     let single = torus.intersect(ray);
                     assert_eq!(single.unwrap_or(f64::INFINITY).to_bits(), t[lane].to_bits());
@@ -202,9 +120,9 @@ mod tests {
                     each[1].origin = anchor;
                     each[2].direction.z = 0.0;
                 }
-                let four = Ray4::each(simd, &each);
-                let t = lanes.intersect(simd, &four, all);
-                let at = lanes.interactions(simd, &four, t);
+                let four = four_rays(simd, &each);
+                let t = lanes.intersect(&four, all);
+                let at = lanes.interactions(&four, t);
                 for (lane, ray) in each.iter().enumerate() {
                     let single = plane.intersect(ray);
                     assert_eq!(single.unwrap_or(f64::INFINITY).to_bits(), t[lane].to_bits());
@@ -218,7 +136,7 @@ mod tests {
     }
 
     /// Whether an interaction has the bits of that in a lane.
-    fn assert_same(one: &Interaction, at: &Interactions<impl Simd>, lane: usize) {
+    fn assert_same(one: &Interaction, at: &Interactions<f64x4<impl Simd>>, lane: usize) {
         let bits = |v: Vec3| v.to_array().map(f64::to_bits);
         assert_eq!(bits(one.point), bits(at.point.lane(lane)));
         assert_eq!(bits(one.normal), bits(at.normal.lane(lane)));
@@ -237,11 +155,11 @@ mod tests {
         let mut hits = 0;
         for index in 0..20_000 {
             let each = rays(index);
-            let four = Ray4::each(simd, &each);
+            let four = four_rays(simd, &each);
             let lanes = Shape4::Sphere(&sphere);
-            let t = lanes.intersect(simd, &four, all);
-            let at = lanes.interactions(simd, &four, t);
-            let starts = at.start(simd, at.back);
+            let t = lanes.intersect(&four, all);
+            let at = lanes.interactions(&four, t);
+            let starts = at.start(at.back);
             for (lane, ray) in each.iter().enumerate() {
                 let single = sphere.intersect(ray);
                 assert_eq!(single.unwrap_or(f64::INFINITY).to_bits(), t[lane].to_bits());
