@@ -30,7 +30,7 @@ struct Solid {
 }
 
 /// The solids of a scene, and the mesh bounds that the test of a point needs.
-struct Solids<'s> {
+pub(super) struct Solids<'s> {
     scene: &'s ir::Scene,
     mesh_boxes: Vec<[Vec3; 2]>,
     solids: Vec<Solid>,
@@ -38,7 +38,7 @@ struct Solids<'s> {
 
 impl<'s> Solids<'s> {
     /// Groups the surfaces. Surfaces that one object of the text was lowered to have one span.
-    fn new(scene: &'s ir::Scene, check: &Checker<'_>) -> Self {
+    pub(super) fn new(scene: &'s ir::Scene, check: &Checker<'_>) -> Self {
         let span = |index| {
             check.span(ValuePath::new(
                 EntityKind::Surface,
@@ -168,12 +168,12 @@ fn solid_angle([a, b, c]: [Vec3; 3]) -> f64 {
 
 /// Reports each light inside a solid: with shadows, the solid blocks all its light to the outside.
 /// A solid that also contains the eye is a room.
-pub(super) fn lights(scene: &ir::Scene, check: &mut Checker<'_>) {
+pub(super) fn lights(solids: &Solids<'_>, check: &mut Checker<'_>) {
+    let scene = solids.scene;
     if !scene.settings.shadows {
         return;
     }
     // Skip scenes that would take too long.
-    let solids = Solids::new(scene, check);
     if scene.lights.len().saturating_mul(solids.cost()) > MAX_PAIRS {
         return;
     }
@@ -209,9 +209,9 @@ pub(super) fn lights(scene: &ir::Scene, check: &mut Checker<'_>) {
 }
 
 /// Reports an eye inside an opaque solid that contains no other object.
-pub(super) fn eye(scene: &ir::Scene, check: &mut Checker<'_>) {
+pub(super) fn eye(solids: &Solids<'_>, check: &mut Checker<'_>) {
+    let scene = solids.scene;
     // Find an opaque solid that encloses the eye.
-    let solids = Solids::new(scene, check);
     if solids.cost() > MAX_PAIRS {
         return;
     }

@@ -51,6 +51,7 @@ pub use standard::{Alpha, Standard};
 pub use texture::{Filter, Map, Sampled, Texture, UvSet, Wrap};
 
 use check::{Checker, EntityCounts};
+use inside::Solids;
 use rtc_diag::DiagnosticSink;
 use rtc_ir::{self as ir, SourceSpans};
 use rtc_math::{Id, IdTable, StoredTree, UnitInterval};
@@ -267,7 +268,8 @@ pub fn validate(
         trees: trees.clone(),
     };
     // Run the lints.
-    inside::lights(scene, &mut check);
-    lint::lints(scene, &mut check);
+    let solids = Solids::new(scene, &check);
+    inside::lights(&solids, &mut check);
+    lint::lints(scene, &solids, &mut check);
     check.is_clean().then_some(valid)
 }

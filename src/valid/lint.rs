@@ -3,13 +3,13 @@
 //! objects.
 
 use super::check::Checker;
-use super::inside;
+use super::inside::{self, Solids};
 use rtc_diag::{Diagnostic, Severity, codes};
 use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
 use rtc_math::{Vec3, shortest};
 
 /// Runs the lints on a scene without errors. With errors, parts of the scene may be missing.
-pub(super) fn lints(scene: &ir::Scene, check: &mut Checker<'_>) {
+pub(super) fn lints(scene: &ir::Scene, solids: &Solids<'_>, check: &mut Checker<'_>) {
     if check.has_errors() {
         return;
     }
@@ -17,7 +17,7 @@ pub(super) fn lints(scene: &ir::Scene, check: &mut Checker<'_>) {
     shadows_of_paths(scene, check);
     tiny_picture(scene, check);
     one_eye(scene, check);
-    inside::eye(scene, check);
+    inside::eye(solids, check);
     unsupported_features(scene, check);
     for (index, material) in scene.materials.iter().enumerate() {
         let Some(phong) = material.phong() else {
