@@ -1,6 +1,6 @@
 //! The arguments of `rtc audit`.
 
-use super::{ReadArgs, ReportFormatArgs, ReporterArgs, StageArgs};
+use super::{ReadArgs, ReportFormatArgs, ReporterArgs, StageArgs, ThreadArgs};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -31,14 +31,8 @@ pub(crate) struct AuditArgs {
     pub(crate) draw: TileDrawArgs,
     #[command(flatten)]
     pub(crate) format: ReportFormatArgs,
-    /// Use N threads [default: one for each core]
-    #[arg(
-        long,
-        value_name = "N",
-        value_parser = clap::value_parser!(u16).range(1..=1024),
-        help_heading = "Performance",
-    )]
-    pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) threads: ThreadArgs,
     #[command(flatten)]
     pub(crate) stage: StageArgs,
     #[command(flatten)]

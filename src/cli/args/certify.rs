@@ -1,7 +1,7 @@
 //! The arguments of `rtc certify`.
 
 use super::super::parse::size;
-use super::{ReadArgs, ReportFormatArgs, ReporterArgs, StageArgs};
+use super::{ReadArgs, ReportFormatArgs, ReporterArgs, StageArgs, ThreadArgs};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -51,14 +51,8 @@ pub(crate) struct CertifyArgs {
     /// The picture keeps its height in the scene.
     #[arg(long, value_name = "WxH|N", value_parser = size, help_heading = "Picture")]
     pub(crate) size: Option<[u32; 2]>,
-    /// Use N threads [default: one for each core]
-    #[arg(
-        long,
-        value_name = "N",
-        value_parser = clap::value_parser!(u16).range(1..=1024),
-        help_heading = "Performance",
-    )]
-    pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) threads: ThreadArgs,
     #[command(flatten)]
     pub(crate) stage: StageArgs,
     #[command(flatten)]

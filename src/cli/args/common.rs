@@ -127,6 +127,26 @@ impl ReadArgs {
     }
 }
 
+/// How many threads work.
+#[derive(Debug, Args)]
+pub(crate) struct ThreadArgs {
+    /// Use N threads [default: one for each core]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u16).range(1..=1024),
+        help_heading = "Performance",
+    )]
+    threads: Option<u16>,
+}
+
+impl ThreadArgs {
+    /// The number of threads; 0 for one for each core.
+    pub(crate) fn count(&self) -> usize {
+        self.threads.map_or(0, usize::from)
+    }
+}
+
 /// How diagnostics are printed.
 #[derive(Debug, Args)]
 pub(crate) struct ReporterArgs {

@@ -16,7 +16,9 @@ mod wanted;
 
 pub(super) use audit::AuditArgs;
 pub(super) use certify::CertifyArgs;
-pub(super) use common::{ColorArg, MessageFormat, ReadArgs, ReportFormatArgs, ReporterArgs};
+pub(super) use common::{
+    ColorArg, MessageFormat, ReadArgs, ReportFormatArgs, ReporterArgs, ThreadArgs,
+};
 pub(super) use cost::{CostArgs, StudyFormat};
 pub(super) use diff::DiffArgs;
 pub(super) use farm::{FarmArgs, FarmEngine};

@@ -1,6 +1,6 @@
 //! The arguments of `rtc preview`.
 
-use super::{OutputTransformArgs, ReadArgs, ReporterArgs, StageArgs, WantedArgs};
+use super::{OutputTransformArgs, ReadArgs, ReporterArgs, StageArgs, ThreadArgs, WantedArgs};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -32,14 +32,8 @@ pub(crate) struct PreviewArgs {
     /// rendered with the view of the first one.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = "Comparison")]
     pub(crate) against: Option<PathBuf>,
-    /// Use N threads [default: one for each core]
-    #[arg(
-        long,
-        value_name = "N",
-        value_parser = clap::value_parser!(u16).range(1..=1024),
-        help_heading = "Performance",
-    )]
-    pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) threads: ThreadArgs,
     #[command(flatten)]
     pub(crate) wanted: WantedArgs,
     #[command(flatten)]

@@ -1,13 +1,27 @@
 //! The arguments of `rtc render`.
 
 use super::super::parse::{bytes, frames, interval, levels, radiance, rule, seconds, share};
-use super::{OutputTransformArgs, ReadArgs, ReporterArgs, StageArgs, WantedArgs};
+use super::{OutputTransformArgs, ReadArgs, ReporterArgs, StageArgs, ThreadArgs, WantedArgs};
 use clap::{Args, ValueEnum, ValueHint};
 use rtc_pipeline::ShardDivision;
 use rtc_plan::Rule;
 use rtc_study::RenderGoal;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+
+/// The settings that fix the number of samples.
+const SAMPLE_COUNTS: [&str; 3] = ["supersampling", "aperture-samples", "spp"];
+
+/// The settings that do not go with work on the whole picture.
+const WHOLE_PICTURE: [&str; 7] = [
+    "target_error",
+    "quality",
+    "time_budget",
+    "part",
+    "checkpoint",
+    "strips",
+    "verify_effects",
+];
 
 #[derive(Debug, Args)]
 pub(crate) struct RenderArgs {
@@ -53,7 +67,7 @@ pub(crate) struct RenderArgs {
         long,
         value_name = "LEVELS",
         value_parser = levels,
-        conflicts_with_all = ["supersampling", "aperture-samples", "spp"],
+        conflicts_with_all = SAMPLE_COUNTS,
         help_heading = "Sampling",
     )]
     pub(crate) target_error: Option<f64>,
@@ -62,7 +76,8 @@ pub(crate) struct RenderArgs {
         long,
         value_enum,
         value_name = "QUALITY",
-        conflicts_with_all = ["target_error", "supersampling", "aperture-samples", "spp"],
+        conflicts_with_all = SAMPLE_COUNTS,
+        conflicts_with = "target_error",
         help_heading = "Sampling",
     )]
     pub(crate) quality: Option<QualityArg>,
@@ -74,7 +89,7 @@ pub(crate) struct RenderArgs {
         long,
         value_name = "SECONDS",
         value_parser = seconds,
-        conflicts_with_all = ["supersampling", "aperture-samples", "spp"],
+        conflicts_with_all = SAMPLE_COUNTS,
         help_heading = "Sampling",
     )]
     pub(crate) time_budget: Option<Duration>,
@@ -85,7 +100,7 @@ pub(crate) struct RenderArgs {
     /// picture to keep.
     #[arg(
         long,
-        conflicts_with_all = ["target_error", "quality", "time_budget", "part", "checkpoint", "strips", "verify_effects"],
+        conflicts_with_all = WHOLE_PICTURE,
         help_heading = "Sampling",
     )]
     pub(crate) denoise: bool,
@@ -96,7 +111,8 @@ pub(crate) struct RenderArgs {
         long,
         value_name = "LIMIT",
         value_parser = radiance,
-        conflicts_with_all = ["target_error", "quality", "time_budget", "denoise", "part", "checkpoint", "strips", "verify_effects"],
+        conflicts_with_all = WHOLE_PICTURE,
+        conflicts_with = "denoise",
         help_heading = "Sampling",
     )]
     pub(crate) clamp: Option<f64>,
@@ -206,14 +222,8 @@ pub(crate) struct RenderArgs {
     /// Remove what was not used for longest when the folder holds more bytes [default: 1GiB]
     #[arg(long, value_name = "SIZE", value_parser = bytes, help_heading = "Performance")]
     pub(crate) cache_limit: Option<u64>,
-    /// Use N threads [default: one for each core]
-    #[arg(
-        long,
-        value_name = "N",
-        value_parser = clap::value_parser!(u16).range(1..=1024),
-        help_heading = "Performance",
-    )]
-    pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) threads: ThreadArgs,
     #[command(flatten)]
     pub(crate) look: OutputTransformArgs,
     #[command(flatten)]

@@ -51,7 +51,7 @@ fn carry_out(args: &AuditArgs, reporter: &mut Reporter) -> Result<(AuditResult, 
         file: &args.scene,
         stage: &args.stage,
         reading: &args.reading,
-        threads: args.threads.map_or(0, usize::from),
+        threads: args.threads.count(),
     };
     // A part of a picture is audited against its own setup.
     if args.picture.extension().is_some_and(|it| it == "rtp") {

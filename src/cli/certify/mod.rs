@@ -119,7 +119,7 @@ fn setup(args: &CertifyArgs) -> Result<PictureSetup, Failure> {
             size: args.size,
             ..Overrides::default()
         },
-        threads: args.threads.map_or(0, usize::from),
+        threads: args.threads.count(),
         simd: simd::level()?,
         ..PictureSetup::new(look)
     })

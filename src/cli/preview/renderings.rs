@@ -17,7 +17,7 @@ pub(super) fn setup(args: &args::PreviewArgs) -> Result<PictureSetup, Failure> {
     render::refuse_layers(&setup)?;
     let settled = project::picture(&args.file, &args.reading, RenderGoal::default())?;
     Ok(PictureSetup {
-        threads: args.threads.map_or(0, usize::from),
+        threads: args.threads.count(),
         overrides: setup.overrides.or(settled),
         ..setup
     })

@@ -125,7 +125,7 @@ impl RenderSetup {
         let picture = PictureSetup {
             overrides: requested.or(settled),
             goal,
-            threads: args.threads.map_or(0, usize::from),
+            threads: args.threads.count(),
             rules: rules(&args.pruning, goal),
             verify: args.pruning.verify_effects,
             denoise: args.denoise,
