@@ -19,6 +19,27 @@ pub enum Microfacets {
     Beckmann,
 }
 
+impl Microfacets {
+    /// The keywords of the distributions, each with its description.
+    pub const KEYWORDS: &[(&str, Self, &str)] = &[
+        (
+            "ggx",
+            Self::Ggx,
+            "GGX with height-correlated masking, as glTF has it.",
+        ),
+        (
+            "separable-ggx",
+            Self::SeparableGgx,
+            "GGX with the product of the maskings of light and viewer.",
+        ),
+        (
+            "beckmann",
+            Self::Beckmann,
+            "Beckmann's distribution with the product of both maskings.",
+        ),
+    ];
+}
+
 /// How light leaves a diffuse base below the boundary of a dielectric.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary,
@@ -35,4 +56,26 @@ pub enum Plastic {
     /// Once through a smooth boundary and out again, as if the index inside were that outside:
     /// `pplastic` of Mitsuba.
     Single,
+}
+
+impl Plastic {
+    /// The keywords of the kinds, each with its description.
+    pub const KEYWORDS: &[(&str, Self, &str)] = &[
+        ("none", Self::None, "As glTF says."),
+        (
+            "linear",
+            Self::Linear,
+            "Light is reflected inside without a change of colour.",
+        ),
+        (
+            "nonlinear",
+            Self::Nonlinear,
+            "Light is reflected inside, and its colour becomes more saturated.",
+        ),
+        (
+            "single",
+            Self::Single,
+            "Light goes in and out of a smooth boundary once.",
+        ),
+    ];
 }

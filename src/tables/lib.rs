@@ -37,4 +37,6 @@ mod shape;
 mod standard;
 
 pub use metal::{METALS, Metal};
-pub use standard::{PhongFit, PhongTerms, camel_bytes, fit_phong};
+pub use standard::{
+    EXTENSION_ROWS, ExtensionRow, PhongFit, PhongTerms, PropertyKind, camel_bytes, fit_phong,
+};

@@ -191,6 +191,49 @@ macro_rules! extensions {
     };
 }
 
+/// What an extension's property is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(non_camel_case_types, reason = "the words of the table")]
+#[expect(missing_docs, reason = "each is named as in the table")]
+pub enum PropertyKind {
+    fraction,
+    number,
+    non_negative,
+    distance,
+    color,
+    fraction_color,
+    map,
+    normal_map,
+}
+
+/// A row of [`extensions!`].
+#[derive(Clone, Copy, Debug)]
+pub struct ExtensionRow {
+    /// The extension.
+    pub extension: &'static str,
+    /// The parameter that the property is.
+    pub parameter: &'static str,
+    /// What it is.
+    pub kind: PropertyKind,
+    /// The key.
+    pub key: &'static str,
+}
+
+/// Declares the rows of the table.
+macro_rules! extension_rows {
+    ($($name:literal { $($field:ident: $kind:ident $key:literal;)* })*) => {
+        /// All rows of [`extensions!`], those of an extension together.
+        pub const EXTENSION_ROWS: &[ExtensionRow] = &[$($(ExtensionRow {
+            extension: $name,
+            parameter: stringify!($field),
+            kind: PropertyKind::$kind,
+            key: $key,
+        },)*)*];
+    };
+}
+
+extensions!(extension_rows);
+
 /// The layers: lobes that a material may have beside those of its base.
 ///
 /// Each layer has: its name, why a scene does not need it, its factor and the channels of its

@@ -137,23 +137,12 @@ impl ParameterWriter<'_, '_> {
 
     #[expect(clippy::unused_self, reason = "a row of the table like the others")]
     fn microfacets(&mut self, value: &Microfacets) -> WrittenValue {
-        let keyword = match value {
-            Microfacets::Ggx => "ggx",
-            Microfacets::SeparableGgx => "separable-ggx",
-            Microfacets::Beckmann => "beckmann",
-        };
-        Ok(keyword.to_owned())
+        keyword(Microfacets::KEYWORDS, value)
     }
 
     #[expect(clippy::unused_self, reason = "a row of the table like the others")]
     fn plastic(&mut self, value: &Plastic) -> WrittenValue {
-        let keyword = match value {
-            Plastic::None => "none",
-            Plastic::Linear => "linear",
-            Plastic::Nonlinear => "nonlinear",
-            Plastic::Single => "single",
-        };
-        Ok(keyword.to_owned())
+        keyword(Plastic::KEYWORDS, value)
     }
 
     fn alpha(&mut self, alpha: &Alpha) -> WrittenValue {
@@ -233,4 +222,10 @@ fn wrap_name(wrap: Wrap) -> &'static str {
         Wrap::Mirror => "mirror",
         Wrap::Clamp => "clamp",
     }
+}
+
+/// The keyword of a value in a table that has them all.
+fn keyword<T: PartialEq>(table: &[(&str, T, &str)], value: &T) -> WrittenValue {
+    let row = table.iter().find(|(_, entry, _)| entry == value);
+    Ok(row.map_or("", |(keyword, ..)| keyword).to_owned())
 }

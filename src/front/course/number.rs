@@ -198,6 +198,12 @@ macro_rules! ranged {
                 json_number(f64::from(self.0))
             }
         }
+
+        impl From<$inner> for $name {
+            fn from(number: $inner) -> Self {
+                Self(number)
+            }
+        }
     };
 }
 

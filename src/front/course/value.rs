@@ -66,54 +66,65 @@ fn wrong_length(node: NodeId, count: usize, expected: usize, context: &mut Decod
     });
 }
 
-/// Declares a type of the format: a list of three numbers.
-macro_rules! triple {
-    ($(#[doc = $doc:literal])+ $name:ident, $decode:expr, $item:tt) => {
+/// Declares a type of the format: a list of a few numbers, each read by a function.
+macro_rules! numbers {
+    ($(#[doc = $doc:literal])+ $name:ident, $count:literal, $what:literal, $item:tt $(, $read:path)?) => {
         $(#[doc = $doc])+
         #[derive(Clone, Copy, Debug)]
-        pub(super) struct $name(pub(super) [f64; 3]);
+        pub(super) struct $name(pub(super) [f64; $count]);
 
         impl Decode for $name {
             const IS_LIST: bool = true;
 
             fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
-                tuple(node, "a list of three numbers", context, $decode).map(Self)
+                tuple(node, $what, context, |node, context| {
+                    let number = number(node, $what, context)?;
+                    $(let number = $read(number, node, context);)?
+                    Some(number)
+                })
+                .map(Self)
             }
 
             fn schema(_: &mut SchemaDefinitions) -> Json {
-                json!({ "type": "array", "items": $item, "minItems": 3, "maxItems": 3 })
+                json!({ "type": "array", "items": $item, "minItems": $count, "maxItems": $count })
             }
 
             fn json(&self) -> Json {
                 self.0.map(json_number).to_vec().into()
             }
         }
+
+        impl From<[f64; $count]> for $name {
+            fn from(numbers: [f64; $count]) -> Self {
+                Self(numbers)
+            }
+        }
     };
 }
 
-triple! {
+pub(super) use numbers;
+
+numbers! {
     /// A point.
-    Point, |node, context| number(node, "a list of three numbers", context),
+    Point, 3, "a list of three numbers",
     { "type": "number", "minimum": -1e60, "maximum": 1e60, "x-unit": "scene units" }
 }
 
-triple! {
+numbers! {
     /// A direction; the key that takes it says whether its length matters.
-    Vector, |node, context| number(node, "a list of three numbers", context),
+    Vector, 3, "a list of three numbers",
     { "type": "number", "minimum": -1e60, "maximum": 1e60 }
 }
 
-triple! {
+numbers! {
     /// Three angles in radians.
-    Angles, |node, context| {
-        number(node, "a list of three numbers", context).map(|angle| radians(angle, node, context))
-    },
-    { "type": "number", "minimum": -1e60, "maximum": 1e60, "x-unit": "radians" }
+    Angles, 3, "a list of three numbers",
+    { "type": "number", "minimum": -1e60, "maximum": 1e60, "x-unit": "radians" }, radians
 }
 
-triple! {
+numbers! {
     /// Red, green and blue, each at least 0; values above 1 are allowed.
-    Color, |node, context| number(node, "a list of three numbers", context),
+    Color, 3, "a list of three numbers",
     { "type": "number", "minimum": 0 }
 }
 

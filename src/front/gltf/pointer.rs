@@ -4,6 +4,7 @@
 use super::channel::AnimatedPath;
 use super::document::Document;
 use rtc_source::tree::{NodeId, NodeKind, SyntaxTree};
+use rtc_tables::{EXTENSION_ROWS, ExtensionRow, PropertyKind};
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
@@ -100,41 +101,19 @@ const FOLLOWED: &[PointerRow] = &[
     ("spot", "outerConeAngle", 1, [0.0, FRAC_PI_2]),
 ];
 
-/// The number of values of a kind in the table of extensions, and their range; none for maps.
-macro_rules! numbers {
-    (fraction) => {
-        (1, UNIT)
+/// The row of a property of the table of extensions; none for a map.
+fn of_extension(row: &ExtensionRow) -> Option<PointerRow> {
+    let (width, range) = match row.kind {
+        PropertyKind::fraction => (1, UNIT),
+        PropertyKind::number => (1, FREE),
+        PropertyKind::non_negative => (1, FACTOR),
+        PropertyKind::distance => (1, POSITIVE),
+        PropertyKind::color => (3, FACTOR),
+        PropertyKind::fraction_color => (3, UNIT),
+        PropertyKind::map | PropertyKind::normal_map => return None,
     };
-    (number) => {
-        (1, FREE)
-    };
-    (non_negative) => {
-        (1, FACTOR)
-    };
-    (distance) => {
-        (1, POSITIVE)
-    };
-    (color) => {
-        (3, FACTOR)
-    };
-    (fraction_color) => {
-        (3, UNIT)
-    };
-    ($map:ident) => {
-        (0, FREE)
-    };
+    Some((row.extension, row.key, width, range))
 }
-
-/// The properties of the table of extensions.
-macro_rules! of_extensions {
-    ($($name:literal { $($field:ident: $kind:ident $key:literal;)* })*) => {
-        const OF_EXTENSIONS: &[PointerRow] = &[
-            $($(($name, $key, numbers!($kind).0, numbers!($kind).1),)*)*
-        ];
-    };
-}
-
-rtc_tables::extensions!(of_extensions);
 
 /// The node and the path that a pointer names, as channels without pointers do.
 pub(super) fn of_node(pointer: &str) -> Option<(usize, AnimatedPath)> {
@@ -166,11 +145,11 @@ pub(super) fn resolve(
     let at = steps
         .take(STEPS)
         .try_fold(part, |at, step| json.get(at, step))?;
-    let mut rows = FOLLOWED.iter().chain(OF_EXTENSIONS);
-    let is_row = |(number, name, width, _): &&PointerRow| {
-        *number == holder.unwrap_or(list) && *name == key && *width > 0
-    };
-    let (_, key, width, range) = *rows.find(is_row)?;
+    let of_extensions = EXTENSION_ROWS.iter().filter_map(of_extension);
+    let mut rows = FOLLOWED.iter().copied().chain(of_extensions);
+    let is_row =
+        |(number, name, ..): &PointerRow| *number == holder.unwrap_or(list) && *name == key;
+    let (_, key, width, range) = rows.find(is_row)?;
     (json.kind(at) == NodeKind::Map).then_some(AnimatedProperty {
         at,
         key,

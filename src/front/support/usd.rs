@@ -4,19 +4,6 @@ use super::ExamplePart;
 
 const STAGE: &str = "#usda 1.0\n(\n    upAxis = \"Y\"\n    metersPerUnit = 1\n)\n";
 
-/// The start of a stage whose ball has a material `m`.
-macro_rules! shaded {
-    ($shader:literal) => {
-        concat!(
-            "#usda 1.0\n(\n upAxis = \"Y\"\n metersPerUnit = 1\n)\n",
-            "def Sphere \"ball\" (\n prepend apiSchemas = [\"MaterialBindingAPI\"]\n)\n",
-            "{\n rel material:binding = </m>\n}\n",
-            "def Material \"m\"\n{\n token outputs:surface.connect = </m/s.outputs:surface>\n",
-            $shader
-        )
-    };
-}
-
 pub(super) const PARTS: &[ExamplePart] = &[
     ExamplePart {
         title: "layers",
@@ -116,7 +103,14 @@ pub(super) const PARTS: &[ExamplePart] = &[
     },
     ExamplePart {
         title: "materials",
-        before: shaded!(" def Shader \"s\"\n {\n  uniform token info:id = "),
+        // The stage of a ball with a material `m`, up to the kind of its shader.
+        before: concat!(
+            "#usda 1.0\n(\n upAxis = \"Y\"\n metersPerUnit = 1\n)\n",
+            "def Sphere \"ball\" (\n prepend apiSchemas = [\"MaterialBindingAPI\"]\n)\n",
+            "{\n rel material:binding = </m>\n}\n",
+            "def Material \"m\"\n{\n token outputs:surface.connect = </m/s.outputs:surface>\n",
+            " def Shader \"s\"\n {\n  uniform token info:id = ",
+        ),
         after: "\n  token outputs:surface\n }\n}\n",
         examples: &[
             (

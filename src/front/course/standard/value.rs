@@ -5,7 +5,7 @@ use super::super::keyword::{KeywordTable, keyword, keyword_schema};
 use super::super::number::{NonNegative, Real, integer, json_number, number, ranged};
 use super::super::record::{keys, record};
 use super::super::schema::SchemaDefinitions;
-use super::super::value::{Color, tuple};
+use super::super::value::{numbers, tuple};
 use super::Alpha;
 use rtc_ir::Conductor;
 use rtc_math::{Microfacets, Plastic};
@@ -37,37 +37,6 @@ ranged! {
     { "anyOf": [{ "const": 0 }, { "type": "number", "minimum": 1 }] }
 }
 
-/// Declares a type of the format: a few numbers in a range.
-macro_rules! numbers {
-    ($(#[doc = $doc:literal])+ $name:ident, $count:literal, $what:literal, $item:tt) => {
-        $(#[doc = $doc])+
-        #[derive(Clone, Copy, Debug)]
-        pub(super) struct $name(pub(super) [f64; $count]);
-
-        impl Decode for $name {
-            const IS_LIST: bool = true;
-
-            fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
-                tuple(node, $what, context, |node, context| number(node, $what, context)).map(Self)
-            }
-
-            fn schema(_: &mut SchemaDefinitions) -> Json {
-                json!({ "type": "array", "items": $item, "minItems": $count, "maxItems": $count })
-            }
-
-            fn json(&self) -> Json {
-                self.0.map(json_number).to_vec().into()
-            }
-        }
-
-        impl From<[f64; $count]> for $name {
-            fn from(numbers: [f64; $count]) -> Self {
-                Self(numbers)
-            }
-        }
-    };
-}
-
 numbers! {
     /// Red, green and blue, each from 0 to 1.
     FractionColor, 3, "a list of three numbers", { "type": "number", "minimum": 0, "maximum": 1 }
@@ -81,25 +50,6 @@ numbers! {
 numbers! {
     /// A minimum and a maximum, each at least 0.
     Range, 2, "a list of two numbers", { "type": "number", "minimum": 0 }
-}
-
-/// Converts defaults of the table to types of the format, for the schema.
-macro_rules! from_number {
-    ($($name:ident)+) => {
-        $(impl From<f64> for $name {
-            fn from(number: f64) -> Self {
-                Self(number)
-            }
-        })+
-    };
-}
-
-from_number!(Fraction NonNegative Real Refraction RefractionOrNone);
-
-impl From<[f64; 3]> for Color {
-    fn from(channels: [f64; 3]) -> Self {
-        Self(channels)
-    }
 }
 
 /// The alpha mode of a surface.
@@ -159,7 +109,7 @@ impl Decode for AlphaMode {
 
 /// Declares a type of the format: a keyword for each value of an enum.
 macro_rules! keywords {
-    ($(#[doc = $doc:literal])+ $name:ident($Value:ident), $table:ident) => {
+    ($(#[doc = $doc:literal])+ $name:ident($Value:ident), $table:expr) => {
         $(#[doc = $doc])+
         #[derive(Clone, Copy, Debug)]
         pub(super) struct $name(pub(super) $Value);
@@ -187,53 +137,14 @@ macro_rules! keywords {
     };
 }
 
-/// The keywords of distributions.
-const MICROFACETS: KeywordTable<Microfacets> = &[
-    (
-        "ggx",
-        Microfacets::Ggx,
-        "GGX with height-correlated masking, as glTF has it.",
-    ),
-    (
-        "separable-ggx",
-        Microfacets::SeparableGgx,
-        "GGX with the product of the maskings of light and viewer.",
-    ),
-    (
-        "beckmann",
-        Microfacets::Beckmann,
-        "Beckmann's distribution with the product of both maskings.",
-    ),
-];
-
-/// The keywords of plastics.
-const PLASTICS: KeywordTable<Plastic> = &[
-    ("none", Plastic::None, "As glTF says."),
-    (
-        "linear",
-        Plastic::Linear,
-        "Light is reflected inside without a change of colour.",
-    ),
-    (
-        "nonlinear",
-        Plastic::Nonlinear,
-        "Light is reflected inside, and its colour becomes more saturated.",
-    ),
-    (
-        "single",
-        Plastic::Single,
-        "Light goes in and out of a smooth boundary once.",
-    ),
-];
-
 keywords! {
     /// The distribution of microfacets.
-    MicrofacetsKeyword(Microfacets), MICROFACETS
+    MicrofacetsKeyword(Microfacets), Microfacets::KEYWORDS
 }
 
 keywords! {
     /// How light leaves the base.
-    PlasticKeyword(Plastic), PLASTICS
+    PlasticKeyword(Plastic), Plastic::KEYWORDS
 }
 
 /// The complex index of a conductor: the name of a metal, or numbers.

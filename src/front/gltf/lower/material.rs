@@ -12,8 +12,9 @@ use rtc_ir::{
     self as ir, Alpha, Bump, Conductor, EntityField, EntityKind, Map, MaterialId, Phong, Scene,
     SourceSpans, Standard, ValuePath,
 };
-use rtc_math::{Microfacets, Plastic, to_u32};
+use rtc_math::to_u32;
 use rtc_source::tree::SyntaxTree;
+use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 
 /// What became of the materials of the asset.
@@ -367,19 +368,17 @@ fn facets(fields: ObjectFields<'_, '_>, standard: &mut Standard) {
     let Some(extension) = fields.rtc_extras() else {
         return;
     };
-    standard.microfacets = match extension.text("microfacets").as_deref() {
-        Some("separableGgx") => Microfacets::SeparableGgx,
-        Some("beckmann") => Microfacets::Beckmann,
-        _ => Microfacets::Ggx,
-    };
-    standard.plastic = match extension.text("plastic").as_deref() {
-        Some("linear") => Plastic::Linear,
-        Some("nonlinear") => Plastic::Nonlinear,
-        Some("single") => Plastic::Single,
-        _ => Plastic::None,
-    };
+    standard.microfacets = keyword(extension, "microfacets");
+    standard.plastic = keyword(extension, "plastic");
     standard.black_back = extension.boolean("blackBack");
     standard.thin_dielectric = extension.boolean("thinDielectric");
+}
+
+/// The value of a property that names one; its default for any other text.
+fn keyword<T: DeserializeOwned + Default>(fields: ObjectFields<'_, '_>, key: &str) -> T {
+    let text = fields.text(key);
+    text.and_then(|text| serde_json::from_value(text.into()).ok())
+        .unwrap_or_default()
 }
 
 /// The object of a `KHR_materials_*` extension.

@@ -1,6 +1,7 @@
 //! The known extensions: the objects that carry them, and their properties. An asset may require
 //! each of them.
 
+use super::Value;
 use super::Value::{
     Attributes, Boolean, Index, Indices, Integer, Keyword, Many, Number, Numbers, One, Pointer,
     Text,
@@ -10,6 +11,7 @@ use super::{
     FACTOR, FREE, IndexTarget, NumberRange, ObjectSchema, POSITIVE, PropertySchema, UNIT, optional,
     required,
 };
+use rtc_tables::PropertyKind;
 
 /// An extension.
 #[derive(Debug)]
@@ -116,32 +118,18 @@ static EXTENSIONS: &[Extension] = &[
     ),
 ];
 
-/// The value of a property that is a parameter in the table of materials.
-macro_rules! value {
-    (fraction) => {
-        Number(UNIT)
-    };
-    (number) => {
-        Number(FREE)
-    };
-    (non_negative) => {
-        Number(FACTOR)
-    };
-    (distance) => {
-        Number(POSITIVE)
-    };
-    (color) => {
-        Numbers(&[3], FACTOR)
-    };
-    (fraction_color) => {
-        Numbers(&[3], UNIT)
-    };
-    (map) => {
-        One(&TEXTURE_INFO)
-    };
-    (normal_map) => {
-        One(&NORMAL_TEXTURE)
-    };
+/// A property of a kind.
+const fn value(kind: PropertyKind) -> Value {
+    match kind {
+        PropertyKind::fraction => Number(UNIT),
+        PropertyKind::number => Number(FREE),
+        PropertyKind::non_negative => Number(FACTOR),
+        PropertyKind::distance => Number(POSITIVE),
+        PropertyKind::color => Numbers(&[3], FACTOR),
+        PropertyKind::fraction_color => Numbers(&[3], UNIT),
+        PropertyKind::map => One(&TEXTURE_INFO),
+        PropertyKind::normal_map => One(&NORMAL_TEXTURE),
+    }
 }
 
 /// The extensions of the table of parameters.
@@ -153,7 +141,7 @@ macro_rules! of_materials {
                 "material",
                 &ObjectSchema {
                     name: "extension",
-                    keys: &[$(optional($key, value!($kind))),*],
+                    keys: &[$(optional($key, value(PropertyKind::$kind))),*],
                 },
             )],
         }),*];

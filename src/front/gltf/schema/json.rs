@@ -5,6 +5,7 @@
 use super::core::ROOT;
 use super::extension::all;
 use super::{NumberRange, ObjectSchema, PropertySchema, Value};
+use rtc_tables::EXTENSION_ROWS;
 use serde_json::{Map, Value as Json, json};
 
 /// Lines of `object.property | default | unit | description`.
@@ -151,20 +152,13 @@ impl AboutText {
 
 /// The description of an extension's property in the table of material parameters.
 fn of_parameter(key: &str) -> Option<String> {
-    let (_, field) = FIELDS.iter().find(|(entry, _)| *entry == key)?;
-    let (_, lines) = PARAMETERS.iter().find(|(entry, _)| entry == field)?;
+    let row = EXTENSION_ROWS.iter().find(|row| row.key == key)?;
+    let (_, lines) = PARAMETERS
+        .iter()
+        .find(|(entry, _)| *entry == row.parameter)?;
     let words: Vec<_> = lines.iter().map(|line| line.trim()).collect();
     Some(words.join(" ").trim_end_matches('.').to_owned())
 }
-
-/// The parameter of each property.
-macro_rules! fields {
-    ($($name:literal { $($field:ident: $kind:ident $key:literal;)* })*) => {
-        const FIELDS: &[(&str, &str)] = &[$($(($key, stringify!($field)),)*)*];
-    };
-}
-
-rtc_tables::extensions!(fields);
 
 /// The descriptions of the parameters, as lines.
 macro_rules! documented {
