@@ -140,14 +140,11 @@ pub(crate) struct ClearcoatLayer {
     pub(crate) normal: Option<NormalMap>,
 }
 
-/// The prepared part of a layer, of a kind of the table.
-macro_rules! prepared {
-    (number) => {
-        MappedNumber
-    };
-    (tint) => {
-        MappedColor
-    };
+/// The prepared form of each kind of part.
+#[expect(non_camel_case_types, reason = "the words of the table")]
+mod prepared {
+    pub(super) type number = super::MappedNumber;
+    pub(super) type tint = super::MappedColor;
 }
 
 /// The layers of the table that consist of numbers and colours only.
@@ -173,8 +170,8 @@ macro_rules! plain_layers {
         $(
             #[derive(Clone, Debug)]
             pub(crate) struct $prepared {
-                pub(crate) $weight: prepared!($weight_kind),
-                $(pub(crate) $part: prepared!($kind),)*
+                pub(crate) $weight: prepared::$weight_kind,
+                $(pub(crate) $part: prepared::$kind,)*
             }
 
             impl $prepared {

@@ -2,7 +2,7 @@
 //!
 //! `rtc_tables::parameters!` lists the parameters with their kinds and defaults. The macros here
 //! turn each row into a field of the record [`StandardMaterial`]: the key is the name of the row in
-//! camel case, the kind of the row selects the type of the value (`written!`), its default
+//! camel case, the kind of the row selects the type of the value (`written`), its default
 //! (`requirement!`) and its lowering (`lowered!`). A parameter that is added to the table is
 //! decoded, documented and lowered without a change here.
 //!
@@ -38,61 +38,28 @@ use value::{
 pub(super) const KEYWORD: &str = "standard";
 
 /// The type of the format for each kind of parameter.
-macro_rules! written {
-    (fraction) => {
-        Fraction
-    };
-    (number) => {
-        Real
-    };
-    (non_negative) => {
-        NonNegative
-    };
-    (ior) => {
-        RefractionOrNone
-    };
-    (index_of_refraction) => {
-        Refraction
-    };
-    (distance) => {
-        Positive
-    };
-    (pair) => {
-        Range
-    };
-    (color) => {
-        Color
-    };
-    (fraction_color) => {
-        FractionColor
-    };
-    (fractions) => {
-        Rgba
-    };
-    (some_fractions) => {
-        Rgba
-    };
-    (conductor) => {
-        ConductorIndex
-    };
-    (microfacets) => {
-        MicrofacetsKeyword
-    };
-    (plastic) => {
-        PlasticKeyword
-    };
-    (flag) => {
-        bool
-    };
-    (alpha) => {
-        AlphaMode
-    };
-    (map) => {
-        MapOrFile
-    };
-    (material) => {
-        BlendedMaterial
-    };
+#[expect(non_camel_case_types, reason = "the words of the table")]
+mod written {
+    use super::*;
+
+    pub(super) type fraction = Fraction;
+    pub(super) type number = Real;
+    pub(super) type non_negative = NonNegative;
+    pub(super) type ior = RefractionOrNone;
+    pub(super) type index_of_refraction = Refraction;
+    pub(super) type distance = Positive;
+    pub(super) type pair = Range;
+    pub(super) type color = Color;
+    pub(super) type fraction_color = FractionColor;
+    pub(super) type fractions = Rgba;
+    pub(super) type some_fractions = Rgba;
+    pub(super) type conductor = ConductorIndex;
+    pub(super) type microfacets = MicrofacetsKeyword;
+    pub(super) type plastic = PlasticKeyword;
+    pub(super) type flag = bool;
+    pub(super) type alpha = AlphaMode;
+    pub(super) type map = MapOrFile;
+    pub(super) type material = BlendedMaterial;
 }
 
 /// The default for each kind of parameter.
@@ -116,7 +83,7 @@ macro_rules! requirement {
         FieldRequirement::Default(|| Decode::json(&$default))
     };
     ($kind:ident, $default:expr) => {
-        FieldRequirement::Default(|| Decode::json(&<written!($kind)>::from($default)))
+        FieldRequirement::Default(|| Decode::json(&<written::$kind>::from($default)))
     };
 }
 
@@ -154,7 +121,7 @@ macro_rules! material {
         /// The material of glTF.
         pub(crate) struct StandardMaterial {
             name: FieldResult<Spanned<DisplayName>>,
-            $($field: FieldResult<Spanned<written!($kind)>>,)*
+            $($field: FieldResult<Spanned<written::$kind>>,)*
         }
 
         impl StandardMaterial {
@@ -187,7 +154,7 @@ macro_rules! material {
                         spellings: &[&[camel_case!($field)]],
                         json: &[],
                         requirement: requirement!($kind, $default),
-                        schema: <Spanned<written!($kind)> as FieldValue>::schema,
+                        schema: <Spanned<written::$kind> as FieldValue>::schema,
                     },)*
                 ],
                 variants: &[],

@@ -2,10 +2,10 @@
 
 use super::super::decode::{Decode, DecodeContext, Spanned};
 use super::super::keyword::{KeywordTable, keyword, keyword_schema};
-use super::super::number::{NonNegative, Real, integer, json_number, number, ranged};
+use super::super::number::{NonNegative, integer, json_number, number, ranged};
 use super::super::record::{keys, record};
 use super::super::schema::SchemaDefinitions;
-use super::super::value::{numbers, tuple};
+use super::super::value::{Color, numbers, tuple};
 use super::Alpha;
 use rtc_ir::Conductor;
 use rtc_math::{Microfacets, Plastic};
