@@ -1,7 +1,7 @@
 """Compares estimated caustics of a glass ellipsoid with photons that are traced here, from the lamp: an estimator that has nothing in
 common with manifold sampling. Needs numpy. Usage: caustics_photons.py PATHS FOLDER, where PATHS is the program `paths`.
 
-Photons pass at most four smooth surfaces, as the estimate does. What is no caustic is subtracted from the picture: it is that of a point of
+Photons pass at most SURFACES smooth surfaces, as the paths of the picture do. What is no caustic is subtracted from the picture: it is that of a point of
 the same intensity without the estimate, whose caustics no path finds. Prints the mean of bright and of dim pixels by both."""
 import json
 import os
@@ -10,7 +10,9 @@ import sys
 
 import numpy as np
 
-SIDE, BATCH, BATCHES, SAMPLES, SEEDS = 48, 1_000_000, 24, 64, 8
+SIDE, BATCH, BATCHES, SAMPLES, SEEDS = 48, 1_000_000, 24, 64, 16
+# Chains of more surfaces would let light go from one caustic by the glass to the next.
+SURFACES = 2
 LAMP, RADIANCE, ALBEDO, IOR, FOV = 0.02, 30000.0, 0.8, 1.5, 35.0
 SCENES = {
     "glass-ball": {"center": [0, 1, 0], "radii": [1, 1, 1], "lamp": [2.5, 5, 0], "eye": [0, 3, 7]},
@@ -19,7 +21,7 @@ SCENES = {
 TEXT = """Camera: {{eye: {eye}, center: [0, 0.6, 0], up: [0, 1, 0], fov: 35, viewSize: [48, 48]}}
 Environment: {{color: 0}}
 PathParameters: {{samples: 16, caustics: true}}
-MaxRecursionDepth: 5
+MaxRecursionDepth: {depth}
 Objects:
 - {{type: quad, v0: [-6, 0, -6], v1: [-6, 0, 6], v2: [6, 0, 6], v3: [6, 0, -6], material: {{type: standard, baseColor: [0.8, 0.8, 0.8, 1], metallic: 0, roughness: 1, specular: 0, doubleSided: true}}}}
 - {{type: ellipsoid, position: {center}, radius: {radii}, material: {{type: standard, transmission: 1, thickness: 1, roughness: 0, metallic: 0, ior: 1.5}}}}
@@ -46,7 +48,7 @@ def hit(origin, direction, center, radii):
 
 
 def photons(scene, rng):
-    """Points on the floor with their flux, after one to four smooth surfaces."""
+    """Points on the floor with their flux, after one smooth surface or more."""
     center, radii, lamp = (np.array(scene[key], float) for key in ("center", "radii", "lamp"))
     axis = center - lamp
     distance = np.linalg.norm(axis)
@@ -61,7 +63,7 @@ def photons(scene, rng):
     facing = np.maximum((normal * d).sum(1), 0)
     flux = RADIANCE * facing * 4 * np.pi * LAMP**2 * 2 * np.pi * (1 - cosine) / BATCH
     o, places, powers = lamp + LAMP * normal, [], []
-    for bounce in range(5):
+    for bounce in range(SURFACES + 1):
         t = hit(o, d, center, radii)
         lands = np.isinf(t) & (d[:, 1] < 0) & (bounce > 0)
         places.append((o - d * (o[:, 1] / d[:, 1])[:, None])[lands])
@@ -124,7 +126,7 @@ def radiance_of_photons(scene, areas, rng):
 def render(paths, name, folder, seed, on):
     out, file = os.path.join(folder, "photons.raw"), os.path.join(folder, f"photons-{name}.yaml")
     with open(file, "w") as text:
-        source = (TEXT + LAMPS[on]).format(**{key: json.dumps(value) for key, value in SCENES[name].items()})
+        source = (TEXT + LAMPS[on]).format(depth=SURFACES + 1, **{key: json.dumps(value) for key, value in SCENES[name].items()})
         text.write(source.replace("caustics: true", f"caustics: {json.dumps(on)}"))
     subprocess.run([paths, file, str(SAMPLES), str(seed), out], check=True, capture_output=True)
     return np.fromfile(out, "<f4").reshape(SIDE, SIDE, 3)[..., 1].astype(float)

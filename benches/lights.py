@@ -17,7 +17,7 @@ SAMPLES = int(os.environ.get("SAMPLES", 16))
 REFERENCE = int(os.environ.get("REFERENCE", 1024))
 SEEDS = 8
 
-HEAD = """Camera: {{eye: [0, 2, 7], center: [0, 0.6, 0], up: [0, 1, 0], fov: 35, viewSize: [{side}, {side}]}}
+HEAD = """Camera: {{eye: [0, 2, 7], center: [0, 0.3, 0], up: [0, 1, 0], fov: 26, viewSize: [{side}, {side}]}}
 Environment: {{color: 0}}
 PathParameters: {{samples: 16}}
 MaxRecursionDepth: 8
@@ -25,7 +25,7 @@ Objects:
 """
 FLOOR = "{type: quad, v0: [-6, 0, -6], v1: [-6, 0, 6], v2: [6, 0, 6], v3: [6, 0, -6], material: {type: standard, baseColor: [0.8, 0.8, 0.8, 1], metallic: 0, roughness: 1, specular: 0, doubleSided: true}}"
 BALL = "{type: sphere, position: [-0.8, 0.7, 0.5], radius: 0.7, material: {type: standard, baseColor: [0.7, 0.4, 0.3, 1], metallic: 0, roughness: 1, specular: 0, doubleSided: true}}"
-MASK = "{type: quad, v0: [-2, 1.6, -2], v1: [-2, 1.6, 2], v2: [2, 1.6, 2], v3: [2, 1.6, -2], material: {type: standard, baseColor: [0.5, 0.5, 0.5, 0.4], metallic: 0, roughness: 1, specular: 0, alphaMode: blend, doubleSided: true}}"
+MASK = "{type: quad, v0: [-2, 1.6, -2], v1: [-2, 1.6, 2], v2: [2, 1.6, 2], v3: [2, 1.6, -2], material: {type: standard, baseColor: [0.5, 0.5, 0.5, 0.4], metallic: 0, roughness: 1, specular: 0, alpha: blend, doubleSided: true}}"
 PANE = "{type: box, min: [-2, 1.5, -2], max: [2, 1.6, 2], material: {type: standard, transmission: 1, thickness: 1, roughness: 0, metallic: 0, ior: 1.5}}"
 
 
@@ -43,7 +43,7 @@ QUAD = "type: quad, v0: [0, 2.5, -0.5], v1: [1, 2.5, -0.5], v2: [1, 2.5, 0.5], v
 UPRIGHT = "type: quad, v0: [0.5, 0.5, -0.5], v1: [0.5, 1.5, -0.5], v2: [0.5, 1.5, 0.5], v3: [0.5, 0.5, 0.5]"
 BOTH = ", doubleSided: true"
 # Mitsuba's emitters have one side: it gets two of them, back to back.
-TWINS = {"two-sided quad": [lamp(UPRIGHT, 8), lamp("type: quad, v0: [0.5001, 0.5, 0.5], v1: [0.5001, 1.5, 0.5], v2: [0.5001, 1.5, -0.5], v3: [0.5001, 0.5, -0.5]", 8)]}
+TWINS = {"two-sided quad": [lamp(UPRIGHT, 8), lamp("type: quad, v0: [0.499, 0.5, 0.5], v1: [0.499, 1.5, 0.5], v2: [0.499, 1.5, -0.5], v3: [0.499, 0.5, -0.5]", 8)]}
 FAMILIES = {
     **{f"sphere of radius {radius}": [sphere(radius)] for radius in (1, 0.1, 0.01, 0.001, 0.0001)},
     "quad": [lamp(QUAD, 8, BOTH)],
@@ -130,7 +130,9 @@ def main():
         if wanted != [""] and name not in wanted:
             continue
         scene, twin, warnings = write(name, objects)
-        (our_truth, our_mean, our_error), (truth, mean, error) = converged(ours, scene), converged(mitsubas, twin)
+        (our_truth, our_mean, our_error) = converged(ours, scene)
+        # Mitsuba 3.9.1 finds no number in the pixels of an emissive mesh with a texture, and says so for each sample.
+        (truth, mean, error) = converged(mitsubas, twin) if name != "textured quad" else (None, 0, 0)
         if mean == 0:
             own = relative(ours, scene, our_truth)
             print(f"| {name} | {our_mean:.5f} | its picture is black or no number | | {own:.5f} | | | {warnings} |", flush=True)
