@@ -5,7 +5,7 @@ use crate::repo::root;
 use crate::small::{WHOLE, film};
 use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::{Camera, Light, Material, Mode, Scene, Shape};
-use rtc::internals::math::{ComplexIndex, Microfacets, PixelFilter, Plastic, Vec3};
+use rtc::internals::math::{ComplexIndex, Microfacets, PixelFilter, Vec3};
 use rtc::internals::pipeline::{Options, load};
 use rtc::internals::source::{Loader, SourceMap};
 use std::fs;
@@ -13,7 +13,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// The scene of a file, which has no error, and the codes of its diagnostics.
-fn read(path: &Path) -> (Scene, Vec<&'static str>) {
+pub(crate) fn read(path: &Path) -> (Scene, Vec<&'static str>) {
     read_with(path, &Options::default())
 }
 
@@ -60,7 +60,7 @@ fn a_definition_comes_before_the_default_and_one_without_effect_is_told() {
 }
 
 /// Writes a scene with a sensor of 8 × 8 pixels in front of it, and renders it.
-fn picture(body: &str) -> Vec<[f64; 3]> {
+pub(crate) fn picture(body: &str) -> Vec<[f64; 3]> {
     picture_with(body, &[])
 }
 
@@ -513,131 +513,6 @@ fn a_metal_is_the_same_in_every_format_that_is_written() {
         assert!(!filter(&scene).is_pixel(), "{name}");
         assert_eq!(filter(&scene), filter(&again), "{name}");
     }
-}
-
-#[test]
-fn plastics_and_facets_are_read_without_a_warning() {
-    let material = |bsdf: &str| {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("scene.xml");
-        let head = r#"<scene version="3.0.0"><sensor type="perspective"/>"#;
-        let text = format!(r#"{head}<shape type="sphere">{bsdf}</shape></scene>"#);
-        fs::write(&path, text).unwrap();
-        let (scene, codes) = read(&path);
-        assert_eq!(codes, Vec::<&str>::new(), "{bsdf}");
-        match &scene.materials[0] {
-            Material::Standard(standard) => (**standard).clone(),
-            Material::Phong(phong) => panic!("{phong:?}"),
-        }
-    };
-    let plastics = [
-        (r#"<bsdf type="plastic"/>"#, Plastic::Linear),
-        (
-            r#"<bsdf type="roughplastic"><boolean name="nonlinear" value="true"/></bsdf>"#,
-            Plastic::Nonlinear,
-        ),
-        (r#"<bsdf type="pplastic"/>"#, Plastic::Single),
-    ];
-    for (bsdf, plastic) in plastics {
-        let one = material(bsdf);
-        assert_eq!((one.plastic, one.black_back), (plastic, true), "{bsdf}");
-        let both = material(&format!(r#"<bsdf type="twosided">{bsdf}</bsdf>"#));
-        assert!(!both.black_back, "{bsdf}");
-    }
-    // The lesser width is 0.05; along v it is 0.3 = 0.05 + 0.95·strength².
-    let brushed = material(
-        r#"<bsdf type="roughconductor"><float name="alpha_u" value="0.05"/>
-        <float name="alpha_v" value="0.3"/></bsdf>"#,
-    );
-    assert_eq!(brushed.microfacets, Microfacets::Beckmann);
-    assert!((brushed.roughness.powi(2) - 0.05).abs() < 1e-12);
-    assert!((0.05 + 0.95 * brushed.anisotropy.powi(2) - 0.3).abs() < 1e-12);
-    assert_eq!(brushed.anisotropy_rotation, std::f64::consts::FRAC_PI_2);
-    // Of light without polarization a polarizer lets half through.
-    let filter = material(r#"<bsdf type="polarizer"/>"#);
-    assert_eq!((filter.base_color, filter.ior), ([0.5, 0.5, 0.5, 1.0], 1.0));
-}
-
-#[test]
-fn a_mask_covers_by_the_luminance_of_its_texture() {
-    // Squares of white and red: the card covers all of one half and 0.2126 of the other.
-    let pixels = picture(
-        r#"<emitter type="constant"/>
-        <shape type="rectangle">
-            <transform name="to_world"><scale value="0.6"/></transform>
-            <bsdf type="mask">
-                <texture name="opacity" type="checkerboard">
-                    <rgb name="color0" value="1"/><rgb name="color1" value="1 0 0"/>
-                    <transform name="to_uv"><scale y="0.5"/></transform>
-                </texture>
-                <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>
-            </bsdf>
-        </shape>"#,
-    );
-    let at = |x: usize| pixels[8 * 4 + x][1];
-    assert!(at(2) < 0.02, "{}", at(2));
-    assert!((at(5) - (1.0 - 0.2126)).abs() < 0.15, "{}", at(5));
-}
-
-#[test]
-fn a_blend_reflects_the_mean_of_its_materials() {
-    // In a white furnace a blend of blends shows the sum of the reflectances by the weights.
-    let diffuse = |value: f64| {
-        format!(r#"<bsdf type="diffuse"><rgb name="reflectance" value="{value}"/></bsdf>"#)
-    };
-    let blend = |weight: &str, first: &str, second: &str| {
-        format!(r#"<bsdf type="blendbsdf">{weight}{first}{second}</bsdf>"#)
-    };
-    let (weight, quarter) = (
-        r#"<texture name="weight" type="checkerboard"><rgb name="color0" value="0.25"/>
-        <rgb name="color1" value="0.25"/></texture>"#,
-        r#"<float name="weight" value="0.25"/>"#,
-    );
-    let (low, high) = (diffuse(0.2), diffuse(0.8));
-    let in_second = blend(
-        weight,
-        &low,
-        &blend(quarter, &high, r#"<bsdf type="null"/>"#),
-    );
-    let in_first = blend(
-        weight,
-        &blend(quarter, &high, r#"<bsdf type="null"/>"#),
-        &low,
-    );
-    for (bsdf, known) in [
-        (blend(quarter, &low, &high), 0.35),
-        // A part lets the light behind it through.
-        (in_second, 0.75 * 0.2 + 0.25 * (0.75 * 0.8 + 0.25)),
-        (in_first, 0.25 * 0.2 + 0.75 * (0.75 * 0.8 + 0.25)),
-    ] {
-        let pixels = picture(&format!(
-            r#"<emitter type="constant"/><shape type="rectangle">
-            <transform name="to_world"><scale value="4"/></transform>{bsdf}</shape>"#
-        ));
-        let mean = pixels.iter().map(|pixel| pixel[1]).sum::<f64>() / 64.0;
-        assert!((mean - known).abs() < 0.02, "{mean}, not {known}: {bsdf}");
-    }
-}
-
-#[test]
-fn a_pane_reflects_between_its_faces() {
-    // Seen along the normal a face reflects R = 0.04 and a pane 2R/(1 + R) of the emitter behind
-    // the viewer; the rest of the light comes through.
-    let seen = |bsdf: &str| {
-        let pixels = picture(&format!(
-            r#"<shape type="rectangle"><transform name="to_world"><scale value="4"/>
-            </transform><bsdf type="{bsdf}"><float name="int_ior" value="1.5"/>
-            <float name="ext_ior" value="1"/></bsdf></shape>
-            <shape type="rectangle"><transform name="to_world"><scale value="40"/>
-            <translate z="-5"/></transform><bsdf type="diffuse"><rgb name="reflectance" value="0"/>
-            </bsdf><emitter type="area"/></shape>"#
-        ));
-        pixels.iter().map(|pixel| pixel[1]).sum::<f64>() / 64.0
-    };
-    let (face, expected) = (0.04, 1.0 - 2.0 * 0.04 / 1.04);
-    let pane = seen("thindielectric");
-    assert!((pane - expected).abs() < 0.02, "{pane}, not {expected}");
-    assert!(pane < 1.0 - face - 0.01);
 }
 
 #[test]

@@ -118,6 +118,11 @@ doubleSided: true, baseColor: [0.5, 0.2, 0.5, 0.9], alpha: blend, opacityMap: p.
 doubleSided: true, baseColor: [0.5, 0.2, 0.5, 1], blendWeight: 0.8, blendMap: p.png, \
 blendWith: {type: standard, doubleSided: true, conductor: copper, roughness: 0.4, microfacets: separable-ggx}}}\n",
     ),
+    objects(
+        "a mesh with heights by a texture",
+        "- {type: mesh, file: m.obj, position: [0, 0, 0], material: {type: standard, metallic: 0, specular: 0, \
+doubleSided: true, baseColor: [0.5, 0.2, 0.5, 1], bumpMap: p.png, bumpScale: 0.2}}\n",
+    ),
     objects("a white mirror", ball!("doubleSided: true, roughness: 0")),
     objects(
         "a rough metal",

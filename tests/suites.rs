@@ -31,6 +31,7 @@ mod laws;
 mod library;
 mod links;
 mod mitsuba;
+mod mitsuba_materials;
 mod numbers;
 mod obj_oracle;
 mod pages;

@@ -164,6 +164,12 @@ fn faults() -> Vec<Fault> {
             "/meshes/0",
         ),
         (
+            "/materials/1/standard/blendWith",
+            json!(1),
+            "VA014",
+            "/materials/1/standard/blendWith",
+        ),
+        (
             "/surfaces/0/shape/sphere/textureFromWorld/0",
             json!([0.0, 2.0, 0.0]),
             "VA019",
@@ -191,4 +197,21 @@ fn each_fault_is_named_at_its_place() {
         }
         assert_eq!(errors(&document), [(code, pointer.to_owned())], "{place}");
     }
+}
+
+#[test]
+fn a_blend_of_more_than_16_materials_is_refused() {
+    let mut document = sound();
+    for other in 1..17 {
+        let blend = json!({"standard": {"blendWith": other, "blendWeight": 0.5}});
+        document["materials"].as_array_mut().unwrap().push(blend);
+    }
+    let last = document["materials"].as_array_mut().unwrap();
+    let too_long = last.pop().unwrap();
+    assert_eq!(errors(&document), []);
+    document["materials"].as_array_mut().unwrap().push(too_long);
+    let [(_, pointer)] = &errors(&document)[..] else {
+        panic!("{:?}", errors(&document));
+    };
+    assert_eq!(pointer, "/materials/17");
 }

@@ -35,6 +35,10 @@ macro_rules! parameters {
             normal_map: map = None, "Option::is_none";
             /// How much of its red and green counts.
             normal_scale: number = 1.0, "is_one";
+            /// The height of the surface in its red, along the normal.
+            bump_map: map = None, "Option::is_none";
+            /// How high a red of 1 is, in scene units.
+            bump_scale: number = 1.0, "is_one";
             /// The alpha mode: opaque, cut off, or blended.
             alpha: alpha = Alpha::Opaque, "is_default";
             /// Its red multiplies the alpha of the base colour.

@@ -224,6 +224,48 @@ fn normal_maps_lean_along_growing_u_and_against_v() {
     }
 }
 
+/// The light of a sun on a square, 6 wide, whose height grows by the scale along the axis of its
+/// texture coordinates.
+fn sloping(axis: usize, bump_scale: f64, sun: [f64; 3], x: [f64; 3]) -> f64 {
+    let mut scene = scene(1);
+    scene.textures.push(Texture::Uv);
+    let mut rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    rows.swap(0, axis);
+    let map = Map::from(TextureId(0)).texture_from_surface(rows);
+    let standard = Standard {
+        bump_map: Some(map),
+        bump_scale,
+        ..lambert([1.0; 3])
+    };
+    add_mesh(&mut scene, standard, x, |mesh| {
+        mesh.uvs = vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]].into();
+    });
+    let sun = PunctualKind::Sun { direction: sun };
+    let light = Punctual {
+        emitter: sun,
+        intensity: [std::f64::consts::PI; 3],
+        projected: None,
+    };
+    add_light(&mut scene, light);
+    middle(&render(&scene)).x
+}
+
+#[test]
+fn a_bump_map_leans_away_from_growing_heights_by_their_slope() {
+    let (plain, mirrored) = ([1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]);
+    // 4.5 over a width of 6 is a slope of 3:4.
+    for (axis, scale, sun, x, known) in [
+        (0, -4.5, [0.6, 0.0, 0.8], plain, 1.0),
+        (0, 4.5, [0.6, 0.0, 0.8], plain, 0.28),
+        (0, 4.5, [0.6, 0.0, 0.8], mirrored, 1.0),
+        (1, 4.5, [0.0, 0.6, 0.8], plain, 1.0),
+        (1, 0.0, [0.0, 0.6, 0.8], plain, 0.8),
+    ] {
+        let found = sloping(axis, scale, sun, x);
+        assert!((found - known).abs() < 1e-6, "{found}, not {known}");
+    }
+}
+
 #[test]
 fn a_mirrored_instance_mirrors_its_normal_map() {
     let mirrored = [-1.0, 0.0, 0.0];

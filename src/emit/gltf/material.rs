@@ -278,6 +278,13 @@ impl GltfWriter<'_> {
         if standard.black_back {
             write("blackBack", "a back that reflects nothing", json!(true));
         }
+        if standard.bump_scale != default.bump_scale {
+            write(
+                "bumpScale",
+                "the scale of a bump map",
+                json!(standard.bump_scale),
+            );
+        }
         if standard.thin_dielectric {
             write("thinDielectric", "the two faces of a pane", json!(true));
         }
@@ -292,6 +299,7 @@ impl GltfWriter<'_> {
     ) {
         let maps = [
             ("opacityTexture", "an opacity map", &standard.opacity_map),
+            ("bumpTexture", "a bump map", &standard.bump_map),
             ("blendTexture", "the map of a blend", &standard.blend_map),
         ];
         for (key, what, map) in maps {

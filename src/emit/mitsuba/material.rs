@@ -175,6 +175,18 @@ impl MitsubaWriter<'_> {
         (plugin, material): (MitsubaPlugin, &Standard),
         path: ValuePath,
     ) -> Option<()> {
+        if let Some(slot) = TexturedFactor::heights(material) {
+            self.line(depth, &format!(r#"<bsdf type="bumpmap"{id}>"#));
+            self.value(depth + 1, "float", "scale", &shortest(material.bump_scale));
+            self.slot(depth + 1, "heights", slot, path)?;
+            let smooth = Standard {
+                bump_map: None,
+                ..material.clone()
+            };
+            self.bsdf(depth + 1, "", variant, (plugin, &smooth), path)?;
+            self.line(depth, "</bsdf>");
+            return Some(());
+        }
         let Some(slot) = TexturedFactor::normal(material) else {
             return self.base(depth, id, variant, (plugin, material), path);
         };

@@ -59,6 +59,16 @@ impl<'m> TexturedFactor<'m> {
         })
     }
 
+    /// The heights of a material, without their scale.
+    pub(crate) fn heights(material: &'m Standard) -> Option<Self> {
+        let map = material.bump_map.as_ref()?;
+        Some(Self {
+            factor: [1.0; 3],
+            map: Some(map),
+            channel: TextureChannel::Red,
+        })
+    }
+
     /// The value without a texture, of a channel that is a number.
     pub(crate) fn number(&self) -> f64 {
         let [value, ..] = self.channel.pixel(self.factor, [1.0; 4]);

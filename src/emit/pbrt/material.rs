@@ -255,7 +255,16 @@ impl PbrtWriter<'_> {
         Some(u + &v + exact)
     }
 
+    /// The maps of normals and of heights, or an empty text.
     fn normals(&mut self, material: &Standard, path: ValuePath) -> Option<String> {
+        let heights = match TexturedFactor::heights(material) {
+            Some(slot) => self.displacement(slot, material.bump_scale, path)?,
+            None => String::new(),
+        };
+        Some(heights + &self.normal_map_of(material, path)?)
+    }
+
+    fn normal_map_of(&mut self, material: &Standard, path: ValuePath) -> Option<String> {
         match TexturedFactor::normal(material) {
             Some(slot) => self.normal_map(slot, path),
             None => Some(String::new()),

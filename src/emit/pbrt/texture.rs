@@ -79,6 +79,32 @@ impl PbrtWriter<'_> {
         Some(name)
     }
 
+    /// The heights of a material as a parameter: a texture times the scale.
+    pub(super) fn displacement(
+        &mut self,
+        slot: TexturedFactor<'_>,
+        scale: f64,
+        path: ValuePath,
+    ) -> Option<String> {
+        let texture = self.texture(slot.map?, slot, false, path)?;
+        let directive = [
+            r#""float" "scale""#.to_owned(),
+            string("texture", "tex", &texture),
+            numbers("float", "scale", [scale]),
+        ];
+        let directive = directive.concat();
+        let name = match self.textures.get(&directive) {
+            Some(name) => name.clone(),
+            None => {
+                let name = format!("t{}", self.textures.len());
+                self.line(&format!(r#"Texture "{name}" {directive}"#));
+                self.textures.insert(directive, name.clone());
+                name
+            }
+        };
+        Some(string("texture", "displacement", &name))
+    }
+
     /// The map of normals of a material as a parameter: a file without a transform.
     pub(super) fn normal_map(
         &mut self,

@@ -155,6 +155,7 @@ impl PovWriter<'_> {
                 "the other material of its blend",
             ),
             (material.opacity_map.is_some(), "the texture of its opacity"),
+            (material.bump_map.is_some(), "its bump map"),
         ] {
             if is_lost {
                 let message = format!("{} is written without {what}", called(&material.name));

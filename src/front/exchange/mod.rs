@@ -1,6 +1,6 @@
 //! Modules shared by the readers of other renderers' scenes: affine maps, colours and spectra,
 //! checkerboards, materials, images of numbers, textures of images, round shapes, covers of shapes
-//! with one side, spots, and tessellations of shapes that the IR lacks.
+//! with one side, skies, spots, and tessellations of shapes that the IR lacks.
 
 pub(crate) mod checkerboard;
 pub(crate) mod color;
@@ -8,6 +8,7 @@ pub(crate) mod material;
 pub(crate) mod number;
 pub(crate) mod one_sided;
 pub(crate) mod round;
+pub(crate) mod sky;
 pub(crate) mod spot;
 pub(crate) mod tessellate;
 pub(crate) mod texture;

@@ -22,6 +22,16 @@ pub(crate) struct NumberCoding {
     pub(crate) is_linear: bool,
     /// Whether a number x counts as 1 − x.
     pub(crate) is_inverted: bool,
+    /// The only channel that has the number, where the others are 1; `None` for all.
+    pub(crate) channel: Option<usize>,
+}
+
+/// A number as a colour, in one channel or in all.
+pub(crate) fn in_channel(number: f64, channel: Option<usize>) -> [f64; 3] {
+    std::array::from_fn(|at| match channel {
+        Some(only) if only != at => 1.0,
+        Some(_) | None => number,
+    })
 }
 
 impl NumberCoding {
@@ -54,14 +64,21 @@ impl NumberCoding {
         let byte = |number: f64| rtc_color::nearest8(number);
         let is_exact = |number: &f64| f64::from(byte(*number)) / 255.0 == *number;
         let (kind, pixels) = if numbers.iter().all(is_exact) {
-            let bytes = numbers.iter().flat_map(|number| [byte(*number); 3]);
+            let color = |number: &f64| in_channel(*number, self.channel).map(byte);
+            let bytes = numbers.iter().flat_map(color);
             (Pixels::Rgb8, bytes.collect::<Vec<u8>>())
         } else {
             #[expect(
                 clippy::cast_possible_truncation,
                 reason = "rounded to what the IR stores"
             )]
-            let bytes = |number: &f64| [(*number as f32).to_le_bytes(); 3].into_iter().flatten();
+            let bytes = |number: &f64| {
+                let color = in_channel(*number, self.channel);
+                color
+                    .map(|part| (part as f32).to_le_bytes())
+                    .into_iter()
+                    .flatten()
+            };
             (Pixels::Rgb32f, numbers.iter().flat_map(bytes).collect())
         };
         Ok(Image {
@@ -110,6 +127,32 @@ impl NumberCoding {
     }
 }
 
+/// An image of bytes whose colours are linear, as floats; `None` for one of floats.
+///
+/// # Errors
+/// If its memory exceeds the budget.
+pub(crate) fn linear_colors(
+    image: &Image,
+    budget: &Budget,
+) -> Result<Option<Image>, LimitExceeded> {
+    let per_texel = match image.kind {
+        Pixels::Rgb8 => 3,
+        Pixels::Rgba8 => 4,
+        Pixels::Rgb32f => return Ok(None),
+    };
+    let texels = u64::from(image.width) * u64::from(image.height);
+    budget.charge(Resource::Textures, texels.saturating_mul(12))?;
+    let colors = image.pixels.chunks(per_texel).flat_map(|texel| &texel[..3]);
+    let bytes = colors.flat_map(|byte| (f32::from(*byte) / 255.0).to_le_bytes());
+    Ok(Some(Image {
+        name: image.name.clone(),
+        width: image.width,
+        height: image.height,
+        kind: Pixels::Rgb32f,
+        pixels: bytes.collect::<Vec<u8>>().into(),
+    }))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -129,6 +172,7 @@ mod tests {
             source,
             is_linear,
             is_inverted: false,
+            channel: None,
         }
     }
 

@@ -58,6 +58,16 @@ pub struct ParsedMesh {
 }
 
 impl ParsedMesh {
+    /// What of the file is not drawn, in words; `None` if all is.
+    pub(crate) fn loss(&self) -> Option<String> {
+        let (first, count) = self.not_drawn.as_ref()?;
+        let elements = match count {
+            1 => "an element of the file is not drawn".to_owned(),
+            count => format!("{count} elements of the file are not drawn"),
+        };
+        Some(format!("{elements}: {}", first.message))
+    }
+
     /// Reports an element that is not rendered; only the first error is kept.
     fn skip(&mut self, fault: impl FnOnce() -> WordError) {
         self.not_drawn.get_or_insert_with(|| (fault(), 0)).1 += 1;
@@ -164,10 +174,10 @@ pub(crate) fn parse_colored_ply(
     bytes: &[u8],
     colors: PlyColors,
     budget: &Budget,
-) -> Result<Mesh, TextParseError> {
+) -> Result<ParsedMesh, TextParseError> {
     let mut parsed = ply::parse(bytes, colors, budget)?;
     charge(&mut parsed.mesh, budget)?;
-    Ok(parsed.mesh)
+    Ok(parsed)
 }
 
 /// Reads a mesh file of any format.

@@ -4,7 +4,7 @@
 //! `mask` are exact, up to the quantization of images. For the others the closest standard material
 //! is used, with a warning that describes the difference.
 
-use super::number::NumberOrMap;
+use super::number::{NumberOrMap, NumberUse};
 use super::xml::{PluginNode, Value};
 use super::{AssetTarget, Lowering};
 use crate::exchange::SpannedText;
@@ -123,6 +123,7 @@ impl<'run> Lowering<'run> {
             "polarizer" | "circular" => self.polarizing_filter(node, 0.5, flip),
             "retarder" => self.polarizing_filter(node, 1.0, flip),
             "principled" => self.principled(node, flip),
+            "principledthin" => self.principled_thin(node, flip),
             "phong" | "ward" => {
                 self.unsupported(node, "its diffuse part replaces it");
                 let channel = self.channel(node, "diffuse_reflectance", [0.5; 3], flip);
@@ -147,8 +148,18 @@ impl<'run> Lowering<'run> {
                 self.each_other(first, with_map)
             }
             "bumpmap" => {
-                self.unsupported(node, "the surface is shown smooth");
-                return self.inner(node, flip, depth);
+                self.ignored(node, &["scale"]);
+                let inner = self.inner(node, flip, depth)?;
+                let NumberOrMap { map, .. } =
+                    self.number_or_map(node, "", 0.0, NumberUse::of(flip));
+                let bump_scale = node.number("scale").unwrap_or(1.0);
+                let with_map = |part: &Standard| Standard {
+                    bump_map: map.clone(),
+                    bump_scale,
+                    ..part.clone()
+                };
+                let first = with_map(&inner);
+                self.each_other(first, with_map)
             }
             "blendbsdf" => return self.blend(node, flip, depth),
             "null" => return None,
@@ -180,7 +191,11 @@ impl<'run> Lowering<'run> {
             let message = "of a blend of two blends the second one is shown as its first BSDF";
             self.approximate(node.plugin.span, message);
         }
-        let weight = self.number_or_map(node, "weight", 0.5, (flip, is_swapped));
+        let how = NumberUse {
+            is_inverted: is_swapped,
+            ..NumberUse::of(flip)
+        };
+        let weight = self.number_or_map(node, "weight", 0.5, how);
         let (first, second) = match is_swapped {
             true => (second, first),
             false => (first, second),
@@ -358,11 +373,15 @@ impl<'run> Lowering<'run> {
                 (1.0 + root) / (1.0 - root)
             }
         };
-        let transmission = fraction("spec_trans", 0.0);
+        let unit = |number: f64| number.clamp(0.0, 1.0);
+        let clear = self.number_or_map_named(node, "spec_trans", 0.0, NumberUse::of(flip));
+        let transmission = unit(clear.number);
+        let (roughness, metallic, map) = self.rough_metal(node, flip);
         Standard {
             base_color_map: base.map,
-            metallic: fraction("metallic", 0.0),
-            roughness: fraction("roughness", 0.5),
+            metallic,
+            roughness,
+            metallic_roughness_map: map,
             ior,
             specular: 1.0,
             clearcoat: fraction("clearcoat", 0.0),
@@ -370,14 +389,85 @@ impl<'run> Lowering<'run> {
             anisotropy: fraction("anisotropic", 0.0),
             sheen_color: [fraction("sheen", 0.0); 3],
             transmission,
+            transmission_map: clear.map,
             thickness: if transmission > 0.0 { 1.0 } else { 0.0 },
+            ..matte(base.color)
+        }
+    }
+
+    /// The roughness and the metal of a principled BSDF, of which one may have a texture: green is
+    /// the roughness, blue the metal. Textures of other parameters are told to be left out.
+    fn rough_metal(&mut self, node: &'run PluginNode, flip: bool) -> (f64, f64, Option<Map>) {
+        let of_channel = |channel| NumberUse {
+            channel: Some(channel),
+            ..NumberUse::of(flip)
+        };
+        let metallic = self.number_or_map_named(node, "metallic", 0.0, of_channel(2));
+        let roughness = self.number_or_map_named(node, "roughness", 0.5, of_channel(1));
+        let is_left = |name: &&str| node.child(name).is_some();
+        let others = [
+            "anisotropic",
+            "clearcoat",
+            "clearcoat_gloss",
+            "sheen",
+            "sheen_tint",
+        ];
+        let mut left: Vec<&str> = others.into_iter().filter(is_left).collect();
+        if metallic.map.is_some() && roughness.map.is_some() {
+            left.push("metallic");
+        }
+        for name in left {
+            let message = format!("a texture of `{name}` is left out");
+            self.approximate(node.plugin.span, message);
+        }
+        let unit = |number: f64| number.clamp(0.0, 1.0);
+        let metal = match (&roughness.map, &metallic.map) {
+            (Some(_), Some(_)) => 0.5,
+            (_, _) => unit(metallic.number),
+        };
+        let map = roughness.map.or(metallic.map);
+        (unit(roughness.number), metal, map)
+    }
+
+    /// A thin sheet: of its diffuse light half of `diff_trans` comes through.
+    fn principled_thin(&mut self, node: &'run PluginNode, flip: bool) -> Standard {
+        let message = "the standard material replaces the thin principled BSDF";
+        self.approximate(node.plugin.span, message);
+        let base = self.channel(node, "base_color", [0.5; 3], flip);
+        let as_is = NumberUse::of(flip);
+        let through = self.number_or_map_named(node, "diff_trans", 0.0, as_is);
+        let clear = self.number_or_map_named(node, "spec_trans", 0.0, as_is);
+        let (roughness, _, roughness_map) = self.rough_metal(node, flip);
+        if through.map.is_some() {
+            let message = "the texture of `diff_trans` is shown as its half";
+            self.approximate(node.plugin.span, message);
+        }
+        let diffuse = match through.map {
+            Some(_) => 0.5,
+            None => (through.number / 2.0).clamp(0.0, 1.0),
+        };
+        let unit = |number: f64| number.clamp(0.0, 1.0);
+        Standard {
+            base_color_map: base.map.clone(),
+            roughness,
+            metallic_roughness_map: roughness_map,
+            ior: node.number("eta").unwrap_or(1.5).max(1.0),
+            specular: 1.0,
+            anisotropy: unit(node.number("anisotropic").unwrap_or(0.0)),
+            sheen_color: [unit(node.number("sheen").unwrap_or(0.0)); 3],
+            transmission: unit(clear.number),
+            transmission_map: clear.map,
+            diffuse_transmission: diffuse,
+            diffuse_transmission_color: base.color.map(unit),
+            diffuse_transmission_color_map: base.map,
             ..matte(base.color)
         }
     }
 
     fn mask(&mut self, node: &'run PluginNode, inner: Standard, flip: bool) -> Standard {
         self.ignored(node, &["opacity"]);
-        let NumberOrMap { number, map } = self.number_or_map(node, "opacity", 0.5, (flip, false));
+        let NumberOrMap { number, map } =
+            self.number_or_map(node, "opacity", 0.5, NumberUse::of(flip));
         // One mask in another covers by the product of both.
         let [r, g, b, alpha] = inner.base_color;
         if map.is_some() && inner.opacity_map.is_some() {
@@ -466,10 +556,16 @@ impl<'run> Lowering<'run> {
                     .unwrap_or(default),
                 map: None,
             },
-            _ => ColorOrMap {
-                color: [1.0; 3],
-                map: self.texture(texture, flip),
-            },
+            _ => {
+                let map = self.texture(texture, flip);
+                if let Some(map) = map.as_ref().filter(|_| texture.flag("raw") == Some(true)) {
+                    self.raw_colors.push((map.texture, texture.span));
+                }
+                ColorOrMap {
+                    color: [1.0; 3],
+                    map,
+                }
+            }
         }
     }
 

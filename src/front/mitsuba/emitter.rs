@@ -47,6 +47,7 @@ impl<'run> Lowering<'run> {
                 self.light(node, emitter, color("irradiance"));
                 self.ignored(node, &["direction", "to_world", "irradiance"]);
             }
+            "sky" | "sun" | "sunsky" => self.sky(node),
             "spot" => self.spot(node, &to_world),
             "projector" => self.projector(node, &to_world),
             _ => self.unsupported(node, "it is left out"),
@@ -110,7 +111,7 @@ impl<'run> Lowering<'run> {
         self.projecting_light(node, emitter, intensity, projected);
     }
 
-    fn light(&mut self, node: &PluginNode, emitter: PunctualKind, intensity: [f64; 3]) {
+    pub(super) fn light(&mut self, node: &PluginNode, emitter: PunctualKind, intensity: [f64; 3]) {
         self.projecting_light(node, emitter, intensity, None);
     }
 

@@ -32,6 +32,7 @@ mod one_sided;
 mod sensor;
 mod serialized;
 mod shape;
+mod sky;
 mod value;
 mod xml;
 
@@ -44,7 +45,7 @@ use crate::{FrontOptions, over_limit};
 use rtc_diag::{Diagnostic, DiagnosticSink, clip, clip_path, codes};
 use rtc_ir::{
     EntityField, EntityKind, Image, ImageId, LoweredScene, MaterialId, Mesh, MeshId, Pixels, Scene,
-    Settings, SourceSpans, ValuePath, VertexColumn,
+    Settings, SourceSpans, TextureId, ValuePath, VertexColumn,
 };
 use rtc_source::{
     Budget, FileId, FileKind, FileSearch, LimitExceeded, Loader, Resource, SourceMap, Span,
@@ -83,6 +84,7 @@ pub fn lower(
     let colorless: Vec<MeshId> = std::mem::take(&mut lowering.meshes).into_values().collect();
     let projectors = std::mem::take(&mut lowering.projectors);
     let numbers = std::mem::take(&mut lowering.numbers);
+    let raw_colors = std::mem::take(&mut lowering.raw_colors);
     let draft = UnfinishedScene::new(
         LoweredScene {
             scene: lowering.scene,
@@ -97,6 +99,7 @@ pub fn lower(
             mesh.colors = VertexColumn::default();
         }
     }
+    number::read_raw_colors(&mut lowered.scene, &raw_colors, map.budget(), sink);
     number::read_numbers(&mut lowered.scene, &numbers, map.budget(), sink);
     one_sided::cover_backs(&mut lowered, &one_sided, sink);
     shape::flatten(&mut lowered.scene, &flat);
@@ -177,6 +180,8 @@ struct Lowering<'run> {
     attributes: BTreeMap<Span, Option<&'run str>>,
     /// The textures of numbers.
     numbers: Vec<number::NumberTexture>,
+    /// The textures of colours that are not coded as sRGB.
+    raw_colors: Vec<(TextureId, Span)>,
     /// Whether the budget is exceeded, which is reported once.
     is_exhausted: bool,
     has_sensor: bool,
@@ -219,6 +224,7 @@ impl<'run> Lowering<'run> {
             two_sided: BTreeMap::new(),
             attributes: BTreeMap::new(),
             numbers: Vec::new(),
+            raw_colors: Vec::new(),
             is_exhausted: false,
             has_sensor: false,
             projectors: Vec::new(),
@@ -432,7 +438,10 @@ impl<'run> Lowering<'run> {
         if let Some(known) = self.serialized.get(&key) {
             return *known;
         }
-        let parse = |bytes: &[u8], budget: &Budget| serialized::read(bytes, index, budget);
+        let parse = |bytes: &[u8], budget: &Budget| {
+            let mesh = serialized::read(bytes, index, budget)?;
+            Ok((mesh, None))
+        };
         let id = self.read_mesh(path, &serialized::KIND, parse);
         self.serialized.insert(key, id);
         id
@@ -449,18 +458,22 @@ impl<'run> Lowering<'run> {
         if let Some(known) = self.colored.get(&key) {
             return *known;
         }
-        let parse = |bytes: &[u8], budget: &Budget| Ok(parse_colored_ply(bytes, colors, budget)?);
+        let parse = |bytes: &[u8], budget: &Budget| {
+            let parsed = parse_colored_ply(bytes, colors, budget)?;
+            let loss = parsed.loss();
+            Ok((parsed.mesh, loss))
+        };
         let id = self.read_mesh(path, &PLY, parse);
         self.colored.insert(key, id);
         id
     }
 
-    /// A mesh that is read at once; errors are reported.
+    /// A mesh that is read at once; errors, and what is not drawn of it, are reported.
     fn read_mesh(
         &mut self,
         path: &SpannedText,
         kind: &FileKind,
-        parse: impl Fn(&[u8], &Budget) -> Result<Mesh, MeshReadError>,
+        parse: impl Fn(&[u8], &Budget) -> Result<(Mesh, Option<String>), MeshReadError>,
     ) -> Option<MeshId> {
         let name = clip_path(&path.text);
         let diagnostic = match self.search.find(&path.text, kind) {
@@ -476,7 +489,11 @@ impl<'run> Lowering<'run> {
                 Ok(bytes) => {
                     self.map.budget().read(bytes.len());
                     match parse(&bytes, self.map.budget()) {
-                        Ok(mesh) => {
+                        Ok((mesh, loss)) => {
+                            if let Some(message) = loss {
+                                let diagnostic = Diagnostic::new(&codes::NOT_DRAWN, message);
+                                self.sink.push(diagnostic.at(path.span, "named here"));
+                            }
                             let id = self.add_mesh(mesh);
                             self.record(EntityKind::Mesh, id.0 as usize, path.span);
                             return Some(id);

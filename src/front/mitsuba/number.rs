@@ -4,13 +4,33 @@ use super::Lowering;
 use super::bsdf::checkerboard_colors;
 use super::xml::PluginNode;
 use crate::exchange::checkerboard::checkerboard;
-use crate::exchange::number::{NumberCoding, NumberSource};
+use crate::exchange::number::{NumberCoding, NumberSource, in_channel, linear_colors};
 use crate::over_limit;
 use rtc_color::luminance;
 use rtc_diag::DiagnosticSink;
 use rtc_ir::{EntityKind, ImageId, Map, Scene, Texture, TextureId};
 use rtc_source::{Budget, Span};
 use std::collections::BTreeMap;
+
+/// How the texture of a number is read.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct NumberUse {
+    /// Whether v points down.
+    pub(super) flip: bool,
+    /// Whether a number counts as 1 less itself.
+    pub(super) is_inverted: bool,
+    /// The only channel of the map that has the number; `None` for all.
+    pub(super) channel: Option<usize>,
+}
+
+impl NumberUse {
+    pub(super) fn of(flip: bool) -> Self {
+        Self {
+            flip,
+            ..Self::default()
+        }
+    }
+}
 
 /// A number that is a constant, times the red of a map.
 pub(super) struct NumberOrMap {
@@ -26,14 +46,34 @@ pub(super) struct NumberTexture {
 }
 
 impl<'run> Lowering<'run> {
-    /// A number of a BSDF: a property or a texture. With `is_inverted` it counts as 1 less itself.
+    /// As [`Self::number_or_map`], of one of several textures: by its name alone.
+    pub(super) fn number_or_map_named(
+        &mut self,
+        node: &'run PluginNode,
+        name: &str,
+        default: f64,
+        how: NumberUse,
+    ) -> NumberOrMap {
+        if node.get(name).is_none() && node.child(name).is_none() {
+            let number = default;
+            return NumberOrMap { number, map: None };
+        }
+        self.number_or_map(node, name, default, how)
+    }
+
+    /// A number of a BSDF: a property or a texture.
     pub(super) fn number_or_map(
         &mut self,
         node: &'run PluginNode,
         name: &str,
         default: f64,
-        (flip, is_inverted): (bool, bool),
+        how: NumberUse,
     ) -> NumberOrMap {
+        let NumberUse {
+            flip,
+            is_inverted,
+            channel,
+        } = how;
         let signed = |number: f64| if is_inverted { 1.0 - number } else { number };
         let constant = |number: f64| NumberOrMap {
             number: signed(number),
@@ -48,8 +88,12 @@ impl<'run> Lowering<'run> {
         }
         // A texture, by its name or as the only one.
         let texture = node.child(name).and_then(|child| self.resolve(child));
-        let is_texture = |child: &&&PluginNode| child.tag == "texture";
-        let texture = texture.or_else(|| node.children.iter().find(|child| is_texture(&child)));
+        let mut children = node.children.iter();
+        let texture = texture.or_else(|| {
+            let child = children
+                .find(|child| child.tag == "texture" || self.refers_to(child, "texture"))?;
+            self.resolve(child)
+        });
         let Some(texture) = texture else {
             return constant(default);
         };
@@ -58,10 +102,10 @@ impl<'run> Lowering<'run> {
                 let value = texture.color("value").or_else(|| texture.color("color"));
                 return constant(value.map_or(default, luminance));
             }
-            "bitmap" => self.numbers_of_bitmap(texture, flip, is_inverted),
+            "bitmap" => self.numbers_of_bitmap(texture, how),
             "checkerboard" => {
                 let (colors, squares) = checkerboard_colors(texture, flip);
-                let greys = colors.map(|color| [signed(luminance(color)); 3]);
+                let greys = colors.map(|color| in_channel(signed(luminance(color)), channel));
                 self.record(EntityKind::Texture, self.scene.textures.len(), texture.span);
                 Some(checkerboard(greys, squares, &mut self.scene))
             }
@@ -78,23 +122,54 @@ impl<'run> Lowering<'run> {
         }
     }
 
-    fn numbers_of_bitmap(
-        &mut self,
-        texture: &'run PluginNode,
-        flip: bool,
-        is_inverted: bool,
-    ) -> Option<Map> {
-        let map = self.texture(texture, flip)?;
+    fn numbers_of_bitmap(&mut self, texture: &'run PluginNode, how: NumberUse) -> Option<Map> {
+        let map = self.texture(texture, how.flip)?;
         self.numbers.push(NumberTexture {
             texture: map.texture,
             coding: NumberCoding {
                 source: NumberSource::Luminance,
                 is_linear: texture.flag("raw") == Some(true),
-                is_inverted,
+                is_inverted: how.is_inverted,
+                channel: how.channel,
             },
             span: texture.span,
         });
         Some(map)
+    }
+}
+
+/// Gives textures whose colours are raw the images of these, when the pictures are loaded.
+pub(super) fn read_raw_colors(
+    scene: &mut Scene,
+    raw: &[(TextureId, Span)],
+    budget: &Budget,
+    sink: &mut DiagnosticSink,
+) {
+    let mut made: BTreeMap<u32, ImageId> = BTreeMap::new();
+    for (texture, span) in raw {
+        let Some(Texture::Sampled(sampled)) = scene.textures.get(texture.0 as usize) else {
+            continue;
+        };
+        let from = sampled.image.0;
+        let known = made.get(&from).copied();
+        let Some(image) = scene.images.get(from as usize) else {
+            continue;
+        };
+        let id = match known {
+            Some(id) => id,
+            None => match linear_colors(image, budget) {
+                Ok(Some(image)) => scene.add_image(image),
+                Ok(None) => sampled.image,
+                Err(limit) => {
+                    sink.push(over_limit("the texture", &limit).at(*span, ""));
+                    return;
+                }
+            },
+        };
+        made.insert(from, id);
+        if let Some(Texture::Sampled(sampled)) = scene.textures.get_mut(texture.0 as usize) {
+            sampled.image = id;
+        }
     }
 }
 

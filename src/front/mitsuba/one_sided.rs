@@ -52,7 +52,10 @@ impl<'run> Lowering<'run> {
         let is_two_sided = |node: &&PluginNode| match node.plugin.text.as_str() {
             "twosided" | "dielectric" | "thindielectric" | "roughdielectric" | "null" | "hair"
             | "polarizer" | "circular" | "retarder" | "principledthin" => true,
-            "principled" => node.number("spec_trans").is_some_and(|share| share > 0.0),
+            "principled" => {
+                let has_map = node.child("spec_trans").is_some();
+                has_map || node.number("spec_trans").is_some_and(|share| share > 0.0)
+            }
             _ => false,
         };
         let has = self.reachable(bsdf).iter().any(is_two_sided);

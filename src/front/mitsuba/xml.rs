@@ -45,6 +45,8 @@ pub(super) struct PluginNode {
     pub(super) properties: Vec<Property>,
     pub(super) children: Vec<PluginNode>,
     pub(super) span: Span,
+    /// The major version of its file.
+    pub(super) version: u32,
 }
 
 /// A property of a plugin.
@@ -310,6 +312,7 @@ impl XmlReader<'_> {
             name: attribute(self, "name").map(|name| self.property_name(&name.text)),
             properties: Vec::new(),
             children: Vec::new(),
+            version: self.version,
             span: element_span,
         };
         if depth >= MAX_DEPTH {
@@ -366,6 +369,7 @@ impl XmlReader<'_> {
             properties: Vec::new(),
             children: Vec::new(),
             span: span(file, &element),
+            version: self.version,
         })
     }
 

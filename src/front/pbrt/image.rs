@@ -125,6 +125,7 @@ impl Lowering<'_> {
             source: NumberSource::AlphaOrMean,
             is_linear: map.is_linear,
             is_inverted: map.is_inverted,
+            channel: None,
         };
         coding
             .image(&image, budget)

@@ -537,15 +537,23 @@ impl Lowering<'_> {
         })
     }
 
-    /// Bump maps are left out; maps of normals are not.
+    /// Adds the map of heights and that of normals.
     fn with_bumps(&mut self, standard: Standard, parameters: &Parameters) -> Standard {
-        for name in ["displacement", "bumpmap"] {
-            if let Some(parameter) = parameters.get(name) {
-                let span = parameter.name.span;
-                let message = "bump maps are not supported: the surface is shown smooth";
-                self.report(&codes::PBRT_PLUGIN, span, message);
-            }
-        }
+        // Version 3 has `bumpmap`.
+        let name = match parameters.get("displacement") {
+            Some(_) => "displacement",
+            None => "bumpmap",
+        };
+        let height = self.number_or_map(parameters, name, 0.0);
+        let standard = Standard {
+            bump_scale: if height.map.is_some() {
+                height.number
+            } else {
+                1.0
+            },
+            bump_map: height.map,
+            ..standard
+        };
         let Some(path) = parameters.string("normalmap").cloned() else {
             return standard;
         };

@@ -42,6 +42,7 @@ impl Lowering<'_> {
         // Use its view if it has a volume.
         if let Some((_, camera)) = chosen {
             if let Some(view) = self.view(camera) {
+                self.report_clipping(camera);
                 let span = self.span_of(&camera.prim);
                 self.record(EntityKind::Camera, 0, span);
                 self.scene.camera = view;
@@ -58,6 +59,26 @@ impl Lowering<'_> {
             radius: 1.0,
         });
         self.scene.camera = crate::gltf::looking_at(ball);
+    }
+
+    /// Reports planes that would clip the scene: paths see all of it. Whether a near plane clips is
+    /// not known where the camera is within the bounds of the scene.
+    fn report_clipping(&mut self, camera: &PlacedCamera) {
+        let range = self.vector::<2>(&camera.prim, "clippingRange");
+        let (Some([near, far]), Some(ball)) = (range, self.scene.bounding_sphere()) else {
+            return;
+        };
+        let axis = camera.to_world.vector(Vec3::NEG_Z);
+        let (Some(view), scale) = (unit(axis), axis.length()) else {
+            return;
+        };
+        let depth = (ball.center - camera.to_world.point(Vec3::ZERO)).dot(view);
+        let [first, last] = [depth - ball.radius, depth + ball.radius];
+        let clips_near = first > 0.0 && first < near * scale;
+        if clips_near || last > far * scale {
+            let message = "`clippingRange` of the camera clips nothing: all of the scene shows";
+            self.approximate(&camera.prim, message);
+        }
     }
 
     fn view(&mut self, camera: &PlacedCamera) -> Option<Camera> {

@@ -223,7 +223,11 @@ impl PathPlanBuilder<'_> {
     /// Whether any normal map is looked up, or else any other map.
     fn any_map(&self, of_normals: bool) -> bool {
         let is_of_normals = |material: &Standard, map: &Map| {
-            let normals = [&material.normal_map, &material.clearcoat_normal_map];
+            let normals = [
+                &material.normal_map,
+                &material.bump_map,
+                &material.clearcoat_normal_map,
+            ];
             normals
                 .into_iter()
                 .flatten()

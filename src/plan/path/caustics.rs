@@ -100,6 +100,7 @@ fn is_smooth_caster(m: &Standard) -> bool {
         && m.specular_glossiness.is_none();
     let is_plain = m.transmission_map.is_none()
         && m.normal_map.is_none()
+        && m.bump_map.is_none()
         && m.clearcoat == UnitInterval::ZERO
         && m.anisotropy == UnitInterval::ZERO
         && m.dispersion.get() == 0.0;

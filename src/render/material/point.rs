@@ -3,7 +3,7 @@
 use crate::bsdf::standard::*;
 use crate::bsdf::{LAYERS, MICROFACETS, TRANSMISSION, can};
 use crate::material::standard::{
-    Alpha, AnisotropyLayer, BaseReflectance, NormalMap, StandardMaterial, shown,
+    Alpha, AnisotropyLayer, BaseReflectance, BumpMap, NormalMap, StandardMaterial, shown,
 };
 use crate::ray::Interaction;
 use crate::shape::geometry::ShadingAttributes;
@@ -19,6 +19,8 @@ pub(crate) struct MaterialPoint<'world> {
     uvs: UvSets,
     /// Base colour and alpha at the point, vertex colours included.
     base: [f64; 4],
+    /// The derivatives of the point by its texture coordinates, where a bump map needs them.
+    derivatives: Option<[Vec3; 2]>,
 }
 
 /// The shading frame at a point: the shading normal and the tangents of the maps.
@@ -42,6 +44,21 @@ impl<'world> MaterialPoint<'world> {
             surface: material,
             base: base(material, &uvs, shading_attributes),
             uvs,
+            derivatives: None,
+        }
+    }
+
+    /// The set of texture coordinates of the bump map.
+    pub(crate) fn bump_set(&self) -> Option<usize> {
+        let bump = self.material.bump.as_ref();
+        bump.map(|bump| bump.map.set)
+    }
+
+    /// The same point with its derivatives by the texture coordinates of the bump map.
+    pub(crate) fn with_derivatives(self, derivatives: Option<[Vec3; 2]>) -> Self {
+        Self {
+            derivatives,
+            ..self
         }
     }
 
@@ -251,7 +268,8 @@ impl<'world> MaterialPoint<'world> {
     /// Whether the material has a normal map.
     pub(crate) fn has_normal_map(&self) -> bool {
         let coat = self.material.clearcoat.as_ref();
-        self.material.normal.is_some() || coat.is_some_and(|coat| coat.normal.is_some())
+        let is_bent = self.material.normal.is_some() || self.material.bump.is_some();
+        is_bent || coat.is_some_and(|coat| coat.normal.is_some())
     }
 
     /// Whether the material transmits light at the point.
@@ -273,6 +291,10 @@ impl<'world> MaterialPoint<'world> {
             .normal
             .map_or(at.normal, |n| if n.dot(at.normal) < 0.0 { -n } else { n });
         let m = self.material;
+        let normal = match &m.bump {
+            Some(bump) => self.bumped(bump, normal),
+            None => normal,
+        };
         let mapped = |map: &Option<NormalMap>| {
             let normal = map
                 .as_ref()
@@ -298,6 +320,32 @@ impl<'world> MaterialPoint<'world> {
         let tangent = shading_attributes.tangent.filter(|_| stretch.is_some());
         let basis = basis(shading, tangent, 1.0);
         (ShadingFrame { basis, stretch }, coat)
+    }
+
+    /// The normal of a height field h over a surface (Blinn, "Simulation of wrinkled surfaces",
+    /// SIGGRAPH 1978): that of the tangents `∂p/∂u + n·∂h/∂u` and `∂p/∂v + n·∂h/∂v`.
+    fn bumped(&self, bump: &BumpMap, normal: Vec3) -> Vec3 {
+        if bump.map.is_in_space() {
+            let gradient = bump.map.gradient_in_space(&self.uvs) * bump.scale;
+            if gradient == Vec3::ZERO {
+                return normal;
+            }
+            let along = gradient - normal * normal.dot(gradient);
+            return (normal - along).normalize_or(normal);
+        }
+        let Some((derivatives, slopes)) = self.derivatives.zip(bump.map.gradient(&self.uvs)) else {
+            return normal;
+        };
+        let slopes = slopes.map(|slope| slope * bump.scale);
+        if slopes == [0.0; 2] {
+            return normal;
+        }
+        let [u, v] = [0, 1].map(|axis: usize| {
+            let along = derivatives[axis] - normal * normal.dot(derivatives[axis]);
+            along + normal * slopes[axis]
+        });
+        let bent = u.cross(v).normalize_or(normal);
+        if bent.dot(normal) < 0.0 { -bent } else { bent }
     }
 
     /// The normal of a normal map.

@@ -45,6 +45,7 @@ pub(crate) struct StandardMaterial {
     /// The absorption coefficient of that medium, per unit of length.
     pub(crate) absorption: Vec3,
     pub(crate) normal: Option<NormalMap>,
+    pub(crate) bump: Option<BumpMap>,
     pub(crate) plain: PlainLayers,
     pub(crate) clearcoat: Option<ClearcoatLayer>,
     pub(crate) anisotropy: Option<AnisotropyLayer>,
@@ -129,6 +130,13 @@ impl MapSource {
 #[derive(Clone, Debug)]
 pub(crate) struct NormalMap {
     pub(crate) map: MapSource,
+    pub(crate) scale: f64,
+}
+
+/// A height field: the red of a map times a scale, in scene units.
+#[derive(Clone, Debug)]
+pub(crate) struct BumpMap {
+    pub(crate) map: Map,
     pub(crate) scale: f64,
 }
 

@@ -237,6 +237,22 @@ impl Intersect for Csg {
         }
     }
 
+    fn uv_derivatives(
+        &self,
+        ray: &Ray,
+        at: &Interaction,
+        prim_id: u32,
+        set: usize,
+    ) -> Option<[Vec3; 2]> {
+        let face = OperandFace::of(prim_id);
+        let own = Interaction {
+            normal: face.turned(at.normal),
+            ..*at
+        };
+        let shape = &self.expression.operands[face.operand];
+        shape.uv_derivatives(ray, &own, face.part, set)
+    }
+
     fn emitter(&self) -> Option<Emitter> {
         None
     }

@@ -123,6 +123,23 @@ impl Intersect for Ellipsoid {
         }
     }
 
+    fn uv_derivatives(
+        &self,
+        ray: &Ray,
+        at: &Interaction,
+        prim_id: u32,
+        set: usize,
+    ) -> Option<[Vec3; 2]> {
+        let [x, y, z] = self.axes;
+        let normal = Vec3::new(x.dot(at.normal), y.dot(at.normal), z.dot(at.normal));
+        let at = Interaction {
+            normal: normal.normalize_or(at.normal),
+            ..*at
+        };
+        let derivatives = UNIT_SPHERE.uv_derivatives(ray, &at, prim_id, set)?;
+        Some(derivatives.map(|derivative| self.to_world(derivative)))
+    }
+
     fn normal_field(&self) -> Option<NormalField<'_>> {
         Some(NormalField::Ellipsoid(self.center, self.inverse))
     }

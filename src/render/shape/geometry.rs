@@ -96,6 +96,19 @@ pub trait Intersect: Sized + Send + Sync {
         ShadingAttributes::default()
     }
 
+    /// The derivatives of a point with respect to u and v, the texture coordinates of set `_set`, in
+    /// the world; `None` where they are not known.
+    #[must_use]
+    fn uv_derivatives(
+        &self,
+        _ray: &Ray,
+        _at: &Interaction,
+        _prim_id: u32,
+        _set: usize,
+    ) -> Option<[Vec3; 2]> {
+        None
+    }
+
     /// The number of its triangles, which can be lights; each is a `prim_id` of
     /// [`Intersect::intersect`].
     #[must_use]

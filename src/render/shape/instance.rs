@@ -316,6 +316,20 @@ impl Intersect for Instance {
         }
     }
 
+    fn uv_derivatives(
+        &self,
+        _: &Ray,
+        _: &Interaction,
+        prim_id: u32,
+        set: usize,
+    ) -> Option<[Vec3; 2]> {
+        let mesh = &self.mesh.attributes;
+        let sets = [&mesh.uvs, &mesh.second_uvs];
+        let uvs = corner_values(sets.get(set)?, self.mesh.corners(prim_id))?;
+        let derivatives = self.mesh.triangle(prim_id).uv_derivatives(uvs)?;
+        Some(derivatives.map(|derivative| self.vector_to_world(derivative)))
+    }
+
     fn triangles(&self) -> usize {
         self.mesh.count()
     }

@@ -109,6 +109,20 @@ macro_rules! dispatch {
                 }
             }
 
+            fn uv_derivatives(
+                &self,
+                ray: &Ray,
+                at: &Interaction,
+                prim_id: u32,
+                set: usize,
+            ) -> Option<[Vec3; 2]> {
+                match self {
+                    $(Self::$Name(shape) => {
+                        <$Name as Intersect>::uv_derivatives(shape, ray, at, prim_id, set)
+                    })*
+                }
+            }
+
             fn triangles(&self) -> usize {
                 match self {
                     $(Self::$Name(shape) => <$Name as Intersect>::triangles(shape),)*

@@ -256,6 +256,21 @@ impl Intersect for Quad {
         }
     }
 
+    fn uv_derivatives(
+        &self,
+        ray: &Ray,
+        at: &Interaction,
+        prim_id: u32,
+        set: usize,
+    ) -> Option<[Vec3; 2]> {
+        let uv = self.uv(ray, at.point, prim_id);
+        let (Self::Flat { vertices, .. } | Self::Patch(BilinearPatch { vertices })) = self;
+        let patch = BilinearPatch {
+            vertices: *vertices,
+        };
+        (set == 0).then(|| patch.tangents(uv))
+    }
+
     fn normal_field(&self) -> Option<NormalField<'_>> {
         matches!(self, Self::Flat { .. }).then_some(NormalField::Flat)
     }

@@ -268,6 +268,17 @@ impl Intersect for TexturedSphere {
         }
     }
 
+    /// u is the angle around z over 2π, v is 1 less that from z over π.
+    fn uv_derivatives(&self, _: &Ray, at: &Interaction, _: u32, set: usize) -> Option<[Vec3; 2]> {
+        let [x, y, z] = self.texture_from_world;
+        let [a, b, c] = [x, y, z].map(|axis| axis.dot(at.normal));
+        let across = (a * a + b * b).sqrt();
+        let radius = self.sphere.radius;
+        let along_u = (y * a - x * b) * (TAU * radius);
+        let along_v = (z * across - (x * a + y * b) * (c / across)) * (PI * radius);
+        (set == 0 && across > 0.0).then_some([along_u, along_v])
+    }
+
     #[inline(always)]
     fn shape4(&self) -> Option<Shape4<'_>> {
         Some(Shape4::Sphere(&self.sphere))

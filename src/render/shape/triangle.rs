@@ -195,6 +195,23 @@ impl Triangle {
         ((first * dv2 - second * dv1) / area).try_normalize()
     }
 
+    /// The derivatives of a point with respect to u and v, unless the texture coordinates are
+    /// degenerate (Pharr, Jakob, Humphreys, §6.5.2).
+    #[must_use]
+    pub fn uv_derivatives(&self, uvs: [[f64; 2]; 3]) -> Option<[Vec3; 2]> {
+        let [a, b, c] = self.vertices;
+        let (first, second) = (b - a, c - a);
+        let [du1, dv1] = [uvs[1][0] - uvs[0][0], uvs[1][1] - uvs[0][1]];
+        let [du2, dv2] = [uvs[2][0] - uvs[0][0], uvs[2][1] - uvs[0][1]];
+        let area = du1 * dv2 - du2 * dv1;
+        let derivatives = [first * dv2 - second * dv1, second * du1 - first * du2];
+        let derivatives = derivatives.map(|derivative| derivative / area);
+        derivatives
+            .iter()
+            .all(|derivative| derivative.is_finite())
+            .then_some(derivatives)
+    }
+
     /// The point at `t`, moved onto the plane of the triangle.
     #[must_use]
     pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
@@ -245,6 +262,10 @@ impl Intersect for TexturedTriangle {
             tangent: self.triangle.tangent(uvs),
             ..ShadingAttributes::default()
         }
+    }
+
+    fn uv_derivatives(&self, _: &Ray, _: &Interaction, _: u32, set: usize) -> Option<[Vec3; 2]> {
+        self.triangle.uv_derivatives(self.uvs.filter(|_| set == 0)?)
     }
 
     fn triangles(&self) -> usize {

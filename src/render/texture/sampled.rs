@@ -4,7 +4,7 @@ use super::footprint::{TexelFootprint, TexelLayout, single};
 use super::{Filter, Image, Texture, Wrap};
 use rtc_color::srgb_decoded;
 use rtc_image::Texels;
-use rtc_math::{Lanes, Vec3};
+use rtc_math::{Lanes, TextureMapping, Vec3};
 use std::cell::Cell;
 use std::sync::LazyLock;
 
@@ -31,6 +31,15 @@ impl UvSets {
     pub(crate) const fn new(sets: [Option<[f64; 2]>; 2], point: Vec3) -> Self {
         let last = Cell::new(None);
         Self { sets, point, last }
+    }
+
+    /// The sets at a point moved by an offset of one of them and of the point.
+    fn moved(&self, set: usize, [du, dv]: [f64; 2], by: Vec3) -> Self {
+        let mut sets = self.sets;
+        if let Some([u, v]) = &mut sets[set] {
+            (*u, *v) = (*u + du, *v + dv);
+        }
+        Self::new(sets, self.point + by)
     }
 
     /// The first set.
@@ -116,6 +125,66 @@ impl Map {
         Some(value)
     }
 
+    /// Whether it is a pattern in space.
+    pub(crate) fn is_in_space(&self) -> bool {
+        match &self.texture {
+            Texture::Procedural(texture) => texture.mapping == TextureMapping::World,
+            Texture::Uv | Texture::Image(_) | Texture::Sampled { .. } => false,
+        }
+    }
+
+    /// The derivatives of red by u and v of the surface: central differences over an eighth of a
+    /// texel, or a 32nd of a cell of a pattern. `None` without texture coordinates.
+    pub(crate) fn gradient(&self, uvs: &UvSets) -> Option<[f64; 2]> {
+        let [[a, b, _], [d, e, _]] = self
+            .texture_from_surface
+            .unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+        // The texels or cells along u and v of the surface.
+        let [width, height] = match &self.texture {
+            Texture::Image(image) | Texture::Sampled { image, .. } => {
+                [image.width, image.height].map(f64::from)
+            }
+            Texture::Procedural(texture) => [4.0 * texture.scale.get(); 2],
+            Texture::Uv => [1.0; 2],
+        };
+        let counts = [
+            (width * a).abs().max((height * d).abs()),
+            (width * b).abs().max((height * e).abs()),
+        ];
+        let mut slopes = [0.0; 2];
+        for (axis, slope) in slopes.iter_mut().enumerate() {
+            let step = SHARE / counts[axis].max(f64::MIN_POSITIVE);
+            let red = |side: f64| {
+                let mut offset = [0.0; 2];
+                offset[axis] = side * step;
+                let moved = uvs.moved(self.set, offset, Vec3::ZERO);
+                Some(self.look_up(&moved)?[0])
+            };
+            let difference = red(1.0)? - red(-1.0)?;
+            *slope = if step.is_finite() {
+                difference / (2.0 * step)
+            } else {
+                0.0
+            };
+        }
+        Some(slopes)
+    }
+
+    /// The gradient of red in space, of a pattern there.
+    pub(crate) fn gradient_in_space(&self, uvs: &UvSets) -> Vec3 {
+        let scale = match &self.texture {
+            Texture::Procedural(texture) => texture.scale.get(),
+            Texture::Uv | Texture::Image(_) | Texture::Sampled { .. } => 1.0,
+        };
+        let step = SHARE / (4.0 * scale);
+        let red = |by: Vec3| {
+            let value = self.look_up(&uvs.moved(self.set, [0.0; 2], by));
+            value.map_or(0.0, |[red, ..]| red)
+        };
+        let slope = |axis: Vec3| (red(axis * step) - red(-axis * step)) / (2.0 * step);
+        Vec3::new(slope(Vec3::X), slope(Vec3::Y), slope(Vec3::Z))
+    }
+
     /// The coordinates of the texture for those of the surface.
     fn mapped(&self, [u, v]: [f64; 2]) -> [f64; 2] {
         match self.texture_from_surface {
@@ -124,6 +193,9 @@ impl Map {
         }
     }
 }
+
+/// The step of differences, as a share of a texel.
+const SHARE: f64 = 1.0 / 16.0;
 
 /// Samples an image: v = 0 is its top edge, texel centers lie half a texel inside.
 pub(crate) fn sample(

@@ -204,6 +204,10 @@ pub(super) fn standard(
         bounds_a_volume: m.thickness.get() > 0.0,
         absorption: absorption(m),
         normal: slots.normal(m.normal_map.as_ref(), m.normal_scale),
+        bump: m.bump_map.as_ref().map(|map| BumpMap {
+            map: slots.textures.map(map, ColorSpace::Linear),
+            scale: m.bump_scale,
+        }),
         plain: slots.plain_layers(m),
         clearcoat: (m.clearcoat > UnitInterval::ZERO).then(|| slots.clearcoat(m)),
         anisotropy: (m.anisotropy > UnitInterval::ZERO).then(|| slots.anisotropy(m)),
@@ -276,6 +280,7 @@ impl MappedParameters<'_> {
             &m.blend_map,
             &m.emissive_map,
             &m.normal_map,
+            &m.bump_map,
             &m.clearcoat_normal_map,
         ];
         let mut maps = shading_maps(m).chain(others.into_iter().flatten());

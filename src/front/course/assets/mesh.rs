@@ -268,18 +268,9 @@ pub(super) fn report_not_drawn(
     named: Option<Span>,
     sink: &mut DiagnosticSink,
 ) {
-    if let Some((first, count)) = &parsed.not_drawn {
-        let message = format!("{}: {}", count_of(*count), first.message);
+    if let Some(((first, _), message)) = parsed.not_drawn.as_ref().zip(parsed.loss()) {
         let diagnostic = Diagnostic::new(&codes::NOT_DRAWN, message);
         let diagnostic = diagnostic.at(first.span(file), first.label.as_str());
         sink.push(diagnostic.also(named, "the file is named here"));
-    }
-}
-
-fn count_of(count: usize) -> String {
-    if count == 1 {
-        "an element of the file is not drawn".to_owned()
-    } else {
-        format!("{count} elements of the file are not drawn")
     }
 }

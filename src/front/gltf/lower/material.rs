@@ -291,6 +291,8 @@ impl MaterialReader<'_, '_, '_, '_> {
         facets(fields, &mut standard);
         let extension = fields.rtc_extras();
         standard.opacity_map = self.map(extension, "opacityTexture");
+        standard.bump_map = self.map(extension, "bumpTexture");
+        standard.bump_scale = number(extension, "bumpScale", 1.0);
         standard.blend_weight = number(extension, "blendWeight", 0.0);
         standard.blend_map = self.map(extension, "blendTexture");
         standard

@@ -155,7 +155,8 @@ static PHOTOMETRY: ObjectSchema = rtc_object(&[
 ]);
 
 /// Phong's model, or of the standard material the index of a metal with its base colour, the
-/// distribution of facets, the kind of plastic, whether its back reflects nothing, the opacity,
+/// distribution of facets, the kind of plastic, whether its back reflects nothing, the opacity, the
+/// heights,
 /// whether it is a pane of two faces, and the other material of a blend.
 static MATERIAL: ObjectSchema = rtc_object(&[
     optional("phong", One(&PHONG)),
@@ -164,6 +165,8 @@ static MATERIAL: ObjectSchema = rtc_object(&[
     optional("plastic", Keyword(&["linear", "nonlinear", "single"])),
     optional("blackBack", Boolean),
     optional("opacityTexture", One(&TEXTURE_INFO)),
+    optional("bumpTexture", One(&TEXTURE_INFO)),
+    optional("bumpScale", Number(FREE)),
     optional("thinDielectric", Boolean),
     optional("blendWith", Index(IndexTarget::Materials)),
     optional("blendWeight", Number(FACTOR)),

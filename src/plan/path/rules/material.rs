@@ -10,7 +10,8 @@ use rtc_valid::{Alpha, Map, MaterialId, Standard};
 pub(crate) const ZERO: PathRule = PathRule {
     name: "P-WEIGHT-ZERO",
     text: "Transmission, specular reflection, emission and layers of weight 0 contribute nothing, \
-           nor does the index of a metal where none is, nor the other material of a blend. \
+           nor does the index of a metal where none is, nor the other material of a blend, nor a \
+           bump map of one height. \
            The weight is 0 if the factor is 0, or if the texture is 0 in the used channel \
            everywhere on the surfaces.",
     reason: "its textures are 0 everywhere on the surfaces",
@@ -44,6 +45,8 @@ fn without_zeros(builder: &PathPlanBuilder<'_>, index: MaterialId, m: &Standard)
     if m.metallic == UnitInterval::ZERO || builder.is_zero(index, metals, 2..3) {
         new.conductor = None;
     }
+    let is_even = |map: &Map| builder.is_constant(index, map);
+    new.bump_map = m.bump_map.filter(|map| !is_even(map));
     if m.blend_weight == UnitInterval::ZERO || is_zero(&m.blend_map, 0) {
         new.blend_with = None;
     }

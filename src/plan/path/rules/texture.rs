@@ -36,6 +36,7 @@ fn without_unused_maps(builder: &PathPlanBuilder<'_>, index: MaterialId, m: &Sta
         ),
         (&mut new.emissive_map, m.emissive != Vec3::ZERO),
         (&mut new.normal_map, is_shaded),
+        (&mut new.bump_map, is_shaded && m.bump_scale != 0.0),
         (&mut new.specular_map, is_shaded && is_nonzero(m.specular)),
         (
             &mut new.specular_color_map,

@@ -63,6 +63,14 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             } else {
                 point
             };
+            let point = match point.bump_set() {
+                Some(set) => {
+                    let shape = &surface.shape;
+                    let derivatives = shape.uv_derivatives(&state.ray, &at, hit.prim_id, set);
+                    point.with_derivatives(derivatives)
+                }
+                None => point,
+            };
             state.travelled += hit.t;
             // Skip the hit with the probability of its transparency.
             let opacity = if skips_back(state, &at, point.material) {

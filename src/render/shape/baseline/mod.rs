@@ -153,6 +153,16 @@ impl<R: Real> Intersect for BaselineShape<R> {
         self.robust.shading_attributes(ray, at, prim_id, request)
     }
 
+    fn uv_derivatives(
+        &self,
+        ray: &Ray,
+        at: &Interaction,
+        prim_id: u32,
+        set: usize,
+    ) -> Option<[Vec3; 2]> {
+        self.robust.uv_derivatives(ray, at, prim_id, set)
+    }
+
     /// The lights are those of the robust shape: light is sampled in the same way by each
     /// arithmetic.
     fn triangles(&self) -> usize {
