@@ -6,6 +6,7 @@ use super::scenes::{lowered, scene};
 use rtc::internals::codec::{self, Encoding};
 use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::Scene;
+use rtc::internals::math::{cos, sin};
 use rtc::internals::source::SourceMap;
 
 /// Scenes of one kind, and their target error in grey levels.
@@ -62,6 +63,11 @@ pub(crate) fn all() -> Vec<Family> {
         family("rare-light", 1.0, rare()),
         family("caustics", 8.0, caustics()),
         family("lamps-through-rough-glass", 8.0, lamps()),
+        family("small-emitters", 4.0, small_emitters()),
+        family("estimated-caustics", 8.0, estimated_caustics()),
+        family("near-specular", 4.0, near_specular()),
+        family("foliage-masks", 4.0, foliage()),
+        family("fine-textures", 3.0, fine_textures()),
     ]
 }
 
@@ -272,4 +278,125 @@ fn room(roughness: f64, lamp: &str) -> Scene {
         walls.concat()
     );
     lowered("room", text)
+}
+
+/// Path tracing: a floor, seen from above its middle, with more objects.
+fn stage(name: &str, settings: &str, floor: &str, objects: &[String]) -> Scene {
+    let text = format!(
+        "Camera: {{eye: [0, 3, 7], center: [0, 0.6, 0], up: [0, 1, 0], fov: 35, viewSize: [24, 24]}}\n\
+         Environment: {{color: 0.05}}\n\
+         RenderMode: path\nMaxRecursionDepth: 6\n\
+         PathParameters: {{samples: 16{settings}}}\n\
+         Objects:\n\
+         - {{type: quad, v0: [-6, 0, -6], v1: [-6, 0, 6], v2: [6, 0, 6], v3: [6, 0, -6], material: \
+         {{type: standard, {floor}, metallic: 0, roughness: 1, specular: 0, doubleSided: true}}}}\n\
+         {}",
+        objects.concat()
+    );
+    lowered(name, text)
+}
+
+/// A white floor.
+const WHITE: &str = "baseColor: [0.8, 0.8, 0.8, 1]";
+
+fn object(shape: &str, material: &str) -> String {
+    format!("- {{{shape}, material: {{type: standard, {material}}}}}\n")
+}
+
+/// A lamp of the same power for each radius.
+fn lamp(radius: f64) -> String {
+    let emissive = 3.0 / (radius * radius);
+    object(
+        &format!("type: sphere, position: [1.5, 4, 0], radius: {radius}"),
+        &format!(
+            "baseColor: [0, 0, 0, 1], metallic: 0, specular: 0, emissive: [{emissive}, {emissive}, \
+             {emissive}]"
+        ),
+    )
+}
+
+const BALL: &str = "type: sphere, position: [0, 1, 0], radius: 1";
+
+fn small_emitters() -> Vec<Case> {
+    let case = |radius: f64| {
+        let plastic = object(
+            BALL,
+            "baseColor: [0.8, 0.3, 0.2, 1], metallic: 0, roughness: 0.5",
+        );
+        let scene = stage("small", "", WHITE, &[plastic, lamp(radius)]);
+        Case::rendered(format!("a lamp of radius {radius}"), scene)
+    };
+    [0.3, 0.03, 0.003, 0.0003].map(case).into()
+}
+
+fn estimated_caustics() -> Vec<Case> {
+    let glass = "transmission: 1, thickness: 1, roughness: 0, metallic: 0, ior: 1.5";
+    let ring = "type: torus, position: [0, 0.2, 0], normal: [0, 1, 0], majorRadius: 1.2, \
+                minorRadius: 0.2";
+    let casters = [
+        ("ball", BALL, glass),
+        (
+            "lens",
+            "type: ellipsoid, position: [0, 2, 0], radius: [1, 0.3, 1]",
+            glass,
+        ),
+        ("ring", ring, "metallic: 1, roughness: 0"),
+    ];
+    let case = |(name, shape, material): (&str, &str, &str)| {
+        let objects = [object(shape, material), lamp(0.05)];
+        let scene = stage(name, ", caustics: true", WHITE, &objects);
+        Case::rendered(name.to_owned(), scene)
+    };
+    casters.map(case).into()
+}
+
+fn near_specular() -> Vec<Case> {
+    let case = |roughness: f64| {
+        let material = format!("metallic: 1, roughness: {roughness}");
+        let scene = stage("metal", "", WHITE, &[object(BALL, &material), lamp(0.5)]);
+        Case::rendered(format!("roughness {roughness}"), scene)
+    };
+    [0.05, 0.1, 0.2].map(case).into()
+}
+
+/// Heaps of leaves that masks cut into so many pieces along each side.
+fn foliage() -> Vec<Case> {
+    let case = |pieces: f64| {
+        // Directions by the golden angle.
+        let leaf = |k: i32| {
+            let turn = f64::from(k) * 2.399_963;
+            let (x, y, z) = (
+                1.6 * sin(turn * 1.7),
+                0.2 + 0.04 * f64::from(k),
+                1.6 * cos(turn),
+            );
+            let shape = format!(
+                "type: quad, position: [{x}, {y}, {z}], up: [0.5, 0.5, {}], side: [{}, 0.1, 0.5]",
+                sin(turn),
+                -cos(turn)
+            );
+            let mask = format!(
+                "baseColor: [0.3, 0.6, 0.2, 1], alpha: mask, opacityMap: {{pattern: checker, \
+                 scale: {pieces}}}, metallic: 0, roughness: 0.8, doubleSided: true"
+            );
+            object(&shape, &mask)
+        };
+        let mut objects: Vec<_> = (0..40).map(leaf).collect();
+        objects.push(lamp(0.3));
+        let scene = stage("leaves", "", WHITE, &objects);
+        Case::rendered(format!("{pieces} pieces"), scene)
+    };
+    [2.0, 6.0, 20.0].map(case).into()
+}
+
+/// Floors with checkers from two squares a pixel to hundreds.
+fn fine_textures() -> Vec<Case> {
+    let case = |scale: f64| {
+        let floor = format!("baseColorMap: {{pattern: checker, scale: {scale}}}");
+        Case::rendered(
+            format!("scale {scale}"),
+            stage("checker", "", &floor, &[lamp(0.3)]),
+        )
+    };
+    [20.0, 100.0, 500.0].map(case).into()
 }
