@@ -13,7 +13,7 @@ use ropey::Rope;
 use rtc_diag::{Diagnostic, Severity};
 use rtc_ir::LoweredScene;
 use rtc_pipeline::{Input, Options, SourceKind};
-use rtc_source::tree::yaml::{self, TextChange};
+use rtc_source::tree::yaml::{self, ReplacedBytes};
 use rtc_source::tree::{DetachedTree, SyntaxTree};
 use rtc_source::{EditedFiles, FileId, SourceMap};
 use std::cell::OnceCell;
@@ -146,7 +146,7 @@ impl OpenText {
                 Some(range) => {
                     let start = columns.letter(&rope, range.start);
                     let end = columns.letter(&rope, range.end).max(start);
-                    only = is_single.then(|| TextChange {
+                    only = is_single.then(|| ReplacedBytes {
                         replaced: rope.char_to_byte(start)..rope.char_to_byte(end),
                         inserted: change.text.len(),
                     });

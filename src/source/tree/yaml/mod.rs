@@ -12,7 +12,7 @@ mod typo;
 
 pub use layout::{FormatTextFault, layout};
 pub use mistake::{MissingSeparator, YamlError};
-pub use splice::{TextChange, splice};
+pub use splice::{ReplacedBytes, splice};
 
 use super::{NodeId, NodeSyntax, SyntaxTree, TreeNode, inside_quotes, keys};
 use crate::{FileId, Span};

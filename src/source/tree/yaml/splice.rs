@@ -13,14 +13,14 @@ const MAX_COLLECTIONS: usize = 64;
 
 /// A change of a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TextChange {
+pub struct ReplacedBytes {
     /// The bytes of the old text that were replaced.
     pub replaced: Range<usize>,
     /// The number of bytes that replaced them.
     pub inserted: usize,
 }
 
-impl TextChange {
+impl ReplacedBytes {
     /// An offset after the change, in the new text.
     fn moved(&self, offset: u32) -> Option<u32> {
         let offset = (offset as usize + self.inserted).checked_sub(self.replaced.len())?;
@@ -35,7 +35,7 @@ impl TextChange {
 /// is a value of the top-level map, the new item has a mistake, an anchor that is used, or a string
 /// with escapes.
 #[must_use]
-pub fn splice(before: &DetachedTree, change: &TextChange, text: &str) -> Option<DetachedTree> {
+pub fn splice(before: &DetachedTree, change: &ReplacedBytes, text: &str) -> Option<DetachedTree> {
     let DetachedTree(old) = before;
     let is_alias = |node: &TreeNode| node.syntax == NodeSyntax::Alias;
     if old.base != 0 || old.nodes.iter().any(is_alias) {
@@ -72,7 +72,7 @@ struct ItemPlace {
 }
 
 impl ItemPlace {
-    fn of(old: &SyntaxTree<'_>, change: &TextChange, text: &str) -> Option<Self> {
+    fn of(old: &SyntaxTree<'_>, change: &ReplacedBytes, text: &str) -> Option<Self> {
         let root = old.root();
         if !old.is_map(root) {
             return None;
@@ -114,7 +114,7 @@ impl ItemPlace {
         &self,
         old: &SyntaxTree<'_>,
         new: &SyntaxTree<'_>,
-        change: &TextChange,
+        change: &ReplacedBytes,
     ) -> Option<DetachedTree> {
         let Range { start, end } = self.nodes.clone();
         let grown = new.nodes.len() - 1;
@@ -197,7 +197,7 @@ fn line_start(text: &str, offset: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::super::super::SyntaxTree;
-    use super::{DetachedTree, TextChange, parse, splice};
+    use super::{DetachedTree, ReplacedBytes, parse, splice};
     use crate::{FileId, SourceMap};
 
     const SCENE: &str = "Camera: {eye: [0, 0, 9]}\nLights:\n- {position: [1, 2, 3]}\nObjects:\n\
@@ -258,7 +258,7 @@ mod tests {
                 "\n\n",
             ] {
                 for length in [0, letter.len_utf8()] {
-                    let change = TextChange {
+                    let change = ReplacedBytes {
                         replaced: at..at + length,
                         inserted: inserted.len(),
                     };
