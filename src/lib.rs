@@ -61,10 +61,10 @@ mod api;
 
 pub use api::{
     Alpha, Aov, Bump, Camera, Diagnostic, Effect, EffectState, Environment, Error, Export, Filter,
-    Format, Hint, Label, Light, Location, Material, MaterialId, MaterialRef, Mesh, MeshId, Object,
-    ObjectId, Options, Phong, Picture, Progress, Reading, Scene, SceneBuilder, SceneContents,
-    Severity, Shape, Standard, Statistics, Texture, TextureId, TextureMap, Tone, Transform,
-    Vertices, Wrap, explain,
+    Format, Hint, Label, Light, Location, Material, MaterialId, MaterialRef, Medium, Mesh, MeshId,
+    Object, ObjectId, Options, Phong, Picture, Progress, Reading, Scene, SceneBuilder,
+    SceneContents, Severity, Shape, Standard, Statistics, Texture, TextureId, TextureMap, Tone,
+    Transform, Vertices, Wrap, explain,
 };
 #[cfg(not(target_family = "wasm"))]
 pub use api::{Cost, CostRow, Effort};

@@ -44,6 +44,7 @@ const PAGES: &[(&str, &str, &[(&str, &str)])] = &[
         &[
             ("`material`", "material"),
             ("`material` of `type: standard`", "standard"),
+            ("`Medium`", "medium"),
             ("A texture of a `standard` material", ""),
             ("A pattern as a texture", ""),
         ],

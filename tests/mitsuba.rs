@@ -4,7 +4,7 @@
 use crate::repo::root;
 use crate::small::{WHOLE, film};
 use rtc::internals::diag::DiagnosticSink;
-use rtc::internals::ir::{Camera, Light, Material, Mode, Scene, Shape};
+use rtc::internals::ir::{Camera, Light, Material, Medium, Mode, Scene, Shape};
 use rtc::internals::math::{ComplexIndex, Microfacets, PixelFilter, Vec3};
 use rtc::internals::pipeline::{Options, load};
 use rtc::internals::source::{Loader, SourceMap};
@@ -593,19 +593,90 @@ fn files_are_found_in_the_folders_of_path() {
     assert_eq!((scene.meshes[0].triangles.len(), codes), (1, Vec::new()));
 }
 
-#[test]
-fn a_medium_of_a_shape_is_told() {
+/// The scene of a text, and the codes of its diagnostics.
+fn read_text(text: &str) -> (Scene, Vec<&'static str>) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.xml");
-    let text = r#"<scene version="3.0.0">
-        <sensor type="perspective"/>
-        <emitter type="constant"/>
-        <shape type="sphere">
-            <bsdf type="diffuse"/>
-            <medium type="homogeneous" name="interior"/>
-        </shape>
-    </scene>"#;
     fs::write(&path, text).unwrap();
-    let (_, codes) = read(&path);
-    assert!(codes.contains(&"MI003"), "{codes:?}");
+    read(&path)
+}
+
+/// The media inside and outside of the surfaces of a scene.
+fn media(scene: &Scene) -> Vec<[Option<Medium>; 2]> {
+    let surfaces = scene.surfaces.iter();
+    let materials = surfaces.map(|surface| &scene.materials[surface.material.0 as usize]);
+    let media = materials.map(|material| match material {
+        Material::Standard(standard) => [standard.interior, standard.exterior],
+        Material::Phong(_) => [None; 2],
+    });
+    media.collect()
+}
+
+const MEDIA: &str = r#"
+    <medium type="homogeneous" id="a">
+        <rgb name="sigma_t" value="1 2 4"/><rgb name="albedo" value="0.5 0.25 1"/>
+        <float name="scale" value="2"/><phase type="hg"><float name="g" value="0.5"/></phase>
+    </medium>
+    <medium type="heterogeneous" id="b">
+        <volume name="sigma_t" type="constvolume"><float name="value" value="3"/></volume>
+        <float name="albedo" value="0"/>
+    </medium>
+    <shape type="sphere">
+        <bsdf type="null"/><ref name="interior" id="a"/><ref name="exterior" id="b"/>
+    </shape>
+    <shape type="rectangle"><boolean name="flip_normals" value="true"/>
+        <bsdf type="dielectric"/><ref name="interior" id="b"/>
+    </shape>
+    <shape type="sphere"><bsdf type="null"/></shape>"#;
+
+#[test]
+fn media_of_shapes_and_of_the_sensor_are_read() {
+    let text = format!(
+        r#"<scene version="3.0.0"><integrator type="volpathmis"/>
+        <sensor type="perspective"><ref id="b"/></sensor><emitter type="constant"/>{MEDIA}</scene>"#
+    );
+    let (scene, codes) = read_text(&text);
+    // The rectangle is open.
+    assert_eq!(codes, ["VA034"]);
+    let a = Medium {
+        sigma_a: [1.0, 3.0, 0.0],
+        sigma_s: [1.0, 1.0, 8.0],
+        g: 0.5,
+    };
+    let b = Medium {
+        sigma_a: [3.0; 3],
+        ..Medium::default()
+    };
+    assert_eq!(scene.medium, Some(b));
+    assert_eq!(media(&scene), [[Some(a), Some(b)], [None, Some(b)]]);
+}
+
+#[test]
+fn coefficients_of_older_versions_are_read_and_what_is_not_known_is_told() {
+    let (scene, codes) = read_text(
+        r#"<scene version="0.6.0"><integrator type="volpath"/><sensor type="perspective"/>
+        <emitter type="constant"/>
+        <shape type="sphere"><medium type="homogeneous" name="interior">
+            <rgb name="sigmaA" value="1, 2, 3"/><rgb name="sigmaS" value="0.5, 0, 0"/>
+            <string name="material" value="Ketchup"/><phase type="rayleigh"/>
+        </medium></shape></scene>"#,
+    );
+    let expected = Medium {
+        sigma_a: [1.0, 2.0, 3.0],
+        sigma_s: [0.5, 0.0, 0.0],
+        g: 0.0,
+    };
+    assert_eq!(media(&scene), [[Some(expected), None]]);
+    assert_eq!(codes, ["MI004", "MI003"]);
+}
+
+#[test]
+fn an_integrator_without_media_shows_none_and_tells_so() {
+    let text = format!(
+        r#"<scene version="3.0.0"><integrator type="path"/><sensor type="perspective"/>
+        <emitter type="constant"/>{MEDIA}</scene>"#
+    );
+    let (scene, codes) = read_text(&text);
+    assert_eq!(media(&scene), [[None; 2]]);
+    assert_eq!(codes, ["MI005", "MI005"]);
 }

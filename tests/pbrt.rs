@@ -2,7 +2,7 @@
 
 use crate::small::{WHOLE, film};
 use rtc::internals::diag::DiagnosticSink;
-use rtc::internals::ir::{Mode, Scene, Shape};
+use rtc::internals::ir::{Material, Medium, Mode, Scene, Shape};
 use rtc::internals::pipeline::{Options, load};
 use rtc::internals::source::{Loader, SourceMap};
 use std::fs;
@@ -300,4 +300,37 @@ fn the_crop_of_an_orthographic_camera_looks_along_its_axis() {
     let [eye, center] = [scene.camera.eye, scene.camera.center];
     assert_eq!((eye, center), ([0.5, 0.0, 0.0], [0.5, 0.0, 1.0]));
     assert_eq!(scene.camera.size, [4, 8]);
+}
+
+#[test]
+fn media_of_shapes_and_of_the_camera_are_read() {
+    let (scene, codes) = read_files(&[(
+        "scene.pbrt",
+        br#"MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_a" [ 1 2 3 ]
+            "rgb sigma_s" [ 4 5 6 ] "float g" 0.5 "float scale" 2
+        MakeNamedMedium "smoke" "string type" "homogeneous" "string preset" "Skin1"
+        MediumInterface "" "fog"
+        LookAt 0 0 -10 0 0 0 0 1 0 Camera "perspective"
+        WorldBegin LightSource "infinite"
+        AttributeBegin
+            MediumInterface "smoke" "fog"
+            Material "interface" Shape "sphere"
+        AttributeEnd
+        MediumInterface "fog" Material "interface" Shape "sphere"
+        Material "diffuse" Shape "sphere""#,
+    )]);
+    let fog = Medium {
+        sigma_a: [2.0, 4.0, 6.0],
+        sigma_s: [8.0, 10.0, 12.0],
+        g: 0.5,
+    };
+    // The preset is not known; a shape with fog on both sides leads nowhere.
+    assert_eq!(codes, ["PB004"]);
+    assert_eq!(scene.medium, Some(fog));
+    assert_eq!(scene.surfaces.len(), 2);
+    let Material::Standard(interface) = &scene.materials[0] else {
+        panic!("a standard material");
+    };
+    assert_eq!(interface.exterior, Some(fog));
+    assert!(interface.interior.is_some_and(|smoke| smoke.scatters()));
 }

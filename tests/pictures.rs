@@ -86,6 +86,7 @@ fn earth() -> Scene {
         }],
         names: Vec::new(),
         environment: None,
+        medium: None,
         display: ir::Display::default(),
         trees: Vec::new(),
     }

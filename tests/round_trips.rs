@@ -231,6 +231,26 @@ metallic: 0, specular: 0, baseColor: [0, 0, 0, 1], doubleSided: true, emissive: 
         "an orthographic camera",
         "Camera: {eye: [1, 2, 9], center: [0, 1, 0], up: [0, 0.3, 0], viewSize: [16, 12], projection: orthographic}\n",
     ),
+    objects(
+        "smoke around a ball",
+        "- {type: sphere, position: [0, 1, 0], radius: 0.5, material: *matte}
+- {type: sphere, position: [0, 1, 0], radius: 1, material: {type: standard, alpha: blend, baseColor: [1, 1, 1, 0], \
+interior: {sigmaA: [0.1, 0.2, 0.5], sigmaS: [0.5, 1, 0.4], g: 0.3}}}
+- {type: sphere, position: [0, 1, 0], radius: 0.8, material: {type: standard, alpha: blend, baseColor: [1, 1, 1, 0], \
+exterior: {sigmaA: [0.1, 0.2, 0.5], sigmaS: [0.5, 1, 0.4], g: 0.3}}}
+",
+    ),
+    objects(
+        "milk in glass",
+        ball!("metallic: 0, roughness: 0, transmission: 1, thickness: 1, interior: {sigmaS: 3, sigmaA: 0.1}"),
+    ),
+    light(
+        "fog around the camera",
+        "Environment: {color: [0.3, 0.4, 0.5]}
+Lights: [{position: [0, 4, 2], intensity: 20}]
+Medium: {sigmaA: 0.01, sigmaS: [0.05, 0.03, 0.02], g: -0.4}
+",
+    ),
     camera(
         "a lens",
         "Camera: {eye: [1, 2, 9], center: [0, 1, 0], up: [0, 1, 0], viewSize: [16, 12], fov: 30, apertureRadius: 0.3, apertureSamples: 2}\n",

@@ -28,13 +28,31 @@ pub(crate) fn scaled(scene: &Scene, factor: f64) -> Scene {
             standard.attenuation_distance = standard
                 .attenuation_distance
                 .map(|distance| distance * factor);
+            for medium in [&mut standard.interior, &mut standard.exterior] {
+                medium.iter_mut().for_each(|medium| thin(medium, factor));
+            }
         }
     }
+    scene
+        .medium
+        .iter_mut()
+        .for_each(|medium| thin(medium, factor));
     scene
         .surfaces
         .iter_mut()
         .for_each(|surface| scale_shape(&mut surface.shape, factor));
     scene
+}
+
+/// A medium in a scene that is scaled: the same part of the light arrives.
+fn thin(medium: &mut ir::Medium, factor: f64) {
+    let ir::Medium {
+        sigma_a,
+        sigma_s,
+        g: _,
+    } = medium;
+    scale(sigma_a, 1.0 / factor);
+    scale(sigma_s, 1.0 / factor);
 }
 
 fn scale(v: &mut [f64; 3], factor: f64) {

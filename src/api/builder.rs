@@ -6,7 +6,7 @@ use super::{
     Shape, Standard, Texture, TextureId, Tone,
 };
 use rtc_diag::{Diagnostic as Finding, codes};
-use rtc_ir::{self as ir, EntityKind, LoweredScene, Mode, SourceSpans, Surface};
+use rtc_ir::{self as ir, EntityKind, LoweredScene, Medium, Mode, SourceSpans, Surface};
 use rtc_math::to_u32;
 use rtc_passes::{self as passes, Overrides};
 use rtc_pipeline::{Input, LoadedScene, Options};
@@ -205,6 +205,13 @@ impl SceneBuilder {
         self.lowered.source_spans.forget(EntityKind::Environment);
         let environment = environment.lower(self.scene());
         self.scene().environment = Some(environment);
+        self.trace_physical(true);
+    }
+
+    /// Sets the participating medium around the camera.
+    pub fn medium(&mut self, medium: Medium) {
+        self.lowered.source_spans.forget(EntityKind::Medium);
+        self.scene().medium = Some(medium);
         self.trace_physical(true);
     }
 

@@ -17,7 +17,7 @@ pub(super) fn path(pointer: &str, scene: &Scene) -> Option<String> {
         },
         "images" => (image(index()?, scene), 0),
         "textures" | "meshes" => (format!("{list}[{}]", index()?), 0),
-        "camera" | "settings" | "environment" => (list.to_owned(), 0),
+        "camera" | "settings" | "environment" | "medium" => (list.to_owned(), 0),
         _ => return None,
     };
     // The kind of an object, a light or a material is no step.

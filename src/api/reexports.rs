@@ -23,6 +23,17 @@ pub use rtc_color::Tone;
 pub use rtc_diag::Severity;
 
 /// ```
+/// use rtc::{Camera, Medium, SceneBuilder, Shape, Standard};
+///
+/// let smoke = Medium { sigma_s: [1.0; 3], ..Medium::default() };
+/// let mut builder = SceneBuilder::new(Camera::look_at([0.0, 0.0, 6.0], [0.0; 3]));
+/// builder.add(Shape::sphere([0.0; 3], 1.0), Standard::null().interior(smoke));
+/// builder.medium(Medium { sigma_a: [0.01; 3], ..Medium::default() });
+/// ```
+#[doc(inline)]
+pub use rtc_ir::Medium;
+
+/// ```
 /// use rtc::{Alpha, Standard};
 ///
 /// let leaf = Standard::default().alpha(Alpha::Mask(0.5)).double_sided(true);

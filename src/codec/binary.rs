@@ -98,6 +98,7 @@ pub(super) fn encode<'s>(
         surfaces,
         names,
         environment,
+        medium,
         display: _,
         trees: _,
     } = scene;
@@ -133,6 +134,9 @@ pub(super) fn encode<'s>(
     }
     if let Some(environment) = environment {
         scene.insert("environment".to_owned(), tree(environment)?);
+    }
+    if let Some(medium) = medium {
+        scene.insert("medium".to_owned(), tree(medium)?);
     }
     if !display.is_plain() {
         scene.insert("display".to_owned(), tree(display)?);

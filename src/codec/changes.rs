@@ -66,6 +66,7 @@ fn document(scene: &Scene) -> Result<Value, NonFiniteNumber> {
         surfaces,
         names,
         environment,
+        medium,
         display,
         trees: _,
     } = scene;
@@ -82,6 +83,9 @@ fn document(scene: &Scene) -> Result<Value, NonFiniteNumber> {
     put("names", tree(names)?);
     if let Some(environment) = environment {
         put("environment", tree(environment)?);
+    }
+    if let Some(medium) = medium {
+        put("medium", tree(medium)?);
     }
     put("display", tree(display)?);
     Ok(Value::Object(document))

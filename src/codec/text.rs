@@ -7,8 +7,8 @@
 use super::{Decoded, VersionField, faults, locate, newer, span, typed, wrong_shape};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{
-    Camera, Display, Environment, Image, Light, Material, Mesh, Scene, Settings, Surface, Texture,
-    VERSION,
+    Camera, Display, Environment, Image, Light, Material, Medium, Mesh, Scene, Settings, Surface,
+    Texture, VERSION,
 };
 use rtc_source::tree::{SyntaxTree, json};
 use rtc_source::{Budget, FileId, Resource};
@@ -41,6 +41,8 @@ struct DecodedDocument {
     #[serde(default)]
     environment: Option<Environment>,
     #[serde(default)]
+    medium: Option<Medium>,
+    #[serde(default)]
     display: Display,
 }
 
@@ -61,6 +63,7 @@ impl From<DecodedDocument> for Scene {
             surfaces,
             names,
             environment,
+            medium,
             display,
             ..
         } = document;
@@ -75,6 +78,7 @@ impl From<DecodedDocument> for Scene {
             surfaces,
             names,
             environment,
+            medium,
             display,
             trees: Vec::new(),
         }

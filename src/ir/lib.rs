@@ -5,8 +5,8 @@
 //! renderer.
 //!
 //! # Types
-//! - [`Scene`] holds one [`Camera`], [`Settings`], a [`Display`], at most one [`Environment`], and
-//!   lists of [`Light`], [`Image`], [`Texture`], [`Mesh`], [`Material`] and [`Surface`].
+//! - [`Scene`] holds one [`Camera`], [`Settings`], a [`Display`], at most one [`Environment`] and
+//!   [`Medium`], and lists of [`Light`], [`Image`], [`Texture`], [`Mesh`], [`Material`] and [`Surface`].
 //! - A [`Surface`] is a [`Shape`] with a [`MaterialId`]. A [`Material`] refers to textures by
 //!   [`TextureId`], a [`Texture`] to its image by [`ImageId`], an [`Instance`] to its mesh by
 //!   [`MeshId`].
@@ -58,7 +58,7 @@ pub use light::{
 pub use material::{Bump, Material, MaterialId, Phong};
 pub use mesh::{Mesh, MeshId};
 pub use origin::{EntityField, EntityKind, SourceSpans, ValuePath};
-pub use rtc_math::{SetStep, SharedList, StoredTree, VertexColumn};
+pub use rtc_math::{Medium, SetStep, SharedList, StoredTree, VertexColumn};
 pub use settings::{Ambient, Gooch, Mode, PathSettings, Pattern, Settings};
 pub use shape::*;
 pub use standard::{Alpha, Conductor, Map, Standard};
@@ -102,6 +102,10 @@ pub struct Scene {
     /// The environment light, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub environment: Option<Environment>,
+    /// The participating medium around the camera, if any. A path is in it until it crosses a
+    /// surface whose material names media.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub medium: Option<Medium>,
     /// How values are displayed.
     #[serde(default, skip_serializing_if = "Display::is_plain")]
     pub display: Display,
@@ -127,6 +131,7 @@ impl Scene {
             surfaces: Vec::new(),
             names: Vec::new(),
             environment: None,
+            medium: None,
             display: Display::default(),
             trees: Vec::new(),
         }

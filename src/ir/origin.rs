@@ -26,11 +26,13 @@ pub enum EntityKind {
     Surface,
     /// The environment light.
     Environment,
+    /// The medium around the camera.
+    Medium,
 }
 
 impl EntityKind {
     /// All kinds, in declaration order.
-    const ALL: [Self; Self::Environment as usize + 1] = [
+    const ALL: [Self; Self::Medium as usize + 1] = [
         Self::Camera,
         Self::Settings,
         Self::Light,
@@ -40,6 +42,7 @@ impl EntityKind {
         Self::Material,
         Self::Surface,
         Self::Environment,
+        Self::Medium,
     ];
 }
 
@@ -152,6 +155,7 @@ impl fmt::Display for ValuePath {
             EntityKind::Material => write!(f, "/materials/{index}"),
             EntityKind::Surface => write!(f, "/surfaces/{index}"),
             EntityKind::Environment => f.write_str("/environment"),
+            EntityKind::Medium => f.write_str("/medium"),
         }?;
         if let EntityField::Shape(kind, value) = self.field {
             let path = kind.values()[usize::from(value)];

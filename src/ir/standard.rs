@@ -2,7 +2,7 @@
 
 use super::{MaterialId, TextureId};
 use arbitrary::Arbitrary;
-use rtc_math::{ComplexIndex, Microfacets, Plastic, Vec3};
+use rtc_math::{ComplexIndex, Medium, Microfacets, Plastic, Vec3};
 use rtc_tables::{camel_case, parameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -101,6 +101,7 @@ macro_rules! stored {
     (fractions) => { [f64; 4] };
     (some_fractions) => { Option<[f64; 4]> };
     (conductor) => { Option<Conductor> };
+    (medium) => { Option<Medium> };
     (microfacets) => { Microfacets };
     (plastic) => { Plastic };
     (flag) => { bool };
@@ -143,6 +144,13 @@ macro_rules! setter {
         $(#[$about])*
         #[must_use]
         pub fn $field(self, $field: Conductor) -> Self {
+            Self { $field: Some($field), ..self }
+        }
+    };
+    (medium, $(#[$about:meta])* $field:ident) => {
+        $(#[$about])*
+        #[must_use]
+        pub fn $field(self, $field: Medium) -> Self {
             Self { $field: Some($field), ..self }
         }
     };
@@ -212,6 +220,19 @@ macro_rules! material {
 parameters!(material);
 
 impl Standard {
+    /// A surface that light passes unchanged, as if there were none: it only bounds media.
+    #[must_use]
+    pub fn null() -> Self {
+        Self {
+            base_color: [1.0, 1.0, 1.0, 0.0],
+            metallic: 0.0,
+            specular: 0.0,
+            alpha: Alpha::Blend,
+            double_sided: true,
+            ..Self::default()
+        }
+    }
+
     /// All texture maps, mutably.
     pub fn maps_mut(&mut self) -> impl Iterator<Item = &mut Map> {
         self.map_fields().flatten()

@@ -16,6 +16,7 @@
 //!   type needs no further check.
 //! - [`PixelFilter`]: the reconstruction filters of pixels.
 //! - [`ComplexIndex`]: the Fresnel equations of conductors.
+//! - [`Medium`]: a homogeneous participating medium.
 //! - Mesh data: [`VertexColumn`], a shared list of vectors in the precision of its source.
 //! - Hashes and angles for sampling: [`mix`], [`cos_sin_revolutions`], [`golden_revolutions`].
 //! - Sets in postfix notation ([`SetStep`], [`evaluate_set`]), which CSG solids use; procedural
@@ -48,6 +49,7 @@ mod flat;
 mod func;
 mod hash;
 mod id;
+mod medium;
 mod number;
 mod onb;
 mod pixel_filter;
@@ -75,6 +77,7 @@ pub use glam::DVec3 as Vec3;
 pub use glam::Vec4 as Lanes;
 pub use hash::{GAMMA, fraction, mix};
 pub use id::{Id, IdTable};
+pub use medium::Medium;
 pub use number::{NonNegative, Positive, UnitInterval, shortest};
 pub use onb::OrthonormalBasis;
 pub use pixel_filter::PixelFilter;

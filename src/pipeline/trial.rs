@@ -383,6 +383,7 @@ fn make_tiny(scene: &mut Scene) {
         surfaces,
         names,
         environment: _,
+        medium: _,
         display: _,
         trees: _,
     } = scene;

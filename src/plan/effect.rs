@@ -77,6 +77,7 @@ effects! {
     Dispersion "dispersion",
     VertexColors "corner colours",
     EnvironmentMap "environment map",
+    Media "media",
 }
 
 impl Effect {
@@ -92,7 +93,7 @@ impl Effect {
 }
 
 /// The effects of path tracing before the layers of the glTF material, and after them.
-const OF_PATHS: ([Effect; 14], [Effect; 9]) = (
+const OF_PATHS: ([Effect; 14], [Effect; 10]) = (
     [
         Effect::Surfaces,
         Effect::Environment,
@@ -112,6 +113,7 @@ const OF_PATHS: ([Effect; 14], [Effect; 9]) = (
     [
         Effect::Refraction,
         Effect::Volume,
+        Effect::Media,
         Effect::Dispersion,
         Effect::Textures,
         Effect::VertexColors,
@@ -124,9 +126,9 @@ const OF_PATHS: ([Effect; 14], [Effect; 9]) = (
 
 impl Effect {
     /// The effects that path tracing may have.
-    pub const OF_PATHS: [Self; 23 + Layer::ALL.len()] = {
+    pub const OF_PATHS: [Self; 24 + Layer::ALL.len()] = {
         let ((before, after), layers) = (OF_PATHS, Layer::ALL);
-        let mut all = [Self::Surfaces; 23 + Layer::ALL.len()];
+        let mut all = [Self::Surfaces; 24 + Layer::ALL.len()];
         let mut at = 0;
         while at < all.len() {
             all[at] = if at < before.len() {

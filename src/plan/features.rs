@@ -78,8 +78,10 @@ impl PathFeatures {
     pub const TRANSMISSION: Self = Self(1 << 4);
     /// Layers of a material ([`super::Layer`]).
     pub const LAYERS: Self = Self(1 << 5);
+    /// Participating media.
+    pub const MEDIA: Self = Self(1 << 6);
     /// All of them.
-    pub const EVERYTHING: Self = Self((1 << 6) - 1);
+    pub const EVERYTHING: Self = Self((1 << 7) - 1);
 }
 
 /// A set of shapes.
@@ -123,13 +125,14 @@ mod tests {
             PathFeatures::MICROFACETS,
             PathFeatures::TRANSMISSION,
             PathFeatures::LAYERS,
+            PathFeatures::MEDIA,
         ];
         assert!(of_paths.iter().all(|feature| feature.0.count_ones() == 1));
         let all_of_paths = of_paths
             .into_iter()
             .fold(PathFeatures::NONE, PathFeatures::with);
         assert_eq!(all_of_paths, PathFeatures::EVERYTHING);
-        assert_eq!(PathFeatures::EVERYTHING.0.count_ones(), 6);
+        assert_eq!(PathFeatures::EVERYTHING.0.count_ones(), 7);
         let two = WhittedFeatures::MAPS.with(WhittedFeatures::LIGHT);
         assert_eq!(two.with(WhittedFeatures::LIGHT), two);
         assert!(

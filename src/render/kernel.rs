@@ -89,13 +89,19 @@ pub fn choose(needed: WhittedFeatures) -> usize {
 const LIGHT_SAMPLING: PathFeatures = PathFeatures::NEE.with(PathFeatures::SHADOWS);
 
 kernels! {
-    /// The path integrators: for diffuse surfaces, for reflecting ones without layers, and for all.
+    /// The path integrators: for diffuse surfaces, for reflecting ones without layers, for all
+    /// surfaces, and for these in media.
     PATH_KERNELS: PathFeatures, run_paths;
     "paths, diffuse": LIGHT_SAMPLING,
     "paths, reflecting": LIGHT_SAMPLING
         .with(PathFeatures::MICROFACETS)
         .with(PathFeatures::ALPHA),
-    "paths": PathFeatures::EVERYTHING,
+    "paths": LIGHT_SAMPLING
+        .with(PathFeatures::MICROFACETS)
+        .with(PathFeatures::ALPHA)
+        .with(PathFeatures::TRANSMISSION)
+        .with(PathFeatures::LAYERS),
+    "paths, media": PathFeatures::EVERYTHING,
 }
 
 /// The index of the path integrator with the fewest features that has all of `needed`.

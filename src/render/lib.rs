@@ -45,6 +45,7 @@ mod kernel;
 mod lanes;
 mod light;
 mod material;
+mod medium;
 mod ray;
 mod sampler;
 mod shape;

@@ -92,6 +92,10 @@ macro_rules! parameters {
             attenuation_distance: distance = None, "Option::is_none";
             /// The colour that white light has after the attenuation distance.
             attenuation_color: fraction_color = [1.0; 3], "never";
+            /// The participating medium inside its surfaces; only path tracing shows it.
+            interior: medium = None, "Option::is_none";
+            /// The participating medium outside its surfaces, where there is one.
+            exterior: medium = None, "Option::is_none";
             /// How much of it is under a clear coat.
             clearcoat: fraction = 0.0, "is_zero";
             /// Its red multiplies that.

@@ -28,6 +28,7 @@ mod inside;
 mod light;
 mod lint;
 mod material;
+mod medium;
 mod mesh;
 mod phong;
 mod settings;
@@ -53,8 +54,8 @@ pub use texture::{Filter, Map, Sampled, Texture, UvSet, Wrap};
 use check::{Checker, EntityCounts};
 use inside::Solids;
 use rtc_diag::DiagnosticSink;
-use rtc_ir::{self as ir, SourceSpans};
-use rtc_math::{Id, IdTable, StoredTree, UnitInterval};
+use rtc_ir::{self as ir, EntityField, EntityKind, SourceSpans, ValuePath};
+use rtc_math::{Id, IdTable, Medium, StoredTree, UnitInterval};
 use rtc_source::Limits;
 use std::sync::Arc;
 
@@ -86,6 +87,7 @@ pub struct ValidScene {
     settings: Settings,
     lights: Vec<Light>,
     environment: Environment,
+    medium: Option<Medium>,
     images: IdTable<Image>,
     textures: IdTable<Texture>,
     meshes: IdTable<Mesh, Arc<Mesh>>,
@@ -117,6 +119,12 @@ impl ValidScene {
     #[must_use]
     pub fn environment(&self) -> &Environment {
         &self.environment
+    }
+
+    /// The medium around the camera.
+    #[must_use]
+    pub fn medium(&self) -> Option<Medium> {
+        self.medium
     }
 
     /// The images.
@@ -222,6 +230,7 @@ pub fn validate(
         surfaces,
         names: _,
         environment,
+        medium,
         display,
         trees,
     } = scene;
@@ -232,6 +241,10 @@ pub fn validate(
     settings::display(display, &mut check);
     let valid_environment =
         environment::environment(environment.as_ref(), images.len(), &mut check);
+    let valid_medium = check.optional(medium.as_ref(), |check, medium| {
+        let at = ValuePath::new(EntityKind::Medium, 0, EntityField::Whole);
+        medium::medium(medium, at, check)
+    });
     let valid_images = check.all(images, image::image);
     let valid_textures = check.all(textures, |texture, index, check| {
         texture::texture(texture, index, images.len(), check)
@@ -260,6 +273,7 @@ pub fn validate(
         settings: valid_settings?,
         lights: valid_lights?,
         environment: valid_environment?,
+        medium: valid_medium?,
         images: valid_images?.into(),
         textures: valid_textures?.into(),
         meshes: valid_meshes?.into_iter().map(Arc::new).collect(),

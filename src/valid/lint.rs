@@ -4,6 +4,7 @@
 
 use super::check::Checker;
 use super::inside::{self, Solids};
+use super::medium;
 use rtc_diag::{Diagnostic, Severity, codes};
 use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
 use rtc_math::{Vec3, shortest};
@@ -19,6 +20,7 @@ pub(super) fn lints(scene: &ir::Scene, solids: &Solids<'_>, check: &mut Checker<
     one_eye(scene, check);
     inside::eye(solids, check);
     unsupported_features(scene, check);
+    medium::open_shapes(scene, check);
     for (index, material) in scene.materials.iter().enumerate() {
         let Some(phong) = material.phong() else {
             continue;
@@ -205,6 +207,13 @@ fn unsupported_features(scene: &ir::Scene, check: &mut Checker<'_>) {
     if !is_traced && !matches!(scene.settings.mode, ir::Mode::Phong | ir::Mode::Gooch(_)) {
         return;
     }
+    if !is_traced && scene.medium.is_some() {
+        let message = "the medium around the camera does not show in this `RenderMode`";
+        let hint = "path tracing shows it: `RenderMode: path`, or `--integrator path`";
+        let diagnostic = Diagnostic::new(&codes::LOST_PARTS, message).hint(hint);
+        let path = ValuePath::new(EntityKind::Medium, 0, EntityField::Whole);
+        check.report(path, "it is left out", diagnostic);
+    }
     let mut is_used = vec![false; scene.materials.len()];
     for surface in &scene.surfaces {
         if let Some(is_used) = is_used.get_mut(surface.material.0 as usize) {
@@ -272,6 +281,8 @@ fn is_more_than_phong(standard: &ir::Standard) -> bool {
     ];
     let colors = [standard.emissive, standard.sheen_color];
     standard.maps().next().is_some()
+        || standard.interior.is_some()
+        || standard.exterior.is_some()
         || layers.iter().any(|weight| *weight > 0.0)
         || colors.iter().flatten().any(|channel| *channel > 0.0)
         || standard.alpha != ir::Alpha::Opaque

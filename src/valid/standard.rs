@@ -2,11 +2,13 @@
 
 use super::MaterialId;
 use super::check::{Checker, EntityCounts, LARGEST};
+use super::medium;
 use super::texture::{self, Map};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
 use rtc_math::{
-    ComplexIndex, Id, Microfacets, NonNegative, Plastic, Positive, UnitInterval, Vec3, shortest,
+    ComplexIndex, Id, Medium, Microfacets, NonNegative, Plastic, Positive, UnitInterval, Vec3,
+    shortest,
 };
 use rtc_tables::{camel_case, parameters};
 use std::any::Any;
@@ -25,6 +27,7 @@ macro_rules! validated {
     (fractions) => { [UnitInterval; 4] };
     (some_fractions) => { Option<[UnitInterval; 4]> };
     (conductor) => { Option<ComplexIndex> };
+    (medium) => { Option<Medium> };
     (microfacets) => { Microfacets };
     (plastic) => { Plastic };
     (flag) => { bool };
@@ -263,6 +266,13 @@ impl ParameterCheck<'_, '_> {
         let ir::Conductor { eta, k } = index;
         let [eta, k] = [eta, k].map(|values| self.color(values, name));
         Some(Some(ComplexIndex { eta: eta?, k: k? }))
+    }
+
+    fn medium(&mut self, medium: &Option<Medium>, name: &str) -> Option<Option<Medium>> {
+        let at = self.at(name);
+        self.check.optional(medium.as_ref(), |check, medium| {
+            medium::medium(medium, at, check)
+        })
     }
 
     #[expect(

@@ -4,10 +4,10 @@ use proptest::prelude::*;
 use rtc::internals::color::Tone;
 use rtc::internals::ir::{
     Alpha, Ambient, Bump, Camera, Display, Environment, Filter, Gooch, Image, ImageId, Instance,
-    Lens, Light, Map, Material, MaterialId, Mesh, MeshId, Mode, PathSettings, Pattern, Phong,
-    Photometry, Pixels, Plane, PointLight, Procedural, Projection, Punctual, PunctualKind, Sampled,
-    Scene, Settings, Shape, Sphere, Standard, Surface, Texture, TextureId, Triangle, VertexColumn,
-    Wrap,
+    Lens, Light, Map, Material, MaterialId, Medium, Mesh, MeshId, Mode, PathSettings, Pattern,
+    Phong, Photometry, Pixels, Plane, PointLight, Procedural, Projection, Punctual, PunctualKind,
+    Sampled, Scene, Settings, Shape, Sphere, Standard, Surface, Texture, TextureId, Triangle,
+    VertexColumn, Wrap,
 };
 
 use rtc::internals::math::{GradientNoise, TextureMapping, TexturePattern};
@@ -283,6 +283,14 @@ fn environment() -> impl Strategy<Value = Environment> {
         })
 }
 
+fn medium() -> impl Strategy<Value = Medium> {
+    (triple(), triple(), number()).prop_map(|(sigma_a, sigma_s, g)| Medium {
+        sigma_a,
+        sigma_s,
+        g,
+    })
+}
+
 fn display() -> impl Strategy<Value = Display> {
     let tones = vec![Tone::None, Tone::Srgb, Tone::Agx, Tone::PbrNeutral];
     let tone = prop::option::of(prop::sample::select(tones));
@@ -426,10 +434,11 @@ prop_compose! {
         surfaces in prop::collection::vec(surface(), 0..9).boxed(),
         names in prop::collection::vec(text(), 0..4).boxed(),
         environment in prop::option::of(environment()).boxed(),
+        medium in prop::option::of(medium()).boxed(),
         display in display().boxed(),
     ) -> Scene {
         Scene {
-            camera, settings, lights, images, textures, meshes, materials, surfaces, names, environment, display,
+            camera, settings, lights, images, textures, meshes, materials, surfaces, names, environment, medium, display,
             trees: Vec::new(),
         }
     }

@@ -47,6 +47,7 @@ pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
         surfaces: shapes.into_iter().map(surface).collect(),
         names: Vec::new(),
         environment: None,
+        medium: None,
         display: ir::Display::default(),
         trees: Vec::new(),
     }

@@ -13,6 +13,7 @@ mod layers;
 mod leaves;
 mod levels;
 mod lights;
+mod media;
 mod sides;
 mod surfaces;
 

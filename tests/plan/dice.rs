@@ -90,6 +90,7 @@ impl Dice {
                 .collect(),
             names: Vec::new(),
             environment: None,
+            medium: None,
             display: ir::Display::default(),
             trees: Vec::new(),
         };

@@ -42,6 +42,7 @@ iridescence:  no material is iridescent;
 translucency:  no material is translucent;
 refraction:  no material transmits light;
 absorption:  no medium absorbs light;
+media:  neither a surface nor the camera is in a medium;
 dispersion:  no material disperses light;
 textures:  no material has a texture;
 corner colours:  no mesh has vertex colours;

@@ -61,6 +61,7 @@ pub(super) fn base_scene() -> Scene {
         surfaces: Vec::new(),
         names: Vec::new(),
         environment: None,
+        medium: None,
         display: ir::Display::default(),
         trees: Vec::new(),
     }

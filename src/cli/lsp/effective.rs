@@ -55,6 +55,7 @@ fn of(scene: &Scene, path: ValuePath) -> Option<Value> {
         EntityKind::Material => json(scene.materials.get(at)?),
         EntityKind::Surface => json(scene.surfaces.get(at)?),
         EntityKind::Environment => json(scene.environment.as_ref()?),
+        EntityKind::Medium => json(scene.medium.as_ref()?),
         EntityKind::Image | EntityKind::Mesh => None,
     }?;
     let entity = ValuePath {

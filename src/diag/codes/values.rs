@@ -32,6 +32,7 @@ super::codes! { VA:
     EYE_INSIDE = "VA031", Warning, "the eye is inside an opaque solid";
     TINY_PICTURE = "VA032", Warning, "all objects together cover only a few pixels";
     LARGE_WEIGHT = "VA033", Warning, "a weight of a material looks like a percentage";
+    OPEN_MEDIUM = "VA034", Warning, "an open shape bounds a participating medium";
     OUT_OF_RANGE = "VA101", Error, "a number is outside the range of its key";
     NO_CAMERA = "VA102", Error, "the scene has no camera";
     TWO_CAMERAS = "VA103", Warning, "the scene has both `Camera` and `Eye`";

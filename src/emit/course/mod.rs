@@ -70,6 +70,7 @@ fn write<'s>(scene: &'s Scene, names: FileNames<'s>) -> Result<WrittenScene<'s>,
         surfaces: _,
         names: _,
         environment,
+        medium,
         display,
         trees: _,
     } = scene;
@@ -87,6 +88,10 @@ fn write<'s>(scene: &'s Scene, names: FileNames<'s>) -> Result<WrittenScene<'s>,
     text.display(display);
     if let Some(environment) = environment {
         text.environment(environment, scene)?;
+    }
+    if let Some(medium) = medium {
+        let value = text.medium(medium);
+        text.line(0, &format!("Medium: {value}"));
     }
     text.lights(lights)?;
     text.objects(scene)?;

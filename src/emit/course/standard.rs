@@ -5,7 +5,7 @@ use super::{SceneWriter, quoted};
 use rtc_ir::{
     Alpha, Conductor, Filter, Map, Material, MaterialId, Sampled, Scene, Standard, Texture, Wrap,
 };
-use rtc_math::{Microfacets, Plastic, shortest};
+use rtc_math::{Medium, Microfacets, Plastic, shortest};
 use rtc_tables::{camel_case, parameters};
 
 /// Writes all parameters that are not the default; the kind of each names its method.
@@ -56,6 +56,21 @@ macro_rules! material {
 }
 
 parameters!(material);
+
+impl SceneWriter<'_> {
+    /// The value of a participating medium.
+    pub(super) fn medium(&mut self, medium: &Medium) -> String {
+        let Medium {
+            sigma_a,
+            sigma_s,
+            g,
+        } = medium;
+        let [sigma_a, sigma_s] = [sigma_a, sigma_s].map(|sigma| self.list(*sigma));
+        self.finite &= g.is_finite();
+        let g = shortest(*g);
+        format!("{{sigmaA: {sigma_a}, sigmaS: {sigma_s}, g: {g}}}")
+    }
+}
 
 /// The writer of the parameters of one material.
 struct ParameterWriter<'t, 's> {
@@ -128,6 +143,11 @@ impl ParameterWriter<'_, '_> {
         };
         let [eta, k] = [eta, k].map(|numbers| self.text.list(*numbers));
         Ok(format!("{{eta: {eta}, k: {k}}}"))
+    }
+
+    fn medium(&mut self, medium: &Option<Medium>) -> WrittenValue {
+        let medium = medium.as_ref().map(|medium| self.text.medium(medium));
+        Ok(medium.unwrap_or_else(|| "none".to_owned()))
     }
 
     #[expect(clippy::unused_self, reason = "a row of the table like the others")]

@@ -256,7 +256,7 @@ impl GltfWriter<'_> {
         JsonObject::from_iter([("conductor".to_owned(), conductor)])
     }
 
-    /// The distribution of facets, the kind of plastic and the sides for `extras.rtc`.
+    /// The distribution of facets, the kind of plastic, the sides and the media for `extras.rtc`.
     fn facets(
         &mut self,
         standard: &Standard,
@@ -287,6 +287,14 @@ impl GltfWriter<'_> {
         }
         if standard.thin_dielectric {
             write("thinDielectric", "the two faces of a pane", json!(true));
+        }
+        for (key, medium) in [
+            ("interior", &standard.interior),
+            ("exterior", &standard.exterior),
+        ] {
+            if let Some(medium) = medium {
+                write(key, "a participating medium", json!(medium));
+            }
         }
     }
 

@@ -28,6 +28,12 @@ impl GltfWriter<'_> {
         if let Some(environment) = &self.scene.environment {
             self.environment(environment, &mut rtc_extras);
         }
+        if let Some(medium) = &self.scene.medium {
+            let path = ValuePath::new(EntityKind::Medium, 0, EntityField::Whole);
+            self.reporter
+                .in_extras("the medium around the camera", path);
+            rtc_extras.insert("medium".to_owned(), json!(medium));
+        }
         self.root.extras = extras(rtc_extras);
     }
 

@@ -32,7 +32,10 @@ impl MitsubaWriter<'_> {
             }
             Projection::Orthographic => self.orthographic(&frame),
         }
-        // Clipping planes and film.
+        // Medium, clipping planes and film.
+        if let Some(medium) = &self.scene.medium {
+            self.medium(2, r#"name="medium""#, medium);
+        }
         self.clips();
         self.film(camera.size);
     }

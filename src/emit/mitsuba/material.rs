@@ -5,16 +5,19 @@ use super::MitsubaWriter;
 use crate::approximation::without_index;
 use crate::export::{called, enumeration};
 use crate::path_tracer::{
-    SurfaceMaterial, TextureChannel, TexturedFactor, absorption, blend_weight, is_glass,
+    SurfaceMaterial, TextureChannel, TexturedFactor, blend_weight, is_glass, is_null, media,
     missing_features, opacity, other_material,
 };
 use rtc_ir::{Conductor, EntityField, EntityKind, Standard, ValuePath};
-use rtc_math::{Microfacets, Plastic, shortest};
+use rtc_math::{Medium, Microfacets, Plastic, shortest};
 use std::collections::BTreeSet;
 
 /// The normal-incidence reflectance of a dielectric with `specular` = 1 in Mitsuba's `principled`
 /// plugin (Burley, "Physically based shading at Disney", 2012, section 5.2).
 const PRINCIPLED: f64 = 0.08;
+
+/// The last letters of the ids of media inside and outside.
+pub(super) const MEDIA: [char; 2] = ['v', 'o'];
 
 /// The least index of refraction that is written: Mitsuba's rough glass needs one that differs from
 /// that of the outside.
@@ -29,6 +32,11 @@ impl MitsubaWriter<'_> {
             let index = variant.material as usize;
             let path = ValuePath::new(EntityKind::Material, index, EntityField::Whole);
             let material = variant.standard(scene);
+            if is_null(&material) {
+                self.line(1, &format!(r#"<bsdf type="null" id="{}"/>"#, variant.id()));
+                self.volume(variant, &material);
+                continue;
+            }
             if reported.insert(index) {
                 let mut next = Some(material.clone());
                 while let Some(part) = next {
@@ -333,17 +341,38 @@ impl MitsubaWriter<'_> {
 
     /// What light loses inside a body, as a medium that scatters nothing.
     fn volume(&mut self, variant: SurfaceMaterial, material: &Standard) {
-        let Some(absorption) = absorption(material) else {
-            return;
-        };
-        let id = variant.id();
-        self.line(1, &format!(r#"<medium type="homogeneous" id="{id}v">"#));
+        for (medium, letter) in media(material).into_iter().zip(MEDIA) {
+            if let Some(medium) = medium {
+                self.medium(1, &format!(r#"id="{}{letter}""#, variant.id()), &medium);
+            }
+        }
+    }
+
+    /// Writes a medium with an id or a name.
+    pub(super) fn medium(&mut self, depth: usize, name: &str, medium: &Medium) {
+        let Medium {
+            sigma_a,
+            sigma_s,
+            g,
+        } = *medium;
+        let sigma_t: [f64; 3] = std::array::from_fn(|k| sigma_a[k] + sigma_s[k]);
+        let albedo = std::array::from_fn(|k| match sigma_t[k] > 0.0 {
+            true => sigma_s[k] / sigma_t[k],
+            false => 0.0,
+        });
         // Colours are at most 1, so the greatest is a factor.
-        let scale = absorption.into_iter().fold(0.0, f64::max);
-        self.rgb(2, "albedo", [0.0; 3]);
-        self.rgb(2, "sigma_t", absorption.map(|channel| channel / scale));
-        self.value(2, "float", "scale", &shortest(scale));
-        self.line(1, "</medium>");
+        let greatest = sigma_t.into_iter().fold(0.0, f64::max);
+        let scale = if greatest > 0.0 { greatest } else { 1.0 };
+        self.line(depth, &format!(r#"<medium type="homogeneous" {name}>"#));
+        self.rgb(depth + 1, "albedo", albedo);
+        self.rgb(depth + 1, "sigma_t", sigma_t.map(|sigma| sigma / scale));
+        self.value(depth + 1, "float", "scale", &shortest(scale));
+        if g != 0.0 {
+            self.line(depth + 1, r#"<phase type="hg">"#);
+            self.value(depth + 2, "float", "g", &shortest(g));
+            self.line(depth + 1, "</phase>");
+        }
+        self.line(depth, "</medium>");
     }
 }
 

@@ -10,7 +10,7 @@ mod texture;
 use super::ExportedScene;
 use super::export::joined;
 use super::path_tracer::{
-    SidecarWriter, SurfaceMaterial, TriangleSoup, absorption, bounces, is_basic, standard,
+    SidecarWriter, SurfaceMaterial, TriangleSoup, bounces, has_media, is_basic,
 };
 use super::reporter::ExportReporter;
 use super::tessellate::{TargetFormat, with_meshes};
@@ -100,9 +100,10 @@ impl MitsubaWriter<'_> {
         let samples = self.beside.reporter.path_samples(self.scene, "Mitsuba");
         self.line(1, r#"<default name="sampler" value="independent"/>"#);
         self.line(1, &format!(r#"<default name="spp" value="{samples}"/>"#));
-        let mut materials = self.scene.materials.iter();
-        let has_media = materials.any(|material| absorption(&standard(material)).is_some());
-        let integrator = if has_media { "volpath" } else { "path" };
+        let integrator = match has_media(self.scene) {
+            true => "volpath",
+            false => "path",
+        };
         self.line(1, &format!(r#"<integrator type="{integrator}">"#));
         let edges = bounces(&self.scene.settings).saturating_add(1);
         self.value(2, "integer", "max_depth", &edges.to_string());

@@ -2,10 +2,10 @@
 //! material.
 
 use super::MitsubaWriter;
-use super::material::MitsubaPlugin;
+use super::material::{MEDIA, MitsubaPlugin};
 use crate::export::{called, joined};
 use crate::path_tracer::{
-    CornerColor, PathTracerShape, SurfaceMaterial, absorption, basic_shapes, radiance,
+    CornerColor, PathTracerShape, SurfaceMaterial, basic_shapes, media, radiance,
 };
 use rtc_ir::{Alpha, Disc, EntityField, EntityKind, Instance, Sphere, Standard, ValuePath};
 use rtc_math::{OrthonormalBasis, Vec3, shortest, unit};
@@ -52,8 +52,11 @@ impl MitsubaWriter<'_> {
         write_parameters(self);
         let (id, material) = (variant.id(), variant.standard(self.scene));
         self.line(2, &format!(r#"<ref id="{id}"/>"#));
-        if absorption(&material).is_some() {
-            self.line(2, &format!(r#"<ref name="interior" id="{id}v"/>"#));
+        let sides = media(&material).into_iter().zip(["interior", "exterior"]);
+        for ((medium, side), letter) in sides.zip(MEDIA) {
+            if medium.is_some() {
+                self.line(2, &format!(r#"<ref name="{side}" id="{id}{letter}"/>"#));
+            }
         }
         if let Some(radiance) = radiance(&material, variant.has_colors) {
             self.shines = true;

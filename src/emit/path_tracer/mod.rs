@@ -22,7 +22,7 @@ pub(crate) use light::{PathTracerLight, SpotEdge, SpotLight, lights};
 pub(crate) use settings::{bounces, pixel_filter};
 pub(crate) use sidecar_writer::{BitmapTexture, CornerColor, SidecarWriter};
 pub(crate) use surface_material::{
-    SurfaceMaterial, absorption, blend_weight, is_glass, missing_features, opacity, other_material,
-    radiance, standard,
+    SurfaceMaterial, blend_weight, has_media, is_glass, is_null, media, missing_features, opacity,
+    other_material, radiance,
 };
 pub(crate) use textured_factor::{TextureChannel, TexturedFactor};

@@ -3,7 +3,7 @@
 use super::textured_factor::{TextureChannel, TexturedFactor};
 use crate::approximation::approximate_phong;
 use rtc_ir::{
-    Alpha, ImageId, Map, Material, Mode, Pixels, Scene, Shape, Standard, Surface, Texture,
+    Alpha, ImageId, Map, Material, Medium, Mode, Pixels, Scene, Shape, Standard, Surface, Texture,
 };
 use rtc_math::ln;
 use std::borrow::Cow;
@@ -137,9 +137,35 @@ pub(crate) fn radiance(material: &Standard, has_colors: bool) -> Option<Textured
     (radiance.factor != [0.0; 3]).then_some(radiance)
 }
 
+/// The participating media inside and outside of surfaces of a material. A body that absorbs light
+/// has one inside.
+pub(crate) fn media(material: &Standard) -> [Option<Medium>; 2] {
+    let interior = match (absorption(material), material.interior) {
+        (None, interior) => interior,
+        (Some(absorption), interior) => {
+            let medium = interior.unwrap_or_default();
+            let sigma_a = std::array::from_fn(|k| medium.sigma_a[k] + absorption[k]);
+            Some(Medium { sigma_a, ..medium })
+        }
+    };
+    [interior, material.exterior]
+}
+
+/// Whether a path tracer has to know about media: surfaces of a material bound some, or the camera
+/// is in one.
+pub(crate) fn has_media(scene: &Scene) -> bool {
+    let bounds_one = |material: &Material| media(&standard(material)) != [None; 2];
+    scene.medium.is_some() || scene.materials.iter().any(bounds_one)
+}
+
+/// Whether light passes surfaces of a material unchanged: they only bound media.
+pub(crate) fn is_null(material: &Standard) -> bool {
+    material.alpha == Alpha::Blend && material.base_color[3] == 0.0 && media(material) != [None; 2]
+}
+
 /// The coefficient of absorption inside a body of a material, per unit of length; `None` if it
 /// bounds none, or a clear one.
-pub(crate) fn absorption(material: &Standard) -> Option<[f64; 3]> {
+fn absorption(material: &Standard) -> Option<[f64; 3]> {
     let distance = material.attenuation_distance?;
     let is_body = material.transmission > 0.0 && material.thickness > 0.0;
     let is_clear = material.attenuation_color == [1.0; 3];

@@ -36,7 +36,14 @@ impl PbrtWriter<'_> {
             }
             false => String::new(),
         };
+        if let Some(medium) = &self.scene.medium {
+            self.named_medium("around", medium);
+            self.line(r#"MediumInterface "" "around""#);
+        }
         self.line(&format!(r#"Camera "{kind}"{parameters}{lens}"#));
+        if self.scene.medium.is_some() {
+            self.line(r#"MediumInterface "" """#);
+        }
     }
 }
 

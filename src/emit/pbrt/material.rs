@@ -7,11 +7,11 @@ use super::{PbrtWriter, numbers, string};
 use crate::approximation::without_index;
 use crate::export::{called, enumeration};
 use crate::path_tracer::{
-    SurfaceMaterial, TextureChannel, TexturedFactor, absorption, blend_weight, is_glass,
+    SurfaceMaterial, TextureChannel, TexturedFactor, blend_weight, is_glass, is_null, media,
     missing_features, other_material, radiance,
 };
 use rtc_ir::{Alpha, Conductor, EntityField, EntityKind, Scene, Shape, Standard, ValuePath};
-use rtc_math::{Microfacets, Plastic};
+use rtc_math::{Medium, Microfacets, Plastic};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
 use std::rc::Rc;
@@ -29,6 +29,11 @@ impl PbrtWriter<'_> {
         for (variant, shown) in self.shown.clone() {
             let index = variant.material as usize;
             let path = ValuePath::new(EntityKind::Material, index, EntityField::Whole);
+            if is_null(&shown.standard) {
+                self.named(&variant.id(), "interface", "");
+                self.media(variant, &shown.standard);
+                continue;
+            }
             if reported.insert(index) {
                 self.report_material(&shown, path);
                 let mut next = other_material(self.scene, &shown.standard);
@@ -47,7 +52,7 @@ impl PbrtWriter<'_> {
                 }
             }
             self.material(&variant.id(), &shown.standard, path)?;
-            self.medium(variant, &shown.standard);
+            self.media(variant, &shown.standard);
         }
         Some(())
     }
@@ -277,18 +282,40 @@ impl PbrtWriter<'_> {
     }
 
     /// What light loses inside a body, as a medium that scatters nothing.
-    fn medium(&mut self, variant: SurfaceMaterial, material: &Standard) {
-        let Some(absorption) = absorption(material) else {
-            return;
-        };
-        let parts = [
-            string("string", "type", "homogeneous"),
-            numbers("rgb", "sigma_a", absorption),
-            numbers("rgb", "sigma_s", [0.0; 3]),
-        ];
-        let (id, parts) = (variant.id(), parts.concat());
-        self.line(&format!(r#"MakeNamedMedium "{id}"{parts}"#));
+    fn media(&mut self, variant: SurfaceMaterial, material: &Standard) {
+        let names = medium_names(variant, material);
+        for (medium, name) in media(material).into_iter().zip(names) {
+            if let Some(medium) = medium {
+                self.named_medium(&name, &medium);
+            }
+        }
     }
+
+    /// Writes a medium.
+    pub(super) fn named_medium(&mut self, name: &str, medium: &Medium) {
+        let Medium {
+            sigma_a,
+            sigma_s,
+            g,
+        } = *medium;
+        let mut parts = string("string", "type", "homogeneous")
+            + &numbers("rgb", "sigma_a", sigma_a)
+            + &numbers("rgb", "sigma_s", sigma_s);
+        if g != 0.0 {
+            parts += &numbers("float", "g", [g]);
+        }
+        self.line(&format!(r#"MakeNamedMedium "{name}"{parts}"#));
+    }
+}
+
+/// The names of the media inside and outside of surfaces of a material; empty for a vacuum.
+pub(super) fn medium_names(variant: SurfaceMaterial, material: &Standard) -> [String; 2] {
+    let [interior, exterior] = media(material).map(|medium| medium.is_some());
+    let name = |is_there: bool, suffix: &str| match is_there {
+        true => variant.id() + suffix,
+        false => String::new(),
+    };
+    [name(interior, ""), name(exterior, ".outside")]
 }
 
 /// A material as it is shown.

@@ -15,8 +15,8 @@ mod texture;
 use super::ExportedScene;
 use super::export::joined;
 use super::path_tracer::{
-    SidecarWriter, SurfaceMaterial, TriangleSoup, absorption, bounces, has_maps, is_basic,
-    pixel_filter, standard,
+    SidecarWriter, SurfaceMaterial, TriangleSoup, bounces, has_maps, has_media, is_basic,
+    pixel_filter,
 };
 use super::reporter::ExportReporter;
 use super::tessellate::{TargetFormat, with_meshes};
@@ -121,9 +121,10 @@ impl PbrtWriter<'_> {
     /// Integrator, sampler and filter. pbrt counts bounces as the IR does.
     fn settings(&mut self) {
         let samples = self.beside.reporter.path_samples(self.scene, "pbrt");
-        let mut materials = self.scene.materials.iter();
-        let has_media = materials.any(|material| absorption(&standard(material)).is_some());
-        let integrator = if has_media { "volpath" } else { "path" };
+        let integrator = match has_media(self.scene) {
+            true => "volpath",
+            false => "path",
+        };
         let bounces = bounces(&self.scene.settings);
         self.line(&format!(
             r#"Integrator "{integrator}" "integer maxdepth" [ {bounces} ]"#

@@ -1,9 +1,10 @@
 //! Writes surfaces: spheres, cylinders, disks, bilinear patches and meshes; triangles become one
 //! mesh per material. A mesh that is shown several times is an object with instances.
 
+use super::material::medium_names;
 use super::{PbrtWriter, numbers, string};
 use crate::path_tracer::{
-    PathTracerShape, SurfaceMaterial, TexturedFactor, absorption, basic_shapes, opacity, radiance,
+    PathTracerShape, SurfaceMaterial, TexturedFactor, basic_shapes, is_null, opacity, radiance,
 };
 use crate::picture::TexturePicture;
 use rtc_ir::{Disc, Ellipsoid, EntityField, EntityKind, Instance, Sphere, Standard, ValuePath};
@@ -93,14 +94,15 @@ impl PbrtWriter<'_> {
     fn state(&mut self, variant: SurfaceMaterial, material: &Standard) {
         let id = variant.id();
         self.line(&format!(r#"NamedMaterial "{id}""#));
-        if absorption(material).is_some() {
-            self.line(&format!(r#"MediumInterface "{id}" """#));
+        let [interior, exterior] = medium_names(variant, material);
+        if !(interior.is_empty() && exterior.is_empty()) {
+            self.line(&format!(r#"MediumInterface "{interior}" "{exterior}""#));
         }
     }
 
     /// The opacity as a parameter of the shape.
     fn opacity(&mut self, variant: SurfaceMaterial, material: &Standard) -> Option<String> {
-        let Some(opacity) = opacity(material, false) else {
+        let Some(opacity) = opacity(material, false).filter(|_| !is_null(material)) else {
             return Some(String::new());
         };
         let index = variant.material as usize;

@@ -11,7 +11,7 @@ use super::reporter::ExportReporter;
 use super::tessellate::{TargetFormat, with_meshes};
 use rtc_diag::{DiagnosticSink, codes};
 use rtc_ir::{
-    Camera, Display, EntityField, EntityKind, Mode, Pattern, Projection, Scene, Settings,
+    Camera, Display, EntityField, EntityKind, Material, Mode, Pattern, Projection, Scene, Settings,
     SourceSpans, ValuePath,
 };
 use rtc_math::Vec3;
@@ -121,6 +121,15 @@ impl PovWriter<'_> {
         let Display { exposure, tone } = &self.scene.display;
         if *exposure != 0.0 || tone.is_some() {
             let message = "exposure and tone map are left out";
+            self.reporter.unsupported(message, path);
+        }
+        let bounds_medium = |material: &Material| match material {
+            Material::Standard(m) => m.interior.is_some() || m.exterior.is_some(),
+            Material::Phong(_) => false,
+        };
+        if self.scene.medium.is_some() || self.scene.materials.iter().any(bounds_medium) {
+            let message = "participating media are left out";
+            let path = ValuePath::new(EntityKind::Medium, 0, EntityField::Whole);
             self.reporter.unsupported(message, path);
         }
         self.reporter.own_settings(&self.scene.settings);

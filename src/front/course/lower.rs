@@ -173,6 +173,9 @@ impl Lowering {
         if let FieldResult::Read(environment) = &scene.environment {
             self.environment(environment, context);
         }
+        if let FieldResult::Read(medium) = &scene.medium {
+            self.medium(medium);
+        }
         scene
             .lights
             .value

@@ -51,6 +51,7 @@ mod layout;
 mod light;
 mod lower;
 mod material;
+mod medium;
 mod number;
 mod object;
 mod page;

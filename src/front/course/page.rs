@@ -5,6 +5,7 @@ use super::camera::Camera;
 use super::environment::Environment;
 use super::light::Light;
 use super::material::PhongMaterial;
+use super::medium::MediumCoefficients;
 use super::object::{KINDS, ObjectKind};
 use super::path_settings::PathParameters;
 use super::pattern::PatternTexture;
@@ -48,6 +49,7 @@ pub fn page() -> String {
         ("`Lights`", &Light::RECORD),
         ("`material`", &PhongMaterial::RECORD),
         ("`material` of `type: standard`", &StandardMaterial::RECORD),
+        ("`Medium`", &MediumCoefficients::RECORD),
         ("A texture of a `standard` material", &TextureMap::RECORD),
         ("A pattern as a texture", &PatternTexture::RECORD),
     ] {

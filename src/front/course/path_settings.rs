@@ -42,6 +42,7 @@ impl Lowering {
         } = scene;
         // Only path tracing renders these entities.
         let is_physical = self.scene.environment.is_some()
+            || self.scene.medium.is_some()
             || self
                 .scene
                 .lights

@@ -6,6 +6,7 @@ use super::environment::Environment;
 use super::keyword::{KeywordTable, keyword, keyword_schema};
 use super::light::Light;
 use super::lower::Lowering;
+use super::medium::MediumCoefficients;
 use super::number::{Count, Natural, NonNegative, Real, Stops, plain_number};
 use super::object::Object;
 use super::path_settings::PathParameters;
@@ -87,6 +88,10 @@ record! {
         exposure: Spanned<Stops>, default(Stops(0.0)), keys!["Exposure"];
         /// The environment light.
         environment: Spanned<Environment>, optional, keys!["Environment"];
+        /// The participating medium around the camera, for instance fog. A scene with a medium is
+        /// rendered by path tracing. A medium inside an object is the `interior` of its `standard`
+        /// material.
+        medium: Spanned<MediumCoefficients>, optional, keys!["Medium" "medium"];
         /// The lights.
         lights: Spanned<LazyList<Light>>, default(LazyList::<Light>::none()),
             keys!["Lights"], json "Lights";

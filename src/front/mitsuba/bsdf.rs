@@ -4,6 +4,7 @@
 //! `mask` are exact, up to the quantization of images. For the others the closest standard material
 //! is used, with a warning that describes the difference.
 
+use super::medium::ShapeMedia;
 use super::number::{NumberOrMap, NumberUse};
 use super::xml::{PluginNode, Value};
 use super::{AssetTarget, Lowering};
@@ -20,9 +21,9 @@ use rtc_ir::{
 use rtc_math::Plastic;
 use rtc_source::Span;
 
-/// What distinguishes materials: the BSDF, the emitter, and whether v points down and the back is
-/// black.
-pub(super) type MaterialKey = (Option<Span>, Option<Span>, [bool; 2]);
+/// What distinguishes materials: the BSDF, the emitter, whether v points down and the back is
+/// black, and the media.
+pub(super) type MaterialKey = (Option<Span>, Option<Span>, [bool; 2], [Option<Span>; 2]);
 
 /// The deepest nesting of BSDFs.
 const MAX_DEPTH: usize = 16;
@@ -40,15 +41,20 @@ impl<'run> Lowering<'run> {
         &mut self,
         shape: &'run PluginNode,
         emitter: Option<&'run PluginNode>,
-        flip: bool,
-        is_seen_behind: bool,
+        [flip, is_seen_behind]: [bool; 2],
+        media: ShapeMedia,
     ) -> Option<MaterialId> {
         // Find the BSDF of the shape.
         let node = self.bsdf_of(shape);
         // Shapes with one BSDF and one emission share a material.
         let black_back = !is_seen_behind && node.is_none_or(|node| !self.has_two_sides(node));
         let span_of = |node: Option<&PluginNode>| node.map(|node| node.span);
-        let key = (span_of(node), span_of(emitter), [flip, black_back]);
+        let key = (
+            span_of(node),
+            span_of(emitter),
+            [flip, black_back],
+            media.key(),
+        );
         if let Some(known) = self.materials.get(&key) {
             return *known;
         }
@@ -59,6 +65,9 @@ impl<'run> Lowering<'run> {
             None if emitter.is_some() => Some(matte([0.0; 3])),
             None => Some(matte([0.5; 3])),
         };
+        // A surface that light passes unchanged still bounds a medium.
+        let is_interface = emitter.is_none() && media.key() != [None; 2];
+        let standard = standard.or_else(|| is_interface.then(Standard::null));
         let dark = ColorOrMap {
             color: [0.0; 3],
             map: None,
@@ -79,6 +88,8 @@ impl<'run> Lowering<'run> {
                 emissive: radiance.color,
                 emissive_map: radiance.map,
                 black_back,
+                interior: media.interior.map(|(_, medium)| medium),
+                exterior: media.exterior.map(|(_, medium)| medium),
                 ..standard
             };
             let index = self.scene.materials.len();

@@ -8,7 +8,7 @@
 //!   of older versions (`toWorld`) to those of version 3 (`to_world`), and collects all mistakes.
 //!   Each [`PluginNode`] keeps the spans of its element and of its properties.
 //! - [`value`] parses numbers, vectors, matrices, colours and spectra.
-//! - [`sensor`], [`bsdf`], [`emitter`] and [`shape`] lower one kind of plugin each; [`one_sided`]
+//! - [`sensor`], [`bsdf`], [`medium`], [`emitter`] and [`shape`] lower one kind of plugin each; [`one_sided`]
 //!   covers the backs of lights. A plugin that
 //!   is not supported is replaced by the closest one, and a property without effect is ignored,
 //!   both with a warning: the picture is made all the same.
@@ -27,6 +27,7 @@
 mod bsdf;
 mod emitter;
 mod facets;
+mod medium;
 mod number;
 mod one_sided;
 mod sensor;
@@ -44,8 +45,8 @@ use crate::mesh::{PlyColors, TextParseError, parse_colored_ply};
 use crate::{FrontOptions, over_limit};
 use rtc_diag::{Diagnostic, DiagnosticSink, clip, clip_path, codes};
 use rtc_ir::{
-    EntityField, EntityKind, Image, ImageId, LoweredScene, MaterialId, Mesh, MeshId, Pixels, Scene,
-    Settings, SourceSpans, TextureId, ValuePath, VertexColumn,
+    EntityField, EntityKind, Image, ImageId, LoweredScene, MaterialId, Medium, Mesh, MeshId,
+    Pixels, Scene, Settings, SourceSpans, TextureId, ValuePath, VertexColumn,
 };
 use rtc_source::{
     Budget, FileId, FileKind, FileSearch, LimitExceeded, Loader, Resource, SourceMap, Span,
@@ -159,6 +160,10 @@ struct Lowering<'run> {
     shared: BTreeMap<&'run str, &'run PluginNode>,
     /// Materials that were lowered, by the span of their element and what else distinguishes them.
     materials: BTreeMap<bsdf::MaterialKey, Option<MaterialId>>,
+    /// The participating media, by the span of their element.
+    media: BTreeMap<Span, Option<Medium>>,
+    /// Whether the integrator knows no media.
+    ignores_media: bool,
     /// Images and meshes that are pending, by path.
     images: BTreeMap<String, ImageId>,
     meshes: BTreeMap<String, MeshId>,
@@ -213,6 +218,8 @@ impl<'run> Lowering<'run> {
             sink,
             shared,
             materials: BTreeMap::new(),
+            media: BTreeMap::new(),
+            ignores_media: false,
             images: BTreeMap::new(),
             meshes: BTreeMap::new(),
             serialized: BTreeMap::new(),
@@ -246,14 +253,13 @@ impl<'run> Lowering<'run> {
         for node in &root.children {
             match node.tag.as_str() {
                 "integrator" | "bsdf" | "texture" | "spectrum" | "path" => {}
+                // What shapes and media refer to.
+                "medium" | "phase" | "volume" => {}
                 // An area light that shapes refer to.
                 "emitter" if node.plugin.text == "area" => {}
                 "sensor" => self.sensor(node),
                 "emitter" => self.emitter(node),
                 "shape" => self.shape(node, AffineTransform::IDENTITY),
-                "medium" | "phase" | "volume" => {
-                    self.unsupported(node, "participating media are left out");
-                }
                 _ => self.ignored_element(node),
             }
         }
@@ -475,6 +481,30 @@ impl<'run> Lowering<'run> {
         kind: &FileKind,
         parse: impl Fn(&[u8], &Budget) -> Result<(Mesh, Option<String>), MeshReadError>,
     ) -> Option<MeshId> {
+        let bytes = self.file_bytes(path, kind)?;
+        let diagnostic = match parse(&bytes, self.map.budget()) {
+            Ok((mesh, loss)) => {
+                if let Some(message) = loss {
+                    let diagnostic = Diagnostic::new(&codes::NOT_DRAWN, message);
+                    self.sink.push(diagnostic.at(path.span, "named here"));
+                }
+                let id = self.add_mesh(mesh);
+                self.record(EntityKind::Mesh, id.0 as usize, path.span);
+                return Some(id);
+            }
+            Err(MeshReadError::Limit(limit)) => over_limit("the mesh", &limit),
+            Err(MeshReadError::Damaged(why)) => {
+                let name = clip_path(&path.text);
+                let message = format!("the mesh `{name}` cannot be read: {why}");
+                Diagnostic::new(&codes::BAD_MESH_FILE, message)
+            }
+        };
+        self.sink.push(diagnostic.at(path.span, "named here"));
+        None
+    }
+
+    /// The bytes of a file that is read at once; errors are reported.
+    fn file_bytes(&mut self, path: &SpannedText, kind: &FileKind) -> Option<Vec<u8>> {
         let name = clip_path(&path.text);
         let diagnostic = match self.search.find(&path.text, kind) {
             Err(_) => {
@@ -488,22 +518,7 @@ impl<'run> Lowering<'run> {
                 }
                 Ok(bytes) => {
                     self.map.budget().read(bytes.len());
-                    match parse(&bytes, self.map.budget()) {
-                        Ok((mesh, loss)) => {
-                            if let Some(message) = loss {
-                                let diagnostic = Diagnostic::new(&codes::NOT_DRAWN, message);
-                                self.sink.push(diagnostic.at(path.span, "named here"));
-                            }
-                            let id = self.add_mesh(mesh);
-                            self.record(EntityKind::Mesh, id.0 as usize, path.span);
-                            return Some(id);
-                        }
-                        Err(MeshReadError::Limit(limit)) => over_limit("the mesh", &limit),
-                        Err(MeshReadError::Damaged(why)) => {
-                            let message = format!("the mesh `{name}` cannot be read: {why}");
-                            Diagnostic::new(&codes::BAD_MESH_FILE, message)
-                        }
-                    }
+                    return Some(bytes);
                 }
             },
         };

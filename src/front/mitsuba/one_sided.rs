@@ -1,6 +1,7 @@
 //! Area lights of flat shapes emit on the side of the normal: a cover hides the other side.
 
 use super::Lowering;
+use super::medium::ShapeMedia;
 use super::xml::PluginNode;
 use crate::exchange::material::matte;
 use crate::exchange::one_sided::{behind, flat_mesh, is_closed};
@@ -31,7 +32,9 @@ impl<'run> Lowering<'run> {
     pub(super) fn back_material(&mut self, shape: &'run PluginNode, flip: bool) -> MaterialId {
         let bsdf = self.bsdf_of(shape);
         let same = bsdf.filter(|node| self.has_two_sides(node));
-        if let Some(id) = same.and_then(|_| self.material(shape, None, flip, true)) {
+        if let Some(id) =
+            same.and_then(|_| self.material(shape, None, [flip, true], ShapeMedia::default()))
+        {
             return id;
         }
         if let Some(id) = self.black {

@@ -52,6 +52,7 @@ pub(super) fn default_settings() -> Settings {
 impl<'run> Lowering<'run> {
     /// The depth of an integrator. A path of `max_depth` edges has `max_depth` − 1 bounces.
     pub(super) fn integrator(&mut self, node: &'run PluginNode) {
+        self.integrator_of_media(node);
         match node.plugin.text.as_str() {
             "path" | "volpath" | "volpathmis" | "prb" | "volpath_simple" => {
                 let depth = node.number("max_depth").unwrap_or(-1.0);
@@ -100,6 +101,7 @@ impl<'run> Lowering<'run> {
                 path.samples = samples;
             }
         }
+        self.medium_of_sensor(node);
         // Lower the camera and report parameters that have no effect.
         let mut used = vec![
             "to_world",

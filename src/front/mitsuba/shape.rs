@@ -56,9 +56,6 @@ impl<'run> Lowering<'run> {
     }
 
     fn surface(&mut self, node: &'run PluginNode, to_world: AffineTransform) {
-        for medium in node.children.iter().filter(|child| child.tag == "medium") {
-            self.unsupported(medium, "participating media are left out");
-        }
         let emitter = self.area_emitter(node);
         let plugin = node.plugin.text.as_str();
         let is_similar = to_world.similarity().is_some();
@@ -70,7 +67,8 @@ impl<'run> Lowering<'run> {
         // A mesh that is reflected has its front where its triangles run counterclockwise.
         let is_reflected = to_world.determinant() < 0.0;
         let is_seen_behind = is_reflected || node.flag("flip_normals") == Some(true);
-        let Some(material) = self.material(node, emitter, flip, is_seen_behind) else {
+        let media = self.media_of(node, is_seen_behind);
+        let Some(material) = self.material(node, emitter, [flip, is_seen_behind], media) else {
             if emitter.is_some() {
                 self.approximate(node.span, "a light whose BSDF is `null` is left out");
             }

@@ -79,6 +79,7 @@ impl Lowering<'_> {
             return self.mistake(span, "the transform of the camera does not span space");
         };
         self.systems.insert("camera".to_owned(), from_camera);
+        self.scene.medium = self.state.media.exterior;
         self.record(EntityKind::Camera, 0, span);
         self.view.camera = Some((plugin, parameters, from_camera));
     }
@@ -197,6 +198,10 @@ impl Lowering<'_> {
         self.record(EntityKind::Settings, 0, plugin.span);
         let depth = parameters.count("maxdepth").unwrap_or(MAX_DEPTH);
         self.scene.settings.max_depth = depth;
+        self.integrator_of_media(&plugin.text);
+        if self.ignores_media {
+            self.scene.medium = None;
+        }
         match plugin.text.as_str() {
             known if INTEGRATORS.contains(&known) => {}
             // They find the same light by other ways.

@@ -260,8 +260,9 @@ impl Lowering<'_> {
                     .or_default()
                     .extend(parameters.list);
             }
-            // How rays find surfaces, and media that no surface is in, change no picture.
-            "Accelerator" | "MakeNamedMedium" | "VolumeIntegrator" | "Renderer" => {}
+            "MakeNamedMedium" => self.make_named_medium(plugin, &parameters),
+            // How rays find surfaces changes no picture.
+            "Accelerator" | "VolumeIntegrator" | "Renderer" => {}
             _ => {}
         }
     }

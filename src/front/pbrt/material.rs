@@ -5,6 +5,7 @@
 //! and the standard material have the distribution of Trowbridge and Reitz (GGX).
 
 use super::Lowering;
+use super::medium::MediumInterface;
 use super::parameter::Parameters;
 use super::texture::{ColorWithMap, NumberWithMap};
 use crate::exchange::SpannedText;
@@ -16,8 +17,9 @@ use rtc_math::ln;
 use rtc_source::{Resource, Span};
 use std::rc::Rc;
 
-/// What distinguishes materials of the IR: the material, the emitted radiance and the opacity.
-pub(super) type EmittingMaterialKey = (usize, [u64; 3], u64);
+/// What distinguishes materials of the IR: the material, the emitted radiance, the opacity
+/// and the media.
+pub(super) type EmittingMaterialKey = (usize, [u64; 3], u64, Option<[Option<[u64; 7]>; 2]>);
 
 /// The memory of a material, in bytes, rounded up.
 const MATERIAL_BYTES: u64 = 2048;
@@ -633,14 +635,21 @@ impl Lowering<'_> {
         &mut self,
         material: &LoweredMaterial,
         radiance: [f64; 3],
-        opacity: f64,
+        (opacity, media): (f64, MediumInterface),
         span: Span,
     ) -> Option<MaterialId> {
-        let standard = material.standard.as_ref()?;
+        // A surface that light passes unchanged still bounds a medium.
+        let is_interface = media.is_transition() && radiance == [0.0; 3];
+        let standard = match &material.standard {
+            Some(standard) => standard.clone(),
+            None if is_interface => Standard::null(),
+            None => return None,
+        };
         let key = (
             material.index,
             radiance.map(f64::to_bits),
             opacity.to_bits(),
+            media.key(),
         );
         if let Some(known) = self.placed_materials.get(&key) {
             return Some(*known);
@@ -648,8 +657,11 @@ impl Lowering<'_> {
         self.charge(Resource::Memory, MATERIAL_BYTES, span)?;
         let mut standard = Standard {
             emissive: radiance,
-            ..standard.clone()
+            ..standard
         };
+        if media.is_transition() {
+            (standard.interior, standard.exterior) = (media.interior, media.exterior);
+        }
         if opacity < 1.0 {
             standard = covering(standard, opacity.into());
         }

@@ -44,8 +44,8 @@ use crate::{FrontOptions, over_limit};
 use parameter::Parameters;
 use rtc_diag::{Code, Diagnostic, DiagnosticSink, clip, codes, nearest};
 use rtc_ir::{
-    EntityField, EntityKind, ImageId, LoweredScene, MaterialId, Mesh, MeshId, Scene, SourceSpans,
-    ValuePath,
+    EntityField, EntityKind, ImageId, LoweredScene, MaterialId, Medium, Mesh, MeshId, Scene,
+    SourceSpans, ValuePath,
 };
 use rtc_source::{FileId, FileSearch, LimitExceeded, Resource, SourceMap, Span};
 use shape::PlacedShape;
@@ -123,6 +123,10 @@ struct Lowering<'run> {
     /// The factor of all light by the film: its `scale`, or its `iso` and the exposure.
     exposure: f64,
     materials: BTreeMap<String, Rc<material::LoweredMaterial>>,
+    /// The participating media by name; none for one that is left out.
+    media: BTreeMap<String, Option<Medium>>,
+    /// Whether the integrator knows no media.
+    ignores_media: bool,
     material_count: usize,
     /// The materials of the IR: a material with an emission and an opacity.
     placed_materials: BTreeMap<material::EmittingMaterialKey, MaterialId>,
@@ -169,6 +173,8 @@ impl<'run> Lowering<'run> {
             in_world: false,
             exposure: 1.0,
             materials: BTreeMap::new(),
+            media: BTreeMap::new(),
+            ignores_media: false,
             material_count: 0,
             placed_materials: BTreeMap::new(),
             covered_materials: BTreeMap::new(),

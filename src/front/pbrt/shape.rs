@@ -3,6 +3,7 @@
 use super::Lowering;
 use super::loop_subdivision;
 use super::material::LoweredMaterial;
+use super::medium::MediumInterface;
 use super::parameter::Parameters;
 use crate::exchange::SpannedText;
 use crate::exchange::one_sided::{behind, flat, flat_mesh};
@@ -68,6 +69,7 @@ pub(super) struct PlacedShape {
     material: Rc<LoweredMaterial>,
     radiance: [f64; 3],
     opacity: f64,
+    media: MediumInterface,
     span: Span,
 }
 
@@ -88,7 +90,7 @@ impl Lowering<'_> {
         let geometries = self.geometries(plugin, parameters, &material);
         self.ignored("shape", &plugin.text, parameters);
         let Some(geometries) = geometries else { return };
-        let to_world = self.state.transform;
+        let (to_world, media) = (self.state.transform, self.state.media);
         for geometry in geometries {
             let (radiance, back) = self.emitted(&geometry, &to_world);
             let shape = PlacedShape {
@@ -97,10 +99,12 @@ impl Lowering<'_> {
                 material: Rc::clone(&material),
                 radiance,
                 opacity,
+                media,
                 span,
             };
             let back = back.map(|to_world| PlacedShape {
                 radiance: [0.0; 3],
+                media: MediumInterface::default(),
                 to_world,
                 ..shape.clone()
             });
@@ -209,11 +213,16 @@ impl Lowering<'_> {
     pub(super) fn place(&mut self, placed: &PlacedShape, outer: &AffineTransform) -> Option<()> {
         let to_world = outer.after(&placed.to_world);
         let is_lit = placed.radiance != [0.0; 3];
-        if placed.opacity == 0.0 && !is_lit {
+        if placed.opacity == 0.0 && !is_lit && !placed.media.is_transition() {
             return Some(());
         }
         let span = placed.span;
-        let material = self.material_id(&placed.material, placed.radiance, placed.opacity, span);
+        let material = self.material_id(
+            &placed.material,
+            placed.radiance,
+            (placed.opacity, placed.media),
+            span,
+        );
         let Some(material) = material else {
             // Light passes through: the shape bounds a medium, or nothing.
             return (!self.is_exhausted).then_some(());

@@ -3,6 +3,7 @@
 use super::Lowering;
 use super::light::AreaLight;
 use super::material::LoweredMaterial;
+use super::medium::MediumInterface;
 use super::parameter::PluginParameter;
 use crate::exchange::transform::AffineTransform;
 use rtc_diag::clip;
@@ -32,6 +33,8 @@ pub(super) struct GraphicsState {
     pub(super) material: Option<Rc<LoweredMaterial>>,
     pub(super) area_light: Option<Rc<AreaLight>>,
     pub(super) reverse_orientation: bool,
+    /// The participating media of the following shapes and of the camera.
+    pub(super) media: MediumInterface,
     /// The parameters that `VertexAttribute` gave to all plugins of a kind.
     pub(super) attributes: Rc<BTreeMap<String, Vec<Rc<PluginParameter>>>>,
 }

@@ -3,7 +3,7 @@
 
 use rtc_math::{IdTable, NonNegative, Positive, UnitInterval, Vec3};
 use rtc_tables::{PhongTerms, fit_phong};
-use rtc_valid::{Map, Material, MaterialId, Phong, Standard, TextureId, UvSet};
+use rtc_valid::{Map, Material, MaterialId, Phong, Standard, TextureId, UvSet, ValidScene};
 use std::num::NonZeroU32;
 
 /// The materials of the Whitted integrator: of a blend the one of the larger weight.
@@ -107,6 +107,16 @@ fn untransformed_map(texture: TextureId) -> Map {
         set: UvSet::First,
         texture_from_surface: Map::IDENTITY,
     }
+}
+
+/// Whether a scene names a participating medium.
+#[must_use]
+pub fn has_media(scene: &ValidScene) -> bool {
+    let has_medium = |material: &Material| match material {
+        Material::Phong(_) => false,
+        Material::Standard(m) => m.interior.is_some() || m.exterior.is_some(),
+    };
+    scene.medium().is_some() || scene.materials().iter().any(has_medium)
 }
 
 /// A white surface without reflection.

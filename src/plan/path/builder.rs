@@ -6,12 +6,13 @@ use super::facts::{MaterialUses, UvPresence};
 use super::rules::PathRule;
 use super::texture::TextureValues;
 use crate::effect::Effect;
+use crate::facts::material::has_media;
 use crate::layer::Layer;
 use crate::projection::ScreenRect;
 use crate::rules::Rule;
 use crate::surface_bounds::SurfaceBounds;
 use rtc_ir::{EntityField, EntityKind, ValuePath};
-use rtc_math::{IdTable, Plastic, UnitInterval, Vec3};
+use rtc_math::{IdTable, Medium, Plastic, UnitInterval, Vec3};
 use rtc_valid::{
     Alpha, Map, Material, MaterialId, Mesh, PathSettings, Punctual, Shape, Standard, Surface,
     Texture, ValidScene,
@@ -42,6 +43,8 @@ pub(super) struct PathPlanBuilder<'scene> {
     /// The use of each punctual light.
     pub(super) lights: IdTable<Punctual, RemainingLight>,
     pub(super) environment: RemainingEnvironment,
+    /// The medium around the camera.
+    pub(super) medium: Option<Medium>,
     /// For each surface, whether it is in the world.
     pub(super) surfaces: Vec<bool>,
     /// The maximum number of bounces.
@@ -146,9 +149,24 @@ impl PathPlanBuilder<'_> {
                 .any(|(_, material)| !material.unlit && has(material))
     }
 
-    /// Whether a path may continue after the first hit.
+    /// Whether a path may continue after the first hit, or scattering in a medium.
     pub(super) fn bounces(&self) -> bool {
-        self.max_depth > u32::from(!self.last_ray) && self.used_materials().next().is_some()
+        let mut used = self.used_materials();
+        self.max_depth > u32::from(!self.last_ray)
+            && (used.next().is_some() || self.medium.is_some())
+    }
+
+    /// The participating media of the world.
+    pub(super) fn media(&self) -> impl Iterator<Item = Medium> {
+        let of_materials = self.used_materials();
+        let of_materials =
+            of_materials.flat_map(|(_, material)| [material.interior, material.exterior]);
+        of_materials.flatten().chain(self.medium)
+    }
+
+    /// Whether a path may be in a participating medium.
+    pub(super) fn has_media(&self) -> bool {
+        self.media().next().is_some()
     }
 
     /// Whether any surface transmits light, of a continued path or of a light behind it.
@@ -175,6 +193,7 @@ impl PathPlanBuilder<'_> {
             Effect::Mis => self.samples_lights() && self.has_extended_light(),
             Effect::Caustics => self.has_caustics(),
             Effect::Depth => self.bounces(),
+            Effect::Media => self.has_media(),
             Effect::Refraction | Effect::Volume => {
                 self.bounces() && self.any(|material| material_requires(material, effect))
             }
@@ -282,7 +301,8 @@ impl PathPlanBuilder<'_> {
 
     /// Whether there is a light to sample and a surface with a non-delta lobe.
     fn samples_lights(&self) -> bool {
-        self.nee && self.any(|_| true) && self.has_sampled_light()
+        let has_receiver = || self.any(|_| true) || (self.max_depth > 0 && self.has_media());
+        self.nee && has_receiver() && self.has_sampled_light()
     }
 
     /// Whether caustics are estimated: a smooth surface may lead light from a sampled light to
@@ -291,6 +311,7 @@ impl PathPlanBuilder<'_> {
         let is_lit = || self.lights.contains(&RemainingLight::All) || self.has_emissive_surface();
         let mut used = self.used_materials();
         self.path.caustics
+            && !has_media(self.scene)
             && self.max_depth > 1
             && self.samples_lights()
             && is_lit()
@@ -371,6 +392,7 @@ pub(super) fn material_requires(m: &Standard, effect: Effect) -> bool {
             let absorbs = m.attenuation_distance.is_some() && m.attenuation_color != Vec3::ONE;
             is_transmissive(m) && m.thickness.get() > 0.0 && absorbs
         }
+        Effect::Media => m.interior.is_some() || m.exterior.is_some(),
         Effect::Dispersion => m.dispersion.get() > 0.0 && is_nonzero(m.transmission),
         Effect::Layer(layer) => layer.is_in(m),
         Effect::DepthBuffer

@@ -35,7 +35,7 @@ use super::rules::{PATH_RULES, RuleSet};
 use super::surface_bounds::surface_bounds;
 use builder::{AppliedRule, PathPlanBuilder};
 use facts::MaterialUses;
-use rtc_math::{IdTable, Vec3};
+use rtc_math::{IdTable, Medium, Vec3};
 use rtc_valid::{
     Map, Material, MaterialId, PathSettings, Projection, Punctual, Standard, TextureId, UvSet,
     ValidScene,
@@ -54,6 +54,8 @@ pub struct PathPlan {
     pub lights: IdTable<Punctual, RemainingLight>,
     /// The use of the environment.
     pub environment: RemainingEnvironment,
+    /// The medium around the camera.
+    pub medium: Option<Medium>,
     /// The materials of caustics, if these are estimated.
     pub caustics: Option<CausticMaterials>,
     /// Whether the last ray of a path may hit an emitter.
@@ -125,6 +127,7 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: RuleSet) -> Pa
         } else {
             RemainingEnvironment::All
         },
+        medium: scene.medium(),
         surfaces: vec![true; surface_bounds.len()],
         max_depth: scene.settings().max_depth,
         last_ray: true,
@@ -145,7 +148,10 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: RuleSet) -> Pa
         features: features(&reduced, rules),
         lights: reduced.lights,
         environment: reduced.environment,
-        caustics: path.caustics.then(|| caustics.clone()),
+        medium: reduced.medium,
+        // Chains of smooth surfaces are followed in a vacuum only.
+        caustics: (path.caustics && !facts_seen::material::has_media(scene))
+            .then(|| caustics.clone()),
         last_ray: reduced.last_ray,
         materials: reduced.materials,
     };
@@ -193,6 +199,7 @@ fn features(builder: &PathPlanBuilder<'_>, rules: RuleSet) -> PathFeatures {
             requires(&Layer::ALL.map(Effect::Layer)),
         ),
         (PathFeatures::SHADOWS, requires(&[Effect::Shadows])),
+        (PathFeatures::MEDIA, requires(&[Effect::Media])),
     ];
     let needed = all.into_iter().filter(|(_, is_asked)| *is_asked);
     needed.fold(PathFeatures::NONE, |features, (feature, _)| {

@@ -84,6 +84,7 @@ fn absence(effect: Effect) -> &'static str {
         Effect::Depth => "no path continues after its first hit",
         Effect::Refraction => "no material transmits light",
         Effect::Volume => "no medium absorbs light",
+        Effect::Media => "neither a surface nor the camera is in a medium",
         Effect::Dispersion => "no material disperses light",
         Effect::Microfacets => "no material has a microfacet lobe",
         Effect::Compensation => "there is no multiple scattering between microfacets",
@@ -169,6 +170,7 @@ impl PathPlanBuilder<'_> {
                 "a smooth surface may lead light of a sampled light to another",
                 EntityKind::Light,
             ),
+            Effect::Media => reason_at("the camera is in a medium", EntityKind::Medium),
             Effect::NormalInterpolation => {
                 reason_at("a mesh has vertex normals", EntityKind::Surface)
             }

@@ -111,6 +111,7 @@ rules! {
     PathMapUnseen: texture::UNSEEN;
     PathMapConstant: texture::CONSTANT;
     PathOpaque: material::OPAQUE;
+    PathMediumClear: material::CLEAR_MEDIA;
     PathLightReach: light::OUT_OF_RANGE;
     PathDark: paths::NO_EMISSION;
     PathUnlit: paths::UNLIT_ONLY;

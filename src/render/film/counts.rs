@@ -151,6 +151,7 @@ impl RayCounts {
             | Effect::Compensation
             | Effect::Layer(_)
             | Effect::Volume
+            | Effect::Media
             | Effect::Dispersion
             | Effect::VertexColors
             | Effect::EnvironmentMap => self.evaluations[effect.index()],

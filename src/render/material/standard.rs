@@ -4,7 +4,7 @@ use crate::bsdf::PlasticBoundary;
 use crate::bsdf::standard::*;
 use crate::shape::geometry::AttributeRequest;
 use crate::texture::sampled::{Map, UvSets};
-use crate::world::MaterialId;
+use crate::world::{MaterialId, MediumId};
 use rtc_math::{ComplexIndex, Microfacets, Vec3, Weight};
 
 /// A prepared material: constants are numbers, everything else has a map.
@@ -44,6 +44,8 @@ pub(crate) struct StandardMaterial {
     pub(crate) bounds_a_volume: bool,
     /// The absorption coefficient of that medium, per unit of length.
     pub(crate) absorption: Vec3,
+    /// The participating media on both sides of the surface, if it bounds any.
+    pub(crate) media: Option<MediumInterface>,
     pub(crate) normal: Option<NormalMap>,
     pub(crate) bump: Option<BumpMap>,
     pub(crate) plain: PlainLayers,
@@ -59,6 +61,14 @@ pub(crate) struct BlendPart {
     pub(crate) other: MaterialId,
     /// The probability that it takes the place of the first one.
     pub(crate) weight: MappedNumber,
+}
+
+/// The participating media that a surface separates; `None` is a vacuum.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MediumInterface {
+    pub(crate) interior: Option<MediumId>,
+    /// On the side of the geometric normal.
+    pub(crate) exterior: Option<MediumId>,
 }
 
 /// The opacity of a surface.

@@ -35,6 +35,12 @@ impl SobolPair {
         Self(4 * bounces + 6)
     }
 
+    /// Where media scatter the ray to vertex `bounces`, and the channel that says so; apart from
+    /// the pairs of all other vertices.
+    pub(crate) fn free_flight(bounces: u32) -> Self {
+        Self(1 << 31 | 2 * (bounces & (1 << 29) - 1))
+    }
+
     /// Whether microfacets of a vertex reflect or transmit.
     pub(crate) fn lobe(bounces: u32) -> Self {
         Self(4 * bounces + 7)
@@ -258,6 +264,7 @@ mod tests {
                 SobolPair::direction(k),
                 SobolPair::russian_roulette(k),
                 SobolPair::lobe(k),
+                SobolPair::free_flight(k),
             ]
         });
         let mut uses = uses

@@ -4,7 +4,7 @@
 use super::flattened::flattened_surfaces;
 use crate::shape::geometry::Intersect;
 use rtc_math::IdTable;
-use rtc_plan::facts::material;
+use rtc_plan::facts::material::{self, has_media};
 use rtc_valid::{Alpha, Material, ValidScene};
 
 /// The alpha-tested surfaces of a world.
@@ -30,6 +30,11 @@ impl AlphaTested {
             let mut parts = scene.blended(surface.material);
             parts.any(|part| tested[part])
         });
+        let mut surfaces = surfaces.peekable();
+        // Light through media crosses one surface after another.
+        if has_media(scene) && surfaces.peek().is_some() {
+            return Self::Solids;
+        }
         surfaces.fold(Self::None, |all, (_, is_flattened)| match all {
             Self::None | Self::Triangles if is_flattened && S::FLATTENS => Self::Triangles,
             Self::None | Self::Triangles | Self::Solids => Self::Solids,

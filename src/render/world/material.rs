@@ -203,6 +203,7 @@ pub(super) fn standard(
         is_thin_dielectric: m.thin_dielectric,
         bounds_a_volume: m.thickness.get() > 0.0,
         absorption: absorption(m),
+        media: None,
         normal: slots.normal(m.normal_map.as_ref(), m.normal_scale),
         bump: m.bump_map.as_ref().map(|map| BumpMap {
             map: slots.textures.map(map, ColorSpace::Linear),

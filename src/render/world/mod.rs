@@ -31,6 +31,7 @@ use crate::camera::Camera;
 use crate::frame::verify::PlanVerification;
 use crate::material::phong::PhongMaterial;
 use crate::material::standard::StandardMaterial;
+use crate::medium::HomogeneousMedium;
 use crate::ray::Ray;
 use crate::shape::Shape;
 use crate::shape::geometry::Intersect;
@@ -53,6 +54,8 @@ pub(crate) enum Material {}
 
 /// The id of a material of a world.
 pub(crate) type MaterialId = Id<Material>;
+/// The id of a participating medium of a world.
+pub(crate) type MediumId = Id<HomogeneousMedium>;
 /// The id of a surface in [`World::surfaces`], of whichever shapes.
 pub(crate) type SurfaceId = Id<Surface>;
 
@@ -95,6 +98,12 @@ pub struct World<S = Shape> {
     pub(crate) phongs: IdTable<Material, PhongMaterial>,
     /// The materials of the path tracer.
     pub(crate) standards: IdTable<Material, StandardMaterial>,
+    /// The participating media of the materials and around the camera.
+    pub(crate) media: IdTable<HomogeneousMedium>,
+    /// The medium around the camera.
+    pub(crate) camera_medium: Option<MediumId>,
+    /// Whether the scene names media, so that panes cost no bounce.
+    pub(crate) has_free_panes: bool,
     /// The lights.
     pub(crate) lights: LightList,
     /// The surfaces that the plan keeps, in the order of the scene.

@@ -11,8 +11,10 @@ use super::texture::Textures;
 use super::{MaterialId, ObjectBvh, Surface, SurfaceId, World, light};
 use crate::accel::bvh::Bvh;
 use crate::accel::simd::SimdLevel;
+use crate::material::standard::{MediumInterface, StandardMaterial};
+use crate::medium::HomogeneousMedium;
 use crate::shape::geometry::Intersect;
-use rtc_math::{IdTable, StoredTree};
+use rtc_math::{IdTable, Medium, StoredTree};
 use rtc_plan::facts::material;
 use rtc_plan::{Plan, RuleSet};
 use rtc_valid::{self as valid, ValidScene};
@@ -33,6 +35,7 @@ impl<S: Prepare> World<S> {
         // Prepare textures, lights and the materials that the plan needs.
         let textures = Textures::new(scene);
         let lights = light::lights_for(scene, plan, &textures);
+        let mut media = IdTable::default();
         let (surfaces, phongs, standards) = match &plan.paths {
             None => {
                 let materials = material::phongs(scene.materials());
@@ -45,14 +48,13 @@ impl<S: Prepare> World<S> {
             }
             Some(paths) => {
                 let materials = paths.materials.entries();
-                let prepared =
-                    materials.map(|(index, material)| standard(index, material, &textures, paths));
+                let prepared = materials.map(|(index, material)| StandardMaterial {
+                    media: interface(material, &mut media),
+                    ..standard(index, material, &textures, paths)
+                });
+                let prepared = prepared.collect();
                 let surfaces = surfaces(scene, plan, simd, |material, _| unchanged(material));
-                (
-                    surfaces,
-                    IdTable::default(),
-                    with_requests(prepared.collect()),
-                )
+                (surfaces, IdTable::default(), with_requests(prepared))
             }
         };
         // Build the hierarchies over the surfaces.
@@ -62,6 +64,8 @@ impl<S: Prepare> World<S> {
             flattened,
             small_scene,
         } = SurfaceLookup::of(scene, plan, &surfaces, simd);
+        let camera_medium = plan.paths.as_ref().and_then(|paths| paths.medium);
+        let camera_medium = camera_medium.map(|medium| media.push(medium.into()));
         Self {
             scene: scene.clone(),
             camera: camera(scene.camera()),
@@ -69,6 +73,9 @@ impl<S: Prepare> World<S> {
             plan: plan.clone(),
             phongs,
             standards,
+            media,
+            camera_medium,
+            has_free_panes: material::has_media(scene),
             lights,
             surfaces,
             verify: None,
@@ -89,6 +96,17 @@ impl<S: Prepare> World<S> {
     pub fn tree_to_store(&self) -> Option<StoredTree> {
         self.flattened.as_ref()?.to_store(&self.surfaces)
     }
+}
+
+/// The media that the surfaces of a material separate; they come into the list.
+fn interface(
+    material: &valid::Standard,
+    media: &mut IdTable<HomogeneousMedium>,
+) -> Option<MediumInterface> {
+    let mut add = |medium: Option<Medium>| medium.map(|medium| media.push(medium.into()));
+    let interior = add(material.interior);
+    let exterior = add(material.exterior);
+    (interior.is_some() || exterior.is_some()).then_some(MediumInterface { interior, exterior })
 }
 
 /// The planned surfaces that rays can hit; `material_of` selects the world's material for one of

@@ -3,8 +3,8 @@
 
 use super::Dice;
 use rtc::internals::ir::{
-    self, Alpha, Environment, Filter, ImageId, Map, Material, MaterialId, Mode, PathSettings,
-    Pixels, Punctual, Sampled, Scene, Standard, Texture, TextureId, Wrap,
+    self, Alpha, Environment, Filter, ImageId, Map, Material, MaterialId, Medium, Mode,
+    PathSettings, Pixels, Punctual, Sampled, Scene, Standard, Texture, TextureId, Wrap,
 };
 
 use serde_json::json;
@@ -46,7 +46,31 @@ impl Dice {
         if self.chance(6) {
             self.light_directly(&mut scene);
         }
+        self.fill(&mut scene);
         scene
+    }
+
+    /// Fills some scenes with media, clear ones too. It has its own generator, so that it does not
+    /// change the other choices.
+    fn fill(&self, scene: &mut Scene) {
+        let mut dice = Self(self.0.rotate_left(32));
+        if !dice.chance(4) {
+            return;
+        }
+        let (absorbs, scatters) = (dice.chance(2), dice.chance(2));
+        let sigma = |is_there: bool, sigma: [f64; 3]| if is_there { sigma } else { [0.0; 3] };
+        let medium = Medium {
+            sigma_a: sigma(absorbs, [0.1, 0.0, 0.3]),
+            sigma_s: sigma(scatters, [0.5, 0.2, 0.0]),
+            g: 0.3,
+        };
+        let mut filled = || dice.chance(2).then_some(medium);
+        scene.medium = filled();
+        for material in &mut scene.materials {
+            if let Material::Standard(standard) = material {
+                (standard.interior, standard.exterior) = (filled(), filled());
+            }
+        }
     }
 
     /// Keeps only direct light, and adds a sphere that is behind most cameras.

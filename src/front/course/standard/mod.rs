@@ -17,6 +17,7 @@ pub(super) use texture::TextureMap;
 
 use super::decode::{Decode, DecodeContext, Spanned};
 use super::lower::Lowering;
+use super::medium::MediumCoefficients;
 use super::number::{NonNegative, Positive, Real};
 use super::reader::MapReader;
 use super::record::{FieldDeclaration, FieldRequirement, FieldResult, FieldValue, Record};
@@ -54,6 +55,7 @@ mod written {
     pub(super) type fractions = Rgba;
     pub(super) type some_fractions = Rgba;
     pub(super) type conductor = ConductorIndex;
+    pub(super) type medium = MediumCoefficients;
     pub(super) type microfacets = MicrofacetsKeyword;
     pub(super) type plastic = PlasticKeyword;
     pub(super) type flag = bool;
@@ -77,6 +79,9 @@ macro_rules! requirement {
         FieldRequirement::Optional
     };
     (conductor, $default:expr) => {
+        FieldRequirement::Optional
+    };
+    (medium, $default:expr) => {
         FieldRequirement::Optional
     };
     (flag, $default:expr) => {
@@ -103,6 +108,9 @@ macro_rules! lowered {
     };
     (conductor, $written:expr, $lowering:expr) => {
         Some($written.value.0)
+    };
+    (medium, $written:expr, $lowering:expr) => {
+        Some($written.value.lowered())
     };
     (flag, $written:expr, $lowering:expr) => {
         $written.value

@@ -12,7 +12,7 @@ use rtc_ir::{
     self as ir, Alpha, Bump, Conductor, EntityField, EntityKind, Map, MaterialId, Phong, Scene,
     SourceSpans, Standard, ValuePath,
 };
-use rtc_math::to_u32;
+use rtc_math::{Medium, to_u32};
 use rtc_source::tree::SyntaxTree;
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
@@ -374,6 +374,18 @@ fn facets(fields: ObjectFields<'_, '_>, standard: &mut Standard) {
     standard.plastic = keyword(extension, "plastic");
     standard.black_back = extension.boolean("blackBack");
     standard.thin_dielectric = extension.boolean("thinDielectric");
+    standard.interior = medium(extension, "interior");
+    standard.exterior = medium(extension, "exterior");
+}
+
+/// A participating medium in `extras.rtc`.
+pub(super) fn medium(extension: ObjectFields<'_, '_>, key: &str) -> Option<Medium> {
+    let medium = extension.object(key)?;
+    Some(Medium {
+        sigma_a: medium.vector_or("sigmaA", [0.0; 3]),
+        sigma_s: medium.vector_or("sigmaS", [0.0; 3]),
+        g: medium.number_or("g", 0.0),
+    })
 }
 
 /// The value of a property that names one; its default for any other text.

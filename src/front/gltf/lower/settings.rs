@@ -3,7 +3,7 @@
 use super::super::accessor_reader::AccessorReader;
 use super::super::field::ObjectFields;
 use super::super::layout::ComponentType;
-use super::Lowering;
+use super::{Lowering, material};
 use rtc_color::Tone;
 use rtc_diag::codes;
 use rtc_ir::{
@@ -39,6 +39,7 @@ impl Lowering<'_, '_, '_> {
         if let Some(environment) = extras.object("environment") {
             self.environment(environment);
         }
+        self.scene.medium = material::medium(extras, "medium");
     }
 
     fn environment(&mut self, extras: ObjectFields<'_, '_>) {

@@ -48,6 +48,7 @@ static SETTINGS: LazyLock<ObjectSchema> = LazyLock::new(|| {
         optional("path", One(&PATH)),
         optional("display", One(&DISPLAY)),
         optional("environment", One(&ENVIRONMENT)),
+        optional("medium", One(&MEDIUM)),
     ];
     rtc_object(settings.chain(parts).collect::<Vec<_>>().leak())
 });
@@ -156,8 +157,7 @@ static PHOTOMETRY: ObjectSchema = rtc_object(&[
 
 /// Phong's model, or of the standard material the index of a metal with its base colour, the
 /// distribution of facets, the kind of plastic, whether its back reflects nothing, the opacity, the
-/// heights,
-/// whether it is a pane of two faces, and the other material of a blend.
+/// heights, whether it is a pane of two faces, the other material of a blend, and media.
 static MATERIAL: ObjectSchema = rtc_object(&[
     optional("phong", One(&PHONG)),
     optional("conductor", One(&CONDUCTOR)),
@@ -171,6 +171,14 @@ static MATERIAL: ObjectSchema = rtc_object(&[
     optional("blendWith", Index(IndexTarget::Materials)),
     optional("blendWeight", Number(FACTOR)),
     optional("blendTexture", One(&TEXTURE_INFO)),
+    optional("interior", One(&MEDIUM)),
+    optional("exterior", One(&MEDIUM)),
+]);
+/// A participating medium: its coefficients per unit of length and its mean cosine.
+static MEDIUM: ObjectSchema = rtc_object(&[
+    optional("sigmaA", Numbers(&[3], FACTOR)),
+    optional("sigmaS", Numbers(&[3], FACTOR)),
+    optional("g", Number(FREE)),
 ]);
 static CONDUCTOR: ObjectSchema = rtc_object(&[
     required("eta", Numbers(&[3], FACTOR)),

@@ -76,10 +76,13 @@ fn reduce_environment(
 pub(crate) const OUT_OF_RANGE: PathRule = PathRule {
     name: "P-LIGHT-REACH",
     text: "A light whose range or cone ends before the bounding boxes of all surfaces does not \
-           illuminate them. It keeps its index in the light distribution, so that the use of \
+           illuminate them, nor any medium, if there is none. It keeps its index in the light distribution, so that the use of \
            random numbers does not change, but it is not evaluated and has no shadow ray.",
     reason: "no surface is within the range or the cone of a light",
     apply: |builder| {
+        if builder.has_media() {
+            return Vec::new();
+        }
         let lights = builder.punctual;
         let (surface_bounds, left) = (builder.surface_bounds, builder.surfaces.clone());
         let is_out = |light: &PunctualId| {
@@ -96,12 +99,16 @@ pub(crate) const OUT_OF_RANGE: PathRule = PathRule {
 pub(crate) const DELTA_ONLY: PathRule = PathRule {
     name: "P-DELTA",
     text: "If all lobes of all materials are delta lobes, the BSDF has the value 0 in a direction \
-           sampled from a light: no light is sampled, and no MIS weights are needed.",
+           sampled from a light: no light is sampled, and no MIS weights are needed. The rule does \
+           not apply in media.",
     reason: "all materials are mirrors or clear glass",
     apply: |builder| {
         let multiple = builder.path.multiple_scattering;
         let nee = |material: &rtc_valid::Standard| !material.unlit && !is_delta(material, multiple);
-        if !builder.nee || builder.used_materials().any(|(_, material)| nee(material)) {
+        if !builder.nee
+            || builder.has_media()
+            || builder.used_materials().any(|(_, material)| nee(material))
+        {
             return Vec::new();
         }
         builder.nee = false;
@@ -119,14 +126,14 @@ pub(crate) const SINGLE_CONVEX: PathRule = PathRule {
     text: "If the only surface is a convex opaque solid seen from outside, it lies behind its \
            tangent plane at any point and does not occlude a light in front of that plane. If the \
            only surface is flat, it does not occlude a light off its plane. An environment with \
-           an image has directions within the plane, so a flat surface may occlude it.",
+           an image has directions within the plane, so a flat surface may occlude it. The rule does not apply in media.",
     reason: "the only surface is convex and does not shadow itself",
     apply: |builder| {
         let mut left = (0..builder.surfaces.len()).filter(|surface| builder.surfaces[*surface]);
         let (Some(surface), None) = (left.next(), left.next()) else {
             return Vec::new();
         };
-        if !builder.shadows || !casts_no_self_shadow(builder, surface) {
+        if !builder.shadows || builder.has_media() || !casts_no_self_shadow(builder, surface) {
             return Vec::new();
         }
         builder.shadows = false;

@@ -4,6 +4,7 @@ use super::PathRule;
 use crate::Layer;
 use crate::facts;
 use crate::path::builder::PathPlanBuilder;
+use rtc_ir::{EntityField, EntityKind, ValuePath};
 use rtc_math::{NonNegative, UnitInterval, Vec3};
 use rtc_valid::{Alpha, Map, MaterialId, Standard};
 
@@ -76,9 +77,34 @@ pub(crate) const UNLIT: PathRule = PathRule {
                 blend_map: material.blend_map,
                 double_sided: !material.is_seen_from_one_side(),
                 unlit: true,
+                interior: material.interior,
+                exterior: material.exterior,
                 ..facts::material::WHITE.clone()
             }
         })
+    },
+};
+
+pub(crate) const CLEAR_MEDIA: PathRule = PathRule {
+    name: "P-MEDIUM-CLEAR",
+    text: "A medium whose coefficients are 0 neither absorbs nor scatters light. If all media are \
+           such, no path needs to know in which one it is.",
+    reason: "the coefficients of all media are 0",
+    apply: |builder| {
+        let mut media = builder.media();
+        if !media.all(|medium| medium.is_clear()) {
+            return Vec::new();
+        }
+        drop(media);
+        let around = builder.medium.take();
+        let around = around.map(|_| ValuePath::new(EntityKind::Medium, 0, EntityField::Whole));
+        let mut places = builder.simplify(|_, _, material| Standard {
+            interior: None,
+            exterior: None,
+            ..material.clone()
+        });
+        places.extend(around);
+        places
     },
 };
 

@@ -36,11 +36,12 @@ pub(crate) const NO_EMISSION: PathRule = PathRule {
 
 pub(crate) const UNLIT_ONLY: PathRule = PathRule {
     name: "P-UNLIT",
-    text: "A path ends on an unlit surface. If all surfaces are unlit, a path is one ray.",
+    text: "A path ends on an unlit surface. If all surfaces are unlit, and there are no media, a \
+           path is one ray.",
     reason: "all surfaces are unlit",
     apply: |builder| {
         let all_unlit = builder.used_materials().all(|(_, material)| material.unlit);
-        end_paths(builder, all_unlit)
+        end_paths(builder, all_unlit && !builder.has_media())
     },
 };
 
@@ -78,12 +79,12 @@ pub(crate) const CULL_SHADOW: PathRule = PathRule {
            visible surfaces, and from these to the lights. No ray hits a surface that is outside \
            the view and outside the convex hull of each visible surface and each light. The rule \
            does not apply if the sampling probabilities of lights depend on the size of the \
-           scene, to which the surface belongs.",
+           scene, to which the surface belongs, nor in media.",
     reason: "no camera ray hits it, and it is not between a visible surface and a light",
     apply: |builder| {
         // A path may continue to any light with an extent.
-        if builder.bounces() || !builder.requires(Effect::Shadows) || depends_on_scene_size(builder)
-        {
+        let is_scattered = builder.bounces() || builder.has_media();
+        if is_scattered || !builder.requires(Effect::Shadows) || depends_on_scene_size(builder) {
             return Vec::new();
         }
         let missed = missed_by_shadow_rays(builder).unwrap_or_default();

@@ -1,6 +1,7 @@
 //! The first vertex of a path.
 
 use super::state::PathState;
+use super::vertex::RayEnd;
 use super::{PathTracer, SamplingStrategy};
 use crate::film::heartbeat::PixelObserver;
 use crate::film::pixel::SampleId;
@@ -48,6 +49,10 @@ impl<'run, S: Intersect, const F: u32> FindFirstHit<'run> for PathTracer<'run, S
                 surface: tracer.world.surfaces[vertex.hit.surface].index,
             }
         });
+        let first = match first {
+            RayEnd::Surface(first) => Some(first),
+            RayEnd::Medium(_) | RayEnd::Nothing => None,
+        };
         self.counts.hits += u64::from(first.is_some());
         CameraHit {
             direction: state.ray.direction,

@@ -16,7 +16,7 @@ use super::PathTracer;
 use super::chain::{DifferentialRay, MAX_CHAIN, SmoothChain};
 use super::scatter::VertexBsdf;
 use super::state::PathState;
-use super::vertex::PathVertex;
+use super::vertex::{PathVertex, RayEnd};
 use crate::bsdf::BsdfLobes;
 use crate::bsdf::standard::StandardParameters;
 use crate::light::IncidentLight;
@@ -231,7 +231,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             end.from = (vertex.hit.surface, vertex.hit.prim_id);
             Some(())
         });
-        passed.flatten().is_some()
+        matches!(passed, RayEnd::Surface(Some(())))
     }
 
     /// The light that arrives at the end of a chain.

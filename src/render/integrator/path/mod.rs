@@ -7,6 +7,7 @@
 mod aov;
 mod caustic;
 mod chain;
+mod medium;
 mod scatter;
 mod state;
 mod vertex;
@@ -27,6 +28,7 @@ pub(crate) use aov::PathFirstHitFinder;
 use rtc_math::Vec3;
 use rtc_plan::{Effect, PathFeatures, RemainingEnvironment};
 use state::PathState;
+use vertex::RayEnd;
 
 /// The sampling strategy. All strategies have the same expected value; only the noise differs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -145,24 +147,27 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     fn radiance(&mut self, ray: Ray, sobol: SobolPath) -> Vec3 {
         self.counts.camera += 1;
         let mut state = PathState::new(ray, sobol);
+        state.medium = self.world.camera_medium;
         loop {
-            let scattered = self.at_closest_hit(&mut state, |tracer, state, vertex| {
+            let end = self.at_closest_hit(&mut state, |tracer, state, vertex| {
                 tracer.counts.hits += u64::from(state.bounces == 0);
                 tracer.heartbeat.should_continue(&tracer.counts) && tracer.scatter(state, vertex)
             });
-            match scattered {
-                Some(true) => {
-                    if state.bounces == 0 {
-                        state.radiance_of_first = state.radiance;
-                    }
-                    state.bounces += 1;
-                }
-                Some(false) => break,
-                None => {
+            let continues = match end {
+                RayEnd::Surface(continues) => continues,
+                RayEnd::Medium(medium) => self.scatter_in_medium(&mut state, medium),
+                RayEnd::Nothing => {
                     self.add_escaped_radiance(&mut state);
-                    break;
+                    false
                 }
+            };
+            if !continues {
+                break;
             }
+            if state.bounces == 0 {
+                state.radiance_of_first = state.radiance;
+            }
+            state.bounces += 1;
         }
         self.clamp
             .map_or(state.radiance, |limit| self.clamp(&state, limit))

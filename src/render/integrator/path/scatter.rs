@@ -37,7 +37,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     }
 
     /// Counts a look-up of the environment's image.
-    fn count_environment_map(&mut self) {
+    pub(super) fn count_environment_map(&mut self) {
         if self.world.lights.environment.is_looked_up() {
             self.counts.add(Effect::EnvironmentMap);
         }
@@ -60,7 +60,9 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             return false;
         }
         self.add_emission(state, vertex);
-        if state.bounces >= self.world.plan.max_depth {
+        let is_counted = state.depth() < self.world.plan.max_depth;
+        let is_pane = self.is_free_pane(state, vertex.point.material);
+        if !is_counted && !is_pane {
             return false;
         }
         let (point, wo) = (vertex.point, -state.ray.direction);
@@ -83,7 +85,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             wo,
         };
         // Sample one light, and one through smooth surfaces.
-        let is_sampled = self.does(PathFeatures::NEE) && !bsdf.is_delta();
+        let is_sampled = self.does(PathFeatures::NEE) && is_counted && !bsdf.is_delta();
         if is_sampled {
             state.radiance += state.beta * self.direct(state, vertex, &shading);
         }
@@ -91,7 +93,8 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         if receives {
             state.radiance += state.beta * self.caustic(state, vertex, &shading);
         }
-        state.bounces < self.max_bounces && self.turn(state, vertex, &shading, receives)
+        (state.depth() < self.max_bounces || is_pane)
+            && self.turn(state, vertex, &shading, receives)
     }
 
     /// Adds the emitted radiance of a surface.
@@ -143,10 +146,19 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         if through != (wi.dot(at.normal) * wo.dot(at.normal) < 0.0) {
             return false;
         }
+        // Light that goes straight through a pane takes no bounce.
+        if through && self.is_free_pane(state, point.material) {
+            state.free += 1;
+        } else if state.depth() >= self.max_bounces {
+            return false;
+        }
         state.beta *= sample.f * (sample.wi.z.abs() / sample.pdf);
         state.pdf = (!sample.delta).then_some(sample.pdf);
         if through && point.material.bounds_a_volume {
             state.enter(point.material, wi.dot(at.normal) < 0.0);
+        }
+        if Self::can(PathFeatures::MEDIA) {
+            state.medium = self.medium_beyond(hit.surface, wi.dot(at.normal), state.medium);
         }
         if self.has_caustics() {
             let is_regular = || self.is_regular(vertex, frame.to_world(Vec3::Z));
@@ -247,12 +259,16 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         if light == Vec3::ZERO {
             light
         } else {
-            light * self.visibility(vertex, wi, place)
+            light * self.light_transmittance(state, vertex, wi, place)
         }
     }
 
     /// The MIS weight of light found by BSDF sampling, given both densities.
-    fn weight_of_scattering(&mut self, pdf: Option<f64>, light_pdf: impl FnOnce() -> f64) -> f64 {
+    pub(super) fn weight_of_scattering(
+        &mut self,
+        pdf: Option<f64>,
+        light_pdf: impl FnOnce() -> f64,
+    ) -> f64 {
         if !self.does(PathFeatures::NEE) {
             return 1.0;
         }
@@ -273,6 +289,6 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
 
 /// Veach's balance heuristic: by trial, higher powers leave more noise in most scenes (decision
 /// 16).
-fn balance_heuristic(pdf: f64, other: f64) -> f64 {
+pub(super) fn balance_heuristic(pdf: f64, other: f64) -> f64 {
     1.0 / (1.0 + other / pdf)
 }

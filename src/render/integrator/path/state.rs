@@ -4,7 +4,7 @@ use super::chain::MAX_CHAIN;
 use crate::material::standard::StandardMaterial;
 use crate::ray::Ray;
 use crate::sampler::sobol::{SobolPair, SobolPath};
-use crate::world::{NO_PRIMITIVE, SurfacePrimitive};
+use crate::world::{MediumId, NO_PRIMITIVE, SurfacePrimitive};
 use rtc_math::{Vec3, exp, to_u32};
 
 /// Bounces before Russian roulette may end a path.
@@ -27,11 +27,15 @@ pub(super) struct PathState {
     pub(super) sobol: SobolPath,
     /// The number of bounces so far.
     pub(super) bounces: u32,
+    /// Those of them that do not count: straight through panes, in a scene with media.
+    pub(super) free: u32,
     /// The density of the ray's direction in BSDF sampling; `None` if light sampling could not have
     /// found it.
     pub(super) pdf: Option<f64>,
     /// The coefficient of absorption along the ray, per unit of length.
     pub(super) absorption: Vec3,
+    /// The participating medium along the ray.
+    pub(super) medium: Option<MediumId>,
     /// The wavelength channel that dispersion picked.
     pub(super) channel: Option<usize>,
     /// The number of smooth surfaces since a vertex whose caustics through such surfaces were
@@ -52,12 +56,19 @@ impl PathState {
             radiance_of_first: Vec3::ZERO,
             sobol,
             bounces: 0,
+            free: 0,
             pdf: None,
             absorption: Vec3::ZERO,
+            medium: None,
             channel: None,
             caustic: None,
             travelled: 0.0,
         }
+    }
+
+    /// The number of bounces that count.
+    pub(super) fn depth(&self) -> u32 {
+        self.bounces - self.free
     }
 
     /// A pair of numbers of this vertex.

@@ -7,12 +7,22 @@ use crate::material::standard::{Alpha, StandardMaterial};
 use crate::ray::Interaction;
 use crate::shape::geometry::Intersect;
 use crate::shape::geometry::{AttributeRequest, ShadingAttributes};
-use crate::world::{Hit, MaterialId};
+use crate::world::{Hit, MaterialId, MediumId};
 use rtc_math::Vec3;
 use rtc_plan::{Effect, PathFeatures};
 
 /// The maximum number of skipped surfaces along a ray.
 pub(super) const MAX_SKIPPED: u32 = 1 << 10;
+
+/// What a ray meets.
+pub(super) enum RayEnd<T> {
+    /// A surface, and the value of the shading there.
+    Surface(T),
+    /// A point of a medium that scatters it.
+    Medium(MediumId),
+    /// Neither.
+    Nothing,
+}
 
 /// A vertex of a path: a hit, with everything that shading needs.
 pub(super) struct PathVertex<'hit, 'world> {
@@ -38,18 +48,28 @@ impl PathVertex<'_, '_> {
 
 impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     /// Shades the next hit that is not skipped, where it is found: a vertex is too large to be
-    /// moved. `None` without a hit. Alpha-tested surfaces are skipped with probability 1 − opacity;
-    /// camera rays also skip back faces of single-sided materials.
+    /// moved. Alpha-tested surfaces are skipped with probability 1 − opacity; camera rays also skip
+    /// back faces of single-sided materials. The ray ends before the hit where a medium scatters
+    /// it.
     #[inline(always)]
     pub(super) fn at_closest_hit<T>(
         &mut self,
         state: &mut PathState,
         shade: impl FnOnce(&mut Self, &mut PathState, &PathVertex<'_, 'world>) -> T,
-    ) -> Option<T> {
+    ) -> RayEnd<T> {
         state.travelled = 0.0;
+        let mut flight = self.free_flight(state);
         for skipped in 0..MAX_SKIPPED {
             // Find the closest hit and its shading attributes.
-            let hit = self.next_hit(state)?;
+            let hit = self.next_hit(state);
+            if let Some(flight) = &mut flight
+                && let Some(end) = self.fly(state, flight, hit.map(|hit| hit.t))
+            {
+                return RayEnd::Medium(end);
+            }
+            let Some(hit) = hit else {
+                break;
+            };
             let surface = &self.world.surfaces[hit.surface];
             let at = surface.shape.interaction(&state.ray, hit.t, hit.prim_id);
             let request = self.request(surface.material);
@@ -81,18 +101,27 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             if opacity < 1.0 && state.sobol.uniform(state.bounces, skipped) >= opacity {
                 (state.ray, state.from) = (at.ray(state.ray.direction), (hit.surface, hit.prim_id));
                 state.caustic = None;
+                if Self::can(PathFeatures::MEDIA) {
+                    self.cross(state, hit.surface, at.normal);
+                }
                 continue;
             }
             // Shade the vertex.
+            if let Some(flight) = &flight {
+                state.beta *= flight.weight();
+            }
             let vertex = PathVertex {
                 at: &at,
                 point: &point,
                 shading_attributes: &shading_attributes,
                 hit,
             };
-            return Some(shade(self, state, &vertex));
+            return RayEnd::Surface(shade(self, state, &vertex));
         }
-        None
+        if let Some(flight) = &flight {
+            state.beta *= flight.weight();
+        }
+        RayEnd::Nothing
     }
 
     /// The part of a blend that a hit shows.

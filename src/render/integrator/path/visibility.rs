@@ -43,7 +43,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     }
 
     /// The interaction of a hit, and the transmittance of the surface there.
-    fn transmittance(&mut self, ray: &Ray, hit: &Hit) -> (Option<Interaction>, f64) {
+    pub(super) fn transmittance(&mut self, ray: &Ray, hit: &Hit) -> (Option<Interaction>, f64) {
         let surface = &self.world.surfaces[hit.surface];
         let material = &self.world.standards[surface.material];
         if material.alpha == Alpha::Opaque && material.blend.is_none() {
