@@ -5,7 +5,7 @@
 //! and the standard material have the distribution of Trowbridge and Reitz (GGX).
 
 use super::Lowering;
-use super::medium::MediumInterface;
+use super::medium::InterfaceMedia;
 use super::parameter::Parameters;
 use super::texture::{ColorWithMap, NumberWithMap};
 use crate::exchange::SpannedText;
@@ -635,7 +635,7 @@ impl Lowering<'_> {
         &mut self,
         material: &LoweredMaterial,
         radiance: [f64; 3],
-        (opacity, media): (f64, MediumInterface),
+        (opacity, media): (f64, InterfaceMedia),
         span: Span,
     ) -> Option<MaterialId> {
         // A surface that light passes unchanged still bounds a medium.

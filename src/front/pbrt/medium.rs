@@ -21,12 +21,12 @@ const IN_VACUUM: [&str; 5] = [
 
 /// The media inside and outside of the following shapes; the latter is that of the camera.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct MediumInterface {
+pub(super) struct InterfaceMedia {
     pub(super) interior: Option<Medium>,
     pub(super) exterior: Option<Medium>,
 }
 
-impl MediumInterface {
+impl InterfaceMedia {
     /// Whether a surface leads from one medium to another.
     pub(super) fn is_transition(&self) -> bool {
         self.interior != self.exterior
@@ -106,7 +106,7 @@ impl Lowering<'_> {
             [] => return,
         };
         let [interior, exterior] = [interior, exterior].map(|name| self.named_medium(name));
-        self.state.media = MediumInterface { interior, exterior };
+        self.state.media = InterfaceMedia { interior, exterior };
     }
 
     fn named_medium(&mut self, name: &SpannedText) -> Option<Medium> {

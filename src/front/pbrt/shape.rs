@@ -3,7 +3,7 @@
 use super::Lowering;
 use super::loop_subdivision;
 use super::material::LoweredMaterial;
-use super::medium::MediumInterface;
+use super::medium::InterfaceMedia;
 use super::parameter::Parameters;
 use crate::exchange::SpannedText;
 use crate::exchange::one_sided::{behind, flat, flat_mesh};
@@ -69,7 +69,7 @@ pub(super) struct PlacedShape {
     material: Rc<LoweredMaterial>,
     radiance: [f64; 3],
     opacity: f64,
-    media: MediumInterface,
+    media: InterfaceMedia,
     span: Span,
 }
 
@@ -104,7 +104,7 @@ impl Lowering<'_> {
             };
             let back = back.map(|to_world| PlacedShape {
                 radiance: [0.0; 3],
-                media: MediumInterface::default(),
+                media: InterfaceMedia::default(),
                 to_world,
                 ..shape.clone()
             });

@@ -3,7 +3,7 @@
 use super::Lowering;
 use super::light::AreaLight;
 use super::material::LoweredMaterial;
-use super::medium::MediumInterface;
+use super::medium::InterfaceMedia;
 use super::parameter::PluginParameter;
 use crate::exchange::transform::AffineTransform;
 use rtc_diag::clip;
@@ -34,7 +34,7 @@ pub(super) struct GraphicsState {
     pub(super) area_light: Option<Rc<AreaLight>>,
     pub(super) reverse_orientation: bool,
     /// The participating media of the following shapes and of the camera.
-    pub(super) media: MediumInterface,
+    pub(super) media: InterfaceMedia,
     /// The parameters that `VertexAttribute` gave to all plugins of a kind.
     pub(super) attributes: Rc<BTreeMap<String, Vec<Rc<PluginParameter>>>>,
 }
