@@ -38,7 +38,7 @@ impl SobolPair {
     /// Where media scatter the ray to vertex `bounces`, and the channel that says so; apart from
     /// the pairs of all other vertices.
     pub(crate) fn free_flight(bounces: u32) -> Self {
-        Self(1 << 31 | 2 * (bounces & (1 << 29) - 1))
+        Self((1 << 31) | (2 * (bounces & ((1 << 29) - 1))))
     }
 
     /// Whether microfacets of a vertex reflect or transmit.
