@@ -613,9 +613,9 @@ fn media(scene: &Scene) -> Vec<[Option<Medium>; 2]> {
 }
 
 const MEDIA: &str = r#"
-    <medium type="homogeneous" id="a">
-        <rgb name="sigma_t" value="1 2 4"/><rgb name="albedo" value="0.5 0.25 1"/>
-        <float name="scale" value="2"/><phase type="hg"><float name="g" value="0.5"/></phase></medium>
+    <medium type="homogeneous" id="a"><rgb name="sigma_t" value="1 2 4"/><rgb name="albedo" value="0.5 0.25 1"/>
+        <float name="scale" value="2"/>
+        <phase type="hg"><float name="g" value="0.5"/></phase></medium>
     <medium type="heterogeneous" id="b">
         <volume name="sigma_t" type="constvolume"><float name="value" value="3"/></volume>
         <float name="albedo" value="0"/></medium>
