@@ -72,6 +72,9 @@ fn full() -> Standard {
             "microfacets" => json!("beckmann"),
             "plastic" => json!("nonlinear"),
             "ior" | "iridescenceIor" => json!(1.4),
+            "interior" | "exterior" => {
+                json!({ "sigmaA": [0.1, 0.2, 1.0 / 3.0], "sigmaS": [0.5, 0.6, 0.7], "g": -0.3 })
+            }
             "iridescenceThickness" => json!([50.0, 1.0 / 3.0]),
             "conductor" => json!({ "eta": [0.1, 0.4, 1.0 / 3.0], "k": [4.0, 2.5, 1.9] }),
             "baseColor" | "specularGlossiness" => json!([0.1, 0.2, 0.3, 0.7]),
