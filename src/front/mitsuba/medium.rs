@@ -19,7 +19,7 @@ const GRID: FileKind = FileKind {
 /// The mean of each channel of a grid.
 fn mean_of_grid(bytes: &[u8]) -> Option<[f64; 3]> {
     const HEAD: usize = 48;
-    let word = |at: usize| Some(<[u8; 4]>::try_from(bytes.get(at..at + 4)?).ok()?);
+    let word = |at: usize| <[u8; 4]>::try_from(bytes.get(at..at + 4)?).ok();
     let integer = |index: usize| word(4 + 4 * index).map(u32::from_le_bytes);
     let (kind, channels) = (integer(0)?, integer(4)? as usize);
     let values = bytes.get(HEAD..)?.chunks_exact(4);
