@@ -2,9 +2,7 @@
 
 use super::check::Checker;
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{
-    EntityField, EntityKind, Instance, Material, Medium, Mode, Scene, Shape, Surface, ValuePath,
-};
+use rtc_ir::{EntityField, EntityKind, Instance, Material, Medium, Mode, Scene, Shape, ValuePath};
 use rtc_math::{Vec3, shortest};
 use std::collections::BTreeMap;
 
@@ -40,23 +38,31 @@ pub(super) fn open_shapes(scene: &Scene, check: &mut Checker<'_>) {
     if !matches!(scene.settings.mode, Mode::Path(_)) {
         return;
     }
-    for (index, material) in scene.materials.iter().enumerate() {
-        let Material::Standard(standard) = material else {
-            continue;
-        };
-        if standard.interior.is_none() && standard.exterior.is_none() {
-            continue;
+    let has_media = |material: &Material| match material {
+        Material::Standard(standard) => standard.interior.is_some() || standard.exterior.is_some(),
+        Material::Phong(_) => false,
+    };
+    // The surfaces of each material with media, in one pass.
+    let mut surfaces_of: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    for (index, surface) in scene.surfaces.iter().enumerate() {
+        let material = scene.materials.get(surface.material.0 as usize);
+        if material.is_some_and(has_media) {
+            surfaces_of
+                .entry(surface.material.0)
+                .or_default()
+                .push(index);
         }
-        let has_material = |(_, surface): &(usize, &Surface)| surface.material.0 as usize == index;
-        let surfaces = || scene.surfaces.iter().enumerate().filter(has_material);
+    }
+    for surfaces in surfaces_of.values() {
         let mut edges = Edges::default();
-        surfaces().for_each(|(_, surface)| edges.add(&surface.shape, scene));
-        let is_open = edges.is_open();
-        if let Some((first, _)) = surfaces().next().filter(|_| is_open) {
+        for index in surfaces {
+            edges.add(&scene.surfaces[*index].shape, scene);
+        }
+        if edges.is_open() {
             let message = "a shape with a participating medium inside is not closed";
             let diagnostic = Diagnostic::new(&codes::OPEN_MEDIUM, message)
                 .hint("close it, so that each path that comes in goes out");
-            let path = ValuePath::new(EntityKind::Surface, first, EntityField::Whole);
+            let path = ValuePath::new(EntityKind::Surface, surfaces[0], EntityField::Whole);
             check.report(path, "paths pass by its edges", diagnostic);
         }
     }
@@ -95,6 +101,11 @@ impl Edges {
         let Some(mesh) = scene.meshes.get(instance.mesh.0 as usize) else {
             return;
         };
+        // Many instances of a large mesh are not gone through.
+        if self.triangles + mesh.triangles.len() > MAX_TRIANGLES {
+            self.triangles = MAX_TRIANGLES + 1;
+            return;
+        }
         let [x, y, z, origin] = instance.world_from_object.map(Vec3::from_array);
         let place = |index: u32| {
             let [u, v, w] = mesh.positions.at(index as usize);

@@ -56,10 +56,7 @@ impl NumberCoding {
     /// # Errors
     /// If its memory exceeds the budget.
     pub(crate) fn image(self, image: &Image, budget: &Budget) -> Result<Image, LimitExceeded> {
-        /// The bytes of a texel in floats.
-        const FLOATS: u64 = 12;
-        let texels = u64::from(image.width) * u64::from(image.height);
-        budget.charge(Resource::Textures, texels.saturating_mul(FLOATS))?;
+        charge_floats(image, budget)?;
         let numbers = self.numbers(image);
         let byte = |number: f64| rtc_color::nearest8(number);
         let is_exact = |number: &f64| f64::from(byte(*number)) / 255.0 == *number;
@@ -127,6 +124,14 @@ impl NumberCoding {
     }
 }
 
+/// Charges the memory of an image in floats.
+fn charge_floats(image: &Image, budget: &Budget) -> Result<(), LimitExceeded> {
+    /// The bytes of a texel.
+    const TEXEL: u64 = 12;
+    let texels = u64::from(image.width) * u64::from(image.height);
+    budget.charge(Resource::Textures, texels.saturating_mul(TEXEL))
+}
+
 /// An image of bytes whose colours are linear, as floats; `None` for one of floats.
 ///
 /// # Errors
@@ -140,8 +145,7 @@ pub(crate) fn linear_colors(
         Pixels::Rgba8 => 4,
         Pixels::Rgb32f => return Ok(None),
     };
-    let texels = u64::from(image.width) * u64::from(image.height);
-    budget.charge(Resource::Textures, texels.saturating_mul(12))?;
+    charge_floats(image, budget)?;
     let colors = image.pixels.chunks(per_texel).flat_map(|texel| &texel[..3]);
     let bytes = colors.flat_map(|byte| (f32::from(*byte) / 255.0).to_le_bytes());
     Ok(Some(Image {

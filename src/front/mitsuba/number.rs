@@ -8,8 +8,8 @@ use crate::exchange::number::{NumberCoding, NumberSource, in_channel, linear_col
 use crate::over_limit;
 use rtc_color::luminance;
 use rtc_diag::DiagnosticSink;
-use rtc_ir::{EntityKind, ImageId, Map, Scene, Texture, TextureId};
-use rtc_source::{Budget, Span};
+use rtc_ir::{EntityKind, Image, ImageId, Map, Scene, Texture, TextureId};
+use rtc_source::{Budget, LimitExceeded, Span};
 use std::collections::BTreeMap;
 
 /// How the texture of a number is read.
@@ -145,32 +145,9 @@ pub(super) fn read_raw_colors(
     budget: &Budget,
     sink: &mut DiagnosticSink,
 ) {
-    let mut made: BTreeMap<u32, ImageId> = BTreeMap::new();
-    for (texture, span) in raw {
-        let Some(Texture::Sampled(sampled)) = scene.textures.get(texture.0 as usize) else {
-            continue;
-        };
-        let from = sampled.image.0;
-        let known = made.get(&from).copied();
-        let Some(image) = scene.images.get(from as usize) else {
-            continue;
-        };
-        let id = match known {
-            Some(id) => id,
-            None => match linear_colors(image, budget) {
-                Ok(Some(image)) => scene.add_image(image),
-                Ok(None) => sampled.image,
-                Err(limit) => {
-                    sink.push(over_limit("the texture", &limit).at(*span, ""));
-                    return;
-                }
-            },
-        };
-        made.insert(from, id);
-        if let Some(Texture::Sampled(sampled)) = scene.textures.get_mut(texture.0 as usize) {
-            sampled.image = id;
-        }
-    }
+    let textures = raw.iter().map(|(texture, span)| (*texture, (), *span));
+    let made = replace_images(scene, textures, |image, ()| linear_colors(image, budget));
+    report_limit(made, sink);
 }
 
 /// Gives textures of numbers the images of these, when the pictures are loaded.
@@ -180,34 +157,46 @@ pub(super) fn read_numbers(
     budget: &Budget,
     sink: &mut DiagnosticSink,
 ) {
-    let mut made: BTreeMap<(u32, NumberCoding), ImageId> = BTreeMap::new();
-    for NumberTexture {
-        texture,
-        coding,
-        span,
-    } in numbers
-    {
+    let textures = (numbers.iter()).map(|number| (number.texture, number.coding, number.span));
+    let made = replace_images(scene, textures, |image, coding| {
+        coding.image(image, budget).map(Some)
+    });
+    report_limit(made, sink);
+}
+
+/// Gives textures other images, each made once for an image and a coding; `None` keeps the
+/// image.
+fn replace_images<K: Copy + Ord>(
+    scene: &mut Scene,
+    textures: impl Iterator<Item = (TextureId, K, Span)>,
+    make: impl Fn(&Image, K) -> Result<Option<Image>, LimitExceeded>,
+) -> Result<(), (LimitExceeded, Span)> {
+    let mut made: BTreeMap<(u32, K), ImageId> = BTreeMap::new();
+    for (texture, coding, span) in textures {
         let Some(Texture::Sampled(sampled)) = scene.textures.get(texture.0 as usize) else {
             continue;
         };
-        let key = (sampled.image.0, *coding);
-        let known = made.get(&key).copied();
-        let Some(image) = scene.images.get(sampled.image.0 as usize) else {
+        let from = sampled.image;
+        let Some(image) = scene.images.get(from.0 as usize) else {
             continue;
         };
-        let id = match known {
-            Some(id) => id,
-            None => match coding.image(image, budget) {
-                Ok(image) => scene.add_image(image),
-                Err(limit) => {
-                    sink.push(over_limit("the texture", &limit).at(*span, ""));
-                    return;
-                }
+        let id = match made.get(&(from.0, coding)) {
+            Some(id) => *id,
+            None => match make(image, coding).map_err(|limit| (limit, span))? {
+                Some(image) => scene.add_image(image),
+                None => from,
             },
         };
-        made.insert(key, id);
+        made.insert((from.0, coding), id);
         if let Some(Texture::Sampled(sampled)) = scene.textures.get_mut(texture.0 as usize) {
             sampled.image = id;
         }
+    }
+    Ok(())
+}
+
+fn report_limit(made: Result<(), (LimitExceeded, Span)>, sink: &mut DiagnosticSink) {
+    if let Err((limit, span)) = made {
+        sink.push(over_limit("the texture", &limit).at(span, ""));
     }
 }

@@ -20,7 +20,7 @@ pub(crate) struct MaterialPoint<'world> {
     /// Base colour and alpha at the point, vertex colours included.
     base: [f64; 4],
     /// The derivatives of the point by its texture coordinates, where a bump map needs them.
-    derivatives: Option<[Vec3; 2]>,
+    pub(crate) derivatives: Option<[Vec3; 2]>,
 }
 
 /// The shading frame at a point: the shading normal and the tangents of the maps.
@@ -52,14 +52,6 @@ impl<'world> MaterialPoint<'world> {
     pub(crate) fn bump_set(&self) -> Option<usize> {
         let bump = self.material.bump.as_ref();
         bump.map(|bump| bump.map.set)
-    }
-
-    /// The same point with its derivatives by the texture coordinates of the bump map.
-    pub(crate) fn with_derivatives(self, derivatives: Option<[Vec3; 2]>) -> Self {
-        Self {
-            derivatives,
-            ..self
-        }
     }
 
     /// Another part of the material of the surface at the point.

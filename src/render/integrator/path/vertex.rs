@@ -77,20 +77,14 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
                 surface
                     .shape
                     .shading_attributes(&state.ray, &at, hit.prim_id, request);
-            let point = self.point(surface.material, &shading_attributes, at.point);
-            let point = if Self::can(PathFeatures::ALPHA) && point.is_blend() {
-                self.part(state, point, skipped, &shading_attributes)
-            } else {
-                point
-            };
-            let point = match point.bump_set() {
-                Some(set) => {
-                    let shape = &surface.shape;
-                    let derivatives = shape.uv_derivatives(&state.ray, &at, hit.prim_id, set);
-                    point.with_derivatives(derivatives)
-                }
-                None => point,
-            };
+            let mut point = self.point(surface.material, &shading_attributes, at.point);
+            if Self::can(PathFeatures::ALPHA) && point.is_blend() {
+                point = self.part(state, point, skipped, &shading_attributes);
+            }
+            if let Some(set) = point.bump_set() {
+                let shape = &surface.shape;
+                point.derivatives = shape.uv_derivatives(&state.ray, &at, hit.prim_id, set);
+            }
             state.travelled += hit.t;
             // Skip the hit with the probability of its transparency.
             let opacity = if skips_back(state, &at, point.material) {
