@@ -144,6 +144,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     }
 
     /// The radiance along one path.
+    #[inline(always)]
     fn radiance(&mut self, ray: Ray, sobol: SobolPath) -> Vec3 {
         self.counts.camera += 1;
         let mut state = PathState::new(ray, sobol);
