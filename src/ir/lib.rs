@@ -59,7 +59,7 @@ pub use material::{Bump, Material, MaterialId, Phong};
 pub use mesh::{Mesh, MeshId};
 pub use origin::{EntityField, EntityKind, SourceSpans, ValuePath};
 pub use rtc_math::{Medium, SetStep, SharedList, StoredTree, VertexColumn};
-pub use settings::{Ambient, Gooch, Mode, PathSettings, Pattern, Settings};
+pub use settings::{Ambient, Gooch, Mode, PathSettings, Pattern, Settings, StereoView};
 pub use shape::*;
 pub use standard::{Alpha, Conductor, Map, Standard};
 pub use texture::{Filter, Procedural, Sampled, Texture, TextureId, Wrap};

@@ -42,11 +42,13 @@ pub struct Settings {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(inner(inner(range(min = 0.0))))]
     pub background: Option<[f64; 3]>,
-    /// The distance between two eyes, each of which sees the image of a perspective camera in one
-    /// half of the picture; 0 for one eye.
+    /// The distance between two eyes of a perspective camera in scene units; 0 for one eye.
     #[serde(default, skip_serializing_if = "is_default")]
     #[schemars(range(min = 0.0))]
     pub stereo: f64,
+    /// How the picture shows what two eyes see.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub stereo_view: StereoView,
 }
 
 impl Default for Settings {
@@ -64,6 +66,7 @@ impl Default for Settings {
             ambient_light: white(),
             background: None,
             stereo: 0.0,
+            stereo_view: StereoView::SideBySide,
         }
     }
 }
@@ -110,6 +113,21 @@ pub enum Ambient {
     PerLight,
     /// Once, independent of the number of lights.
     Once,
+}
+
+/// How a picture shows what two eyes see.
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary,
+)]
+#[serde(rename_all = "camelCase")]
+pub enum StereoView {
+    /// The left half of the picture is what the left eye sees of the image, the right half what
+    /// the right eye sees.
+    #[default]
+    SideBySide,
+    /// Both eyes see the whole image: one picture for glasses with a red filter on the left and a
+    /// cyan one on the right.
+    Anaglyph,
 }
 
 fn white() -> [f64; 3] {

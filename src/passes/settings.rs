@@ -55,7 +55,7 @@ pub fn set(settings: &mut Settings, name: &str, value: &str) -> Result<(), Strin
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rtc_ir::{Ambient, Pattern};
+    use rtc_ir::{Ambient, Pattern, StereoView};
 
     fn paths() -> Settings {
         Settings {
@@ -75,6 +75,7 @@ mod tests {
             ambient_light: [0.5; 3],
             background: Some([1.0, 0.0, 0.0]),
             stereo: 0.1,
+            stereo_view: StereoView::Anaglyph,
         }
     }
 

@@ -46,15 +46,37 @@ pub struct Lens {
 pub enum Projection {
     /// Rays start at the eye.
     Perspective,
-    /// Rays start at two eyes, at this distance from each other. The left half of the picture is
-    /// what the left eye sees of the image, the right half what the right one sees.
-    Stereo(f64),
+    /// Rays start at two eyes.
+    Stereo(Stereo),
     /// Parallel rays: each passes through its point of the image in the direction from the eye to
     /// the image centre, and starts at the distance of the eye before the image.
     Orthographic,
 }
 
-pub(super) fn camera(camera: &ir::Camera, stereo: f64, check: &mut Checker<'_>) -> Option<Camera> {
+/// Two eyes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stereo {
+    /// The distance between them in scene units, above 0.
+    pub distance: f64,
+    /// Whether both see the whole image, in one picture for red and cyan glasses; otherwise each
+    /// sees it in its half of the picture.
+    pub is_anaglyph: bool,
+}
+
+impl Stereo {
+    pub(super) fn of(settings: &ir::Settings) -> Self {
+        Self {
+            distance: settings.stereo,
+            is_anaglyph: settings.stereo_view == ir::StereoView::Anaglyph,
+        }
+    }
+}
+
+pub(super) fn camera(
+    camera: &ir::Camera,
+    stereo: Stereo,
+    check: &mut Checker<'_>,
+) -> Option<Camera> {
     let ir::Camera {
         eye,
         center,
@@ -96,14 +118,14 @@ pub(super) fn camera(camera: &ir::Camera, stereo: f64, check: &mut Checker<'_>) 
 
 fn valid_projection(
     projection: ir::Projection,
-    stereo: f64,
+    stereo: Stereo,
     check: &mut Checker<'_>,
 ) -> Option<Projection> {
     let path = ValuePath::new(EntityKind::Settings, 0, EntityField::Stereo);
-    let distance = check.non_negative(stereo, "stereo", path)?.get();
+    let distance = check.non_negative(stereo.distance, "stereo", path)?.get();
     match projection {
         ir::Projection::Perspective if distance == 0.0 => Some(Projection::Perspective),
-        ir::Projection::Perspective => Some(Projection::Stereo(distance)),
+        ir::Projection::Perspective => Some(Projection::Stereo(stereo)),
         ir::Projection::Orthographic => Some(Projection::Orthographic),
     }
 }

@@ -36,7 +36,7 @@ mod shape;
 mod standard;
 mod texture;
 
-pub use camera::{Camera, Lens, Projection};
+pub use camera::{Camera, Lens, Projection, Stereo};
 pub use check::LARGEST;
 pub use environment::Environment;
 pub use image::Image;
@@ -179,8 +179,11 @@ impl ValidScene {
         let (source_spans, mut sink) = (SourceSpans::default(), DiagnosticSink::default());
         let mut check = Checker::new(&source_spans, &mut sink);
         let stereo = match self.camera.projection {
-            Projection::Stereo(distance) => distance,
-            Projection::Perspective | Projection::Orthographic => 0.0,
+            Projection::Stereo(stereo) => stereo,
+            Projection::Perspective | Projection::Orthographic => Stereo {
+                distance: 0.0,
+                is_anaglyph: false,
+            },
         };
         let camera = camera::camera(camera, stereo, &mut check)?;
         let is_as_large = (camera.width, camera.height) == (self.camera.width, self.camera.height);
@@ -236,7 +239,7 @@ pub fn validate(
     } = scene;
     // Validate each kind of entity; all errors are reported.
     let mut check = Checker::new(source_spans, sink);
-    let valid_camera = camera::camera(camera, settings.stereo, &mut check);
+    let valid_camera = camera::camera(camera, Stereo::of(settings), &mut check);
     let valid_settings = settings::settings(settings, &mut check);
     settings::display(display, &mut check);
     let valid_environment =

@@ -18,6 +18,7 @@ pub(super) fn lints(scene: &ir::Scene, solids: &Solids<'_>, check: &mut Checker<
     shadows_of_paths(scene, check);
     tiny_picture(scene, check);
     one_eye(scene, check);
+    anaglyph(scene, check);
     inside::eye(solids, check);
     unsupported_features(scene, check);
     medium::open_shapes(scene, check);
@@ -197,6 +198,32 @@ fn one_eye(scene: &ir::Scene, check: &mut Checker<'_>) {
             path,
             "one eye sees the whole picture",
             diagnostic.hint(hint),
+        );
+    }
+}
+
+/// Warns about what an anaglyph lacks.
+fn anaglyph(scene: &ir::Scene, check: &mut Checker<'_>) {
+    let settings = &scene.settings;
+    if settings.stereo == 0.0 || settings.stereo_view == ir::StereoView::SideBySide {
+        return;
+    }
+    let mut warn = |message, label, hint: &str| {
+        let path = ValuePath::new(EntityKind::Settings, 0, EntityField::Stereo);
+        let diagnostic = Diagnostic::new(&codes::NO_EFFECT, message).severity(Severity::Warning);
+        check.report(path, label, diagnostic.hint(hint));
+    };
+    if let ir::Mode::Depth = settings.mode {
+        warn(
+            "an anaglyph shows no distances: they have no colours",
+            "the left eye alone sees the picture",
+            "`stereoView: sideBySide` shows the distances from both eyes",
+        );
+    } else if settings.background.is_some() {
+        warn(
+            "`Background` has no effect where one eye sees a surface and the other does not",
+            "an anaglyph of two eyes",
+            "a large surface or an `Environment` is a background for each eye",
         );
     }
 }

@@ -1,5 +1,6 @@
 //! Validates the settings, and the limits on pixels and rays.
 
+use super::camera::Stereo;
 use super::check::Checker;
 use rtc_color::Tone;
 use rtc_diag::Diagnostic;
@@ -126,6 +127,7 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Checker<'_>) -> Opti
         ambient_light,
         background,
         stereo: _,
+        stereo_view: _,
     } = settings;
     // Check each value.
     let mode = valid_mode(mode, check);
@@ -288,6 +290,7 @@ fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Checke
         (samples.paths, "paths"),
         (samples.lens, "aperture samples"),
         (samples.light, "light samples"),
+        (samples.eyes, "eyes"),
     ] {
         rays = rays.saturating_mul(count.into());
         if count > 1 {
@@ -335,6 +338,7 @@ struct SampleCounts {
     paths: u32,
     lens: u32,
     light: u32,
+    eyes: u32,
 }
 
 impl SampleCounts {
@@ -350,7 +354,12 @@ impl SampleCounts {
             .iter()
             .filter_map(ir::Light::point)
             .any(|light| light.radius > 0.0);
+        let Stereo {
+            distance,
+            is_anaglyph,
+        } = Stereo::of(&scene.settings);
         Self {
+            eyes: 1 + u32::from(distance > 0.0 && is_anaglyph),
             paths: if let ir::Mode::Path(path) = mode {
                 path.samples
             } else {

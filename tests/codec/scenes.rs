@@ -6,8 +6,8 @@ use rtc::internals::ir::{
     Alpha, Ambient, Bump, Camera, Display, Environment, Filter, Gooch, Image, ImageId, Instance,
     Lens, Light, Map, Material, MaterialId, Medium, Mesh, MeshId, Mode, PathSettings, Pattern,
     Phong, Photometry, Pixels, Plane, PointLight, Procedural, Projection, Punctual, PunctualKind,
-    Sampled, Scene, Settings, Shape, Sphere, Standard, Surface, Texture, TextureId, Triangle,
-    VertexColumn, Wrap,
+    Sampled, Scene, Settings, Shape, Sphere, Standard, StereoView, Surface, Texture, TextureId,
+    Triangle, VertexColumn, Wrap,
 };
 
 use rtc::internals::math::{GradientNoise, TextureMapping, TexturePattern};
@@ -213,6 +213,11 @@ fn settings() -> impl Strategy<Value = Settings> {
                 ambient_light,
                 background,
                 stereo: f64::from(max_depth),
+                stereo_view: if shadows {
+                    StereoView::Anaglyph
+                } else {
+                    StereoView::SideBySide
+                },
             },
         )
 }

@@ -17,7 +17,8 @@ pub use files::SidecarFile;
 use crate::export::parts_of_one;
 use files::FileNames;
 use rtc_ir::{
-    Ambient, Display, Gooch, Light, Mode, PathSettings, Pattern, Scene, Settings, Shape, Surface,
+    Ambient, Display, Gooch, Light, Mode, PathSettings, Pattern, Scene, Settings, Shape,
+    StereoView, Surface,
 };
 use rtc_math::{PixelFilter, shortest};
 use serde_json::Value as Json;
@@ -83,6 +84,9 @@ fn write<'s>(scene: &'s Scene, names: FileNames<'s>) -> Result<WrittenScene<'s>,
     text.camera(camera);
     if settings.stereo != 0.0 {
         text.number("stereo", settings.stereo, 2);
+        if settings.stereo_view == StereoView::Anaglyph {
+            text.line(2, "stereoView: anaglyph");
+        }
     }
     text.settings(settings, lights);
     text.display(display);
@@ -278,13 +282,14 @@ impl<'s> SceneWriter<'s> {
 
     /// Writes all other settings that have not their defaults, by their names in the IR.
     fn other_settings(&mut self, settings: &Settings) {
-        const WRITTEN: [&str; 6] = [
+        const WRITTEN: [&str; 7] = [
             "mode",
             "shadows",
             "maxDepth",
             "supersampling",
             "pattern",
             "stereo",
+            "stereoView",
         ];
         let fields = serde_json::to_value(settings);
         let Ok(Json::Object(fields)) = fields else {

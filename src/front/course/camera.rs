@@ -43,10 +43,13 @@ record! {
         /// parallel rays in the direction from the eye to `center`, so that `fov` has no effect.
         projection: Spanned<ir::Projection>, default(ir::Projection::Perspective),
             keys!["projection"];
-        /// The distance between two eyes in scene units: the left half of the picture is what the
-        /// left eye sees of the image, the right half what the right eye sees. What lies in the
-        /// plane through `center` is at the same place in both.
+        /// The distance between two eyes in scene units; 0 for one eye. What lies in the plane
+        /// through `center` is at the same place for both.
         stereo: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["stereo" "eyeDistance"];
+        /// How the picture shows what two eyes see: `sideBySide`, each in one half of the picture;
+        /// or `anaglyph`, for glasses with a red filter on the left and a cyan one on the right.
+        stereo_view: Spanned<ir::StereoView>, default(ir::StereoView::SideBySide),
+            keys!["stereoView"];
         /// The radius of the lens in scene units; at 0 everything is in focus.
         aperture_radius: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["apertureRadius"];
         /// The number of lens samples per sub-sample.
@@ -66,6 +69,21 @@ impl Keyword for ir::Projection {
             "orthographic",
             ir::Projection::Orthographic,
             "Parallel rays: what is farther looks as large.",
+        ),
+    ];
+}
+
+impl Keyword for ir::StereoView {
+    const KEYWORDS: KeywordTable<Self> = &[
+        (
+            "sideBySide",
+            ir::StereoView::SideBySide,
+            "The left eye in the left half of the picture, the right eye in the right half.",
+        ),
+        (
+            "anaglyph",
+            ir::StereoView::Anaglyph,
+            "Both eyes in one picture, for red and cyan glasses.",
         ),
     ];
 }
@@ -101,6 +119,7 @@ impl Lowering {
             fov: _,
             projection,
             stereo: _,
+            stereo_view: _,
             aperture_radius,
             aperture_samples,
         } = &camera.value;
@@ -113,6 +132,7 @@ impl Lowering {
             _ => return,
         };
         report_pixel_size_without_effect(&camera.value, context);
+        report_view_of_one_eye(&camera.value, context);
         // The field of view and the vectors between pixels.
         let fov = fov(&camera.value, &up, context);
         let basis = basis(&camera.value, &center, &up, context);
@@ -174,6 +194,7 @@ impl Lowering {
             fov: FieldResult::Absent,
             projection: Spanned::without_span(ir::Projection::Perspective),
             stereo: Spanned::without_span(NonNegative(0.0)),
+            stereo_view: Spanned::without_span(ir::StereoView::SideBySide),
             aperture_radius: Spanned::without_span(NonNegative(0.0)),
             aperture_samples: Spanned::without_span(Count(1)),
         };
@@ -226,6 +247,17 @@ fn report_pixel_size_without_effect(camera: &Camera, context: &mut DecodeContext
         let message = || "`pixelSize` has no effect with `fov` or `right`".to_owned();
         context.report(&codes::NO_EFFECT, span, message, |d| {
             d.at(span, "ignored").severity(Severity::Warning)
+        });
+    }
+}
+
+/// Reports a `stereoView` without `stereo`.
+fn report_view_of_one_eye(camera: &Camera, context: &mut DecodeContext<'_>) {
+    if let (Some(span), true) = (camera.stereo_view.span, camera.stereo.value.0 == 0.0) {
+        let message = || "`stereoView` has no effect without `stereo`".to_owned();
+        context.report(&codes::NO_EFFECT, span, message, |d| {
+            d.at(span, "one eye sees the picture")
+                .severity(Severity::Warning)
         });
     }
 }

@@ -226,10 +226,9 @@ impl Lowering {
         // Report what has no effect, and lower the settings.
         report_unused(scene, context);
         let one_eye = Spanned::without_span(NonNegative(0.0));
-        let stereo = scene
-            .camera
-            .read()
-            .map_or(one_eye, |camera| camera.value.stereo);
+        let camera = scene.camera.read().map(|camera| &camera.value);
+        let stereo = camera.map_or(one_eye, |camera| camera.stereo);
+        let stereo_view = camera.map(|camera| camera.stereo_view.value);
         self.display(scene);
         self.scene.settings = ir::Settings {
             mode: self.mode(mode.value, gooch, context),
@@ -240,6 +239,7 @@ impl Lowering {
             light_samples: light_samples.value.0,
             toon: scene.toon.value,
             stereo: stereo.value.0,
+            stereo_view: stereo_view.unwrap_or_default(),
             background: scene.background.read().map(|color| color.value.0),
             ..ir::Settings::default()
         };

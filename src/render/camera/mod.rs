@@ -33,24 +33,50 @@ pub struct Camera {
     pub lens_samples: u32,
     /// The projection of the rays.
     pub projection: Projection,
-    /// The left and the right eye, side by side in the picture, for a stereoscopic camera.
-    pub eyes: Option<Box<[Camera; 2]>>,
+    /// The left and the right eye of a stereoscopic camera.
+    pub eyes: Option<Box<Eyes>>,
+}
+
+/// The two eyes of a stereoscopic camera. They see two images side by side: that of the left eye
+/// begins at column 0.
+#[derive(Clone, Debug)]
+pub struct Eyes {
+    /// The left and the right one.
+    pub cameras: [Camera; 2],
+    /// The column where the image of the right eye begins: the middle of the picture, or, for an
+    /// anaglyph, its width.
+    pub right_begins: u32,
 }
 
 impl Camera {
     /// The two eyes of a camera, each half of a distance to the side of its own. They see the same
-    /// square of the image plane, the left one in the left half of the picture: off-axis stereo
-    /// (Hodges & McAllister, "Computing Stereoscopic Views", Stereo Computer Graphics, 1993).
-    pub(crate) fn with_eyes(self, distance: f64) -> Self {
+    /// rectangle of the image plane: off-axis stereo (Hodges & McAllister, "Computing Stereoscopic
+    /// Views", Stereo Computer Graphics, 1993). It is half of the image for two eyes side by side,
+    /// and all of it for an anaglyph.
+    pub(crate) fn with_eyes(self, distance: f64, is_anaglyph: bool) -> Self {
+        let width = self.size[0];
         let side = self.right.normalize() * (distance / 2.0);
-        let middle = self.right * (f64::from(self.size[0]) / 4.0);
-        let eye = |sign: f64| Self {
+        let (right_begins, shifts) = match f64::from(width) {
+            whole if is_anaglyph => (width, [0.0, whole]),
+            whole => (width / 2, [-whole / 4.0, whole / 4.0]),
+        };
+        let eye = |sign: f64, shift: f64| Self {
             eye: self.eye + side * sign,
-            center: self.center - middle * sign,
+            center: self.center - self.right * shift,
             ..self.clone()
         };
-        let eyes = Some(Box::new([eye(-1.0), eye(1.0)]));
+        let eyes = Eyes {
+            cameras: [eye(-1.0, shifts[0]), eye(1.0, shifts[1])],
+            right_begins,
+        };
+        let eyes = Some(Box::new(eyes));
         Self { eyes, ..self }
+    }
+
+    /// Whether each pixel shows what both eyes see.
+    pub(crate) fn is_anaglyph(&self) -> bool {
+        let eyes = self.eyes.as_ref();
+        eyes.is_some_and(|eyes| eyes.right_begins == self.size[0])
     }
 
     /// The camera that sees a pixel.
@@ -58,7 +84,7 @@ impl Camera {
     #[must_use]
     pub(crate) fn of(&self, [x, _]: [u32; 2]) -> &Self {
         match &self.eyes {
-            Some(eyes) => &eyes[usize::from(x >= self.size[0] / 2)],
+            Some(eyes) => &eyes.cameras[usize::from(x >= eyes.right_begins)],
             None => self,
         }
     }
@@ -230,14 +256,19 @@ mod tests {
             projection: Projection::Perspective,
             eyes: None,
         };
-        let (one, two) = (camera(8), camera(16).with_eyes(3.0));
-        for (x, y) in (0..8).flat_map(|x| (0..6).map(move |y| (x, y))) {
-            let seen = image_point(&one, [x, y], [0.25, 0.5]);
-            for (left, eye) in [(0, -0.5), (8, 2.5)] {
-                let pixel = [left + x, y];
-                let half = two.of(pixel);
-                assert_eq!(half.eye, Vec3::new(eye, 2.0, 9.0));
-                assert_eq!(image_point(half, pixel, [0.25, 0.5]), seen);
+        let one = camera(8);
+        for two in [
+            camera(16).with_eyes(3.0, false),
+            camera(8).with_eyes(3.0, true),
+        ] {
+            for (x, y) in (0..8).flat_map(|x| (0..6).map(move |y| (x, y))) {
+                let seen = image_point(&one, [x, y], [0.25, 0.5]);
+                for (left, eye) in [(0, -0.5), (8, 2.5)] {
+                    let pixel = [left + x, y];
+                    let half = two.of(pixel);
+                    assert_eq!(half.eye, Vec3::new(eye, 2.0, 9.0));
+                    assert_eq!(image_point(half, pixel, [0.25, 0.5]), seen);
+                }
             }
         }
     }

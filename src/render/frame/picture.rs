@@ -9,6 +9,7 @@ use crate::film::pixel::{
 };
 use crate::film::tiled::TiledValues;
 use crate::film::{Crop, Film, RayCounts, RenderSelection};
+use crate::integrator::anaglyph::for_eyes;
 use crate::integrator::aov::{Aov, AovAccumulator, CameraHit, FirstHitFinder};
 use crate::integrator::first_hit::{DepthIntegrator, PixelDistance};
 use crate::integrator::path::{PathFirstHitFinder, PathTracer, SamplingStrategy};
@@ -48,7 +49,8 @@ impl<S: Intersect> World<S> {
                 sample_ranges(job, 0..limited(job, samples)),
             )
         };
-        let make_integrator = || Box::new(WhittedTracer::<S, F>::new(self, on_pixel)) as _;
+        let tracer = || WhittedTracer::<S, F>::new(self, on_pixel);
+        let make_integrator = || for_eyes(&self.camera, tracer());
         let mut film = self.film(job);
         let counts = run(&mut film, PixelSelection::of(job), &make_integrator, &open)?;
         Some((film, counts))
@@ -72,7 +74,10 @@ impl<S: Intersect> World<S> {
         };
         let make_integrator = || {
             let tracer = PathTracer::<S, F>::new(self, &lights, strategy, on_pixel);
-            Box::new(tracer.before(job.background).clamped(job.clamp)) as _
+            for_eyes(
+                &self.camera,
+                tracer.before(job.background).clamped(job.clamp),
+            )
         };
         let mut film = self.film(job);
         let counts = run(&mut film, PixelSelection::of(job), &make_integrator, &open)?;

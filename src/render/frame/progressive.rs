@@ -4,6 +4,7 @@ use super::{MakeIntegrator, PixelSelection, run_tiles};
 use crate::film::heartbeat::PixelObserver;
 use crate::film::pixel::PixelSample;
 use crate::film::progressive::{ProgressiveFilm, Replicates};
+use crate::integrator::anaglyph::for_eyes;
 use crate::integrator::path::{PathTracer, SamplingStrategy};
 use crate::integrator::whitted::WhittedTracer;
 use crate::kernel::KernelTask;
@@ -46,7 +47,8 @@ impl<S: Intersect> KernelTask for ProgressiveTask<'_, S> {
     fn run<const F: u32>(self) -> bool {
         let Self(world, film, wanted, on_pixel) = self;
         add_samples(film, wanted, None, &|| {
-            Box::new(WhittedTracer::<S, F>::new(world, on_pixel).spread())
+            let tracer = WhittedTracer::<S, F>::new(world, on_pixel);
+            for_eyes(&world.camera, tracer.spread())
         })
     }
 }
@@ -69,7 +71,7 @@ impl<S: Intersect> KernelTask for ProgressivePathTask<'_, S> {
         let tracer = || PathTracer::<S, F>::new(world, &lights, SamplingStrategy::Mis, on_pixel);
         let tone = Some(film.display);
         add_samples(film, wanted, tone, &|| {
-            Box::new(tracer().before(background))
+            for_eyes(&world.camera, tracer().before(background))
         })
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! - [`whitted`]: the integrator of course scenes, local shading plus specular rays.
 //! - [`path`]: the path tracer.
+//! - [`anaglyph`]: what two eyes see, in one picture, by either of them.
 //! - [`first_hit`]: depth buffers. [`aov`], [`guide`]: AOVs and denoiser guides.
 //!
 //! The trait [`Integrator`] is the interface to `frame`: the loop begins a pixel and a stream of
@@ -11,6 +12,7 @@
 //!
 //! A sample depends on the world and its [`SampleId`] only.
 
+pub(crate) mod anaglyph;
 pub(crate) mod aov;
 pub(crate) mod first_hit;
 pub(crate) mod guide;

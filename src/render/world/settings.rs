@@ -115,7 +115,7 @@ pub(super) fn camera(camera: &valid::Camera) -> Camera {
     };
     // A stereo camera has two eyes at a distance.
     match projection {
-        valid::Projection::Stereo(distance) => camera.with_eyes(distance),
+        valid::Projection::Stereo(eyes) => camera.with_eyes(eyes.distance, eyes.is_anaglyph),
         valid::Projection::Perspective | valid::Projection::Orthographic => camera,
     }
 }
