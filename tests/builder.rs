@@ -77,7 +77,7 @@ Objects:
 - {type: paraboloid, position: [2, -1, 1], up: [0, 0.9, 0], radius: 0.4, material: *m}
 - {type: torus, position: [0, -0.7, 2], direction: [0, 1, 0.2], radius: 0.5, alpha: 0.2, material: *m}
 - {type: infiniteCylinder, position: [-3, 0, -2], direction: [0, 1, 0], radius: 0.2, material: *m}
-- {type: sphere, position: [3, 0, 0], radius: 0.4, shadow: false, material: *m}
+- {type: sphere, position: [3, 0, 0], radius: 0.4, shadow: false, velocity: [0, 0.5, 0], material: *m}
 - type: difference
   a: {type: intersection, of: [
     {type: sphere, position: [2, 1, 2], radius: 0.5, material: *m},
@@ -113,6 +113,7 @@ Objects:
     }
     let last = builder.add(Shape::sphere([3.0, 0.0, 0.0], 0.4), m);
     builder.set_shadow(last, false);
+    builder.set_velocity(last, [0.0, 0.5, 0.0]);
     let bowl = Shape::intersection([
         Shape::sphere([2.0, 1.0, 2.0], 0.5),
         Shape::plane([2.0, 1.2, 2.0], y),

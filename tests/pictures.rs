@@ -79,11 +79,10 @@ fn earth() -> Scene {
         textures: Vec::new(),
         meshes: Vec::new(),
         materials: vec![ir::Material::Phong(phong)],
-        surfaces: vec![ir::Surface {
-            shape: ir::Shape::Sphere(sphere),
-            material: ir::MaterialId(0),
-            casts_no_shadow: false,
-        }],
+        surfaces: vec![ir::Surface::new(
+            ir::Shape::Sphere(sphere),
+            ir::MaterialId(0),
+        )],
         names: Vec::new(),
         environment: None,
         medium: None,

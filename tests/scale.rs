@@ -37,10 +37,10 @@ pub(crate) fn scaled(scene: &Scene, factor: f64) -> Scene {
         .medium
         .iter_mut()
         .for_each(|medium| thin(medium, factor));
-    scene
-        .surfaces
-        .iter_mut()
-        .for_each(|surface| scale_shape(&mut surface.shape, factor));
+    for surface in &mut scene.surfaces {
+        scale_shape(&mut surface.shape, factor);
+        scale(&mut surface.velocity, factor);
+    }
     scene
 }
 

@@ -32,6 +32,7 @@ mod library;
 mod links;
 mod mitsuba;
 mod mitsuba_materials;
+mod motion;
 mod numbers;
 mod obj_oracle;
 mod pages;

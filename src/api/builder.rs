@@ -319,11 +319,7 @@ impl SceneBuilder {
             MaterialRef::Shared(id) => id,
         };
         let scene = self.scene();
-        scene.surfaces.push(Surface {
-            shape: shape.0,
-            material,
-            casts_no_shadow: false,
-        });
+        scene.surfaces.push(Surface::new(shape.0, material));
         if !scene.names.is_empty() {
             scene.names.push(String::new());
         }
@@ -383,6 +379,12 @@ impl SceneBuilder {
     /// Whether an object casts shadows; in traced paths all do.
     pub fn set_shadow(&mut self, object: ObjectId, casts: bool) {
         self.change(object, |surface| surface.casts_no_shadow = !casts);
+    }
+
+    /// How far an object moves per second along each axis, while the shutter is open: from 0 to 1
+    /// second, unless the setting `shutter` says otherwise.
+    pub fn set_velocity(&mut self, object: ObjectId, velocity: [f64; 3]) {
+        self.change(object, |surface| surface.velocity = velocity);
     }
 
     /// Removes an object. The indices of those after it fall by one.

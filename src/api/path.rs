@@ -86,11 +86,9 @@ mod tests {
                 radius: 1.0,
                 texture_from_world: None,
             };
-            scene.surfaces.push(Surface {
-                shape: Shape::Sphere(sphere),
-                material: MaterialId(material),
-                casts_no_shadow: false,
-            });
+            scene
+                .surfaces
+                .push(Surface::new(Shape::Sphere(sphere), MaterialId(material)));
         }
         for (pointer, expected) in [
             ("/surfaces/3/shape/sphere/radius", "objects[3].radius"),

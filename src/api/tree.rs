@@ -180,6 +180,12 @@ impl<'a> Object<'a> {
         !self.surface().casts_no_shadow
     }
 
+    /// How far it moves per second, while the shutter is open.
+    #[must_use]
+    pub fn velocity(&self) -> [f64; 3] {
+        self.surface().velocity
+    }
+
     /// The lower and the upper corner of a box around it; `None` if it is infinite.
     #[must_use]
     pub fn bounds(&self) -> Option<[[f64; 3]; 2]> {

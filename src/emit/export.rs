@@ -3,8 +3,8 @@
 use super::reporter::ExportReporter;
 use rtc_diag::{clip, codes};
 use rtc_ir::{
-    EntityField, EntityKind, Environment, Image, Material, Punctual, PunctualKind, Scene, Settings,
-    Shape, ShapeKind, Surface, ValuePath,
+    EntityField, EntityKind, Environment, Image, Material, Punctual, PunctualKind, Scene, Shape,
+    ShapeKind, Surface, ValuePath,
 };
 use rtc_math::{Vec3, shortest};
 use rtc_source::{Budget, Resource};
@@ -31,7 +31,8 @@ impl ExportReporter<'_> {
     }
 
     /// Reports settings that other programs lack.
-    pub(super) fn own_settings(&mut self, settings: &Settings) {
+    pub(super) fn own_settings(&mut self, scene: &Scene) {
+        let settings = &scene.settings;
         let mut left_out = |is_set, field, message| {
             if is_set {
                 let path = ValuePath::new(EntityKind::Settings, 0, field);
@@ -49,6 +50,14 @@ impl ExportReporter<'_> {
             EntityField::Stereo,
             "the camera is written with one eye",
         );
+        let is_moving = |surface: &Surface| surface.velocity != [0.0; 3];
+        if let Some(index) = scene.surfaces.iter().position(is_moving) {
+            let path = ValuePath::new(EntityKind::Surface, index, EntityField::Velocity);
+            self.unsupported(
+                "motion is left out: surfaces are where they are at the time 0",
+                path,
+            );
+        }
     }
 
     /// Reports an error if nothing that is written emits light.

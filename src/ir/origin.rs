@@ -72,6 +72,10 @@ pub enum EntityField {
     Background,
     /// The distance between two eyes.
     Stereo,
+    /// When the shutter opens and closes.
+    Shutter,
+    /// The velocity of a surface.
+    Velocity,
     Position,
     Color,
     LightRadius,
@@ -190,6 +194,8 @@ fn pointer_tail(entity: EntityKind, field: EntityField) -> &'static str {
         EntityField::AmbientLight => "/ambientLight",
         EntityField::Background => "/background",
         EntityField::Stereo => "/stereo",
+        EntityField::Shutter => "/shutter",
+        EntityField::Velocity => "/velocity",
         EntityField::Position => "/point/position",
         EntityField::LightRadius => "/point/radius",
         EntityField::Intensity => "/punctual/intensity",

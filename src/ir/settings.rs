@@ -49,6 +49,10 @@ pub struct Settings {
     /// How the picture shows what two eyes see.
     #[serde(default, skip_serializing_if = "is_default")]
     pub stereo_view: StereoView,
+    /// When the shutter of the camera opens and closes, in seconds: in between surfaces with a
+    /// velocity move.
+    #[serde(default = "one_second", skip_serializing_if = "is_one_second")]
+    pub shutter: [f64; 2],
 }
 
 impl Default for Settings {
@@ -67,6 +71,7 @@ impl Default for Settings {
             background: None,
             stereo: 0.0,
             stereo_view: StereoView::SideBySide,
+            shutter: one_second(),
         }
     }
 }
@@ -132,6 +137,14 @@ pub enum StereoView {
 
 fn white() -> [f64; 3] {
     [1.0; 3]
+}
+
+fn one_second() -> [f64; 2] {
+    [0.0, 1.0]
+}
+
+fn is_one_second(shutter: &[f64; 2]) -> bool {
+    shutter.map(f64::to_bits) == one_second().map(f64::to_bits)
 }
 
 fn is_white(color: &[f64; 3]) -> bool {

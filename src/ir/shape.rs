@@ -90,6 +90,27 @@ pub struct Surface {
     /// ignores this flag: there every surface casts a shadow.
     #[serde(default, skip_serializing_if = "is_default")]
     pub casts_no_shadow: bool,
+    /// How far it moves per second, in the world: at the time 0 it is where its shape says.
+    #[serde(default, skip_serializing_if = "is_still")]
+    pub velocity: [f64; 3],
+}
+
+/// Whether all bits are 0.
+fn is_still(velocity: &[f64; 3]) -> bool {
+    velocity.map(f64::to_bits) == [0; 3]
+}
+
+impl Surface {
+    /// A surface that casts a shadow and does not move.
+    #[must_use]
+    pub fn new(shape: Shape, material: MaterialId) -> Self {
+        Self {
+            shape,
+            material,
+            casts_no_shadow: false,
+            velocity: [0.0; 3],
+        }
+    }
 }
 
 /// A sphere.

@@ -355,14 +355,13 @@ mod tests {
                 ..Mesh::default()
             });
             let world_from_object = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];
-            scene.surfaces.push(Surface {
-                shape: Shape::Instance(Instance {
+            scene.surfaces.push(Surface::new(
+                Shape::Instance(Instance {
                     mesh,
                     world_from_object,
                 }),
-                material: MaterialId(0),
-                casts_no_shadow: false,
-            });
+                MaterialId(0),
+            ));
         }
         scene
     }
@@ -477,14 +476,13 @@ mod tests {
     #[test]
     fn a_scene_without_extent_keeps_its_camera() {
         let mut point = scene(&[]);
-        point.surfaces.push(Surface {
-            shape: Shape::Triangle(Triangle {
+        point.surfaces.push(Surface::new(
+            Shape::Triangle(Triangle {
                 vertices: [[1.0; 3]; 3],
                 uvs: None,
             }),
-            material: MaterialId(0),
-            casts_no_shadow: false,
-        });
+            MaterialId(0),
+        ));
         for mut scene in [scene(&[]), point] {
             let before = scene.camera.clone();
             Framing::default().apply(&mut scene);

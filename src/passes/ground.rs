@@ -46,8 +46,8 @@ pub(super) fn add_ground(
         ..Standard::default()
     })));
     let size = RADIUS * half;
-    scene.surfaces.push(Surface {
-        shape: Shape::Instance(Instance {
+    scene.surfaces.push(Surface::new(
+        Shape::Instance(Instance {
             mesh: MeshId(mesh),
             world_from_object: [
                 [size, 0.0, 0.0],
@@ -56,9 +56,8 @@ pub(super) fn add_ground(
                 center.to_array(),
             ],
         }),
-        material: MaterialId(material),
-        casts_no_shadow: false,
-    });
+        MaterialId(material),
+    ));
     Some(scene.surfaces.len() - 1)
 }
 

@@ -76,6 +76,7 @@ mod tests {
             background: Some([1.0, 0.0, 0.0]),
             stereo: 0.1,
             stereo_view: StereoView::Anaglyph,
+            shutter: [0.0, 0.5],
         }
     }
 

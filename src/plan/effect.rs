@@ -78,6 +78,7 @@ effects! {
     VertexColors "corner colours",
     EnvironmentMap "environment map",
     Media "media",
+    MotionBlur "motion blur",
 }
 
 impl Effect {

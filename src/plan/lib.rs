@@ -48,6 +48,7 @@ mod layer;
 mod light;
 mod margin;
 mod missed_caustics;
+mod motion;
 mod path;
 mod pixel_classes;
 mod precision;
@@ -156,6 +157,8 @@ pub struct Plan {
     pub max_depth: u32,
     /// The classes of the pixels.
     pub pixel_classes: PixelClassGrid,
+    /// The moments of the shutter at which samples are taken; 1 if nothing moves.
+    pub moments: u32,
     /// The plan of the path integrator, if it is used.
     pub paths: Option<PathPlan>,
     /// The status of each effect.
@@ -214,6 +217,9 @@ impl Plan {
         };
         // Classify the pixels.
         let pixel_classes = PixelClassGrid::new(&findings, &projection, &screen_rects);
+        let moments = motion::moments(scene);
+        let mut statuses = status::statuses(&findings, &pixel_classes);
+        statuses.extend(motion::status(scene, moments));
         Self {
             arithmetic: Arithmetic::Robust,
             rules,
@@ -221,7 +227,8 @@ impl Plan {
             shapes: shapes(scene, &surfaces),
             surfaces,
             max_depth,
-            statuses: status::statuses(&findings, &pixel_classes),
+            statuses,
+            moments,
             pixel_classes,
             lights: findings.lights.plans,
             constants: findings.facts.constants,
@@ -231,12 +238,19 @@ impl Plan {
 
     /// Plans path tracing.
     fn of_paths(scene: &ValidScene, path: PathSettings, rules: RuleSet) -> Self {
+        let rules = if scene.moves() {
+            rules.intersection(RuleSet::AT_ANY_PLACE)
+        } else {
+            rules
+        };
         let PathPlanning {
             plan,
             surfaces,
             max_depth,
-            statuses,
+            mut statuses,
         } = path::plan(scene, path, rules);
+        let moments = motion::moments(scene);
+        statuses.extend(motion::status(scene, moments));
         Self {
             arithmetic: Arithmetic::Robust,
             rules,
@@ -247,6 +261,7 @@ impl Plan {
             constants: vec![None; scene.textures().len()].into(),
             max_depth,
             pixel_classes: PixelClassGrid::default(),
+            moments,
             paths: Some(plan),
             statuses,
         }
@@ -285,8 +300,12 @@ impl Plan {
     }
 }
 
-/// The rules that hold for a camera: most proofs assume that all camera rays start at the eye.
+/// The rules that hold for a camera and its shutter: most proofs assume that all camera rays start
+/// at the eye, and that nothing moves.
 fn rules_for_camera(scene: &ValidScene, rules: RuleSet) -> RuleSet {
+    if scene.moves() {
+        return rules.intersection(RuleSet::AT_HITS);
+    }
     match scene.camera().projection {
         Projection::Orthographic | Projection::Stereo(_) => rules.intersection(RuleSet::AT_HITS),
         Projection::Perspective => rules,

@@ -46,6 +46,21 @@ impl SurfaceBounds {
         }
     }
 
+    /// Expands the bounds to all places of a surface that moves by a vector.
+    fn sweep(&mut self, by: Vec3) {
+        self.class = ShapeClass::Other;
+        self.extent = match self.extent {
+            SurfaceExtent::Within(Bounds { min, max }) => {
+                let moved = Bounds {
+                    min: min + by,
+                    max: max + by,
+                };
+                SurfaceExtent::Within(moved.union(Bounds { min, max }))
+            }
+            SurfaceExtent::Plane(_) | SurfaceExtent::Anywhere => SurfaceExtent::Anywhere,
+        };
+    }
+
     /// Expands the bounds by the error of its points. If that error is not small against the
     /// thickness, the shape class is no longer valid.
     fn grow(&mut self, error_bound: f64, thickness: f64) {
@@ -96,8 +111,8 @@ impl SurfaceBounds {
     }
 }
 
-/// The bounds of all surfaces, expanded by the rounding error of rays: a ray starts at the eye or
-/// on another surface, and its error is proportional to those coordinates.
+/// The bounds of all surfaces while the shutter is open, expanded by the rounding error of rays: a
+/// ray starts at the eye or on another surface, and its error is proportional to those coordinates.
 pub(crate) fn surface_bounds(scene: &ValidScene) -> Vec<SurfaceBounds> {
     let extent = |mesh: &Arc<Mesh>| Bounds::of(mesh.positions.iter().map(Vec3::from_array));
     let meshes = scene.meshes().iter().map(extent).collect::<IdTable<_, _>>();
@@ -105,6 +120,12 @@ pub(crate) fn surface_bounds(scene: &ValidScene) -> Vec<SurfaceBounds> {
     let mut surface_bounds = surfaces()
         .map(|shape| shape_facts(shape).bounds(&meshes))
         .collect::<Vec<_>>();
+    let sweeps = scene.surfaces().iter().map(|surface| surface.sweep);
+    for (bounds, sweep) in surface_bounds.iter_mut().zip(sweeps) {
+        if sweep != Vec3::ZERO {
+            bounds.sweep(sweep);
+        }
+    }
     let eye = scene.camera().eye.abs().max_element();
     let farthest = surface_bounds
         .iter()

@@ -14,11 +14,14 @@ pub const LARGEST: f64 = 1e60;
 /// The smallest nonzero length: its fourth power is still a normal number.
 pub(super) const SMALLEST: f64 = 1e-60;
 
-/// The number of entities, the exclusive bound of indices.
+/// What surfaces are checked against: the number of entities, the exclusive bound of indices, and
+/// the shutter.
 pub(super) struct EntityCounts {
     pub(super) textures: usize,
     pub(super) meshes: usize,
     pub(super) materials: usize,
+    /// When it opens and closes.
+    pub(super) shutter: [f64; 2],
 }
 
 /// The state of one validation.

@@ -55,7 +55,7 @@ use check::{Checker, EntityCounts};
 use inside::Solids;
 use rtc_diag::DiagnosticSink;
 use rtc_ir::{self as ir, EntityField, EntityKind, SourceSpans, ValuePath};
-use rtc_math::{Id, IdTable, Medium, StoredTree, UnitInterval};
+use rtc_math::{Id, IdTable, Medium, StoredTree, UnitInterval, Vec3};
 use rtc_source::Limits;
 use std::sync::Arc;
 
@@ -173,6 +173,29 @@ impl ValidScene {
 }
 
 impl ValidScene {
+    /// Whether a surface moves while the shutter is open.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        self.surfaces
+            .iter()
+            .any(|surface| surface.sweep != Vec3::ZERO)
+    }
+
+    /// The scene at a moment, from 0, when the shutter opens, to 1, when it closes.
+    #[must_use]
+    pub fn at(&self, moment: f64) -> Self {
+        let surfaces = self.surfaces.iter().map(|surface| Surface {
+            shape: surface.shape.clone().moved(surface.sweep * moment),
+            ..surface.clone()
+        });
+        Self {
+            surfaces: surfaces.collect(),
+            ..self.clone()
+        }
+    }
+}
+
+impl ValidScene {
     /// The same scene with another camera of the same image size; `None` if that camera is invalid.
     #[must_use]
     pub fn seen_by(&self, camera: &ir::Camera) -> Option<Self> {
@@ -257,6 +280,7 @@ pub fn validate(
         textures: textures.len(),
         meshes: meshes.len(),
         materials: materials.len(),
+        shutter: settings.shutter,
     };
     let valid_lights = check.all(lights, |light, index, check| {
         light::light(light, index, &counts, check)

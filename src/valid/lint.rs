@@ -19,6 +19,7 @@ pub(super) fn lints(scene: &ir::Scene, solids: &Solids<'_>, check: &mut Checker<
     tiny_picture(scene, check);
     one_eye(scene, check);
     anaglyph(scene, check);
+    motion(scene, check);
     inside::eye(solids, check);
     unsupported_features(scene, check);
     medium::open_shapes(scene, check);
@@ -200,6 +201,45 @@ fn one_eye(scene: &ir::Scene, check: &mut Checker<'_>) {
             diagnostic.hint(hint),
         );
     }
+}
+
+/// Warns about a velocity or a shutter without effect.
+fn motion(scene: &ir::Scene, check: &mut Checker<'_>) {
+    let is_moving = |surface: &ir::Surface| surface.velocity != [0.0; 3];
+    let first = scene.surfaces.iter().position(is_moving);
+    let [open, close] = scene.settings.shutter;
+    if close < open {
+        let message = format!("the shutter opens at `{open}` and closes at `{close}`, before that");
+        let diagnostic = Diagnostic::new(&codes::OUT_OF_RANGE, message).severity(Severity::Warning);
+        let path = ValuePath::new(EntityKind::Settings, 0, EntityField::Shutter);
+        check.report(path, "the times are exchanged", diagnostic);
+    }
+    let shutter = ValuePath::new(EntityKind::Settings, 0, EntityField::Shutter);
+    let (path, message, label) = match first {
+        None if scene.settings.shutter == ir::Settings::default().shutter => return,
+        None => (
+            shutter,
+            "`shutter` has no effect: nothing has a `velocity`",
+            "",
+        ),
+        Some(index) => {
+            let path = ValuePath::new(EntityKind::Surface, index, EntityField::Velocity);
+            if open == 0.0 && close == 0.0 {
+                (
+                    path,
+                    "`velocity` has no effect: the shutter opens and closes at 0",
+                    "",
+                )
+            } else if scene.settings.mode == ir::Mode::Depth && open != close {
+                let message = "distances are not blurred: they are those when the shutter opens";
+                (path, message, "it moves")
+            } else {
+                return;
+            }
+        }
+    };
+    let diagnostic = Diagnostic::new(&codes::NO_EFFECT, message).severity(Severity::Warning);
+    check.report(path, label, diagnostic);
 }
 
 /// Warns about what an anaglyph lacks.

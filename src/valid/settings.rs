@@ -128,6 +128,7 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Checker<'_>) -> Opti
         background,
         stereo: _,
         stereo_view: _,
+        shutter,
     } = settings;
     // Check each value.
     let mode = valid_mode(mode, check);
@@ -141,6 +142,9 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Checker<'_>) -> Opti
         "light samples",
         at(EntityField::LightSamples),
     );
+    for time in shutter {
+        check.number(*time, at(EntityField::Shutter))?;
+    }
     let ambient_light = check.color(*ambient_light, at(EntityField::AmbientLight));
     let background = background.unwrap_or_default();
     let background = check.color(background, at(EntityField::Background));

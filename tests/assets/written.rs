@@ -150,8 +150,8 @@ fn settings() -> Settings {
 
 /// A turned mesh of a material, by their indices.
 fn surface(mesh: u32, material: u32) -> Surface {
-    Surface {
-        shape: Shape::Instance(Instance {
+    Surface::new(
+        Shape::Instance(Instance {
             mesh: MeshId(mesh),
             world_from_object: [
                 [0.0, 1.1, 0.0],
@@ -160,9 +160,8 @@ fn surface(mesh: u32, material: u32) -> Surface {
                 [5.0, 6.0, 7.0],
             ],
         }),
-        material: MaterialId(material),
-        casts_no_shadow: false,
-    }
+        MaterialId(material),
+    )
 }
 
 /// A material, a full one that is a blend with it, one with a map, and the default one.

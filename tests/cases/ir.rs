@@ -1,5 +1,5 @@
-//! The IR text of every scene in `scenes/`, and of one for each shape, beside the last one
-//! approved; and laws that hold for each of them.
+//! The IR text of every scene in `scenes/`, of one for each shape, and of some for textures, lights
+//! and settings, beside the last one approved; and laws that hold for each of them.
 use crate::suite::{files, name, root, trial};
 use libtest_mimic::Trial;
 use rtc::internals::codec::{self, Encoding};
@@ -32,7 +32,17 @@ pub(crate) fn trials() -> Vec<Trial> {
     trials
 }
 
-/// The scenes, by name: those of `scenes/`, and one for each shape.
+/// Scenes of textures, lights and settings.
+const OTHERS: [&str; 6] = [
+    "texture/patterns",
+    "texture/patterns-of-standard",
+    "light/area",
+    "light/ambient",
+    "camera/anaglyph",
+    "motion/paths",
+];
+
+/// The scenes, by name: those of `scenes/`, one for each shape, and [`OTHERS`].
 fn scenes() -> Vec<(String, PathBuf)> {
     let found = [("", "scenes"), ("shape-", "tests/render/record")]
         .into_iter()
@@ -41,7 +51,11 @@ fn scenes() -> Vec<(String, PathBuf)> {
             let paths = files(&folder, &["yaml"]).into_iter();
             paths.map(move |path| (format!("{prefix}{}", name(&path, &folder)), path))
         });
-    found.collect()
+    let others = OTHERS.map(|other| {
+        let path = root("tests/render").join(other).with_extension("yaml");
+        (other.replace('/', "-"), path)
+    });
+    found.chain(others).collect()
 }
 
 /// The proven scene of a text.

@@ -218,6 +218,7 @@ fn settings() -> impl Strategy<Value = Settings> {
                 } else {
                     StereoView::SideBySide
                 },
+                shutter: [ambient_light[0], f64::from(supersampling)],
             },
         )
 }
@@ -420,11 +421,14 @@ fn surface() -> impl Strategy<Value = Surface> {
             }
         ),
     ];
-    (shape, any::<u32>(), any::<bool>()).prop_map(|(shape, material, casts_no_shadow)| Surface {
-        shape,
-        material: MaterialId(material),
-        casts_no_shadow,
-    })
+    (shape, any::<u32>(), any::<bool>(), triple()).prop_map(
+        |(shape, material, casts_no_shadow, velocity)| Surface {
+            shape,
+            material: MaterialId(material),
+            casts_no_shadow,
+            velocity,
+        },
+    )
 }
 
 prop_compose! {

@@ -15,11 +15,7 @@ pub(crate) fn white() -> ir::Material {
 
 /// A scene of shapes, each white, seen from afar.
 pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
-    let surface = |shape| ir::Surface {
-        shape,
-        material: ir::MaterialId(0),
-        casts_no_shadow: false,
-    };
+    let surface = |shape| ir::Surface::new(shape, ir::MaterialId(0));
     ir::Scene {
         camera: ir::Camera {
             eye: [0.0, 0.0, 10.0],

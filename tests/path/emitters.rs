@@ -66,11 +66,7 @@ fn shapes() -> Vec<Shape> {
 
 fn add(scene: &mut Scene, shape: Shape, standard: Standard) {
     let material = material(scene, standard);
-    scene.surfaces.push(Surface {
-        shape,
-        material,
-        casts_no_shadow: false,
-    });
+    scene.surfaces.push(Surface::new(shape, material));
 }
 
 /// A glossy floor and a ball in the light of one shape.

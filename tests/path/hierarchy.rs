@@ -55,11 +55,7 @@ pub(super) fn place(
         mesh: MeshId(mesh),
         world_from_object,
     });
-    scene.surfaces.push(Surface {
-        shape,
-        material,
-        casts_no_shadow: false,
-    });
+    scene.surfaces.push(Surface::new(shape, material));
 }
 
 /// What the surfaces say one by one: the nearest hit, and of several at one t that of the first

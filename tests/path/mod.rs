@@ -86,11 +86,7 @@ fn add_quad(scene: &mut Scene, [a, b, c, d]: [[f64; 3]; 4], standard: Standard) 
             vertices,
             uvs: Some(uvs),
         });
-        scene.surfaces.push(Surface {
-            shape,
-            material,
-            casts_no_shadow: false,
-        });
+        scene.surfaces.push(Surface::new(shape, material));
     }
 }
 
@@ -112,11 +108,7 @@ fn add_sphere(scene: &mut Scene, center: [f64; 3], radius: f64, standard: Standa
         radius,
         texture_from_world: None,
     });
-    scene.surfaces.push(Surface {
-        shape,
-        material,
-        casts_no_shadow: false,
-    });
+    scene.surfaces.push(Surface::new(shape, material));
 }
 
 fn add_light(scene: &mut Scene, light: Punctual) {

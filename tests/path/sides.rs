@@ -145,11 +145,7 @@ fn the_front_of_a_mirrored_instance_is_that_of_its_mesh() {
                 mesh: MeshId(0),
                 world_from_object,
             });
-            scene.surfaces.push(Surface {
-                shape,
-                material,
-                casts_no_shadow: false,
-            });
+            scene.surfaces.push(Surface::new(shape, material));
         });
         assert_eq!(mean(&render(&scene)), expected, "{axes:?}");
     }
@@ -251,11 +247,7 @@ fn inside(mesh: Mesh, standard: Standard) -> Scene {
         mesh: MeshId(0),
         world_from_object,
     });
-    scene.surfaces.push(Surface {
-        shape,
-        material,
-        casts_no_shadow: false,
-    });
+    scene.surfaces.push(Surface::new(shape, material));
     scene
 }
 

@@ -148,14 +148,13 @@ fn add_mesh(scene: &mut Scene, standard: Standard, x: [f64; 3], fill: impl Fn(&m
     let mesh = MeshId(u32::try_from(scene.meshes.len() - 1).unwrap());
     let world_from_object = [x, [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];
     let material = material(scene, standard);
-    scene.surfaces.push(Surface {
-        shape: Shape::Instance(Instance {
+    scene.surfaces.push(Surface::new(
+        Shape::Instance(Instance {
             mesh,
             world_from_object,
         }),
         material,
-        casts_no_shadow: false,
-    });
+    ));
 }
 
 #[test]

@@ -82,11 +82,7 @@ impl Dice {
                 .map(|_| ir::Material::Phong(self.phong()))
                 .collect(),
             surfaces: (0..surfaces)
-                .map(|_| ir::Surface {
-                    shape: self.shape(),
-                    material: MaterialId(self.roll(materials)),
-                    casts_no_shadow: false,
-                })
+                .map(|_| ir::Surface::new(self.shape(), MaterialId(self.roll(materials))))
                 .collect(),
             names: Vec::new(),
             environment: None,

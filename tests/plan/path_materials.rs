@@ -326,11 +326,9 @@ fn a_map_without_texture_coordinates_is_1() {
                 mesh.uvs = Vec::<[f64; 2]>::new().into();
             }
             let shape = placed(&mut scene, mesh);
-            scene.surfaces.push(ir::Surface {
-                shape,
-                material: ir::MaterialId(1),
-                casts_no_shadow: false,
-            });
+            scene
+                .surfaces
+                .push(ir::Surface::new(shape, ir::MaterialId(1)));
         }
         fires(Rule::PathOpaque, &scene)
     };

@@ -37,11 +37,10 @@ pub(super) fn traced(surfaces: &[(Shape, Standard)]) -> Scene {
 
 /// Adds a surface with a material of its own.
 pub(super) fn add(scene: &mut Scene, shape: &Shape, material: &Standard) {
-    scene.surfaces.push(Surface {
-        shape: shape.clone(),
-        material: MaterialId(scene.materials.len() as u32),
-        casts_no_shadow: false,
-    });
+    scene.surfaces.push(Surface::new(
+        shape.clone(),
+        MaterialId(scene.materials.len() as u32),
+    ));
     let material = Box::new(material.clone());
     scene.materials.push(Material::Standard(material));
 }

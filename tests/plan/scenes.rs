@@ -81,11 +81,9 @@ pub(super) fn with(surfaces: &[(Shape, Phong)]) -> Scene {
     let mut scene = base_scene();
     for (index, (shape, phong)) in (0_u32..).zip(surfaces) {
         scene.materials.push(Material::Phong(phong.clone()));
-        scene.surfaces.push(Surface {
-            shape: shape.clone(),
-            material: MaterialId(index),
-            casts_no_shadow: false,
-        });
+        scene
+            .surfaces
+            .push(Surface::new(shape.clone(), MaterialId(index)));
     }
     scene
 }
@@ -162,9 +160,5 @@ pub(super) fn square(scene: &mut Scene, normals: [[f64; 3]; 4]) {
         mesh: ir::MeshId(0),
         world_from_object,
     });
-    scene.surfaces.push(Surface {
-        shape,
-        material: MaterialId(0),
-        casts_no_shadow: false,
-    });
+    scene.surfaces.push(Surface::new(shape, MaterialId(0)));
 }

@@ -178,6 +178,7 @@ fn same_surfaces(before: &Scene, after: &Scene) {
     assert_eq!(shown.len(), after.surfaces.len());
     for (a, b) in shown.into_iter().zip(&after.surfaces) {
         assert_eq!(a.casts_no_shadow, b.casts_no_shadow);
+        assert_eq!(a.velocity, b.velocity);
         let Shape::Instance(mesh) = &b.shape else {
             panic!("{:?} is no mesh", b.shape)
         };
@@ -355,6 +356,8 @@ fn settings_come_back() {
     }
     let mut lowered = with(EYE);
     lowered.scene.surfaces[0].casts_no_shadow = true;
+    lowered.scene.surfaces[0].velocity = [1.0, -2.0, 0.5];
+    lowered.scene.settings.shutter = [-0.5, 0.25];
     comes_back(&lowered);
 }
 

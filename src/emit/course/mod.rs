@@ -84,9 +84,13 @@ fn write<'s>(scene: &'s Scene, names: FileNames<'s>) -> Result<WrittenScene<'s>,
     text.camera(camera);
     if settings.stereo != 0.0 {
         text.number("stereo", settings.stereo, 2);
-        if settings.stereo_view == StereoView::Anaglyph {
-            text.line(2, "stereoView: anaglyph");
-        }
+    }
+    if settings.stereo_view == StereoView::Anaglyph {
+        text.line(2, "stereoView: anaglyph");
+    }
+    if settings.shutter != Settings::default().shutter {
+        let shutter = text.list(settings.shutter);
+        text.line(2, &format!("shutter: {shutter}"));
     }
     text.settings(settings, lights);
     text.display(display);
@@ -229,6 +233,9 @@ impl<'s> SceneWriter<'s> {
         if surface.casts_no_shadow {
             self.line(4, "shadow: false");
         }
+        if surface.velocity != [0.0; 3] {
+            self.numbers("velocity", &surface.velocity, 4);
+        }
         Ok(())
     }
 
@@ -282,7 +289,7 @@ impl<'s> SceneWriter<'s> {
 
     /// Writes all other settings that have not their defaults, by their names in the IR.
     fn other_settings(&mut self, settings: &Settings) {
-        const WRITTEN: [&str; 7] = [
+        const WRITTEN: [&str; 8] = [
             "mode",
             "shadows",
             "maxDepth",
@@ -290,6 +297,7 @@ impl<'s> SceneWriter<'s> {
             "pattern",
             "stereo",
             "stereoView",
+            "shutter",
         ];
         let fields = serde_json::to_value(settings);
         let Ok(Json::Object(fields)) = fields else {

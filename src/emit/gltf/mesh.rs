@@ -44,6 +44,10 @@ impl GltfWriter<'_> {
             self.reporter
                 .in_extras("that a surface casts no shadow", path);
         }
+        if surface.velocity != [0.0; 3] {
+            rtc_extras.insert("velocity".to_owned(), surface.velocity.to_vec().into());
+            self.reporter.in_extras("the velocity of a surface", path);
+        }
         let name = scene.names.get(index).filter(|name| !name.is_empty());
         let node = Node {
             mesh: Some(mesh),

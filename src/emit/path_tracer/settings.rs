@@ -25,7 +25,7 @@ impl ExportReporter<'_> {
                 settings.supersampling.saturating_pow(2)
             }
         };
-        self.own_settings(settings);
+        self.own_settings(scene);
         let Display { exposure, tone } = &scene.display;
         if *exposure != 0.0 || tone.is_some() {
             let message =

@@ -132,7 +132,7 @@ impl PovWriter<'_> {
             let path = ValuePath::new(EntityKind::Medium, 0, EntityField::Whole);
             self.reporter.unsupported(message, path);
         }
-        self.reporter.own_settings(&self.scene.settings);
+        self.reporter.own_settings(self.scene);
         // Write the settings.
         self.line(&format!(
             "// povray +W{width} +H{height} +FN File_Gamma=1.0{samples}\n#version 3.7;"

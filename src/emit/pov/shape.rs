@@ -48,6 +48,7 @@ impl PovWriter<'_> {
             shape,
             material,
             casts_no_shadow,
+            velocity: _,
         } = surface;
         if self.is_empty(shape) {
             return;

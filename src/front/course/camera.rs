@@ -6,7 +6,7 @@ use super::lower::Lowering;
 use super::number::{Count, FieldOfView, NonNegative, PixelCount, Positive};
 use super::record::{FieldResult, keys, record};
 use super::synonym::{EYE, IMAGE_SIZE, TARGET};
-use super::value::{Point, Vector};
+use super::value::{Point, Shutter, Vector};
 use super::view_size::ViewSize;
 use rtc_diag::{Severity, codes};
 use rtc_ir::{self as ir, EntityField};
@@ -50,6 +50,8 @@ record! {
         /// or `anaglyph`, for glasses with a red filter on the left and a cyan one on the right.
         stereo_view: Spanned<ir::StereoView>, default(ir::StereoView::SideBySide),
             keys!["stereoView"];
+        /// When the shutter opens and closes, in seconds: in between objects with a `velocity` move.
+        shutter: Spanned<Shutter>, default(Shutter([0.0, 1.0])), keys!["shutter"];
         /// The radius of the lens in scene units; at 0 everything is in focus.
         aperture_radius: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["apertureRadius"];
         /// The number of lens samples per sub-sample.
@@ -120,6 +122,7 @@ impl Lowering {
             projection,
             stereo: _,
             stereo_view: _,
+            shutter: _,
             aperture_radius,
             aperture_samples,
         } = &camera.value;
@@ -195,6 +198,7 @@ impl Lowering {
             projection: Spanned::without_span(ir::Projection::Perspective),
             stereo: Spanned::without_span(NonNegative(0.0)),
             stereo_view: Spanned::without_span(ir::StereoView::SideBySide),
+            shutter: Spanned::without_span(Shutter([0.0, 1.0])),
             aperture_radius: Spanned::without_span(NonNegative(0.0)),
             aperture_samples: Spanned::without_span(Count(1)),
         };

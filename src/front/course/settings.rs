@@ -229,6 +229,7 @@ impl Lowering {
         let camera = scene.camera.read().map(|camera| &camera.value);
         let stereo = camera.map_or(one_eye, |camera| camera.stereo);
         let stereo_view = camera.map(|camera| camera.stereo_view.value);
+        let shutter = camera.map(|camera| camera.shutter);
         self.display(scene);
         self.scene.settings = ir::Settings {
             mode: self.mode(mode.value, gooch, context),
@@ -240,12 +241,15 @@ impl Lowering {
             toon: scene.toon.value,
             stereo: stereo.value.0,
             stereo_view: stereo_view.unwrap_or_default(),
+            shutter: shutter.map_or(ir::Settings::default().shutter, |shutter| shutter.value.0),
             background: scene.background.read().map(|color| color.value.0),
             ..ir::Settings::default()
         };
         // Record the origin of each value.
         self.record_span(EntityKind::Settings, 0, EntityField::Mode, mode.span);
         self.record_span(EntityKind::Settings, 0, EntityField::Stereo, stereo.span);
+        let shutter = shutter.and_then(|shutter| shutter.span);
+        self.record_span(EntityKind::Settings, 0, EntityField::Shutter, shutter);
         let background = scene.background.read().and_then(|color| color.span);
         self.record_span(EntityKind::Settings, 0, EntityField::Background, background);
         self.record_span(EntityKind::Settings, 0, EntityField::MaxDepth, depth.span);

@@ -128,6 +128,12 @@ numbers! {
     { "type": "number", "minimum": 0 }
 }
 
+numbers! {
+    /// When a shutter opens and closes, in seconds.
+    Shutter, 2, "a list of two numbers",
+    { "type": "number", "minimum": -1e60, "maximum": 1e60 }
+}
+
 /// Declares a type of the format: a list of three numbers, or one number for all three.
 macro_rules! spread {
     ($(#[doc = $doc:literal])+ $name:ident, $item:tt) => {

@@ -117,11 +117,7 @@ pub(super) fn cover_backs(
         let index = lowered.scene.surfaces.len();
         let path = ValuePath::new(EntityKind::Surface, index, EntityField::Whole);
         lowered.source_spans.record(path, light.span);
-        lowered.scene.surfaces.push(Surface {
-            shape,
-            material: light.back,
-            casts_no_shadow: false,
-        });
+        lowered.scene.surfaces.push(Surface::new(shape, light.back));
     }
 }
 

@@ -106,11 +106,7 @@ impl<'run> Lowering<'run> {
             });
         }
         self.record(EntityKind::Surface, self.scene.surfaces.len(), node.span);
-        self.scene.surfaces.push(Surface {
-            shape,
-            material,
-            casts_no_shadow: false,
-        });
+        self.scene.surfaces.push(Surface::new(shape, material));
     }
 
     /// `face_normals` and `flip_normals` do not change two-sided surfaces.

@@ -231,11 +231,7 @@ impl Lowering<'_> {
         self.charge(Resource::Memory, SURFACE_BYTES, span)?;
         let shape = self.placed(&placed.geometry, &to_world, span)?;
         self.record(EntityKind::Surface, self.scene.surfaces.len(), span);
-        self.scene.surfaces.push(Surface {
-            shape,
-            material,
-            casts_no_shadow: false,
-        });
+        self.scene.surfaces.push(Surface::new(shape, material));
         Some(())
     }
 

@@ -77,11 +77,9 @@ impl Lowering<'_> {
             return (!self.is_exhausted).then_some(());
         };
         self.record(EntityKind::Surface, self.scene.surfaces.len(), placed.span);
-        self.scene.surfaces.push(Surface {
-            shape,
-            material: placed.material,
-            casts_no_shadow: false,
-        });
+        self.scene
+            .surfaces
+            .push(Surface::new(shape, placed.material));
         Some(())
     }
 

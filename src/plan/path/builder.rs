@@ -181,6 +181,7 @@ impl PathPlanBuilder<'_> {
             Effect::Surfaces => self.surfaces.contains(&true),
             Effect::Supersampling => self.path.samples.get() > 1,
             Effect::Lens => self.scene.camera().lens.radius.get() > 0.0,
+            Effect::MotionBlur => self.scene.moves(),
             Effect::Environment => self.environment != RemainingEnvironment::Nothing,
             Effect::EnvironmentMap => {
                 self.environment == RemainingEnvironment::All && self.has_environment_image()
@@ -409,6 +410,7 @@ pub(super) fn material_requires(m: &Standard, effect: Effect) -> bool {
         | Effect::NormalInterpolation
         | Effect::NormalMapping
         | Effect::Lens
+        | Effect::MotionBlur
         | Effect::Supersampling
         | Effect::Environment
         | Effect::EnvironmentMap

@@ -93,6 +93,7 @@ fn absence(effect: Effect) -> &'static str {
         Effect::NormalMapping => "no material has a normal map",
         Effect::NormalInterpolation => "no mesh has normals",
         Effect::VertexColors => "no mesh has vertex colours",
+        Effect::MotionBlur => "nothing moves while the shutter is open",
         Effect::DepthBuffer
         | Effect::NormalBuffer
         | Effect::SoftLight
@@ -186,6 +187,7 @@ impl PathPlanBuilder<'_> {
             | Effect::Volume
             | Effect::Dispersion
             | Effect::Layer(_)
+            | Effect::MotionBlur
             | Effect::DepthBuffer
             | Effect::NormalBuffer
             | Effect::SoftLight

@@ -160,6 +160,18 @@ impl RuleSet {
         .with(Rule::HighlightKs)
         .with(Rule::MirrorKs);
 
+    /// The rules of path tracing whose proofs do not depend on where surfaces are.
+    pub(crate) const AT_ANY_PLACE: Self = Self::NONE
+        .with(Rule::PathLightBlack)
+        .with(Rule::PathDarkSky)
+        .with(Rule::PathEvenSky)
+        .with(Rule::PathUnlitMaterial)
+        .with(Rule::PathMediumClear)
+        .with(Rule::PathDark)
+        .with(Rule::PathUnlit)
+        .with(Rule::PathLast)
+        .with(Rule::PathDelta);
+
     /// The set with one more rule.
     #[must_use]
     pub const fn with(self, rule: Rule) -> Self {

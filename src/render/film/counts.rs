@@ -152,6 +152,7 @@ impl RayCounts {
             | Effect::Layer(_)
             | Effect::Volume
             | Effect::Media
+            | Effect::MotionBlur
             | Effect::Dispersion
             | Effect::VertexColors
             | Effect::EnvironmentMap => self.evaluations[effect.index()],

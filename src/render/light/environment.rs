@@ -9,9 +9,10 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// The light of the environment, from infinitely far away.
+#[derive(Clone)]
 pub(crate) struct Environment {
     radiance: Vec3,
-    map: Option<EnvironmentMap>,
+    map: Option<Arc<EnvironmentMap>>,
 }
 
 /// An image of all directions.
@@ -52,6 +53,7 @@ impl Environment {
         is_constant: bool,
     ) -> Self {
         let map = image.map(|image| EnvironmentMap::new(image, image_from_world, is_constant));
+        let map = map.map(Arc::new);
         Self { radiance, map }
     }
 

@@ -59,6 +59,8 @@ pub(crate) struct Lights<'world, S> {
     first_light_of_surface: IdTable<Surface, Option<LightId>>,
     /// What caustics are estimated for, if they are.
     pub(crate) caustics: Option<CausticLights>,
+    /// Those at the moments of the shutter, as the worlds have them.
+    pub(crate) moments: Vec<Lights<'world, S>>,
 }
 
 /// One of the lights that the path tracer chooses from.
@@ -149,7 +151,10 @@ impl<'world, S: Intersect> Lights<'world, S> {
             probabilities: IdTable::default(),
             first_light_of_surface,
             caustics: None,
+            moments: Vec::new(),
         };
+        let moments = world.moments.iter();
+        all.moments = moments.map(|world| Self::new(world, strategy)).collect();
         all.build_distribution(strategy);
         all
     }

@@ -19,6 +19,9 @@ impl SobolPair {
     /// The position on the lens.
     pub(crate) const LENS: Self = Self(2);
 
+    /// The moment of the shutter, by the first number.
+    pub(crate) const SHUTTER: Self = Self(3);
+
     /// The light of vertex `bounces`: grouped with the dimensions before it, the position in the
     /// pixel or the direction from the vertex before.
     pub(crate) fn light(bounces: u32) -> Self {

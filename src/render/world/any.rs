@@ -80,8 +80,9 @@ impl AnyWorld {
         let old = each!(self, world => &world.plan);
         let plan = Plan::with_arithmetic(old.arithmetic, &scene, old.rules);
         // The plan of paths has the materials and lights.
-        let is_same = (plan.shapes, &plan.surfaces, &plan.constants, &plan.paths)
-            == (old.shapes, &old.surfaces, &old.constants, &old.paths);
+        let is_same = !scene.moves()
+            && (plan.shapes, &plan.surfaces, &plan.constants, &plan.paths)
+                == (old.shapes, &old.surfaces, &old.constants, &old.paths);
         if is_same {
             each!(self, world => world.show(scene, plan));
         } else {

@@ -212,8 +212,12 @@ fn key(starts: &[(SurfaceId, u32)], item: u32) -> SurfacePrimitive {
     (surface, item - start)
 }
 
-/// For each surface of a scene, whether it is an instance to be flattened.
+/// For each surface of a scene, whether it is an instance to be flattened: none if some move, as
+/// each moment would need a hierarchy of its own.
 pub(super) fn flattened_surfaces(scene: &ValidScene) -> Vec<bool> {
+    if scene.moves() {
+        return vec![false; scene.surfaces().len()];
+    }
     let mut uses = IdTable::<valid::Mesh, _>::from(vec![0_usize; scene.meshes().len()]);
     let mesh = |surface: &valid::Surface| {
         if let valid::Shape::Instance(instance) = &surface.shape {

@@ -12,6 +12,7 @@ use rtc_valid::{self as valid, ValidScene};
 
 /// The lights of a world. There are two kinds of lists; the one that the integrator does not use is
 /// empty.
+#[derive(Clone)]
 pub(crate) struct LightList {
     /// The lights of Whitted's integrator, in the order in which their terms are summed.
     pub(crate) course: IdTable<valid::CourseLight, CourseLight>,

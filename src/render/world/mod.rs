@@ -33,6 +33,7 @@ use crate::material::phong::PhongMaterial;
 use crate::material::standard::StandardMaterial;
 use crate::medium::HomogeneousMedium;
 use crate::ray::Ray;
+use crate::sampler::sobol::{SobolPair, SobolPath};
 use crate::shape::Shape;
 use crate::shape::geometry::Intersect;
 use crate::shape::tie::{CLOSE, ClosestHit, ClosestHitCandidates};
@@ -118,6 +119,9 @@ pub struct World<S = Shape> {
     flattened: Option<FlattenedInstances>,
     /// The SIMD instructions that rays are traced with.
     pub(crate) simd: SimdLevel,
+    /// The worlds at the moments of the shutter, if surfaces move. This one is that of the moment
+    /// when the shutter opens.
+    pub(crate) moments: Vec<World<S>>,
     /// All surfaces, if they are few and the integrator uses ray cones.
     pub(crate) small_scene: Option<SmallScene>,
 }
@@ -143,6 +147,21 @@ const STOP: f64 = -1.0;
 
 /// The primitive of a ray that starts at no surface.
 pub(crate) const NO_PRIMITIVE: SurfacePrimitive = (SurfaceId::NONE, u32::MAX);
+
+impl<S> World<S> {
+    /// Which moment of the shutter a sample is taken at; `None` if nothing moves.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a share of the moments, below their number"
+    )]
+    #[inline]
+    pub(crate) fn moment_of(&self, numbers: &SobolPath) -> Option<usize> {
+        let count = self.moments.len();
+        let time = || numbers.pair(SobolPair::SHUTTER)[0];
+        (count > 0).then(|| (time() * count as f64) as usize)
+    }
+}
 
 impl<S: Intersect> World<S> {
     /// The closest hit with t > 0. Ties within rounding go to the first surface and its first

@@ -3,6 +3,7 @@
 
 use super::alpha::AlphaTested;
 use super::flattened::{FlattenedInstances, flattened_surfaces};
+use super::light::LightList;
 use super::material::{PhongList, standard, unchanged, with_requests};
 use super::settings::{camera, settings};
 use super::shape::Prepare;
@@ -16,7 +17,7 @@ use crate::medium::HomogeneousMedium;
 use crate::shape::geometry::Intersect;
 use rtc_math::{IdTable, Medium, StoredTree};
 use rtc_plan::facts::material;
-use rtc_plan::{Plan, RuleSet};
+use rtc_plan::{PixelClassGrid, Plan, RuleSet};
 use rtc_valid::{self as valid, ValidScene};
 use std::sync::Arc;
 
@@ -32,28 +33,60 @@ impl<S: Prepare> World<S> {
     /// the same.
     #[must_use]
     pub fn prepare_at(scene: &ValidScene, plan: &Plan, simd: SimdLevel) -> Self {
-        // Prepare textures, lights and the materials that the plan needs.
-        let textures = Textures::new(scene);
-        let lights = light::lights_for(scene, plan, &textures);
+        let (textures, meshes) = (Textures::new(scene), scene.meshes().iter());
+        let assets = PreparedAssets {
+            lights: light::lights_for(scene, plan, &textures),
+            textures,
+            meshes: meshes
+                .map(|mesh| Arc::new(S::prepare_mesh(mesh, simd)))
+                .collect(),
+        };
+        let mut world = Self::of_assets(scene, plan, &assets, simd);
+        if plan.moments > 1 {
+            // A scene that moves has no classes of pixels.
+            let plan = Plan {
+                pixel_classes: PixelClassGrid::default(),
+                ..plan.clone()
+            };
+            let moment = |k: u32| (f64::from(k) + 0.5) / f64::from(plan.moments);
+            let at = |k| Self::of_assets(&scene.at(moment(k)), &plan, &assets, simd);
+            world.moments = (0..plan.moments).map(at).collect();
+        }
+        world
+    }
+
+    /// Prepares a scene at one moment.
+    fn of_assets(
+        scene: &ValidScene,
+        plan: &Plan,
+        assets: &PreparedAssets<S>,
+        simd: SimdLevel,
+    ) -> Self {
+        let PreparedAssets {
+            textures,
+            lights,
+            meshes,
+        } = assets;
+        // Prepare the materials that the plan needs.
         let mut media = IdTable::default();
         let (surfaces, phongs, standards) = match &plan.paths {
             None => {
                 let materials = material::phongs(scene.materials());
                 let materials = materials.into_iter().collect();
                 let mut list = PhongList::new(materials, scene.textures(), plan);
-                let surfaces = surfaces(scene, plan, simd, |material, has_uv| {
+                let surfaces = surfaces(scene, plan, meshes, |material, has_uv| {
                     list.of(material, has_uv)
                 });
-                (surfaces, list.prepared(&textures), IdTable::default())
+                (surfaces, list.prepared(textures), IdTable::default())
             }
             Some(paths) => {
                 let materials = paths.materials.entries();
                 let prepared = materials.map(|(index, material)| StandardMaterial {
                     media: interface(material, &mut media),
-                    ..standard(index, material, &textures, paths)
+                    ..standard(index, material, textures, paths)
                 });
                 let prepared = prepared.collect();
-                let surfaces = surfaces(scene, plan, simd, |material, _| unchanged(material));
+                let surfaces = surfaces(scene, plan, meshes, |material, _| unchanged(material));
                 (surfaces, IdTable::default(), with_requests(prepared))
             }
         };
@@ -76,7 +109,7 @@ impl<S: Prepare> World<S> {
             media,
             camera_medium,
             has_free_panes: material::has_media(scene),
-            lights,
+            lights: lights.clone(),
             surfaces,
             verify: None,
             alpha_tested: match plan.paths {
@@ -87,6 +120,7 @@ impl<S: Prepare> World<S> {
             casters,
             flattened,
             simd,
+            moments: Vec::new(),
             small_scene,
         }
     }
@@ -96,6 +130,13 @@ impl<S: Prepare> World<S> {
     pub fn tree_to_store(&self) -> Option<StoredTree> {
         self.flattened.as_ref()?.to_store(&self.surfaces)
     }
+}
+
+/// What the worlds of all moments share.
+struct PreparedAssets<S: Prepare> {
+    textures: Textures,
+    lights: LightList,
+    meshes: IdTable<valid::Mesh, Arc<S::Mesh>>,
 }
 
 /// The media that the surfaces of a material separate; they come into the list.
@@ -114,16 +155,11 @@ fn interface(
 fn surfaces<S: Prepare>(
     scene: &ValidScene,
     plan: &Plan,
-    simd: SimdLevel,
+    meshes: &IdTable<valid::Mesh, Arc<S::Mesh>>,
     mut material_of: impl FnMut(valid::MaterialId, bool) -> MaterialId,
 ) -> IdTable<Surface, Surface<S>> {
-    let meshes = scene
-        .meshes()
-        .iter()
-        .map(|mesh| Arc::new(S::prepare_mesh(mesh, simd)))
-        .collect::<IdTable<_, _>>();
     let prepared = |(index, surface): (usize, &valid::Surface)| {
-        let shape = S::prepare(&surface.shape, &meshes)?;
+        let shape = S::prepare(&surface.shape, meshes)?;
         Some(Surface {
             material: material_of(surface.material, shape.has_uv()),
             shape,
@@ -168,7 +204,8 @@ impl SurfaceLookup {
         let casters = objects.iter().copied();
         let casters: Vec<SurfaceId> = casters.filter(|id| casts(&surfaces[*id])).collect();
         // A world without pruning tests all surfaces, so validation finds a hit that a cone missed.
-        let bundled = !is_path && plan.rules != RuleSet::NONE;
+        // The cones of rays are those of one moment.
+        let bundled = !is_path && plan.rules != RuleSet::NONE && !scene.moves();
         let small_scene = || {
             let mut small_scene = SmallScene::new(surfaces, &objects, &casters)?;
             small_scene.follow(surfaces, plan);

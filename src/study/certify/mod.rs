@@ -253,9 +253,11 @@ impl<'scene> Views<'scene> {
 fn doubts_everywhere(scene: &Scene) -> Doubts {
     let settings = &scene.settings;
     let has_falloff = scene.lights.iter().any(|light| light.point().is_none());
+    let is_moving = (scene.surfaces.iter()).any(|surface| surface.velocity != [0.0; 3]);
     let cases = [
         (settings.toon, "toon shading"),
         (settings.stereo != 0.0, "stereo"),
+        (is_moving, "motion"),
         (settings.background.is_some(), "a background colour"),
         (has_falloff, "lights with falloff"),
         (matches!(settings.mode, Mode::Path(_)), "path tracing"),
@@ -301,11 +303,9 @@ mod tests {
             normal: [0.0, 0.0, 1.0],
             radius: 1.0,
         });
-        scene.surfaces.extend([floor, disc].map(|shape| Surface {
-            shape,
-            material: MaterialId(0),
-            casts_no_shadow: false,
-        }));
+        scene
+            .surfaces
+            .extend([floor, disc].map(|shape| Surface::new(shape, MaterialId(0))));
         scene
     }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::BitOr;
 
 /// The names of what can be unsupported, each with its own bit; others share that of the last.
-const NAMES: [&str; 16] = [
+const NAMES: [&str; 17] = [
     "instance",
     "ellipsoid",
     "csg",
@@ -15,6 +15,7 @@ const NAMES: [&str; 16] = [
     "refraction by vertex normals",
     "toon shading",
     "stereo",
+    "motion",
     "a background colour",
     "a standard material",
     "lights with falloff",

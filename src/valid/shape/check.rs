@@ -19,6 +19,7 @@ pub(crate) fn surface(
         shape,
         material,
         casts_no_shadow,
+        velocity,
     } = surface;
     let kind = shape.kind();
     let mut surface_check = SurfaceCheck {
@@ -34,12 +35,20 @@ pub(crate) fn surface(
         ValuePath::new(EntityKind::Surface, index, EntityField::Material),
     );
     let shape = shape.validate(&mut surface_check);
+    // How far it has moved when the shutter opens, and when it closes.
+    let moved = counts.shutter.map(|time| {
+        let moved = Vec3::from_array(*velocity) * time;
+        let path = ValuePath::new(EntityKind::Surface, index, EntityField::Velocity);
+        check.vector(moved.to_array(), path)
+    });
     let material = material?;
+    let [open, close] = [moved[0]?, moved[1]?];
     Some(shape?.map(|shape| Surface {
-        shape,
+        shape: shape.moved(open),
         material,
         casts_shadow: !casts_no_shadow,
         index,
+        sweep: close - open,
     }))
 }
 

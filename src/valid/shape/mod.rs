@@ -20,6 +20,9 @@ pub struct Surface {
     pub casts_shadow: bool,
     /// Its index in the IR, which also has the faces without an area.
     pub index: usize,
+    /// How far it moves while the shutter is open, at a constant velocity. The shape is where it is
+    /// when the shutter opens.
+    pub sweep: Vec3,
 }
 
 /// The storage of a small shape in an enum.
@@ -39,6 +42,27 @@ macro_rules! declare {
             $($(#[$doc])* $Name($Store<$Name>),)*
         }
 
+        impl Shape {
+            /// The shape, moved by a vector.
+            #[must_use]
+            pub fn moved(mut self, by: Vec3) -> Self {
+                // A sum with 0 would change the sign of a 0.
+                if by == Vec3::ZERO {
+                    return self;
+                }
+                match &mut self {
+                    $(Self::$Name(shape) => shape.translate(by),)*
+                }
+                self
+            }
+        }
+
+        $(impl $Derived {
+            fn translate(&mut self, by: Vec3) {
+                $(validated_type!(translate $rule self.$value, by);)*
+            }
+        })*
+
         $(
             $(#[$about])*
             #[derive(Clone, Copy, Debug)]
@@ -52,8 +76,10 @@ macro_rules! declare {
     };
 }
 
-/// The type of a value of a rule, and its description.
+/// The type of a value of a rule, its description, and how it changes with the place of the shape.
 macro_rules! validated_type {
+    (translate point $value:expr, $by:expr) => { $value += $by };
+    (translate $rule:ident $value:expr, $by:expr) => {};
     (point) => { Vec3 };
     (direction) => { Vec3 };
     (step) => { Vec3 };
@@ -80,6 +106,12 @@ pub struct Sphere {
     pub texture_from_world: Option<Box<[Vec3; 3]>>,
 }
 
+impl Sphere {
+    fn translate(&mut self, by: Vec3) {
+        self.center += by;
+    }
+}
+
 /// A triangle whose corners are not collinear.
 #[derive(Clone, Debug)]
 pub struct Triangle {
@@ -87,6 +119,12 @@ pub struct Triangle {
     pub vertices: [Vec3; 3],
     /// The texture coordinates of the corners.
     pub uvs: Option<Box<[[f64; 2]; 3]>>,
+}
+
+impl Triangle {
+    fn translate(&mut self, by: Vec3) {
+        self.vertices = self.vertices.map(|vertex| vertex + by);
+    }
 }
 
 /// A quadrilateral.
@@ -102,6 +140,10 @@ impl Quad {
     pub fn is_flat(&self) -> bool {
         is_flat(self.vertices)
     }
+
+    fn translate(&mut self, by: Vec3) {
+        self.vertices = self.vertices.map(|vertex| vertex + by);
+    }
 }
 
 /// An ellipsoid.
@@ -111,6 +153,12 @@ pub struct Ellipsoid {
     pub center: Vec3,
     /// The images of the axes of the unit sphere, linearly independent.
     pub axes: [Vec3; 3],
+}
+
+impl Ellipsoid {
+    fn translate(&mut self, by: Vec3) {
+        self.center += by;
+    }
 }
 
 /// A part of the boundary of a CSG solid.
@@ -124,6 +172,16 @@ pub struct Csg {
     pub faces: u64,
 }
 
+impl Csg {
+    fn translate(&mut self, by: Vec3) {
+        let operands = std::mem::take(&mut self.operands);
+        self.operands = operands
+            .into_iter()
+            .map(|operand| operand.moved(by))
+            .collect();
+    }
+}
+
 /// A mesh placed in the world.
 #[derive(Clone, Copy, Debug)]
 pub struct Instance {
@@ -131,4 +189,10 @@ pub struct Instance {
     pub mesh: MeshId,
     /// The images of the three axes, linearly independent, and of the origin.
     pub world_from_object: [Vec3; 4],
+}
+
+impl Instance {
+    fn translate(&mut self, by: Vec3) {
+        self.world_from_object[3] += by;
+    }
 }

@@ -89,15 +89,14 @@ impl Dice {
             roughness: self.weight(),
             ..Standard::default()
         };
-        scene.surfaces.push(ir::Surface {
-            shape: ir::Shape::Sphere(ir::Sphere {
+        scene.surfaces.push(ir::Surface::new(
+            ir::Shape::Sphere(ir::Sphere {
                 center: [self.number(3), self.number(3), 12.0],
                 radius: self.length(),
                 texture_from_world: None,
             }),
-            material: MaterialId(scene.materials.len() as u32),
-            casts_no_shadow: false,
-        });
+            MaterialId(scene.materials.len() as u32),
+        ));
         scene.materials.push(Material::Standard(Box::new(mirror)));
     }
 

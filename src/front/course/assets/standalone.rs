@@ -46,14 +46,13 @@ pub fn lower_standalone_mesh(
         .push(Material::Standard(Box::new(default_material(has_colors))));
     let up_axis = options.up_axis.unwrap_or(UpAxis::Y);
     let [x, y, z] = up_axis.scene_from_file().map(|axis| axis.to_array());
-    scene.surfaces.push(Surface {
-        shape: Shape::Instance(Instance {
+    scene.surfaces.push(Surface::new(
+        Shape::Instance(Instance {
             mesh: MeshId(0),
             world_from_object: [x, y, z, [0.0; 3]],
         }),
-        material: MaterialId(0),
-        casts_no_shadow: false,
-    });
+        MaterialId(0),
+    ));
     if let Some(ball) = scene.bounding_sphere() {
         scene.camera = gltf::looking_at(ball);
     }

@@ -81,16 +81,21 @@ macro_rules! round_record {
                 /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores
                 /// `false`.
                 shadow: Spanned<bool>, default(true), keys!["shadow"];
+                /// How far it moves per second along each axis, while the `shutter` of the `Camera`
+                /// is open.
+                velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
             }
             variants { [position up] [position direction height] [ends] }
         }
 
         impl LowerObject for $name {
             fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
-                let Self { kind, position, up, direction, height, ends, radius, material, shadow } =
-                    self;
+                let Self {
+                    kind, position, up, direction, height, ends, radius, material, shadow,
+                    velocity,
+                } = self;
                 let axis_keys = AxisKeys { position, up, direction, height, ends };
-                let props = lowering.surface_props(kind, material, shadow, context);
+                let props = lowering.surface_props(kind, material, (shadow, velocity), context);
                 let (Some(props), Some((base, up))) = (props, axis_keys.base_and_up()) else {
                     return;
                 };

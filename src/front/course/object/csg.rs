@@ -95,6 +95,9 @@ macro_rules! set_record {
                 /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores
                 /// `false`.
                 shadow: Spanned<bool>, default(true), keys!["shadow"];
+                /// How far it moves per second along each axis, while the `shutter` of the `Camera`
+                /// is open.
+                velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
             }
             variants { [both] [of] }
         }
@@ -103,6 +106,7 @@ macro_rules! set_record {
             fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
                 let Self {
                     kind, both, of, material, position, scale, rotation, axis, angle, shadow,
+                    velocity,
                 } = self;
                 let operands = match (both, of) {
                     (FieldResult::Read(both), _) => &both[..],
@@ -130,7 +134,7 @@ macro_rules! set_record {
                     }
                 }
                 lowering.dependent.record_shadow(shadow);
-                lowering.add_expression(expression, kind.span, shadow.value);
+                lowering.add_expression(expression, kind.span, (shadow.value, *velocity));
             }
         }
     };
@@ -216,6 +220,16 @@ impl Lowering {
         if surfaces.is_empty() {
             return None;
         }
+        if surfaces.iter().any(|surface| surface.velocity != [0.0; 3]) {
+            let message = "an operand does not move by itself: the whole solid does";
+            report(
+                operand.span,
+                message,
+                "has a `velocity` of its own",
+                context,
+            );
+            return None;
+        }
         let expression = CsgExpression::of(&surfaces);
         if expression.is_none() {
             let name = surfaces[0].shape.kind().name();
@@ -244,7 +258,7 @@ impl Lowering {
         &mut self,
         expression: CsgExpression,
         span: Option<Span>,
-        casts_shadow: bool,
+        (casts_shadow, velocity): (bool, Spanned<Point>),
     ) {
         let CsgExpression { operands, steps } = expression;
         let mut looks: Vec<((MaterialId, bool), Vec<u32>)> = Vec::new();
@@ -268,6 +282,7 @@ impl Lowering {
                 material,
                 span,
                 casts_shadow: casts_shadow && !casts_no_shadow,
+                velocity,
             };
             let shape = ir::Csg {
                 operands: operands.clone(),

@@ -36,6 +36,9 @@ record! {
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
+        /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
+        /// open.
+        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
     }
     variants {
         [position] [position euler_axis euler_angle] [position rotation] [position rotation angle]
@@ -56,8 +59,10 @@ impl LowerObject for Cube {
             euler_angle,
             material,
             shadow,
+            velocity,
         } = self;
-        let Some(props) = lowering.surface_props(kind, material, shadow, context) else {
+        let Some(props) = lowering.surface_props(kind, material, (shadow, velocity), context)
+        else {
             return;
         };
         // The axes, rotated by either set of keys.

@@ -41,6 +41,9 @@ record! {
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
+        /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
+        /// open.
+        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
     }
     variants {
         [position direction height] [ends] [position up] [position height euler_axis euler_angle]
@@ -54,9 +57,10 @@ impl LowerObject for Cylinder {
             radius,
             material,
             shadow,
+            velocity,
             ..
         } = self;
-        let props = lowering.surface_props(kind, material, shadow, context);
+        let props = lowering.surface_props(kind, material, (shadow, velocity), context);
         if let (Some(props), Some((base, axis, height))) = (props, axis(self)) {
             let shape = ir::Cylinder {
                 base: base.value,
@@ -89,6 +93,7 @@ fn axis(cylinder: &Cylinder) -> Option<(SpannedVector, SpannedVector, Spanned<f6
         radius: _,
         material: _,
         shadow: _,
+        velocity: _,
     } = cylinder;
     // The older form rotates the axis about its middle.
     if let (
@@ -144,6 +149,9 @@ record! {
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
+        /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
+        /// open.
+        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
     }
 }
 
@@ -156,6 +164,7 @@ impl LowerObject for InfiniteCylinder {
             radius,
             material,
             shadow,
+            velocity,
         } = self;
         let shape = ir::InfiniteCylinder {
             center: position.value.0,
@@ -167,7 +176,7 @@ impl LowerObject for InfiniteCylinder {
             ("axis", direction.span),
             ("radius", radius.span),
         ];
-        if let Some(props) = lowering.surface_props(kind, material, shadow, context) {
+        if let Some(props) = lowering.surface_props(kind, material, (shadow, velocity), context) {
             lowering.add_surface(&props, ir::Shape::InfiniteCylinder(shape), &value_spans);
         }
     }

@@ -25,6 +25,9 @@ record! {
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
+        /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
+        /// open.
+        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
     }
 }
 
@@ -37,6 +40,7 @@ impl LowerObject for Disc {
             radius,
             material,
             shadow,
+            velocity,
         } = self;
         let shape = ir::Disc {
             center: center.value.0,
@@ -48,7 +52,7 @@ impl LowerObject for Disc {
             ("normal", normal.span),
             ("radius", radius.span),
         ];
-        if let Some(props) = lowering.surface_props(kind, material, shadow, context) {
+        if let Some(props) = lowering.surface_props(kind, material, (shadow, velocity), context) {
             lowering.add_surface(&props, ir::Shape::Disc(shape), &value_spans);
         }
     }

@@ -37,6 +37,9 @@ record! {
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
+        /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
+        /// open.
+        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
     }
     variants { [position radius] [transform] }
 }
@@ -82,7 +85,12 @@ impl Ellipsoid {
 
 impl LowerObject for Ellipsoid {
     fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
-        let props = lowering.surface_props(&self.kind, &self.material, &self.shadow, context);
+        let props = lowering.surface_props(
+            &self.kind,
+            &self.material,
+            (&self.shadow, &self.velocity),
+            context,
+        );
         let (Some((AffineColumns(columns), spans)), Some(props)) = (self.placement(context), props)
         else {
             return;

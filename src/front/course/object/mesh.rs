@@ -69,6 +69,9 @@ record! {
         label: Spanned<DisplayName>, optional, keys!["label"];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
+        /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
+        /// open.
+        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
     }
     variants { [file] [file scale] [file size] [file fit] [file transform] }
 }
@@ -117,11 +120,14 @@ impl LowerObject for Mesh {
             part,
             label,
             shadow,
+            velocity,
             ..
         } = self;
         let props = match material {
-            FieldResult::Read(material) => lowering.surface_props(kind, material, shadow, context),
-            FieldResult::Absent => Some(lowering.grey_surface_props(kind, shadow)),
+            FieldResult::Read(material) => {
+                lowering.surface_props(kind, material, (shadow, velocity), context)
+            }
+            FieldResult::Absent => Some(lowering.grey_surface_props(kind, (shadow, velocity))),
             FieldResult::Broken => None,
         };
         // The transform and the sizing.

@@ -41,7 +41,7 @@ use super::reader::{MATERIAL, look_up, missing_keys};
 use super::record::Record;
 use super::schema::{self, SchemaDefinitions};
 use super::spelling::quoted_list;
-use super::value::AnyScalar;
+use super::value::{AnyScalar, Point};
 use rtc_diag::clip;
 use rtc_diag::{Severity, codes, nearest};
 use rtc_ir::{self as ir, EntityField, EntityKind, MaterialId};
@@ -252,6 +252,7 @@ pub(super) struct SurfaceProperties {
     material: MaterialId,
     span: Option<Span>,
     casts_shadow: bool,
+    velocity: Spanned<Point>,
 }
 
 impl Lowering {
@@ -260,7 +261,7 @@ impl Lowering {
         &mut self,
         kind: &Spanned<AnyScalar>,
         material: &Spanned<SharedValue<Material>>,
-        shadow: &Spanned<bool>,
+        (shadow, velocity): (&Spanned<bool>, &Spanned<Point>),
         context: &mut DecodeContext<'_>,
     ) -> Option<SurfaceProperties> {
         let id = self.material(material, context)?;
@@ -270,6 +271,7 @@ impl Lowering {
             material: id,
             span: material.span,
             casts_shadow: shadow.value,
+            velocity: *velocity,
         })
     }
 
@@ -277,13 +279,14 @@ impl Lowering {
     pub(super) fn grey_surface_props(
         &mut self,
         kind: &Spanned<AnyScalar>,
-        shadow: &Spanned<bool>,
+        (shadow, velocity): (&Spanned<bool>, &Spanned<Point>),
     ) -> SurfaceProperties {
         SurfaceProperties {
             object_span: kind.span,
             material: self.grey(),
             span: kind.span,
             casts_shadow: shadow.value,
+            velocity: *velocity,
         }
     }
 
@@ -305,12 +308,14 @@ impl Lowering {
             material,
             span,
             casts_shadow,
+            velocity,
         } = *props;
         let (index, kind) = (self.scene.surfaces.len(), shape.kind());
         self.scene.surfaces.push(ir::Surface {
             shape,
             material,
             casts_no_shadow: !casts_shadow,
+            velocity: velocity.value.0,
         });
         self.record_span(EntityKind::Surface, index, EntityField::Whole, object_span);
         for (path, span) in value_spans {
@@ -318,6 +323,12 @@ impl Lowering {
             self.record_span(EntityKind::Surface, index, field, *span);
         }
         self.record_span(EntityKind::Surface, index, EntityField::Material, span);
+        self.record_span(
+            EntityKind::Surface,
+            index,
+            EntityField::Velocity,
+            velocity.span,
+        );
     }
 
     /// Omits an object of size 0 and records its span.

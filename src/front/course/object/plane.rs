@@ -38,6 +38,9 @@ record! {
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
+        /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
+        /// open.
+        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
     }
     variants { [position normal] [normal distance] [corners] [position edges] [equation] }
 }
@@ -60,6 +63,9 @@ record! {
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
+        /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
+        /// open.
+        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
     }
 }
 
@@ -79,7 +85,12 @@ impl Keyword for PlaneOutline {
 
 impl LowerObject for Plane {
     fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
-        let props = lowering.surface_props(&self.kind, &self.material, &self.shadow, context);
+        let props = lowering.surface_props(
+            &self.kind,
+            &self.material,
+            (&self.shadow, &self.velocity),
+            context,
+        );
         report_sign(self, context);
         if let (Some(props), Some((center, normal))) = (props, center_and_normal(self)) {
             let value_spans = [("center", center.span), ("normal", normal.span)];
@@ -102,8 +113,10 @@ impl LowerObject for BoundedPlane {
             radius,
             material,
             shadow,
+            velocity,
         } = self;
-        let Some(props) = lowering.surface_props(kind, material, shadow, context) else {
+        let Some(props) = lowering.surface_props(kind, material, (shadow, velocity), context)
+        else {
             return;
         };
         // A bounded plane is a disc or a square.
@@ -181,6 +194,7 @@ fn center_and_normal(plane: &Plane) -> Option<(SpannedVector, SpannedVector)> {
         edges,
         material: _,
         shadow: _,
+        velocity: _,
     } = plane;
     // An equation comes first.
     if let FieldResult::Read(equation) = equation {

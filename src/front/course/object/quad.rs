@@ -51,13 +51,21 @@ record! {
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
+        /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
+        /// open.
+        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
     }
     variants { [corners] [position edges] }
 }
 
 impl LowerObject for Quad {
     fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
-        let props = lowering.surface_props(&self.kind, &self.material, &self.shadow, context);
+        let props = lowering.surface_props(
+            &self.kind,
+            &self.material,
+            (&self.shadow, &self.velocity),
+            context,
+        );
         if let (Some(props), Some(mut corners)) = (props, corners(self)) {
             if let Some(swap) =
                 corners_to_swap(&corners.map(|corner| Vec3::from_array(corner.value)))
@@ -119,6 +127,7 @@ fn corners(quad: &Quad) -> Option<[SpannedVector; 4]> {
         curved: _,
         material: _,
         shadow: _,
+        velocity: _,
     } = quad;
     match (corners, position, edges) {
         (FieldResult::Read(corners), ..) => Some(corners.map(|corner| corner.map(|point| point.0))),

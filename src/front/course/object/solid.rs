@@ -52,6 +52,9 @@ record! {
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
+        /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
+        /// open.
+        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
     }
     variants {
         [extremes] [position dimension] [position dimension rotation]
@@ -71,6 +74,9 @@ record! {
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
+        /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
+        /// open.
+        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
     }
 }
 
@@ -90,6 +96,9 @@ record! {
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
+        /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
+        /// open.
+        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
     }
     variants { [corners up] [ends] }
 }
@@ -161,7 +170,12 @@ impl Decode for ThirdEdge {
 
 impl LowerObject for Cuboid {
     fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
-        let props = lowering.surface_props(&self.kind, &self.material, &self.shadow, context);
+        let props = lowering.surface_props(
+            &self.kind,
+            &self.material,
+            (&self.shadow, &self.velocity),
+            context,
+        );
         if let (Some(props), Some((corners, span))) = (props, box_corners(self, context)) {
             report_assumed_depth(&self.depth, corners[4] - corners[0], context);
             lowering.add_box(&props, &corners, span, context);
@@ -176,8 +190,10 @@ impl LowerObject for Tetrahedron {
             corners,
             material,
             shadow,
+            velocity,
         } = self;
-        let Some(props) = lowering.surface_props(kind, material, shadow, context) else {
+        let Some(props) = lowering.surface_props(kind, material, (shadow, velocity), context)
+        else {
             return;
         };
         let span = corners[0].span;
@@ -210,8 +226,10 @@ impl LowerObject for Prism {
             ends,
             material,
             shadow,
+            velocity,
         } = self;
-        let Some(props) = lowering.surface_props(kind, material, shadow, context) else {
+        let Some(props) = lowering.surface_props(kind, material, (shadow, velocity), context)
+        else {
             return;
         };
         // The six corners, from either variant.
@@ -368,6 +386,7 @@ fn box_corners(
         depth,
         material: _,
         shadow: _,
+        velocity: _,
     } = add_box;
     // Bit k of a corner's index tells its end of axis k.
     let end = |index: usize, axis: usize| (index >> axis) & 1;

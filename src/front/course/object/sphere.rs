@@ -39,6 +39,9 @@ record! {
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
+        /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
+        /// open.
+        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
     }
 }
 
@@ -96,6 +99,7 @@ impl LowerObject for Sphere {
             quaternion,
             material,
             shadow,
+            velocity,
         } = self;
         let texture_from_world = match quaternion {
             FieldResult::Read(quaternion) => {
@@ -113,7 +117,7 @@ impl LowerObject for Sphere {
             texture_from_world,
         });
         let value_spans = [("center", position.span), ("radius", radius.span)];
-        if let Some(props) = lowering.surface_props(kind, material, shadow, context) {
+        if let Some(props) = lowering.surface_props(kind, material, (shadow, velocity), context) {
             lowering.add_surface(&props, shape, &value_spans);
         }
     }

@@ -39,6 +39,9 @@ record! {
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
+        /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
+        /// open.
+        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
     }
     variants { [radius alpha] [radii] [inner_outer] }
 }
@@ -55,6 +58,7 @@ impl LowerObject for Torus {
             direction,
             material,
             shadow,
+            velocity,
         } = self;
         // The major and the minor radius, from one variant.
         let (radius, alpha) = match (radius, alpha, radii, inner_outer) {
@@ -84,7 +88,8 @@ impl LowerObject for Torus {
             ("major", radius.span),
             ("minor", alpha.span),
         ];
-        let Some(props) = lowering.surface_props(kind, material, shadow, context) else {
+        let Some(props) = lowering.surface_props(kind, material, (shadow, velocity), context)
+        else {
             return;
         };
         // Inner and outer radii are interpreted when all objects are known.

@@ -39,6 +39,9 @@ record! {
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
+        /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
+        /// open.
+        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
     }
 }
 
@@ -53,6 +56,7 @@ impl LowerObject for Triangle {
             uvs,
             material,
             shadow,
+            velocity,
         } = self;
         let uvs = if let FieldResult::Read(uvs) = uvs {
             Some(uvs.map(|uv| uv.value.0))
@@ -65,7 +69,7 @@ impl LowerObject for Triangle {
         });
         let spans = corners.map(|corner| corner.span);
         let value_spans = [0, 1, 2].map(|k| (VERTICES[k], spans[k]));
-        if let Some(props) = lowering.surface_props(kind, material, shadow, context) {
+        if let Some(props) = lowering.surface_props(kind, material, (shadow, velocity), context) {
             lowering.add_surface(&props, shape, &value_spans);
         }
     }

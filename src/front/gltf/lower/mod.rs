@@ -274,6 +274,7 @@ impl Lowering<'_, '_, '_> {
             shape,
             material,
             casts_no_shadow: extras.is_some_and(|extras| extras.boolean("castsNoShadow")),
+            velocity: extras.map_or([0.0; 3], |extras| extras.vector_or("velocity", [0.0; 3])),
         });
         self.scene.names.push(name.to_owned());
     }

@@ -67,6 +67,8 @@ fn value_of(schema: &Json) -> super::Value {
             max: bound("maximum", f64::INFINITY),
             above: false,
         }),
+        // The moments of a shutter, or a colour.
+        Some("array") if schema["minItems"] == 2 => Numbers(&[2], FREE),
         Some("array") => Numbers(&[3], FACTOR),
         _ => {
             // Variants: a word, or an object of parameters under one.
@@ -202,5 +204,8 @@ static PHONG: ObjectSchema = rtc_object(&[
     optional("bumpHeight", Number(FREE)),
 ]);
 
-/// Whether the surfaces of the node cast no shadow.
-static NODE: ObjectSchema = rtc_object(&[optional("castsNoShadow", Boolean)]);
+/// Whether the surfaces of the node cast no shadow, and how far they move per second in the world.
+static NODE: ObjectSchema = rtc_object(&[
+    optional("castsNoShadow", Boolean),
+    optional("velocity", Numbers(&[3], FREE)),
+]);

@@ -32,6 +32,7 @@ impl<'world, S: Intersect> PathFirstHitFinder<'world, S> {
 impl<'run, S: Intersect, const F: u32> FindFirstHit<'run> for PathTracer<'run, S, F> {
     fn first_hit(&mut self, id: &SampleId) -> CameraHit {
         let sobol = self.numbers(id);
+        self.go_to_moment(&sobol);
         self.counts.camera += 1;
         // Layers have no weights, so negative lobes of a filter count as positive ones.
         let (ray, _) = self.camera_ray(id.pixel, &sobol);

@@ -46,6 +46,8 @@ pub enum SamplingStrategy {
 pub(crate) struct PathTracer<'world, S, const F: u32> {
     world: &'world World<S>,
     lights: &'world Lights<'world, S>,
+    /// The world with those of all moments of the shutter, and the lights of them.
+    all_moments: (&'world World<S>, &'world Lights<'world, S>),
     /// Whether rough surfaces keep the light that bounces between their facets.
     multiple_scattering: bool,
     strategy: SamplingStrategy,
@@ -78,6 +80,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         Self {
             world,
             lights,
+            all_moments: (world, lights),
             multiple_scattering: world.settings.multiple_scattering,
             strategy,
             knows_all: false,
@@ -123,6 +126,17 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
                 SobolPath::in_picture(pixel, index, seeds, samples)
             }
             _ => SobolPath::new(pixel, index, seeds),
+        }
+    }
+
+    /// Goes to the moment of the shutter at which a path is traced, if surfaces move.
+    #[inline]
+    fn go_to_moment(&mut self, sobol: &SobolPath) {
+        let (world, lights) = self.all_moments;
+        if let Some(moment) = world.moment_of(sobol) {
+            self.counts.add(Effect::MotionBlur);
+            self.world = &world.moments[moment];
+            self.lights = &lights.moments[moment];
         }
     }
 
@@ -205,6 +219,7 @@ impl<'world, S: Intersect, const F: u32> Integrator<'world> for PathTracer<'worl
             self.counts.add(Effect::Supersampling);
         }
         let sobol = self.numbers(id);
+        self.go_to_moment(&sobol);
         let ((ray, factor), hits) = (self.camera_ray(id.pixel, &sobol), self.counts.hits);
         let radiance = self.radiance(ray, sobol) * factor;
         let hit = self.counts.hits > hits;

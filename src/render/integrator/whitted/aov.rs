@@ -10,6 +10,7 @@ use crate::shape::geometry::Intersect;
 
 impl<'run, S: Intersect, const F: u32> FindFirstHit<'run> for WhittedTracer<'run, S, F> {
     fn first_hit(&mut self, id: &SampleId) -> CameraHit {
+        self.go_to_moment(id);
         let camera = self.world.camera.of(id.pixel);
         let [column, row, k] = self.grid.place_of(id.index);
         let cell = self

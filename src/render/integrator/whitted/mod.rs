@@ -42,6 +42,8 @@ use shade::{OUTLINE, ShadingPoint};
 /// it keeps its memory.
 pub(crate) struct WhittedTracer<'world, S, const F: u32> {
     pub(crate) world: &'world World<S>,
+    /// The world with those of all moments of the shutter.
+    all_moments: &'world World<S>,
     pending: Vec<PendingWork>,
     /// Tells of the pixel under way, and whether to continue with it.
     pub(crate) heartbeat: Heartbeat<'world>,
@@ -69,6 +71,7 @@ impl<'world, S: Intersect, const F: u32> WhittedTracer<'world, S, F> {
         let (heartbeat, counts) = (Heartbeat::new(on_pixel), RayCounts::default());
         Self {
             world,
+            all_moments: world,
             pending: Vec::new(),
             heartbeat,
             weightless: false,

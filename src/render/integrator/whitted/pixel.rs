@@ -11,6 +11,7 @@ use crate::lanes::LANES;
 use crate::ray::Ray;
 use crate::sampler::PathVertexKey;
 use crate::sampler::sequence::Sequence;
+use crate::sampler::sobol::SobolPath;
 use crate::shape::geometry::Intersect;
 use rtc_plan::{Effect, PixelClass, WhittedFeatures};
 
@@ -47,6 +48,7 @@ impl<'run, S: Intersect, const F: u32> Integrator<'run> for WhittedTracer<'run, 
 
     #[inline(always)]
     fn sample(&mut self, id: &SampleId) -> PixelSample {
+        self.go_to_moment(id);
         let (ray, seed) = match id.stream {
             SampleStream::Picture(seeds) => (self.ray_of_picture(id.pixel, seeds), seeds.path),
             SampleStream::Replicate { number, .. } => (self.ray_of_replicate(id, number), number),
@@ -94,6 +96,20 @@ impl<'run, S: Intersect, const F: u32> Integrator<'run> for WhittedTracer<'run, 
 const REPLICATE: u64 = u64::MAX - 2;
 
 impl<S: Intersect, const F: u32> WhittedTracer<'_, S, F> {
+    /// Goes to the moment of the shutter at which a sample is taken, if surfaces move.
+    #[inline(always)]
+    pub(super) fn go_to_moment(&mut self, id: &SampleId) {
+        let all = self.all_moments;
+        if all.moments.is_empty() {
+            return;
+        }
+        let numbers = SobolPath::new(id.pixel, id.index, id.stream.seeds());
+        if let Some(moment) = all.moment_of(&numbers) {
+            self.counts.add(Effect::MotionBlur);
+            self.world = &all.moments[moment];
+        }
+    }
+
     /// The ray of the next sample of the grid of cells and points of the lens.
     #[inline(always)]
     pub(super) fn ray_of_picture(&mut self, pixel: [u32; 2], seeds: SamplingSeeds) -> Ray {
