@@ -1,6 +1,6 @@
 // Drives the page of `rtc preview` in a browser: an edit, a fault, a button that mends, a turn that
-// what it is compared with follows, the view written back, a pixel with its effects, settings chosen by
-// their costs; and pictures of the page at three widths, light and dark.
+// what it is compared with follows, two fingers, the view written back, a pixel with its effects and its
+// line, settings chosen by their costs; and pictures of the page at three widths, light and dark.
 //
 // CHROMIUM names the browser, RTC the binary [default: target/debug/rtc]; pictures go to shots/.
 
@@ -104,6 +104,19 @@ try {
   await until(() => !document.getElementById("overlay").hidden);
   const told = await page.$eval("#errors", (errors) => errors.textContent);
   assert.match(told, /error\[/, "the fault is told");
+  assert.ok(told.includes("--> balls.yaml:11:") && !told.includes(folder), "paths are relative");
+  // The marks stand under what they mark, on a telephone, too.
+  const isMarked = () => {
+    const marks = document.querySelectorAll("#errors pre");
+    const hasMark = (line) => /^\s*\| +[\^_-]/.test(line ?? "");
+    const room = (own) => columns(own.parentElement);
+    return [...marks].every((own) =>
+      own.textContent.split("\n").every((line, k, all) => !hasMark(all[k + 1]) || line.length <= room(own)));
+  };
+  for (const width of [390, 1280]) {
+    await page.setViewport({ width, height: 900 });
+    await until(isMarked);
+  }
   await shoot(page, "fault", { fullPage: false });
   // By keys alone: the first button, which mends its finding.
   const before = text();
@@ -138,12 +151,33 @@ try {
   assert.ok((await file("/picture")).equals(rendered(await command())), "the bytes of the command");
   assert.ok((await file("/against")).equals(rendered(await command(), "other.yaml")), "the other follows");
 
+  // On a telephone two fingers that part come nearer, and the page says so.
+  const isShown = (kind) => page.$eval(`.for-${kind}`, (own) => own.checkVisibility());
+  assert.deepEqual([await isShown("mouse"), await isShown("fingers")], [true, false]);
+  await page.setViewport({ width: 390, height: 844, isMobile: true, hasTouch: true });
+  await until(() => typeof gaze !== "undefined" && gaze !== null);
+  assert.deepEqual([await isShown("mouse"), await isShown("fingers")], [false, true]);
+  const distance = () => page.evaluate(() => size(minus(gaze.eye, gaze.center)));
+  const [away, small] = [await distance(), await (await page.$("#picture")).boundingBox()];
+  const [across, down] = [small.x + small.width / 2, small.y + small.height / 2];
+  const fingers = [await page.touchscreen.touchStart(across - 30, down), await page.touchscreen.touchStart(across + 30, down)];
+  await fingers[0].move(across - 60, down);
+  await fingers[1].move(across + 60, down);
+  for (const finger of fingers) await finger.end();
+  assert.ok(Math.abs((await distance()) / away - 0.5) < 0.05, "half as far");
+  await new Promise((done) => setTimeout(done, 600));
+  await finished(number);
+  // Another kind of screen reads the page again.
+  await page.setViewport({ width: 1280, height: 900 });
+  number = await finished(number);
+
   await page.click("#effects summary");
   await until(() => document.getElementById("verdicts").textContent.includes("shadows"));
   await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
   await until(() => document.getElementById("pixel").textContent.includes("value"));
   await until(() => /took part: surfaces \d+×, direct light/.test(document.getElementById("taken").textContent));
-  assert.match(await page.$eval("#pixel", (own) => own.textContent), /surface \d: sphere \(.*balls.yaml:\d+\)/);
+  assert.match(await page.$eval("#pixel", (own) => own.textContent), /surface \d: sphere \(balls.yaml:\d+\)/);
+  assert.ok((await page.evaluate(() => place)).startsWith(`${scene}:`), "what is copied can be opened");
   await shoot(page, "turned");
 
   // The panel measures when it is opened, and not before; by keys alone a setting is chosen.

@@ -221,7 +221,7 @@ fn a_finding_is_mended_by_its_button_alone() {
         "{before:#}"
     );
     for finding in findings {
-        let text = finding["text"].as_str().unwrap().trim_end();
+        let text = finding["texts"][0].as_str().unwrap().trim_end();
         assert!(refused.contains(text), "{text}\n---\n{refused}");
     }
     let changes: Vec<_> = findings.iter().map(|own| &own["change"]).collect();
@@ -261,7 +261,7 @@ fn the_last_good_picture_stays_while_a_fault_is_told() {
     let good = live.picture(&live.finished(1));
     fs::write(&path, text.replace("radius: 3", "radius: -3 # <b>")).unwrap();
     let broken = live.when("broken", |state| state["isFailed"] == true);
-    let reported = broken["findings"][0]["text"].as_str().unwrap();
+    let reported = broken["findings"][0]["texts"][0].as_str().unwrap();
     assert!(
         reported.starts_with("error[") && reported.contains("radius: -3 # <b>"),
         "{reported}"

@@ -1,18 +1,15 @@
 //! `rtc preview`: a local web page that shows a scene while it is edited.
 //!
 //! - `session` runs on the main thread: it reads the scene (`scene`), renders it (`coarse` first),
-//!   and
-//!   publishes the result. `against` renders the reference, `reports`, `costs` and `pixels` compute
-//!   reports.
+//!   and publishes the result with the diagnostics (`findings`). `against` renders the reference,
+//!   `reports`, `costs` and `pixels` compute reports.
 //! - `preview_state` is the state that all threads share: the published picture under a version,
-//!   and the
-//!   requests of the page. `events` streams the state to the page.
+//!   and the requests of the page. `events` streams the state to the page.
 //! - `serve` accepts connections of the loopback interface, `http` parses requests, `routes`
 //!   answers them.
 //! - `watch` polls the files of the scene and requests a new reading.
 //! - `view` and `choice` are the view and the settings that the page overrides; `command` writes
-//!   them as a
-//!   command line of `rtc render`.
+//!   them as a command line of `rtc render`.
 //!
 //! The finished picture has the bytes of `rtc render` with the same options. A request needs the
 //! token of the printed address.
@@ -23,6 +20,7 @@ mod coarse;
 mod command;
 mod costs;
 mod events;
+mod findings;
 mod http;
 mod pixels;
 mod preview_state;

@@ -1,11 +1,13 @@
 //! The readout of a pixel of the finished picture: its value, the surface hit there with its
 //! distance and name, and the line of its source.
 
+use super::findings::ServedFolder;
 use rtc_image::{Image, PixelLayers};
 use rtc_ir::{EntityField, EntityKind, ValuePath};
 use rtc_pipeline::{Input, ValidatedScene};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+use std::path::Path;
 
 /// The numbers of all pixels.
 pub(super) struct PixelTable {
@@ -13,8 +15,9 @@ pub(super) struct PixelTable {
     values: Vec<[f32; 3]>,
     /// The number of the surface and its distance, for each pixel.
     hits: Vec<(u32, f32)>,
-    /// The name, or the shape, of each visible surface, and its source as `file:line`.
-    surfaces: BTreeMap<u32, [String; 2]>,
+    /// The name, or the shape, of each visible surface, and its source as `file:line`: relative to
+    /// the scene, and as the terminal names it.
+    surfaces: BTreeMap<u32, [String; 3]>,
 }
 
 impl PixelTable {
@@ -56,8 +59,8 @@ impl PixelTable {
         let (number, depth) = self.hits.get(index).copied().unwrap_or_default();
         let is_hit = number > 0;
         let message = self.surfaces.get(&number);
-        let [name, line] =
-            [0, 1].map(|at| message.map(|own| &own[at]).filter(|own| !own.is_empty()));
+        let [name, line, place] =
+            [0, 1, 2].map(|at| message.map(|own| &own[at]).filter(|own| !own.is_empty()));
         Some(json!({
             "x": x,
             "y": y,
@@ -66,22 +69,25 @@ impl PixelTable {
             "depth": is_hit.then_some(depth),
             "name": name,
             "line": line,
+            "place": place,
         }))
     }
 }
 
 /// The name of a surface, or else its shape; and its source.
-fn surface(index: usize, validated: &ValidatedScene, input: &Input) -> [String; 2] {
+fn surface(index: usize, validated: &ValidatedScene, input: &Input) -> [String; 3] {
     let scene = &validated.lowered.scene;
     let name = scene.names.get(index).filter(|name| !name.is_empty());
     let shape = scene.surfaces.get(index).map(|own| own.shape.kind().name());
     let path = ValuePath::new(EntityKind::Surface, index, EntityField::Whole);
     let span = validated.lowered.source_spans.span(path);
-    let line = span.map(|span| input.line(span));
+    let place = span.map(|span| input.line(span));
+    let place = place.map_or_else(String::new, |(file, line)| format!("{file}:{line}"));
     [
         name.cloned()
             .or(shape.map(str::to_owned))
             .unwrap_or_default(),
-        line.map_or_else(String::new, |(file, line)| format!("{file}:{line}")),
+        ServedFolder::of(Path::new(input.name())).relative(&place),
+        place,
     ]
 }

@@ -33,8 +33,8 @@ pub(super) struct RenderedPicture {
 /// A diagnostic as the page shows it.
 pub(super) struct ReportedDiagnostic {
     pub(super) severity: &'static str,
-    /// As `rtc check` prints it.
-    pub(super) text: String,
+    /// As `rtc check` prints it: for a wide page, a narrower one and a narrow one.
+    pub(super) texts: [String; 3],
     /// The fix that its hint suggests in the scene's own file, and whether it is a guess.
     pub(super) fix: Option<(DiagnosticRef, bool)>,
     /// What the fix does; empty if that is long.
@@ -337,7 +337,7 @@ impl PreviewData {
             };
             json!({
                 "severity": diagnostic.severity,
-                "text": diagnostic.text,
+                "texts": diagnostic.texts,
                 "fix": fix,
                 "change": diagnostic.change,
             })

@@ -18,6 +18,7 @@ const PAGE: &str = include_str!("page/page.html");
 const STYLE: &str = concat!(include_str!("page/base.css"), include_str!("page/page.css"));
 const SCRIPT: &str = concat!(
     include_str!("page/page.js"),
+    include_str!("page/pointers.js"),
     include_str!("page/settings.js")
 );
 const VIEW: &str = include_str!("page/view.js");

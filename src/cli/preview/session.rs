@@ -3,21 +3,17 @@
 
 use super::against::ComparisonReference;
 use super::command::RenderCommand;
-use super::preview_state::{PreviewState, ReadState, RenderTask, ReportedDiagnostic, ViewSettings};
+use super::findings::{self, ServedFolder};
+use super::preview_state::{PreviewState, ReadState, RenderTask, ViewSettings};
 use super::scene::{self, ReadScene, ShownScene};
 use super::view::SceneCamera;
 use super::watch::WatchedFiles;
 use super::{Failure, args, coarse, renderings};
 use crate::reporter::Reporter;
-use rtc_diag::{self as diag, Diagnostic, Severity};
-use rtc_pipeline::{
-    self as pipeline, Input, PictureSetup, RenderError, RenderObserver, RenderSubject,
-};
+use rtc_diag::{Diagnostic, Severity};
+use rtc_pipeline::{PictureSetup, RenderError, RenderObserver, RenderSubject};
 use serde_json::Value;
 use std::sync::Arc;
-
-/// The width of reports on the page, in columns.
-const WIDTH: usize = 100;
 
 /// The current picture, if there is a scene.
 pub(super) struct PreviewSession<'a> {
@@ -260,11 +256,9 @@ impl<'a> PreviewSession<'a> {
             .iter()
             .filter(|diagnostic| diagnostic.severity <= least)
             .collect();
-        let diagnostics = diag::each(&kept, scene.input.map(), WIDTH)
-            .into_iter()
-            .take(self.args.reporter.max_errors as usize)
-            .map(|(diagnostic, text)| reported(diagnostic, text, &scene.input))
-            .collect();
+        let most = self.args.reporter.max_errors as usize;
+        let folder = ServedFolder::of(&self.args.file);
+        let diagnostics = findings::reported(&kept, most, &scene.input, &folder);
         scene.input.restore_diagnostics(found);
         // Describe the camera relative to that of the scene.
         let text = scene.input.text().map(Arc::from);
@@ -305,7 +299,7 @@ impl<'a> PreviewSession<'a> {
             }
             state.read.load = load;
             state.read.is_failed = true;
-            state.read.fault = Some(message.to_owned());
+            state.read.fault = Some(ServedFolder::of(&self.args.file).relative(message));
         });
         super::reporter::print_message(&format!("error: {message}"));
     }
@@ -342,27 +336,6 @@ impl<'a> PreviewSession<'a> {
             }
         });
         self.costed = costed;
-    }
-}
-
-/// A diagnostic as the page shows it, with its text.
-fn reported(diagnostic: &Diagnostic, text: String, input: &Input) -> ReportedDiagnostic {
-    let changes = diagnostic
-        .hints
-        .iter()
-        .filter_map(|hint| hint.replacement.as_ref());
-    let own: Vec<_> = changes.filter(|change| input.is_own(change.span)).collect();
-    let is_guess = own.iter().map(|change| change.is_guess);
-    let is_guess = is_guess.reduce(|a, b| a && b);
-    let summaries = own.iter().filter_map(|change| {
-        let written = input.map().slice(change.span);
-        change.summary(&written)
-    });
-    ReportedDiagnostic {
-        severity: diagnostic.severity.name(),
-        text,
-        fix: is_guess.map(|is_guess| (pipeline::diagnostic_ref(diagnostic), is_guess)),
-        change: summaries.collect::<Vec<_>>().join("; "),
     }
 }
 

@@ -98,20 +98,37 @@ function paint(canvas, bitmap) {
 }
 
 function showFindings() {
-  const blocks = state.findings.map(block);
-  if (state.fault !== null) blocks.unshift(block({ text: state.fault, fix: null, change: "" }));
-  if (state.findings.filter((one) => one.fix === "sure").length > 1) blocks.push(fixAll());
   at("overlay").hidden = !state.isFailed;
+  at("warnings").hidden = state.isFailed || state.findings.length === 0;
+  const blocks = state.findings.map(block);
+  if (state.fault !== null) blocks.unshift(block({ texts: [state.fault], fix: null, change: "" }));
+  if (state.findings.filter((one) => one.fix === "sure").length > 1) blocks.push(fixAll());
   at("errors").replaceChildren(...(state.isFailed ? blocks : []));
-  at("warnings").hidden = state.isFailed || blocks.length === 0;
   at("notes").replaceChildren(...(state.isFailed ? [] : blocks));
 }
 
-function block({ text, fix, change }, index) {
+// The columns of a text in this part of the page.
+function columns(own) {
+  const pen = document.createElement("canvas").getContext("2d");
+  pen.font = "12.5px ui-monospace, monospace";
+  return (own.clientWidth - 20) / pen.measureText("m").width;
+}
+
+// The widest text that fits, so that its marks stay under what they mark.
+function fitting(texts) {
+  const room = columns(at(state.isFailed ? "errors" : "notes"));
+  const hasMark = (line) => /^\s*\| +[\^_-]/.test(line ?? "");
+  const isFitting = (own) =>
+    own.split("\n").every((line, k, lines) => line.length <= room || !(hasMark(line) || hasMark(lines[k + 1])));
+  return (texts.find(isFitting) ?? texts.at(-1)).trimEnd();
+}
+
+function block({ texts, fix, change }, index) {
   const finding = document.createElement("div");
   finding.className = "finding";
   const source = document.createElement("pre");
-  source.textContent = text.trimEnd();
+  const text = fitting(texts);
+  source.textContent = text;
   source.tabIndex = 0;
   finding.append(source);
   if (fix !== null) {
@@ -205,36 +222,6 @@ function onKey(event) {
   event.preventDefault();
 }
 
-let drag = null;
-
-function onDown(event) {
-  drag = { x: event.clientX, y: event.clientY, far: 0 };
-  at("picture").setPointerCapture(event.pointerId);
-}
-
-function onMove(event) {
-  if (drag === null || gaze === null) return;
-  const { width, height } = at("picture").getBoundingClientRect();
-  const right = (event.clientX - drag.x) / width;
-  const above = (drag.y - event.clientY) / height;
-  const far = drag.far + Math.abs(event.clientX - drag.x) + Math.abs(event.clientY - drag.y);
-  drag = { x: event.clientX, y: event.clientY, far };
-  if (far < 4) return;
-  if (event.shiftKey || event.buttons > 1) move(panned(gaze, -right, -above));
-  else move(orbited(gaze, state.view.axis, -right * Math.PI, -above * Math.PI));
-}
-
-function onUp(event) {
-  const isClick = drag !== null && drag.far < 4;
-  drag = null;
-  if (!isClick || !state?.picture) return;
-  const box = at("picture").getBoundingClientRect();
-  const [width, height] = state.picture.full;
-  at("x").value = Math.min(width - 1, Math.floor(((event.clientX - box.left) / box.width) * width));
-  at("y").value = Math.min(height - 1, Math.floor(((event.clientY - box.top) / box.height) * height));
-  inspect();
-}
-
 // The pixel that is looked at, and what is said of it.
 let inspected = null;
 let seen = "";
@@ -252,7 +239,7 @@ async function inspect() {
   }
   const found = await reply.json();
   const value = found.value.map((v) => v.toPrecision(4)).join(", ");
-  place = found.line ?? "";
+  place = found.place ?? "";
   const named = [found.name, found.line && `(${found.line})`].filter(Boolean).join(" ");
   const surface =
     found.surface === null
@@ -275,10 +262,7 @@ function showPixel() {
 function listen() {
   const picture = at("picture");
   picture.addEventListener("keydown", onKey);
-  picture.addEventListener("pointerdown", onDown);
-  picture.addEventListener("pointermove", onMove);
-  picture.addEventListener("pointerup", onUp);
-  picture.addEventListener("contextmenu", (event) => event.preventDefault());
+  listenToPointers(picture);
   const onWheel = (event) => {
     event.preventDefault();
     if (gaze !== null) move(zoomed(gaze, Math.exp(Math.sign(event.deltaY) * 0.1)));
@@ -305,6 +289,9 @@ function listen() {
     at("frame").style.setProperty("--split", `${at("split").value}%`);
   });
   listenToSettings();
+  addEventListener("resize", () => {
+    if (state !== null) showFindings();
+  });
   addEventListener("focus", () => {
     if (news?.readyState === EventSource.CLOSED) follow();
   });
