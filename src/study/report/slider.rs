@@ -82,7 +82,10 @@ fn numbers(difference: &Difference) -> String {
         ),
     ];
     let rows = rows.map(|(name, value)| format!("<tr><td>{name}</td><td>{value}</td></tr>\n"));
-    format!("<h2>Measures</h2>\n<table>\n{}</table>\n", rows.concat())
+    format!(
+        "<h2>Measures</h2>\n<table class=\"measures\">\n{}</table>\n",
+        rows.concat()
+    )
 }
 
 fn changed(page: &SliderPage<'_>) -> String {
