@@ -91,28 +91,38 @@ impl<const N: usize> Vertices<'_, N> {
     }
 }
 
-/// Slices, arrays and lists of one type of float.
-macro_rules! from {
-    ($float:ty, $Variant:ident) => {
-        impl<'a, const N: usize> From<&'a [[$float; N]]> for Vertices<'a, N> {
-            fn from(vertices: &'a [[$float; N]]) -> Self {
-                Self::$Variant(vertices)
-            }
-        }
-
-        impl<'a, const N: usize, const M: usize> From<&'a [[$float; N]; M]> for Vertices<'a, N> {
-            fn from(vertices: &'a [[$float; N]; M]) -> Self {
-                Self::$Variant(vertices)
-            }
-        }
-
-        impl<'a, const N: usize> From<&'a Vec<[$float; N]>> for Vertices<'a, N> {
-            fn from(vertices: &'a Vec<[$float; N]>) -> Self {
-                Self::$Variant(vertices)
-            }
-        }
-    };
+/// A type of float that vertices may have.
+pub trait VertexFloat: Sized {
+    /// Vertices of this type.
+    fn vertices<const N: usize>(vertices: &[[Self; N]]) -> Vertices<'_, N>;
 }
 
-from!(f32, Single);
-from!(f64, Double);
+impl VertexFloat for f32 {
+    fn vertices<const N: usize>(vertices: &[[Self; N]]) -> Vertices<'_, N> {
+        Vertices::Single(vertices)
+    }
+}
+
+impl VertexFloat for f64 {
+    fn vertices<const N: usize>(vertices: &[[Self; N]]) -> Vertices<'_, N> {
+        Vertices::Double(vertices)
+    }
+}
+
+impl<'a, F: VertexFloat, const N: usize> From<&'a [[F; N]]> for Vertices<'a, N> {
+    fn from(vertices: &'a [[F; N]]) -> Self {
+        F::vertices(vertices)
+    }
+}
+
+impl<'a, F: VertexFloat, const N: usize, const M: usize> From<&'a [[F; N]; M]> for Vertices<'a, N> {
+    fn from(vertices: &'a [[F; N]; M]) -> Self {
+        F::vertices(vertices)
+    }
+}
+
+impl<'a, F: VertexFloat, const N: usize> From<&'a Vec<[F; N]>> for Vertices<'a, N> {
+    fn from(vertices: &'a Vec<[F; N]>) -> Self {
+        F::vertices(vertices)
+    }
+}

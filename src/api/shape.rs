@@ -17,14 +17,13 @@ use rtc_math::{SetStep, Vec3, cos, rotated_about, rotated_to_z, sin, to_u32, uni
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape(pub(super) ir::Shape);
 
-/// The type of an argument, by its rule in the table of shapes.
-macro_rules! argument {
-    (length) => {
-        f64
-    };
-    ($rule:ident) => {
-        [f64; 3]
-    };
+/// The type of an argument of each rule of the table of shapes.
+#[expect(non_camel_case_types, reason = "the words of the table")]
+mod argument {
+    pub(super) type point = [f64; 3];
+    pub(super) type direction = [f64; 3];
+    pub(super) type step = [f64; 3];
+    pub(super) type length = f64;
 }
 
 /// Declares the constructors of the shapes whose rows name their values; those of others follow by
@@ -38,7 +37,7 @@ macro_rules! constructors {
             $(
                 $(#[$doc])*
                 #[must_use]
-                pub fn $name($($value: argument!($rule)),*) -> Self {
+                pub fn $name($($value: argument::$rule),*) -> Self {
                     Self(ir::Shape::$Name(ir::$Name { $($value),* }))
                 }
             )*

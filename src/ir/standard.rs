@@ -87,27 +87,30 @@ impl From<Conductor> for ComplexIndex {
     }
 }
 
-/// The Rust type of a parameter of each kind of the table.
-macro_rules! stored {
-    (fraction) => { f64 };
-    (number) => { f64 };
-    (non_negative) => { f64 };
-    (ior) => { f64 };
-    (index_of_refraction) => { f64 };
-    (distance) => { Option<f64> };
-    (pair) => { [f64; 2] };
-    (color) => { [f64; 3] };
-    (fraction_color) => { [f64; 3] };
-    (fractions) => { [f64; 4] };
-    (some_fractions) => { Option<[f64; 4]> };
-    (conductor) => { Option<Conductor> };
-    (medium) => { Option<Medium> };
-    (microfacets) => { Microfacets };
-    (plastic) => { Plastic };
-    (flag) => { bool };
-    (alpha) => { Alpha };
-    (map) => { Option<Map> };
-    (material) => { Option<MaterialId> };
+/// The type of a parameter of each kind of the table.
+#[expect(non_camel_case_types, reason = "the words of the table")]
+mod stored {
+    use super::*;
+
+    pub(super) type fraction = f64;
+    pub(super) type number = f64;
+    pub(super) type non_negative = f64;
+    pub(super) type ior = f64;
+    pub(super) type index_of_refraction = f64;
+    pub(super) type distance = Option<f64>;
+    pub(super) type pair = [f64; 2];
+    pub(super) type color = [f64; 3];
+    pub(super) type fraction_color = [f64; 3];
+    pub(super) type fractions = [f64; 4];
+    pub(super) type some_fractions = Option<[f64; 4]>;
+    pub(super) type conductor = Option<Conductor>;
+    pub(super) type medium = Option<Medium>;
+    pub(super) type microfacets = Microfacets;
+    pub(super) type plastic = Plastic;
+    pub(super) type flag = bool;
+    pub(super) type alpha = Alpha;
+    pub(super) type map = Option<Map>;
+    pub(super) type material = Option<MaterialId>;
 }
 
 /// The setter of a parameter of each kind of the table: of an optional one it takes the value.
@@ -157,7 +160,7 @@ macro_rules! setter {
     ($kind:ident, $(#[$about:meta])* $field:ident) => {
         $(#[$about])*
         #[must_use]
-        pub fn $field(self, $field: stored!($kind)) -> Self {
+        pub fn $field(self, $field: stored::$kind) -> Self {
             Self { $field, ..self }
         }
     };
@@ -181,7 +184,7 @@ macro_rules! material {
             $(
                 $(#[doc = $about])*
                 #[serde(skip_serializing_if = $omitted)]
-                pub $field: stored!($kind),
+                pub $field: stored::$kind,
             )*
         }
 

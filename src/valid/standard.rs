@@ -14,26 +14,29 @@ use rtc_tables::{camel_case, parameters};
 use std::any::Any;
 
 /// The type of a valid parameter of each kind of the table.
-macro_rules! validated {
-    (fraction) => { UnitInterval };
-    (number) => { f64 };
-    (non_negative) => { NonNegative };
-    (ior) => { NonNegative };
-    (index_of_refraction) => { Positive };
-    (distance) => { Option<Positive> };
-    (pair) => { [NonNegative; 2] };
-    (color) => { Vec3 };
-    (fraction_color) => { Vec3 };
-    (fractions) => { [UnitInterval; 4] };
-    (some_fractions) => { Option<[UnitInterval; 4]> };
-    (conductor) => { Option<ComplexIndex> };
-    (medium) => { Option<Medium> };
-    (microfacets) => { Microfacets };
-    (plastic) => { Plastic };
-    (flag) => { bool };
-    (alpha) => { Alpha };
-    (map) => { Option<Map> };
-    (material) => { Option<MaterialId> };
+#[expect(non_camel_case_types, reason = "the words of the table")]
+mod validated {
+    use super::*;
+
+    pub(super) type fraction = UnitInterval;
+    pub(super) type number = f64;
+    pub(super) type non_negative = NonNegative;
+    pub(super) type ior = NonNegative;
+    pub(super) type index_of_refraction = Positive;
+    pub(super) type distance = Option<Positive>;
+    pub(super) type pair = [NonNegative; 2];
+    pub(super) type color = Vec3;
+    pub(super) type fraction_color = Vec3;
+    pub(super) type fractions = [UnitInterval; 4];
+    pub(super) type some_fractions = Option<[UnitInterval; 4]>;
+    pub(super) type conductor = Option<ComplexIndex>;
+    pub(super) type medium = Option<Medium>;
+    pub(super) type microfacets = Microfacets;
+    pub(super) type plastic = Plastic;
+    pub(super) type flag = bool;
+    pub(super) type alpha = Alpha;
+    pub(super) type map = Option<Map>;
+    pub(super) type material = Option<MaterialId>;
 }
 
 /// A default of the table as a valid value.
@@ -90,7 +93,7 @@ macro_rules! material {
         /// The material of glTF with its factors in range and the maps that multiply them.
         #[derive(Clone, Debug, PartialEq)]
         pub struct Standard {
-            $($(#[doc = $about])* pub $field: validated!($kind),)*
+            $($(#[doc = $about])* pub $field: validated::$kind,)*
         }
 
         impl Standard {

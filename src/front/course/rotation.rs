@@ -4,7 +4,7 @@ use super::decode::{Decode, DecodeContext, Spanned};
 use super::number::{Degrees, number, plain_number};
 use super::record::FieldResult;
 use super::schema::SchemaDefinitions;
-use super::value::{Angles, Vector, tuple};
+use super::value::{Angles, Vector, list, tuple};
 use rtc_diag::{Severity, clip, codes};
 use rtc_math::{Vec3, cos, rotated_about, sin, unit};
 use rtc_source::Span;
@@ -31,44 +31,39 @@ impl Decode for Quaternion {
     }
 }
 
-/// Declares a type of the format: several vectors in one list of numbers.
-macro_rules! matrix {
-    ($(#[doc = $doc:literal])+ $name:ident, $count:literal, $columns:literal, $what:literal) => {
-        $(#[doc = $doc])+
-        #[derive(Clone, Copy, Debug)]
-        pub(super) struct $name(pub(super) [[f64; 3]; $columns]);
+/// Several vectors in one list of numbers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct VectorList<const N: usize>(pub(super) [[f64; 3]; N]);
 
-        impl Decode for $name {
-            const IS_LIST: bool = true;
+/// The rows of a rotation.
+pub(super) type RotationRows = VectorList<3>;
 
-            fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
-                let numbers: [f64; $count] =
-                    tuple(node, $what, context, |node, context| number(node, $what, context))?;
-                let vectors = numbers.as_chunks::<3>().0;
-                Some(Self(std::array::from_fn(|at| vectors[at])))
-            }
+/// The columns of an affine map: the images of the three axes, and that of the origin.
+pub(super) type AffineColumns = VectorList<4>;
 
-            fn schema(_: &mut SchemaDefinitions) -> Json {
-                let item = json!({ "type": "number", "minimum": -1e60, "maximum": 1e60 });
-                json!({ "type": "array", "items": item, "minItems": $count, "maxItems": $count })
-            }
-        }
-    };
-}
+/// The rows of an affine map of the plane: (a, b, c) for a·u + b·v + c.
+pub(super) type PlaneRows = VectorList<2>;
 
-matrix! {
-    /// The rows of a rotation.
-    RotationRows, 9, 3, "a list of nine numbers"
-}
+impl<const N: usize> Decode for VectorList<N> {
+    const IS_LIST: bool = true;
 
-matrix! {
-    /// The columns of an affine map: the images of the three axes, and that of the origin.
-    AffineColumns, 12, 4, "a list of twelve numbers"
-}
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
+        let what = match N {
+            2 => "a list of six numbers",
+            3 => "a list of nine numbers",
+            _ => "a list of twelve numbers",
+        };
+        let numbers = list(node, 3 * N, what, context, |node, context| {
+            number(node, what, context)
+        })?;
+        let (vectors, _) = numbers.as_chunks::<3>();
+        vectors.try_into().ok().map(Self)
+    }
 
-matrix! {
-    /// The rows of an affine map of the plane: (a, b, c) for a·u + b·v + c.
-    PlaneRows, 6, 2, "a list of six numbers"
+    fn schema(_: &mut SchemaDefinitions) -> Json {
+        let item = json!({ "type": "number", "minimum": -1e60, "maximum": 1e60 });
+        json!({ "type": "array", "items": item, "minItems": 3 * N, "maxItems": 3 * N })
+    }
 }
 
 /// A rotation; `None` if `--lenient` ignores one in an unknown notation.

@@ -16,25 +16,31 @@ pub(super) fn tuple<T, const N: usize>(
     node: NodeId,
     what: &str,
     context: &mut DecodeContext<'_>,
-    mut item: impl FnMut(NodeId, &mut DecodeContext<'_>) -> Option<T>,
+    item: impl FnMut(NodeId, &mut DecodeContext<'_>) -> Option<T>,
 ) -> Option<[T; N]> {
+    list(node, N, what, context, item)?.try_into().ok()
+}
+
+/// As [`tuple`], of a number of items that is no constant.
+pub(super) fn list<T>(
+    node: NodeId,
+    expected: usize,
+    what: &str,
+    context: &mut DecodeContext<'_>,
+    mut item: impl FnMut(NodeId, &mut DecodeContext<'_>) -> Option<T>,
+) -> Option<Vec<T>> {
     let tree = context.tree;
     if !tree.is_list(node) {
         return context.expected(node, what);
     }
     // Aliases can repeat a very long list many times, so count no further than needed.
-    let count = tree.items(node).take(N + 1).count();
-    if count != N {
-        wrong_length(node, count, N, context);
+    let count = tree.items(node).take(expected + 1).count();
+    if count != expected {
+        wrong_length(node, count, expected, context);
         return None;
     }
-    let mut read: [Option<T>; N] = std::array::from_fn(|_| None);
-    for (slot, node) in read.iter_mut().zip(tree.items(node)) {
-        *slot = item(node, context);
-    }
-    read.iter()
-        .all(Option::is_some)
-        .then(|| read.map(|value| value.expect("all were looked at")))
+    let read: Vec<_> = tree.items(node).map(|node| item(node, context)).collect();
+    read.into_iter().collect()
 }
 
 /// Reports a list that has `count` items instead of `expected`.

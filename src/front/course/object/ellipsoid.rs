@@ -6,7 +6,9 @@ use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::Degrees;
 use crate::course::record::{FieldResult, keys, record};
-use crate::course::rotation::{AffineColumns, Rotation, RotationKeys, world_from_object};
+use crate::course::rotation::{
+    AffineColumns, Rotation, RotationKeys, VectorList, world_from_object,
+};
 use crate::course::synonym::{POSITION, ROTATION, ROTATION_ANGLE, ROTATION_AXIS, with_canonical};
 use crate::course::value::{Angles, AnyScalar, Point, Scale, Vector};
 use rtc_diag::codes;
@@ -79,7 +81,7 @@ impl Ellipsoid {
         }
         let axes = rotation_keys.axes(context)?;
         let columns = world_from_object(axes, radius.value.0, position.value.0);
-        Some((AffineColumns(columns), [position.span, radius.span]))
+        Some((VectorList(columns), [position.span, radius.span]))
     }
 }
 
@@ -91,7 +93,7 @@ impl LowerObject for Ellipsoid {
             (&self.shadow, &self.velocity),
             context,
         );
-        let (Some((AffineColumns(columns), spans)), Some(props)) = (self.placement(context), props)
+        let (Some((VectorList(columns), spans)), Some(props)) = (self.placement(context), props)
         else {
             return;
         };

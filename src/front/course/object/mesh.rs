@@ -10,7 +10,9 @@ use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, Real};
 use crate::course::record::{FieldResult, keys, record};
-use crate::course::rotation::{AffineColumns, Rotation, RotationKeys, world_from_object};
+use crate::course::rotation::{
+    AffineColumns, Rotation, RotationKeys, VectorList, world_from_object,
+};
 use crate::course::schema::SchemaDefinitions;
 use crate::course::synonym::{
     FILE, POSITION, ROTATION, ROTATION_ANGLE, ROTATION_AXIS, SCALE, with_canonical,
@@ -215,7 +217,7 @@ impl Mesh {
         // Compose scale, rotation and translation.
         let axes = rotation_keys.axes(context)?;
         let transform =
-            |scale: &[f64; 3]| AffineColumns(world_from_object(axes, *scale, position.value.0));
+            |scale: &[f64; 3]| VectorList(world_from_object(axes, *scale, position.value.0));
         Some((scale.map(transform), sizing))
     }
 }

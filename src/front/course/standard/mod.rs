@@ -31,8 +31,7 @@ use rtc_tables::{camel_case, parameters};
 use serde_json::Value as Json;
 use texture::MapOrFile;
 use value::{
-    AlphaMode, ConductorIndex, Fraction, FractionColor, MicrofacetsKeyword, PlasticKeyword, Range,
-    Refraction, RefractionOrNone, Rgba,
+    AlphaMode, ConductorIndex, Fraction, FractionColor, Range, Refraction, RefractionOrNone, Rgba,
 };
 
 /// The value of `type` that selects this material.
@@ -56,8 +55,8 @@ mod written {
     pub(super) type some_fractions = Rgba;
     pub(super) type conductor = ConductorIndex;
     pub(super) type medium = MediumCoefficients;
-    pub(super) type microfacets = MicrofacetsKeyword;
-    pub(super) type plastic = PlasticKeyword;
+    pub(super) type microfacets = Microfacets;
+    pub(super) type plastic = Plastic;
     pub(super) type flag = bool;
     pub(super) type alpha = AlphaMode;
     pub(super) type map = MapOrFile;
@@ -113,6 +112,12 @@ macro_rules! lowered {
         Some($written.value.lowered())
     };
     (flag, $written:expr, $lowering:expr) => {
+        $written.value
+    };
+    (microfacets, $written:expr, $lowering:expr) => {
+        $written.value
+    };
+    (plastic, $written:expr, $lowering:expr) => {
         $written.value
     };
     ($kind:ident, $written:expr, $lowering:expr) => {

@@ -1,7 +1,7 @@
 //! The value types of a `standard` material: fractions, ranges, alpha modes.
 
 use super::super::decode::{Decode, DecodeContext, Spanned};
-use super::super::keyword::{KeywordTable, keyword, keyword_schema};
+use super::super::keyword::{Keyword, KeywordTable, keyword, keyword_schema};
 use super::super::number::{NonNegative, integer, json_number, number, ranged};
 use super::super::record::{keys, record};
 use super::super::schema::SchemaDefinitions;
@@ -107,44 +107,12 @@ impl Decode for AlphaMode {
     }
 }
 
-/// Declares a type of the format: a keyword for each value of an enum.
-macro_rules! keywords {
-    ($(#[doc = $doc:literal])+ $name:ident($Value:ident), $table:expr) => {
-        $(#[doc = $doc])+
-        #[derive(Clone, Copy, Debug)]
-        pub(super) struct $name(pub(super) $Value);
-
-        impl From<$Value> for $name {
-            fn from(value: $Value) -> Self {
-                Self(value)
-            }
-        }
-
-        impl Decode for $name {
-            fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
-                keyword(node, $table, context).map(Self)
-            }
-
-            fn schema(_: &mut SchemaDefinitions) -> Json {
-                keyword_schema($table)
-            }
-
-            fn json(&self) -> Json {
-                let keyword = $table.iter().find(|(_, value, _)| *value == self.0);
-                keyword.map_or(Json::Null, |(keyword, ..)| json!(keyword))
-            }
-        }
-    };
+impl Keyword for Microfacets {
+    const KEYWORDS: KeywordTable<Self> = Self::KEYWORDS;
 }
 
-keywords! {
-    /// The distribution of microfacets.
-    MicrofacetsKeyword(Microfacets), Microfacets::KEYWORDS
-}
-
-keywords! {
-    /// How light leaves the base.
-    PlasticKeyword(Plastic), Plastic::KEYWORDS
+impl Keyword for Plastic {
+    const KEYWORDS: KeywordTable<Self> = Self::KEYWORDS;
 }
 
 /// The complex index of a conductor: the name of a metal, or numbers.
