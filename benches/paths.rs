@@ -14,6 +14,8 @@
 )]
 
 mod setup;
+#[path = "setup/simd.rs"]
+mod simd;
 
 use cpu_time::ProcessTime;
 use rtc::internals::ir::{LoweredScene, Mode};
@@ -42,7 +44,8 @@ fn main() {
         },
         ..RenderSelection::default()
     };
-    let renderer = Renderer::new(&proof, &Plan::new(&proof, RuleSet::ALL), 1).unwrap();
+    let plan = Plan::new(&proof, RuleSet::ALL);
+    let renderer = Renderer::at_level(&proof, &plan, 1, simd::level()).unwrap();
     let (clock, cpu) = (Instant::now(), ProcessTime::now());
     let film = renderer.render(&job, &|_| true).unwrap();
     let (clock, cpu) = (clock.elapsed(), cpu.elapsed());

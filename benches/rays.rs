@@ -13,6 +13,9 @@
     reason = "a measurement stops at the first surprise, reads what it measures, and prints"
 )]
 
+#[path = "setup/simd.rs"]
+mod simd;
+
 use cpu_time::ProcessTime;
 use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::math::Vec3;
@@ -61,9 +64,9 @@ fn world(asset: &str) -> World {
     let proof = pipeline::validate(&lowered, &options, &mut sink).unwrap();
     let plan = Plan::new(&proof, RuleSet::NONE);
     let start = ProcessTime::now();
-    let world = World::prepare(&proof, &plan);
+    let world = World::prepare_at(&proof, &plan, simd::level());
     let seconds = start.elapsed().as_secs_f64();
-    println!("{}", json!({"work": "build", "cpu_s": seconds}));
+    println!("{}", json!({"work": "build", "cpu_s": seconds, "simd": simd::level().name()}));
     world
 }
 

@@ -16,15 +16,15 @@ SIDE = 724  # Vertices around and from pole to pole; (SIDE - 1)^2 squares.
 RAYS = 1 << 20
 
 
-def globe(random):
+def globe(random, side=SIDE):
     """Waves of three sizes and a little roughness on a ball of radius 1, cut off before the poles."""
-    around, down = np.meshgrid(np.linspace(0, 2 * np.pi, SIDE), np.linspace(0.03, np.pi - 0.03, SIDE))
+    around, down = np.meshgrid(np.linspace(0, 2 * np.pi, side), np.linspace(0.03, np.pi - 0.03, side))
     waves = 0.06 * np.sin(7 * around) * np.sin(9 * down) + 0.02 * np.cos(31 * around + 3 * down) * np.sin(37 * down)
     radius = 1 + waves + 0.004 * random.uniform(-1, 1, around.shape)
     ring = radius * np.sin(down)
     points = np.stack([ring * np.cos(around), radius * np.cos(down), ring * np.sin(around)], -1).reshape(-1, 3)
-    first = (np.arange(SIDE - 1)[:, None] * SIDE + np.arange(SIDE - 1)).ravel()
-    squares = [first, first + 1, first + SIDE, first + 1, first + SIDE + 1, first + SIDE]
+    first = (np.arange(side - 1)[:, None] * side + np.arange(side - 1)).ravel()
+    squares = [first, first + 1, first + side, first + 1, first + side + 1, first + side]
     return points.astype(np.float32), np.stack(squares, -1).reshape(-1, 3).astype(np.uint32)
 
 

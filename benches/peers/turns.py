@@ -1,6 +1,7 @@
 """Measures rtc and its peers by turns: `turns.py FOLDER RUNS KIND…`, with the programs in RTC, RAYS and PATHS, and the size of the
-picture of rings in RINGS. Each turn is one run of each, in the order of the last turn turned round. FOLDER/results.json keeps what
+picture of rings in RINGS. Each turn is one run of each, in the order of the last turn turned round. The file RESULTS keeps what
 was measured, kind by kind; `tables.py` shows it."""
+import glob
 import json
 import os
 import subprocess
@@ -9,10 +10,13 @@ import tempfile
 import time
 
 import numpy as np
+from scenes import globe, write_glb
 
 FOLDER, RUNS = sys.argv[1], int(sys.argv[2])
 HERE = os.path.dirname(os.path.relpath(__file__))
 ASSETS = ["FlightHelmet", "MetalRoughGrid", "TransmissionRoughnessTest", "CornellLambert"]
+MODELS = ["own_MetalRoughGrid.glb", "FlightHelmet/FlightHelmet.gltf", "pirate.glb", "SheenCloth.glb"]
+GROWTH_RAYS = 1 << 18
 SAMPLES = {"Courtyard": 64, "FlightHelmet": 32, "MetalRoughGrid": 32, "TransmissionRoughnessTest": 32, "CornellLambert": 16}
 
 
@@ -118,17 +122,22 @@ def by_rtc(set_up):
 
 
 def courtyard():
-    def by_mitsuba(sampler):
+    def by_mitsuba(name, sampler, variant):
         def one(turn):
-            out = picture("Courtyard", f"Mitsuba, {sampler}", turn)
-            arguments = [f"{FOLDER}/Courtyard.xml", str(SAMPLES["Courtyard"]), str(turn + 1), out, sampler]
+            out = picture("Courtyard", name, turn)
+            arguments = [f"{FOLDER}/Courtyard.xml", str(SAMPLES["Courtyard"]), str(turn + 1), out, sampler, variant]
             ran = run(sys.executable, f"{HERE}/paths_mitsuba.py", *arguments)
             return {**ran, **json.loads(ran.pop("told"))}
 
         return one
 
     emit(f"{FOLDER}/Courtyard.yaml", f"{FOLDER}/Courtyard.xml")
-    contestants = {f"Mitsuba, {sampler}": by_mitsuba(sampler) for sampler in ("independent", "multijitter")}
+    os.environ["DRJIT_LIBLLVM_PATH"] = glob.glob("/usr/lib/*/libLLVM.so.19.1")[0]
+    pairs = [("scalar_rgb", "independent"), ("scalar_rgb", "multijitter"), ("llvm_ad_rgb", "independent")]
+    contestants = {}
+    for variant, sampler in pairs:
+        name = f"Mitsuba {variant.split('_')[0]}, {sampler}"
+        contestants[name] = by_mitsuba(name, sampler, variant)
     return measured("Courtyard", {"rtc": by_rtc("Courtyard"), **contestants})
 
 
@@ -152,6 +161,46 @@ def assets():
     return found
 
 
+def models():
+    """From a model to its first picture, of 400 x 400 pixels: f3d by software GL, rtc by its quick and by its default quality."""
+    found = {}
+    for asset in MODELS:
+        path = f"../shared/gltf/assets/{asset}"
+        if not os.path.exists(path):
+            print(f"  no {path}: it is left out", file=sys.stderr)
+            continue
+        out = f"{FOLDER}/model.png"
+        f3d = ["xvfb-run", "-a", "f3d", path, f"--output={out}", "--resolution=400,400"]
+        rtc = [os.environ["RTC"], "render", path, "--size", "400x400", "--threads", "1", "-q", "-o", out]
+        draft = [*rtc, "--quality", "draft"]
+        found[asset] = by_turns({"f3d": lambda _: run(*f3d), "draft": lambda _: run(*draft), "rtc": lambda _: run(*rtc)})
+    return found
+
+
+def growth():
+    """Globes of ten times as many triangles each: from the mesh in memory to the hierarchy, and rays to anywhere."""
+    found = {}
+    for exponent in range(3, int(os.environ.get("MOST", "7")) + 1):
+        folder = f"{FOLDER}/growth{exponent}"
+        os.makedirs(folder, exist_ok=True)
+        points, corners = globe(np.random.default_rng(15), round((10**exponent / 2) ** 0.5) + 1)
+        points.tofile(f"{folder}/globe.vertices.f32")
+        corners.tofile(f"{folder}/globe.corners.u32")
+        write_glb(f"{folder}/globe.glb", [(None, points, corners)])
+        rays = np.fromfile(f"{FOLDER}/incoherent.f32", np.float32)[: 6 * GROWTH_RAYS]
+        rays.tofile(f"{folder}/incoherent.f32")
+
+        def lines(*command):
+            rows = [json.loads(line) for line in run(*command)["told"].splitlines()]
+            return {row["work"]: row["cpu_s"] for row in rows}
+
+        ours = [os.environ["RAYS"], f"{folder}/globe.glb", f"{folder}/incoherent.f32"]
+        theirs = [sys.executable, f"{HERE}/rays_embree.py", folder, f"{folder}/incoherent.f32"]
+        turns = by_turns({"rtc": lambda _: lines(*ours), "Embree": lambda _: lines(*theirs)}, min(RUNS, 3))
+        found[exponent] = {"triangles": len(corners), "rays": GROWTH_RAYS, **turns}
+    return found
+
+
 def cores():
     """Seconds of the clock on one thread and on two."""
     found = {}
@@ -164,11 +213,12 @@ def cores():
 
 
 def main(kinds):
-    path = f"{FOLDER}/results.json"
+    path = os.environ["RESULTS"]
     results = json.load(open(path)) if os.path.exists(path) else {}
+    kinds_by_name = {measure.__name__: measure for measure in (rays, course, courtyard, assets, models, growth, cores)}
     for kind in kinds:
         print(f"{kind}:", file=sys.stderr)
-        results[kind] = {"rays": rays, "course": course, "courtyard": courtyard, "assets": assets, "cores": cores}[kind]()
+        results[kind] = kinds_by_name[kind]()
         with open(path, "w") as file:
             json.dump(results, file, indent=1)
 
