@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # What is handed out: one archive a target with the program, its licences, its manual page and completions, and SHA256SUMS.
 # `dist/build.sh [TARGET…]`; without a word the static programs for Linux and the one for Windows. Needs rustup, for arm64
-# qemu-aarch64-static, for Windows x86_64-w64-mingw32-gcc and zip. What can be run here must print its version and make the
-# picture of a scene with the bytes of the first target; what can't is told.
+# qemu-aarch64-static, for Windows x86_64-w64-mingw32-gcc and zip. What runs here without an emulator is optimised by a profile of
+# the pictures of scenes/ (`dist/profile.sh`). What can be run here must print its version and make the picture of a scene with the
+# bytes of the first target; what can't is told.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -61,7 +62,11 @@ cargo build --quiet --locked --bin rtc
 cp target/debug/rtc "$out/native"
 for target in "${targets[@]}"; do
     rustup target add "$target" >/dev/null 2>&1
-    cargo build --quiet --locked --profile dist --bin rtc --target "$target"
+    flags=CARGO_TARGET_$(tr a-z- A-Z_ <<<"$target")_RUSTFLAGS profile=
+    if run=$(runner "$target") && [[ -z $run ]]; then
+        profile=-Cprofile-use=$(dist/profile.sh "$target")
+    fi
+    env "$flags=${!flags:-} $profile" cargo build --quiet --locked --profile dist --bin rtc --target "$target"
     program=target/$target/dist/rtc
     [[ -e $program ]] || program+=.exe
     printf '%s: %s bytes\n' "$target" "$(wc -c <"$program")"
