@@ -1,5 +1,6 @@
-"""The table and the plot of `growth.sh`: `growth.py PLOT.svg <ROWS`. A row holds the power of ten of the triangles, then CPU-seconds,
-MB and rays of a picture, and the same of one with more paths. The plot is µs a ray over log n, with the line that fits best."""
+"""The tables and the plot of `growth.sh`: `growth.py PLOT.svg ROWS SIZES`. A row holds the power of ten of the triangles, then
+CPU-seconds, MB and rays of a picture, and the same of one with more paths. A size holds the pixels across, CPU-seconds and MB by
+strips, and both as a whole. The plot is µs a ray over log n, with the line that fits best."""
 import sys
 
 
@@ -28,8 +29,20 @@ def plot(points, start, slope):
     return "\n".join(parts) + "\n"
 
 
-def main(svg):
-    rows = [[float(word) for word in line.split()] for line in sys.stdin]
+def numbers(path):
+    return [[float(word) for word in line.split()] for line in open(path)]
+
+
+def sizes(rows):
+    print("The course's camera scene, one sample a pixel, one thread: CPU-seconds of the process and its peak of memory.\n")
+    print("| pixels | CPU-s by strips | peak, MB | CPU-s as a whole | peak, MB |\n| --- | --: | --: | --: | --: |")
+    for side, *cells in rows:
+        seconds, peak, *whole = [f"{cell:.2f}" if k % 2 == 0 else f"{cell:.0f}" for k, cell in enumerate(cells)]
+        print(f"| {side:.0f}² | {seconds} | {peak} | " + (" | ".join(whole) or "– | –") + " |")
+
+
+def main(svg, rows, wide):
+    rows = numbers(rows)
     points = [(exponent, (more - cpu) / (more_rays - rays) * 1e6) for exponent, cpu, _, rays, more, _, more_rays in rows]
     start, slope = fit(points)
     print("One mesh, 256 × 256 pixels, one thread. Of a picture of 4 paths a pixel: CPU-seconds from the start of the process, and the")
@@ -42,6 +55,8 @@ def main(svg):
     print(f"The line that fits best is {start:.2f} + {slope:.2f} · log₁₀ n µs.")
     with open(svg, "w") as file:
         file.write(plot(points, start, slope))
+    print()
+    sizes(numbers(wide))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # How time and memory grow with the scene: one mesh of 10^3 to 10^7 triangles (MOST sets another end), 256 × 256 pixels, 4 paths
 # each, one thread: CPU-seconds from the start of the process to the picture and its peak of memory; and the time a ray takes,
-# by the difference from 36 paths to 4. Puts the table into benches/README.md and draws benches/growth.svg.
+# by the difference from 36 paths to 4. Then how they grow with the picture: the course's camera scene from 256² to 16 384² pixels
+# (WIDEST sets another end), one sample each, as a whole and by `--strips`. Puts the tables into benches/README.md and draws
+# benches/growth.svg.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . benches/driver.sh
@@ -20,4 +22,17 @@ cost() {
 for exponent in $(seq 3 "${MOST:-7}"); do
     "$asset" write "$out/big.glb" "1e$exponent"
     echo "$exponent $(cost 4) $(cost 36)"
-done | python3 benches/growth.py benches/growth.svg | python3 benches/page.py growth
+done >"$out/rows"
+
+# CPU-seconds and MB of a picture of so many pixels across.
+size() {
+    /usr/bin/time -o "$out/cost" -f '%U %S %M' "$rtc" render scenes/camera.yaml --size "$1x$1" --supersampling 1 --threads 1 -q \
+        "${@:2}" -o "$out/wide.png"
+    awk '{ print $1 + $2, $3 / 1024 }' "$out/cost"
+}
+
+for ((side = 256; side <= ${WIDEST:-16384}; side *= 4)); do
+    # 16 384² pixels as a whole take 10 GB.
+    echo "$side $(size "$side" --strips) $([ "$side" -gt 4096 ] || size "$side")"
+done >"$out/sizes"
+python3 benches/growth.py benches/growth.svg "$out/rows" "$out/sizes" | python3 benches/page.py growth
