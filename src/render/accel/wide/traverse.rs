@@ -7,7 +7,7 @@ use crate::accel::simd::at_level;
 use crate::ray::Ray;
 use fearless_simd::Simd;
 
-/// Where a ray is in the BVH.
+/// A BVH and a ray through it.
 struct Traversal<'traverse, S: Simd> {
     nodes: &'traverse [WideNode],
     rows: &'traverse [TriangleRow],
@@ -15,10 +15,7 @@ struct Traversal<'traverse, S: Simd> {
     conservative_ray: ConservativeRay,
     boxes: BoxLanes<S>,
     triangles: TriangleLanes<S>,
-    t_far: f32,
     t_certain: f32,
-    link: u32,
-    open: TraversalStack,
 }
 
 /// The callbacks of a traversal, for the triangles that the ray may hit.
@@ -47,13 +44,6 @@ impl<F: FnMut(Candidate<'_>) -> f64> TriangleVisitor for F {
     }
 }
 
-/// Whether a traversal continues.
-#[derive(PartialEq, Eq)]
-enum TraversalStep {
-    GoesOn,
-    Ends,
-}
-
 impl WideBvh {
     /// Has the triangles visited that the ray may hit before `t_max`, nearer ones roughly first.
     #[inline]
@@ -70,8 +60,9 @@ impl WideBvh {
         visitor: &mut V,
     ) {
         if let Some(conservative_ray) = self.conservative_ray(ray, t_max, visitor) {
-            let mut traversal = self.start::<S, V>(simd, conservative_ray, t_max);
-            while traversal.step(simd, visitor) == TraversalStep::GoesOn {}
+            let t_far = conservative_ray.t_far(t_max);
+            let traversal = self.start::<S, V>(simd, conservative_ray, t_max);
+            traversal.run(simd, visitor, t_far, self.root);
         }
     }
 
@@ -98,7 +89,7 @@ impl WideBvh {
         }
     }
 
-    /// A conservative ray at the root.
+    /// The traversal by a conservative ray.
     #[inline(always)]
     fn start<S: Simd, V: TriangleVisitor>(
         &self,
@@ -112,14 +103,11 @@ impl WideBvh {
             unit: self.unit,
             boxes: BoxLanes::new(simd, &conservative_ray),
             triangles: TriangleLanes::new(simd, &conservative_ray),
-            t_far: conservative_ray.t_far(t_max),
             t_certain: if V::IS_CERTAIN {
                 conservative_ray.t_certain(t_max)
             } else {
                 0.0
             },
-            link: self.root,
-            open: TraversalStack::new(),
             conservative_ray,
         }
     }
@@ -152,51 +140,66 @@ impl WideBvh {
 }
 
 impl<S: Simd> Traversal<'_, S> {
-    /// Goes to one node or one leaf.
+    /// Visits nodes and leaves from a link on, nearer ones roughly first.
+    ///
+    /// What changes from step to step are variables, which are kept in registers: in fields beside
+    /// the stack they were in memory, and each step waited for what the one before had written.
     #[inline(always)]
-    fn step<V: TriangleVisitor>(&mut self, simd: S, visitor: &mut V) -> TraversalStep {
-        if self.link & LEAF == 0 {
-            let node = &self.nodes[self.link as usize];
-            let (hit_children, enter) = self.boxes.meet(simd, node, self.t_far);
-            if hit_children != 0 {
-                self.link = nearest(&mut self.open, hit_children, &enter, node);
-                return TraversalStep::GoesOn;
+    fn run<V: TriangleVisitor>(&self, simd: S, visitor: &mut V, mut t_far: f32, mut link: u32) {
+        let mut open = TraversalStack::new();
+        loop {
+            if link & LEAF == 0 {
+                let node = &self.nodes[link as usize];
+                let (hit_children, enter) = self.boxes.meet(simd, node, t_far);
+                if hit_children != 0 {
+                    link = nearest(&mut open, hit_children, &enter, node);
+                    continue;
+                }
+            } else {
+                match self.visit_leaf(simd, visitor, link, t_far) {
+                    Some(end) => t_far = end,
+                    None => return,
+                }
             }
-        } else if self.visit_leaf(simd, visitor) == TraversalStep::Ends {
-            return TraversalStep::Ends;
+            // The last one left for later that may still count.
+            link = loop {
+                match open.pop() {
+                    Some((near, next)) if near <= t_far => break next,
+                    Some(_) => {}
+                    None => return,
+                }
+            };
         }
-        // The last one left for later that may still count.
-        while let Some((near, next)) = self.open.pop() {
-            if near <= self.t_far {
-                self.link = next;
-                return TraversalStep::GoesOn;
-            }
-        }
-        TraversalStep::Ends
     }
 
+    /// Has the triangles of a leaf visited that the ray may hit, and returns the new far bound;
+    /// `None` if the traversal ends.
     #[inline(always)]
-    fn visit_leaf<V: TriangleVisitor>(&mut self, simd: S, visitor: &mut V) -> TraversalStep {
-        let leaf = leaf_at(self.rows, self.link);
-        let all = 0b1111 >> (3 - (self.link & 3));
+    fn visit_leaf<V: TriangleVisitor>(
+        &self,
+        simd: S,
+        visitor: &mut V,
+        link: u32,
+        t_far: f32,
+    ) -> Option<f32> {
+        let leaf = leaf_at(self.rows, link);
+        let all = 0b1111 >> (3 - (link & 3));
         // Test the triangles of the leaf against the ray.
         let hit_mask = match (V::CULLS, V::IS_CERTAIN) {
             (false, _) => HitMask {
                 maybe: all,
                 certain: 0,
             },
-            (true, false) => self
-                .triangles
-                .intersect4::<false>(simd, leaf, [self.t_far, 0.0]),
+            (true, false) => self.triangles.intersect4::<false>(simd, leaf, [t_far, 0.0]),
             (true, true) => {
-                let limits = [self.t_far, self.t_certain];
+                let limits = [t_far, self.t_certain];
                 self.triangles.intersect4::<true>(simd, leaf, limits)
             }
         };
         // A certain hit may end the traversal.
         for lane in lanes_of(hit_mask.certain & all) {
             if visitor.accepts_certain(leaf.item(lane)) {
-                return TraversalStep::Ends;
+                return None;
             }
         }
         // Report the candidates, and shorten the ray.
@@ -211,14 +214,11 @@ impl<S: Simd> Traversal<'_, S> {
                 unit,
             });
             if end < 0.0 {
-                return TraversalStep::Ends;
+                return None;
             }
             t_max = Some(end);
         }
-        if let Some(t_max) = t_max {
-            self.t_far = self.conservative_ray.t_far(t_max);
-        }
-        TraversalStep::GoesOn
+        Some(t_max.map_or(t_far, |t_max| self.conservative_ray.t_far(t_max)))
     }
 }
 
