@@ -13,10 +13,12 @@ if [ "${1:-}" = --simd ]; then
     export RTC_SIMD=$2
     shift 2
 fi
-# As it is handed out: laid out by the profile of pictures.
-CARGO_BUILD_TARGET=$(rustc -vV | sed -n 's/host: //p')
-RUSTFLAGS=-Cprofile-use=$(dist/profile.sh "$CARGO_BUILD_TARGET")
-export CARGO_BUILD_TARGET RUSTFLAGS
+if [ -z "${RTC_PROFILE:-}" ]; then
+    # As it is handed out: laid out by the profile of pictures.
+    CARGO_BUILD_TARGET=$(rustc -vV | sed -n 's/host: //p')
+    RUSTFLAGS=-Cprofile-use=$(dist/profile.sh "$CARGO_BUILD_TARGET")
+    export CARGO_BUILD_TARGET RUSTFLAGS
+fi
 RTC=$(rtc) RAYS=$(driver rays) PATHS=$(driver paths) RINGS=${RINGS:-3840x2160}
 export RTC RAYS PATHS RINGS
 "$python" benches/peers/scenes.py "$folder"
