@@ -1,4 +1,5 @@
-"""Writes a glTF of a street with 6 lamps or more: `street.py LIGHTS OUT.gltf`.
+"""Writes a glTF of a street with 6 lamps or more: `street.py LIGHTS OUT.gltf [twins]`. As twins each shining triangle has another one at
+its back, for renderers whose emitters shine to one side.
 
 Half of the lights are points (KHR_lights_punctual), half are small shining triangles that face the
 street, in three colours. The same number gives the same bytes.
@@ -31,10 +32,18 @@ def shining(draw):
     """A triangle on a wall of the street, a hand above it."""
     side = draw.choice((-1.0, 1.0))
     x, y, z = side * 3.95, draw.uniform(0.3, 7.0), -draw.uniform(0.0, LENGTH)
-    return [(x, y, z), (x, y, z + 0.1), (x, y + 0.1, z)]
+    low, along, up = (x, y, z), (x, y, z + 0.1), (x, y + 0.1, z)
+    return [low, along, up] if side > 0 else [low, up, along]
 
 
-def main(count, out):
+def backs(triangle):
+    """A triangle, and one a millimetre behind it that faces the wall."""
+    behind = 0.001 if triangle[0][0] > 0 else -0.001
+    a, b, c = ((x + behind, y, z) for x, y, z in triangle)
+    return triangle + [a, c, b]
+
+
+def main(count, out, twins=False):
     """Writes the scene."""
     draw = random.Random(7)
     houses = [box((-10, -1, -LENGTH), (10, 0, 5)), box((-10, 0, -LENGTH), (-4, 9, 5)),
@@ -42,7 +51,8 @@ def main(count, out):
     houses += [box((x, 0, z), (x + 0.6, draw.uniform(0.5, 2.0), z + 0.6))
                for x, z in ((draw.uniform(-3, 2.4), -draw.uniform(2, LENGTH)) for _ in range(60))]
     triangles = [shining(draw) for _ in range(count // 2)]
-    groups = [sum(houses, [])] + [sum(triangles[k::3], []) for k in range(3)]
+    shown = [backs(triangle) for triangle in triangles] if twins else triangles
+    groups = [sum(houses, [])] + [sum(shown[k::3], []) for k in range(3)]
     glows = [(1.0, 0.6, 0.2), (0.3, 0.6, 1.0), (1.0, 0.9, 0.7)]
     materials = [{"pbrMetallicRoughness": {"baseColorFactor": [0.6, 0.6, 0.6, 1], "metallicFactor": 0, "roughnessFactor": 0.6}}]
     materials += [{"emissiveFactor": glow, "doubleSided": True,
@@ -81,4 +91,4 @@ def main(count, out):
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]), sys.argv[2])
+    main(int(sys.argv[1]), sys.argv[2], "twins" in sys.argv[3:])

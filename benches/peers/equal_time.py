@@ -18,14 +18,22 @@ from turns import FOLDER, HERE, RUNS, by_turns, emit, run
 SECONDS = float(os.environ.get("SECONDS_EACH", "1"))
 TRUTH = 16  # The samples of a truth, of those of a picture.
 TRUTH_SEED = 1000
+# Small emitters, and a caustic.
+LAMPS = ["small-lamp", "many-lamps", "glass-ball"]
 
 
 def has(module):
     return subprocess.run([sys.executable, "-c", f"import {module}"], capture_output=True).returncode == 0
 
 
+def source(scene):
+    """The file of a scene: beside this one, or made by scenes.py."""
+    own = f"{HERE}/{scene}.yaml"
+    return own if os.path.exists(own) else f"{FOLDER}/{scene}.json"
+
+
 def by_rtc(scene, samples, seed, out):
-    told = run(os.environ["PATHS"], f"{FOLDER}/{scene}.json", str(samples), str(seed), out)["told"]
+    told = run(os.environ["PATHS"], source(scene), str(samples), str(seed), out)["told"]
     return json.loads(told)["render_cpu_s"]
 
 
@@ -133,6 +141,10 @@ def main():
     lambert = {**peers, "Mitsuba": by_mitsuba} if has("mitsuba") else peers
     emit(f"{FOLDER}/Courtyard.yaml", f"{FOLDER}/Courtyard.xml")
     rows = paths("Courtyard", {"rtc": by_rtc, **lambert}) if lambert else []
+    if has("mitsuba"):
+        for scene in LAMPS:
+            emit(f"{HERE}/{scene}.yaml", f"{FOLDER}/{scene}.xml")
+            rows += paths(scene, {"rtc": by_rtc, "Mitsuba": by_mitsuba})
     if peers and os.path.exists(f"{FOLDER}/CornellLambert.json"):
         rows += paths("CornellLambert", {"rtc": by_rtc, **peers})
     load = os.getloadavg()[0]
