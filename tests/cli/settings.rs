@@ -64,6 +64,27 @@ fn a_setting_that_is_chosen_is_rendered_as_its_command_says() {
 }
 
 #[test]
+fn the_noise_of_a_picture_is_laid_over_it_when_asked() {
+    let folder = folder();
+    let live = Running::start(&folder, &["ball.json", "--size", "16x12"]);
+    assert_eq!(live.finished(1)["noise"], Value::Null);
+    assert_eq!(live.post("/noise", &Value::Null).status, 202);
+    let state = live.when("measured", |state| state["noise"].is_string());
+    let told = state["noise"].as_str().unwrap();
+    assert!(told.starts_with("error at most "), "{told}");
+    let number = &state["picture"]["number"];
+    let layer = |name: &str| live.get("/noise", &format!("&number={number}&layer={name}"));
+    for name in ["error", "samples", "unmet"] {
+        assert!(layer(name).body.starts_with(b"\x89PNG"), "{name}");
+    }
+    assert_eq!(layer("depth").status, 404);
+    // Another picture has another noise.
+    let both = json!({ "view": view(), "isMoving": false });
+    let state = after(&live, &live.post("/view", &both).json(), "picture");
+    assert_eq!(state["noise"], Value::Null);
+}
+
+#[test]
 fn costs_are_measured_when_asked_and_go_with_their_scene() {
     let folder = folder();
     let live = Running::start(&folder, &["ball.json", "--size", "16x12"]);

@@ -86,6 +86,8 @@ pub(super) struct PreviewData {
     pub(super) settings: Value,
     /// The costs of accuracy in the current view, once requested.
     pub(super) costs: Value,
+    /// The noise of the picture, once requested; none of an older one.
+    noise: Option<NoiseLayers>,
     /// The command that renders the same.
     pub(super) command: String,
     pub(super) view_settings: ViewSettings,
@@ -95,6 +97,13 @@ pub(super) struct PreviewData {
     /// The requests to the renderer.
     orders: PreviewTasks,
     is_ended: bool,
+}
+
+/// Pictures of the noise of the shown picture, each with the name of its layer.
+pub(super) struct NoiseLayers {
+    pub(super) files: Vec<(&'static str, Arc<Vec<u8>>)>,
+    /// What is said of them.
+    pub(super) text: String,
 }
 
 /// The next task.
@@ -108,6 +117,8 @@ pub(super) struct PreviewTasks {
     pub(super) effects: bool,
     /// The costs are requested.
     pub(super) costs: bool,
+    /// The noise is requested.
+    pub(super) noise: bool,
     /// The effects of a pixel are requested.
     pub(super) pixel: Option<[u32; 2]>,
 }
@@ -154,7 +165,13 @@ impl PreviewState {
             state.is_working = !rendering.is_finished;
             state.shown.put(rendering, age);
             state.pixels = pixels;
+            state.noise = None;
         });
+    }
+
+    /// Shows the noise of the picture.
+    pub(super) fn put_noise(&self, noise: NoiseLayers) {
+        self.show(|state| state.noise = Some(noise));
     }
 
     /// Shows the reference, rendered for the request with this number.
@@ -205,6 +222,12 @@ impl PreviewState {
         let mut state = self.state();
         state.wants_settings = true;
         state.orders.costs = true;
+        self.changed.notify_all();
+    }
+
+    /// Requests the noise of the picture. The current task continues first.
+    pub(super) fn want_noise(&self) {
+        self.state().orders.noise = true;
         self.changed.notify_all();
     }
 
@@ -327,6 +350,14 @@ impl PreviewData {
         self.against.png(number)
     }
 
+    /// A layer of the noise of the picture of this number.
+    pub(super) fn png_noise(&self, number: &str, name: &str) -> Option<Arc<Vec<u8>>> {
+        let files = &self.noise.as_ref()?.files;
+        let file = files.iter().find(|(own, _)| *own == name);
+        file.filter(|_| self.shown.number.to_string() == number)
+            .map(|(_, png)| Arc::clone(png))
+    }
+
     /// The state as the page receives it.
     fn reported(&self) -> Value {
         let diagnostic = |diagnostic: &ReportedDiagnostic| {
@@ -359,6 +390,7 @@ impl PreviewData {
             "pixel": self.pixel,
             "settings": self.settings,
             "costs": self.costs,
+            "noise": self.noise.as_ref().map(|noise| &noise.text),
         })
     }
 }

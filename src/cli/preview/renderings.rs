@@ -1,15 +1,16 @@
 //! Pictures of scenes: the finished one of `rtc render`, and one pixel of it.
 
 use super::pixels::PixelTable;
-use super::preview_state::RenderedPicture;
+use super::preview_state::{NoiseLayers, RenderedPicture};
 use super::{Failure, args, render};
 use crate::project;
-use rtc_pipeline::{Input, PictureSetup, RenderError, RenderObserver, RenderSubject};
+use rtc_pipeline::{Input, PictureSetup, RenderError, RenderObserver, RenderSubject, Rounds};
 use rtc_render::{Aov, Crop, Film, RayCounts, RenderSelection};
 use rtc_study::RenderGoal;
 use std::num::NonZeroU32;
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// The settings of requested pictures.
 pub(super) fn setup(args: &args::PreviewArgs) -> Result<PictureSetup, Failure> {
@@ -56,6 +57,58 @@ pub(super) fn whole(
     let window = setup.window(&subject.validated.lowered.scene)?;
     let film = trace(setup, subject, window, input, observer)?;
     rendering(setup, subject, film, input, observer)
+}
+
+/// The target of the picture whose noise is shown, in grey levels.
+const NOISE_TARGET: f64 = 4.0;
+
+/// The standard error, the samples and the light that may be unmet of each pixel, of a picture to
+/// [`NOISE_TARGET`] in the same view and settings.
+pub(super) fn noise(
+    setup: &PictureSetup,
+    subject: &mut RenderSubject,
+    input: &mut Input,
+    observer: &RenderObserver<'_>,
+) -> Result<NoiseLayers, RenderError> {
+    // Render it to a target, with the layers of samples.
+    let mut setup = PictureSetup {
+        denoise: false,
+        goal: RenderGoal {
+            error: Some(NOISE_TARGET),
+            ..RenderGoal::default()
+        },
+        ..setup.clone()
+    };
+    setup.look.aovs = [Aov::Error, Aov::Samples, Aov::Undersampled].into();
+    let window = setup.window(&subject.validated.lowered.scene)?;
+    setup.check_memory(subject, window)?;
+    let rounds = Rounds {
+        elapsed: &|| Duration::ZERO,
+        begin: &|_| (),
+    };
+    let found = setup.approach(subject, (window, input.rays()), observer, &rounds)?;
+    // Tell its bound, and make a picture of each layer.
+    let samples = found.samples;
+    let bound = match found.undersampled {
+        None => format!("error at most {:.1} grey levels (90 %)", found.error),
+        Some(_) => "no bound on the error: bright light may be unmet".to_owned(),
+    };
+    let text = format!(
+        "{bound}; {} … {} samples per pixel, {:.0} on average",
+        samples.min, samples.most, samples.mean
+    );
+    let film = (found.image, found.coverage, &found.counts);
+    let is_stopped = observer.is_stopped;
+    let picture = setup.develop(subject, film, &found.quality, input, is_stopped)?;
+    let file = |aov: &Aov| {
+        let png = setup.encode_layer(*aov, &picture, subject)?;
+        Ok((aov.name(), Arc::new(png)))
+    };
+    let files: Result<_, RenderError> = setup.look.aovs.iter().map(file).collect();
+    Ok(NoiseLayers {
+        files: files?,
+        text,
+    })
 }
 
 /// The effects simulated for a pixel of the picture, which is rendered again by itself; `None`

@@ -1,13 +1,13 @@
 //! Requested reports of a session: the effects of the picture and of a pixel, the settings and
 //! their costs.
 
-use super::preview_state::{RenderTask, ViewSettings};
+use super::preview_state::{NoiseLayers, RenderTask, ViewSettings};
 use super::session::PreviewSession;
 use super::{Failure, choice, costs, renderings};
 use crate::render::effects;
 use crate::report::PlanReport;
 use rtc_ir::Scene;
-use rtc_pipeline::{PictureSetup, RenderObserver};
+use rtc_pipeline::{PictureSetup, RenderError, RenderObserver};
 use serde_json::json;
 
 impl PreviewSession<'_> {
@@ -42,6 +42,29 @@ impl PreviewSession<'_> {
             self.preview_state
                 .show(|state| state.pixel = json!({ "at": place, "effects": effects }));
         }
+    }
+
+    /// Publishes the noise of the picture, unless a newer request arrives. A reason why there is
+    /// none is published in its place.
+    pub(super) fn publish_noise(&mut self, work: &RenderTask) {
+        let (Some(scene), Some((setup, subject))) = (&mut self.scene, &mut self.shown) else {
+            return;
+        };
+        let observer = RenderObserver {
+            on_step: &|_| (),
+            is_stopped: &|| self.preview_state.is_stale(work.age),
+        };
+        let found = scene.input.take_diagnostics();
+        let noise = renderings::noise(setup, subject, &mut scene.input, &observer);
+        scene.input.restore_diagnostics(found);
+        let text = match noise {
+            Ok(noise) => return self.preview_state.put_noise(noise),
+            Err(RenderError::Stopped) => return,
+            Err(RenderError::Refused(message)) => message,
+            Err(RenderError::RanOut(_)) => "its rays ran out".to_owned(),
+        };
+        let files = Vec::new();
+        self.preview_state.put_noise(NoiseLayers { files, text });
     }
 
     /// Publishes the settings of the scene, if requested.

@@ -68,6 +68,12 @@ impl Routes {
                 let png = self.preview_state.state().png_against(number);
                 png.map_or_else(|| HttpReply::empty(404), HttpReply::png)
             }
+            ("GET", "/noise") => {
+                let [number, layer] =
+                    ["number", "layer"].map(|name| request.value(name).unwrap_or_default());
+                let png = self.preview_state.state().png_noise(number, layer);
+                png.map_or_else(|| HttpReply::empty(404), HttpReply::png)
+            }
             ("GET", "/pixel") => self.pixel(request),
             ("POST", "/pixel") => match serde_json::from_slice(&request.body) {
                 Ok(place) => {
@@ -92,6 +98,10 @@ impl Routes {
             }
             ("POST", "/costs") => {
                 self.preview_state.want_costs();
+                HttpReply::empty(202)
+            }
+            ("POST", "/noise") => {
+                self.preview_state.want_noise();
                 HttpReply::empty(202)
             }
             _ => HttpReply::empty(404),

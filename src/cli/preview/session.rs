@@ -82,6 +82,9 @@ impl<'a> PreviewSession<'a> {
             if work.orders.pixel.is_some() && !self.preview_state.is_stale(work.age) {
                 self.publish_pixel(&work);
             }
+            if work.orders.noise && !self.preview_state.is_stale(work.age) {
+                self.publish_noise(&work);
+            }
             if work.orders.costs && !self.preview_state.is_stale(work.age) {
                 self.publish_costs(&work)?;
             }

@@ -51,6 +51,7 @@ function show() {
   showPixel();
   if (state.picture && state.picture.number !== drawn) draw(state.picture);
   if (state.against && state.against.number !== laid) lay(state.against);
+  showNoise();
 }
 
 function words() {
@@ -85,9 +86,36 @@ async function lay({ number }) {
   at("compare").hidden = false;
 }
 
+// The noise of the picture: the layer and the picture's number that are laid over it, or asked for.
+let noise = "";
+let asked = 0;
+
+async function showNoise() {
+  const layer = at("layer").value;
+  const number = state.picture?.number;
+  const isReady = layer !== "" && state.noise !== null && state.picture?.isFinished;
+  at("bound").textContent = layer === "" ? "" : state.noise ?? "measuring the noise …";
+  if (!isReady) {
+    at("noise").hidden = true;
+    noise = "";
+    if (layer !== "" && state.picture?.isFinished && asked !== number) {
+      asked = number;
+      send("/noise", null);
+    }
+    return;
+  }
+  const wanted = `${layer} ${number}`;
+  if (noise === wanted) return;
+  noise = wanted;
+  const bitmap = await fetched("/noise", number, { layer });
+  if (noise !== wanted) return;
+  at("noise").hidden = bitmap === null;
+  if (bitmap !== null) paint(at("noise"), bitmap);
+}
+
 // The picture of this number; none if there is a newer one by now.
-async function fetched(path, number) {
-  const reply = await fetch(url(path, { number }));
+async function fetched(path, number, more = {}) {
+  const reply = await fetch(url(path, { number, ...more }));
   return reply.ok ? createImageBitmap(await reply.blob()) : null;
 }
 
@@ -285,6 +313,7 @@ function listen() {
     navigator.clipboard?.writeText(at("command").value).catch(() => {});
   });
   for (const id of ["x", "y"]) at(id).addEventListener("change", inspect);
+  at("layer").addEventListener("change", showNoise);
   at("split").addEventListener("input", () => {
     at("frame").style.setProperty("--split", `${at("split").value}%`);
   });
