@@ -81,6 +81,15 @@ impl Tally {
     }
 
     fn print(&self, name: &str, last: &str) {
+        // Without a bound there is nothing to compare.
+        if self.pictures == 0 {
+            println!(
+                "| {name} | 0 | {} |{} {last} |",
+                self.unbounded,
+                " – |".repeat(7)
+            );
+            return;
+        }
         let limit = limits::lower(self.kept, self.pictures);
         println!(
             "| {name} | {} | {} | {} | {limit:.3} | {} | {:.2} | {:.2} | {:.0} | {last} |",

@@ -48,7 +48,7 @@ mod xmp;
 
 pub use animation::AnimatedPng;
 pub use decode::{DecodeCost, DecodeError, OpacityUse, PixelFile, Pixels, is_picture};
-pub use denoise::{DenoisingGuide, GUIDES, NoisyHalf, around, denoise};
+pub use denoise::{DenoisedImage, DenoisingGuide, GUIDES, NoisyHalf, around, blend, denoise};
 pub use display::{AlphaAssociation, BackgroundFill, DisplayTransform, exposure};
 pub use file::{BLOCK_ROWS, PictureHeader, StripSource};
 #[cfg(feature = "cli")]

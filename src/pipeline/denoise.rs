@@ -44,10 +44,10 @@ impl PictureSetup {
 
     /// The memory of the denoiser in bytes per pixel, in addition to the film.
     pub(super) fn denoiser_memory(&self) -> usize {
-        /// A second film, three sets of guides, their planes and those of colours in single
-        /// precision, the values of models, and the result. The film of the probes is smaller, and
-        /// is made after the guides are freed.
-        const DENOISED: usize = 40 + 3 * 64 + 4 * (3 * 8 + 16) + 2 * 12 + 2 * 24;
+        /// A second film with guides, three sets of guides, their planes and those of colours in
+        /// single precision, the values of models, the result and its doubts. The film of the
+        /// probes is smaller, and is made after the guides are freed.
+        const DENOISED: usize = 104 + 3 * 64 + 4 * (3 * 8 + 16) + 2 * 12 + 2 * 24 + 40;
         if self.denoise { DENOISED } else { 0 }
     }
 }

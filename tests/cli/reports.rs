@@ -238,8 +238,8 @@ fn a_picture_is_told_as_an_object() {
         denoised["denoised"] == true && met >= reported,
         "{denoised}"
     );
-    // A quarter of the pixels, or some of them more than once.
-    let probes = serde_json::json!({ "pixels": 300, "samples": 8 });
+    // A sixteenth of 1200 pixels, and 256 that are drawn, or some of them more than once.
+    let probes = serde_json::json!({ "pixels": 331, "samples": 8 });
     assert_eq!(quality["probes"], probes, "{denoised}");
 }
 

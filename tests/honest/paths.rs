@@ -9,8 +9,13 @@ use rtc::internals::source::SourceMap;
 
 /// Two spheres on a floor, under an emissive disc and an environment.
 pub(super) fn balls() -> Scene {
+    decoded(include_str!("paths.json"))
+}
+
+/// A scene by its JSON.
+pub(super) fn decoded(text: &str) -> Scene {
     let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
-    let file = map.add("paths.json", include_bytes!("paths.json").to_vec());
+    let file = map.add("paths.json", text.as_bytes().to_vec());
     codec::decode(Encoding::Json, file, &map, &mut sink)
         .unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }

@@ -1,7 +1,7 @@
 //! Features that no sample has hit are not in the estimate, but in the bound; and if very bright
 //! light may be undersampled, there is no bound.
 
-use super::paths::balls;
+use super::paths::{balls, decoded};
 use super::patterns::grains;
 use super::scenes::render;
 use rtc::internals::ir::{Material, Scene};
@@ -42,4 +42,28 @@ fn there_is_no_bound_where_much_brighter_light_may_be_unmet() {
     assert_eq!(undersampled(1.0), None);
     let white = undersampled(1e5).unwrap();
     assert!((1e5..1e6).contains(&white), "{white}");
+}
+
+/// The light made small, of the same power: at a place, over a ball of some roughness.
+fn small_light(place: &str, roughness: &str) -> Scene {
+    let text = include_str!("paths.json")
+        .replace("[1.6, 1.4, 1.2]", "[16000, 14000, 12000]")
+        .replace("\"roughness\": 0.5", &format!("\"roughness\": {roughness}"))
+        .replace("[1, 5, 1]", place)
+        .replace("\"radius\": 2}", "\"radius\": 0.02}");
+    decoded(&text)
+}
+
+#[test]
+fn a_small_light_that_is_aimed_at_has_a_bound_unless_it_may_be_met_by_chance() {
+    let undersampled = |place: &str, roughness: &str| {
+        let found = render(&small_light(place, roughness), 12.0, 1);
+        found.undersampled
+    };
+    assert_eq!(undersampled("[1, 5, 1]", "0.5"), None);
+    assert!(undersampled("[0, 2, 3]", "0.5").is_some(), "it is seen");
+    assert!(
+        undersampled("[1, 5, 1]", "0.1").is_some(),
+        "it is reflected"
+    );
 }

@@ -97,7 +97,7 @@ pub(crate) struct RenderArgs {
     ///
     /// The denoiser uses albedo, normal and depth of the first hits, from more camera rays where
     /// these differ. Some pixels are sampled again: they tell the error, and how much of the plain
-    /// picture to keep.
+    /// picture to keep; those in most doubt become better by these samples.
     #[arg(
         long,
         conflicts_with_all = WHOLE_PICTURE,

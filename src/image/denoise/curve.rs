@@ -10,9 +10,10 @@ pub(super) fn compress(value: f64) -> f64 {
     (value / (1.0 + value)).sqrt()
 }
 
-/// The first value, a share of the way to the second after the curve: so a firefly fades with the
-/// share that a display shows of it.
-pub(super) fn blend(from: f64, to: f64, share: f64) -> f64 {
+/// The first linear value, a share of the way to the second after the curve √(x / (1 + x)): so a
+/// firefly fades with the share that a display shows of it.
+#[must_use]
+pub fn blend(from: f64, to: f64, share: f64) -> f64 {
     if share <= 0.0 {
         return from;
     }

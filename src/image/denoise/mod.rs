@@ -15,6 +15,7 @@ mod solve;
 mod tile;
 
 use super::Image;
+pub use curve::blend;
 use planes::ValuePlanes;
 use rayon::prelude::*;
 use solve::TERMS;
@@ -34,27 +35,82 @@ pub struct NoisyHalf<'a> {
     pub guides: &'a [DenoisingGuide],
 }
 
+/// A denoised picture.
+#[derive(Clone, Debug)]
+pub struct DenoisedImage {
+    /// The picture, linear.
+    pub image: Image,
+    /// For each pixel about how large its squared error is, relative to its brightness: for the
+    /// choice of pixels that need more samples.
+    pub doubts: Vec<f64>,
+}
+
 /// The denoised picture of two halves of as many samples. `exact` has guides of more rays than
 /// either half: models are read off there, which also takes off noise of edges that the guides
 /// know. All have the same pixels.
 #[must_use]
-pub fn denoise(halves: [NoisyHalf<'_>; 2], exact: &[DenoisingGuide]) -> Image {
+pub fn denoise(halves: [NoisyHalf<'_>; 2], exact: &[DenoisingGuide]) -> DenoisedImage {
     let [a, b] = halves.map(|half| half.image);
     let models = tile::models(&ValuePlanes::new(halves, exact));
     let shares = share::shares([a, b], &models);
+    // The value of a pixel, and how much is in doubt.
     let at = |index: usize| {
         let mean = |a: f64, b: f64| 0.5 * (a + b);
-        let value = |c: usize| {
-            let plain = mean(a.pixels[index][c], b.pixels[index][c]);
+        let (mut pixel, mut doubt) = ([0.0; 3], PixelDoubt::default());
+        for (c, value) in pixel.iter_mut().enumerate() {
+            let [p, q] = [a, b].map(|image| image.pixels[index][c]);
             let [x, y] = [0, 1].map(|half: usize| f64::from(models[half][index][c]));
-            curve::blend(plain, mean(x, y), shares[index])
-        };
-        [0, 1, 2].map(value)
+            *value = curve::blend(mean(p, q), mean(x, y), shares[index]);
+            doubt.add([p, q, x, y, mean(p, q), *value], shares[index]);
+        }
+        (pixel, doubt)
     };
-    Image {
-        width: a.width,
-        height: a.height,
-        pixels: (0..a.pixels.len()).into_par_iter().map(at).collect(),
+    let found: Vec<_> = (0..a.pixels.len()).into_par_iter().map(at).collect();
+    let size = [a.width as usize, a.height as usize];
+    let doubt = |index: usize| {
+        let near: f64 = around(index, size, 1)
+            .map(|near| found[near].1.square)
+            .sum();
+        near / found[index].1.brightness()
+    };
+    DenoisedImage {
+        doubts: (0..found.len()).map(doubt).collect(),
+        image: Image {
+            width: a.width,
+            height: a.height,
+            pixels: found.into_iter().map(|(pixel, _)| pixel).collect(),
+        },
+    }
+}
+
+/// How much of a pixel is in doubt, after the curve.
+#[derive(Clone, Copy, Debug, Default)]
+struct PixelDoubt {
+    /// About its squared error.
+    square: f64,
+    /// The sum of its channels.
+    sum: f64,
+}
+
+impl PixelDoubt {
+    /// Adds a channel by the values of both halves, of their models, and of the plain and the
+    /// denoised picture.
+    fn add(&mut self, values: [f64; 6], share: f64) {
+        /// The part of the squared change by denoising that may be an error, as of eight scenes.
+        const CHANGE: f64 = 0.1;
+        let [a, b, x, y, plain, denoised] = values.map(curve::compress);
+        // A quarter of the squared difference of halves estimates the variance of their mean.
+        let noise = (1.0 - share) * (1.0 - share) * (a - b) * (a - b);
+        let models = share * share * (x - y) * (x - y);
+        let change = (denoised - plain) * (denoised - plain);
+        self.square += 0.25 * (noise + models) + CHANGE * change;
+        self.sum += denoised;
+    }
+
+    /// What errors are divided by, so that those of dark pixels count, too.
+    fn brightness(&self) -> f64 {
+        let mean = self.sum / 3.0;
+        mean * mean + 0.01
     }
 }
 
@@ -106,7 +162,7 @@ mod tests {
     fn denoised(color: impl Fn(u32, u32, u64) -> f64, guides: &[DenoisingGuide]) -> Image {
         let [a, b] = [1, 2].map(|seed| image(|x, y| color(x, y, seed)));
         let half = |image| NoisyHalf { image, guides };
-        denoise([half(&a), half(&b)], guides)
+        denoise([half(&a), half(&b)], guides).image
     }
 
     #[test]

@@ -202,8 +202,9 @@ impl Replicates {
         coverage(self.hits, 2 * u64::from(self.counts[SHOWN]))
     }
 
-    /// The mean of the replicates.
-    fn mean(&self, values: Values) -> Vec3 {
+    /// The mean of the replicates; black without samples.
+    #[must_use]
+    pub fn mean(&self, values: Values) -> Vec3 {
         let sum = match values {
             Values::Display => self.sums[0] + self.sums[1],
             Values::Linear => self.linear,

@@ -143,7 +143,7 @@ impl<S: Intersect> World<S> {
     }
 
     /// A film of the tiles of a job, without samples.
-    fn film(&self, job: &RenderSelection) -> TiledValues<PixelSum> {
+    pub(super) fn film(&self, job: &RenderSelection) -> TiledValues<PixelSum> {
         TiledValues::new(self.layout(job).crop, job.tiles, PixelSum::default())
     }
 

@@ -11,6 +11,7 @@
 //!
 //! A light of zero weight is never sampled; only BSDF sampling finds it.
 
+mod aimed;
 pub(crate) mod caustic;
 pub(crate) mod course;
 pub(crate) mod environment;

@@ -5,6 +5,7 @@ use crate::film::heartbeat::PixelObserver;
 use crate::film::partial::{FilmError, PartialFilm};
 use crate::film::progressive::ProgressiveFilm;
 use crate::film::{Film, RayCounts, RenderSelection};
+use crate::frame::halves::GuidedFilm;
 use crate::integrator::aov::Aov;
 use crate::shape::Shape;
 use crate::shape::baseline::BaselineShape;
@@ -91,9 +92,10 @@ impl AnyWorld {
         }
     }
 
-    /// The greatest radiance at the end of a path, on a surface or outside the scene, in the
-    /// strongest channel; 0 without path tracing, infinite where there is no useful bound on the
-    /// throughput.
+    /// The greatest radiance that a path may find by chance, on a surface or outside the scene, in
+    /// the strongest channel; 0 without path tracing, infinite where there is no useful bound on
+    /// the throughput. Where only rough surfaces can find a light that is aimed at, it is what the
+    /// aimed sample brings.
     #[must_use]
     pub fn brightest(&self) -> f64 {
         each!(self, world => world.brightest())
@@ -147,14 +149,14 @@ impl AnyWorld {
         (rules != RuleSet::NONE).then(|| self.bare())
     }
 
-    /// Sums a range of the samples of traced paths.
-    pub(crate) fn range(
+    /// Sums a range of the samples of traced paths, with the guides of their camera rays.
+    pub(crate) fn guided(
         &self,
         samples: &Range<u32>,
         job: &RenderSelection,
         on_pixel: &PixelObserver<'_>,
-    ) -> Option<Film> {
-        each!(self, world => world.whole(job, |_, job| world.sum(samples, job, on_pixel)))
+    ) -> Option<GuidedFilm> {
+        each!(self, world => world.guided(samples, job, on_pixel))
     }
 
     /// The world by no rule.

@@ -5,6 +5,7 @@ use super::texture::Textures;
 use crate::light::course::CourseLight;
 use crate::light::environment::Environment;
 use crate::light::punctual::{DirectionalLight, Falloff, PointLight, ProjectedTexture, Punctual};
+use crate::shape::geometry::Intersect;
 use crate::texture::sampled::ColorSpace;
 use rtc_math::IdTable;
 use rtc_plan::{PathPlan, Plan, RemainingEnvironment, facts};
@@ -22,7 +23,7 @@ pub(crate) struct LightList {
     pub(crate) environment: Environment,
 }
 
-impl<S> World<S> {
+impl<S: Intersect> World<S> {
     /// See [`AnyWorld::brightest`](super::any::AnyWorld::brightest).
     pub(super) fn brightest(&self) -> f64 {
         let paths = self.plan.paths.as_ref();
@@ -31,10 +32,8 @@ impl<S> World<S> {
         if paths.is_some_and(is_unbounded) {
             return f64::INFINITY;
         }
-        let surfaces = self.surfaces.iter();
-        let materials = surfaces.filter_map(|surface| self.standards.get(surface.material.index()));
-        let emitted = materials.map(|material| material.emission.factor.max_element());
-        emitted.fold(self.lights.environment.brightest(), f64::max)
+        let environment = self.lights.environment.brightest();
+        paths.map_or(environment, |_| environment.max(self.brightest_surface()))
     }
 }
 

@@ -14,6 +14,7 @@ mod vertex;
 mod visibility;
 
 use super::Integrator;
+use super::aov::CameraHit;
 use crate::camera::{image_point, lens_at, ray_through};
 use crate::film::heartbeat::{Heartbeat, PixelObserver};
 use crate::film::pixel::{PixelSample, SampleId, SampleStream};
@@ -24,7 +25,7 @@ use crate::sampler::sobol::{SobolPair, SobolPath};
 use crate::shape::geometry::Intersect;
 use crate::world::World;
 use crate::world::settings::Mode;
-pub(crate) use aov::PathFirstHitFinder;
+pub(crate) use aov::{GuidedPathTracer, PathFirstHitFinder};
 use rtc_math::Vec3;
 use rtc_plan::{Effect, PathFeatures, RemainingEnvironment};
 use state::PathState;
@@ -53,6 +54,9 @@ pub(crate) struct PathTracer<'world, S, const F: u32> {
     strategy: SamplingStrategy,
     /// Whether vertices have all shading attributes, not only those that their materials need.
     knows_all: bool,
+    /// Whether the first hit of the last path is kept, and that hit.
+    keeps_first: bool,
+    first: Option<CameraHit>,
     /// The background for camera rays that hit nothing.
     background: Background,
     /// The most that a path brings after its first bounce.
@@ -84,6 +88,8 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             multiple_scattering: world.settings.multiple_scattering,
             strategy,
             knows_all: false,
+            keeps_first: false,
+            first: None,
             background: Background::default(),
             clamp: None,
             has_environment: plan
@@ -166,6 +172,9 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         loop {
             let end = self.at_closest_hit(&mut state, |tracer, state, vertex| {
                 tracer.counts.hits += u64::from(state.bounces == 0);
+                if tracer.keeps_first && state.bounces == 0 {
+                    tracer.first = Some(tracer.seen(state, vertex));
+                }
                 tracer.heartbeat.should_continue(&tracer.counts) && tracer.scatter(state, vertex)
             });
             let continues = match end {
