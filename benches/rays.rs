@@ -66,7 +66,10 @@ fn world(asset: &str) -> World {
     let start = ProcessTime::now();
     let world = World::prepare_at(&proof, &plan, simd::level());
     let seconds = start.elapsed().as_secs_f64();
-    println!("{}", json!({"work": "build", "cpu_s": seconds, "simd": simd::level().name()}));
+    println!(
+        "{}",
+        json!({"work": "build", "cpu_s": seconds, "simd": simd::level().name()})
+    );
     world
 }
 
