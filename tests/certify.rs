@@ -38,7 +38,7 @@ fn what_is_proven_is_what_is_rendered() {
     for path in files(&root("scenes"), &["yaml"]) {
         let (setup, mut subject) = small(&path, [28, 20]);
         let scene = subject.validated.lowered.scene.clone();
-        let moves = (scene.surfaces.iter()).any(|surface| surface.velocity != [0.0; 3]);
+        let moves = (scene.surfaces.iter()).any(|surface| surface.velocity.get() != [0.0; 3]);
         if moves || matches!(scene.settings.mode, Mode::Path(_)) {
             continue;
         }

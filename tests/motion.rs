@@ -57,7 +57,7 @@ fn square(mode: Mode) -> Scene {
         corner(-6.0, 9.0),
     ];
     scene.surfaces = vec![Surface {
-        velocity: [SPEED, 0.0, 0.0],
+        velocity: [SPEED, 0.0, 0.0].into(),
         ..Surface::new(Shape::Quad(Quad { vertices }), MaterialId(0))
     }];
     scene
@@ -101,7 +101,7 @@ fn one_moment_is_a_scene_that_stands_still() {
         let mut frozen = square(mode.clone());
         frozen.settings.shutter = [0.25; 2];
         let mut still = square(mode);
-        still.surfaces[0].velocity = [0.0; 3];
+        still.surfaces[0].velocity = [0.0; 3].into();
         if let Shape::Quad(quad) = &mut still.surfaces[0].shape {
             quad.vertices.iter_mut().for_each(|vertex| vertex[0] += 2.0);
         }

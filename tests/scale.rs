@@ -39,7 +39,9 @@ pub(crate) fn scaled(scene: &Scene, factor: f64) -> Scene {
         .for_each(|medium| thin(medium, factor));
     for surface in &mut scene.surfaces {
         scale_shape(&mut surface.shape, factor);
-        scale(&mut surface.velocity, factor);
+        let mut velocity = surface.velocity.get();
+        scale(&mut velocity, factor);
+        surface.velocity = velocity.into();
     }
     scene
 }

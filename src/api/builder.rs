@@ -384,7 +384,7 @@ impl SceneBuilder {
     /// How far an object moves per second along each axis, while the shutter is open: from 0 to 1
     /// second, unless the setting `shutter` says otherwise.
     pub fn set_velocity(&mut self, object: ObjectId, velocity: [f64; 3]) {
-        self.change(object, |surface| surface.velocity = velocity);
+        self.change(object, |surface| surface.velocity = velocity.into());
     }
 
     /// Removes an object. The indices of those after it fall by one.

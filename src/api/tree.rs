@@ -183,7 +183,7 @@ impl<'a> Object<'a> {
     /// How far it moves per second, while the shutter is open.
     #[must_use]
     pub fn velocity(&self) -> [f64; 3] {
-        self.surface().velocity
+        self.surface().velocity.get()
     }
 
     /// The lower and the upper corner of a box around it; `None` if it is infinite.

@@ -50,7 +50,7 @@ impl ExportReporter<'_> {
             EntityField::Stereo,
             "the camera is written with one eye",
         );
-        let is_moving = |surface: &Surface| surface.velocity != [0.0; 3];
+        let is_moving = |surface: &Surface| surface.velocity.get() != [0.0; 3];
         if let Some(index) = scene.surfaces.iter().position(is_moving) {
             let path = ValuePath::new(EntityKind::Surface, index, EntityField::Velocity);
             self.unsupported(

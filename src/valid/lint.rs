@@ -205,7 +205,7 @@ fn one_eye(scene: &ir::Scene, check: &mut Checker<'_>) {
 
 /// Warns about a velocity or a shutter without effect.
 fn motion(scene: &ir::Scene, check: &mut Checker<'_>) {
-    let is_moving = |surface: &ir::Surface| surface.velocity != [0.0; 3];
+    let is_moving = |surface: &ir::Surface| surface.velocity.get() != [0.0; 3];
     let first = scene.surfaces.iter().position(is_moving);
     let [open, close] = scene.settings.shutter;
     if close < open {

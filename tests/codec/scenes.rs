@@ -426,7 +426,7 @@ fn surface() -> impl Strategy<Value = Surface> {
             shape,
             material: MaterialId(material),
             casts_no_shadow,
-            velocity,
+            velocity: velocity.into(),
         },
     )
 }

@@ -356,7 +356,7 @@ fn settings_come_back() {
     }
     let mut lowered = with(EYE);
     lowered.scene.surfaces[0].casts_no_shadow = true;
-    lowered.scene.surfaces[0].velocity = [1.0, -2.0, 0.5];
+    lowered.scene.surfaces[0].velocity = [1.0, -2.0, 0.5].into();
     lowered.scene.settings.shutter = [-0.5, 0.25];
     comes_back(&lowered);
 }

@@ -233,8 +233,8 @@ impl<'s> SceneWriter<'s> {
         if surface.casts_no_shadow {
             self.line(4, "shadow: false");
         }
-        if surface.velocity != [0.0; 3] {
-            self.numbers("velocity", &surface.velocity, 4);
+        if surface.velocity.get() != [0.0; 3] {
+            self.numbers("velocity", &surface.velocity.get(), 4);
         }
         Ok(())
     }

@@ -44,8 +44,11 @@ impl GltfWriter<'_> {
             self.reporter
                 .in_extras("that a surface casts no shadow", path);
         }
-        if surface.velocity != [0.0; 3] {
-            rtc_extras.insert("velocity".to_owned(), surface.velocity.to_vec().into());
+        if surface.velocity.get() != [0.0; 3] {
+            rtc_extras.insert(
+                "velocity".to_owned(),
+                surface.velocity.get().to_vec().into(),
+            );
             self.reporter.in_extras("the velocity of a surface", path);
         }
         let name = scene.names.get(index).filter(|name| !name.is_empty());

@@ -253,7 +253,7 @@ impl<'scene> Views<'scene> {
 fn doubts_everywhere(scene: &Scene) -> Doubts {
     let settings = &scene.settings;
     let has_falloff = scene.lights.iter().any(|light| light.point().is_none());
-    let is_moving = (scene.surfaces.iter()).any(|surface| surface.velocity != [0.0; 3]);
+    let is_moving = (scene.surfaces.iter()).any(|surface| surface.velocity.get() != [0.0; 3]);
     let cases = [
         (settings.toon, "toon shading"),
         (settings.stereo != 0.0, "stereo"),

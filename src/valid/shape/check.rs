@@ -37,7 +37,7 @@ pub(crate) fn surface(
     let shape = shape.validate(&mut surface_check);
     // How far it has moved when the shutter opens, and when it closes.
     let moved = counts.shutter.map(|time| {
-        let moved = Vec3::from_array(*velocity) * time;
+        let moved = Vec3::from_array(velocity.get()) * time;
         let path = ValuePath::new(EntityKind::Surface, index, EntityField::Velocity);
         check.vector(moved.to_array(), path)
     });

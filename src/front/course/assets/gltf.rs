@@ -237,7 +237,8 @@ impl ImportedAsset {
             if let Shape::Instance(instance) = &mut surface.shape {
                 let source = DAffine3::from_cols_array_2d(&instance.world_from_object);
                 instance.world_from_object = (world * source).to_cols_array_2d();
-                surface.velocity = (world.matrix3 * Vec3::from_array(surface.velocity)).to_array();
+                let velocity = Vec3::from_array(surface.velocity.get());
+                surface.velocity = (world.matrix3 * velocity).to_array().into();
             }
             source_spans.record(
                 ValuePath::new(

@@ -220,7 +220,10 @@ impl Lowering {
         if surfaces.is_empty() {
             return None;
         }
-        if surfaces.iter().any(|surface| surface.velocity != [0.0; 3]) {
+        if surfaces
+            .iter()
+            .any(|surface| surface.velocity.get() != [0.0; 3])
+        {
             let message = "an operand does not move by itself: the whole solid does";
             report(
                 operand.span,

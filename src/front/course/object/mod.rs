@@ -315,7 +315,7 @@ impl Lowering {
             shape,
             material,
             casts_no_shadow: !casts_shadow,
-            velocity: velocity.value.0,
+            velocity: velocity.value.0.into(),
         });
         self.record_span(EntityKind::Surface, index, EntityField::Whole, object_span);
         for (path, span) in value_spans {

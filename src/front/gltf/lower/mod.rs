@@ -274,7 +274,9 @@ impl Lowering<'_, '_, '_> {
             shape,
             material,
             casts_no_shadow: extras.is_some_and(|extras| extras.boolean("castsNoShadow")),
-            velocity: extras.map_or([0.0; 3], |extras| extras.vector_or("velocity", [0.0; 3])),
+            velocity: extras
+                .map_or([0.0; 3], |extras| extras.vector_or("velocity", [0.0; 3]))
+                .into(),
         });
         self.scene.names.push(name.to_owned());
     }
