@@ -99,7 +99,7 @@ pub struct Surface {
 /// million surfaces.
 #[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(from = "[f64; 3]", into = "[f64; 3]")]
-#[schemars(with = "[f64; 3]")]
+#[schemars(inline, with = "[f64; 3]")]
 pub struct Velocity(Option<Box<[f64; 3]>>);
 
 impl Velocity {
