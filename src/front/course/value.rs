@@ -21,7 +21,7 @@ pub(super) fn tuple<T, const N: usize>(
     list(node, N, what, context, item)?.try_into().ok()
 }
 
-/// As [`tuple`], of a number of items that is no constant.
+/// As [`tuple()`], of a number of items that is no constant.
 pub(super) fn list<T>(
     node: NodeId,
     expected: usize,

@@ -70,6 +70,11 @@ impl FilterSampler {
         ([0.5 + x, 0.5 + y], a * b)
     }
 
+    /// How far it reaches beyond the pixel, in pixels.
+    pub(crate) fn reach(&self) -> f64 {
+        (self.radius - 0.5).max(0.0)
+    }
+
     /// A distance from the middle along an axis, and its factor.
     fn along(&self, u: f64) -> (f64, f64) {
         // Choose a cell by its area.

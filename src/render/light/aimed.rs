@@ -47,8 +47,11 @@ impl<S: Intersect> World<S> {
     }
 }
 
-/// A bound on f·cos θ of a material: that of a diffuse lobe, and the largest density of its facets.
-/// `None` if it may be nearly smooth.
+/// A bound on f·cos θ of a material; `None` if it may be nearly smooth.
+///
+/// A diffuse lobe and the bounces between facets bring at most 1/π each. The facets bring
+/// D·G₂·F/(4 cos θₒ), where D is at most 1/(π α²), and G₂/cos θₒ at most 2/α, that of G₁ at grazing
+/// views (Heitz, "Understanding the masking-shadowing function", JCGT 3, 2014).
 fn peak(material: &StandardMaterial) -> Option<f64> {
     /// Rougher lobes are wide.
     const MIN_ROUGHNESS: f64 = 0.4;
@@ -65,32 +68,39 @@ fn peak(material: &StandardMaterial) -> Option<f64> {
         && material.media.is_none()
         && material.plastic.is_none()
         && material.clearcoat.is_none()
+        && material.plain.sheen.is_none()
         && material.anisotropy.is_none()
         && roughness >= MIN_ROUGHNESS;
     let alpha = roughness * roughness;
-    is_plain.then_some(1.0 / PI + 1.0 / (PI * alpha * alpha))
+    is_plain.then_some(2.0 / PI + 1.0 / (2.0 * PI * alpha * alpha * alpha))
 }
 
 impl<S: Intersect> Lights<'_, S> {
-    /// The largest solid angle of a light as seen from any other surface, over the probability that
-    /// it is chosen; `None` if camera rays may hit it, or that is not known.
+    /// The largest solid angle of a light as seen from any surface, over the probability that it is
+    /// chosen; `None` if camera rays or rays from itself may hit it, or that is not known.
     fn aimed_size(&self, light: LightId) -> Option<f64> {
         let Light::Shape(shape) = &self.lights[light] else {
             return None;
         };
         let probability = self.probabilities[light];
         let distance = self.distance(shape)?;
+        let filter = self.world.settings.filter.as_ref();
+        let reach = filter.map_or(0.0, |filter| filter.reach());
         let is_aimed = probability > 0.0
             && distance > 0.0
-            && is_out_of_view(&self.world.camera, &shape.bounds);
+            && is_out_of_view(&self.world.camera, reach, &shape.bounds);
         // A sphere is aimed at by its cone, others by their area.
         let area = match shape.emitter {
             Emitter::Sphere { .. } => shape.emitter.area() / 4.0,
+            // It sees itself.
+            Emitter::Torus { .. } => return None,
+            Emitter::Frustum {
+                height, is_capped, ..
+            } if height > 0.0 && !is_capped => return None,
             Emitter::Ellipsoid { .. }
             | Emitter::Triangles(_)
             | Emitter::Frustum { .. }
-            | Emitter::Paraboloid { .. }
-            | Emitter::Torus { .. } => shape.emitter.area(),
+            | Emitter::Paraboloid { .. } => shape.emitter.area(),
         };
         is_aimed.then(|| area / (distance * distance * probability))
     }
@@ -108,17 +118,18 @@ impl<S: Intersect> Lights<'_, S> {
     }
 }
 
-/// Whether no camera ray can hit a box: it is beyond one edge of the image.
-fn is_out_of_view(camera: &Camera, bounds: &Bounds) -> bool {
+/// Whether no camera ray can hit a box: it is beyond one edge of the image, which the filter of the
+/// pixels reaches beyond by so many pixels.
+fn is_out_of_view(camera: &Camera, reach: f64, bounds: &Bounds) -> bool {
     let is_pinhole = camera.lens_radius == 0.0
         && camera.eyes.is_none()
         && camera.projection == Projection::Perspective;
     let [right, bottom] = camera.size.map(|side| side - 1);
     let corners = [
-        ([0, 0], [0.0, 0.0]),
-        ([right, 0], [1.0, 0.0]),
-        ([right, bottom], [1.0, 1.0]),
-        ([0, bottom], [0.0, 1.0]),
+        ([0, 0], [-reach, -reach]),
+        ([right, 0], [1.0 + reach, -reach]),
+        ([right, bottom], [1.0 + reach, 1.0 + reach]),
+        ([0, bottom], [-reach, 1.0 + reach]),
     ];
     let rays = corners.map(|(pixel, place)| image_point(camera, pixel, place) - camera.eye);
     let middle = camera.center - camera.eye;
