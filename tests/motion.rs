@@ -1,5 +1,5 @@
-//! Motion blur: each pixel shows what passes for its share of the time, and one moment is a scene that
-//! stands still.
+//! Motion blur: each pixel shows what passes for its share of the time, and one moment is a scene
+//! that stands still.
 
 use crate::repo::root;
 use crate::small::{WHOLE, bits, film, small, validated};

@@ -35,6 +35,16 @@ def run(*command):
     return {"wall_s": clock, "cpu_s": cpu, "peak_mb": usage.ru_maxrss / 1024, "told": told}
 
 
+def rows(*command):
+    """The rows of JSON that a program prints, by what they are of."""
+    found = [json.loads(line) for line in run(*command)["told"].splitlines()]
+    return {row.pop("work"): row for row in found}
+
+
+def seconds(*command):
+    return {work: row["cpu_s"] for work, row in rows(*command).items()}
+
+
 def emit(scene, path):
     """The scene as a file of another renderer, by the ending of the path."""
     subprocess.run([os.environ["RTC"], "compile", scene, "-q", "-o", path], check=True)
@@ -55,12 +65,8 @@ def by_turns(contestants, runs=RUNS):
 def rays():
     sets = [f"{FOLDER}/{name}.f32" for name in ("coherent", "incoherent")]
 
-    def lines(*command):
-        rows = [json.loads(line) for line in run(*command)["told"].splitlines()]
-        return {row.pop("work"): row for row in rows}
-
-    rtc = lambda _: lines(os.environ["RAYS"], f"{FOLDER}/globe.glb", *sets)
-    embree = lambda _: lines(sys.executable, f"{HERE}/rays_embree.py", FOLDER, *sets)
+    rtc = lambda _: rows(os.environ["RAYS"], f"{FOLDER}/globe.glb", *sets)
+    embree = lambda _: rows(sys.executable, f"{HERE}/rays_embree.py", FOLDER, *sets)
     turns = by_turns({"rtc": rtc, "Embree": embree})
     for work, ours in turns["rtc"][0].items():
         theirs = turns["Embree"][0][work]
@@ -190,13 +196,9 @@ def growth():
         rays = np.fromfile(f"{FOLDER}/incoherent.f32", np.float32)[: 6 * GROWTH_RAYS]
         rays.tofile(f"{folder}/incoherent.f32")
 
-        def lines(*command):
-            rows = [json.loads(line) for line in run(*command)["told"].splitlines()]
-            return {row["work"]: row["cpu_s"] for row in rows}
-
         ours = [os.environ["RAYS"], f"{folder}/globe.glb", f"{folder}/incoherent.f32"]
         theirs = [sys.executable, f"{HERE}/rays_embree.py", folder, f"{folder}/incoherent.f32"]
-        turns = by_turns({"rtc": lambda _: lines(*ours), "Embree": lambda _: lines(*theirs)}, min(RUNS, 3))
+        turns = by_turns({"rtc": lambda _: seconds(*ours), "Embree": lambda _: seconds(*theirs)}, min(RUNS, 3))
         found[exponent] = {"triangles": len(corners), "rays": GROWTH_RAYS, **turns}
     return found
 

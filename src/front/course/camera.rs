@@ -50,7 +50,8 @@ record! {
         /// or `anaglyph`, for glasses with a red filter on the left and a cyan one on the right.
         stereo_view: Spanned<ir::StereoView>, default(ir::StereoView::SideBySide),
             keys!["stereoView"];
-        /// When the shutter opens and closes, in seconds: in between objects with a `velocity` move.
+        /// When the shutter opens and closes, in seconds: in between objects with a `velocity`
+        /// move.
         shutter: Spanned<Shutter>, default(Shutter([0.0, 1.0])), keys!["shutter"];
         /// The radius of the lens in scene units; at 0 everything is in focus.
         aperture_radius: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["apertureRadius"];
