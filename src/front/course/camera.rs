@@ -4,7 +4,7 @@ use super::decode::{DecodeContext, Spanned};
 use super::keyword::{Keyword, KeywordTable};
 use super::lower::Lowering;
 use super::number::{Count, FieldOfView, NonNegative, PixelCount, Positive};
-use super::record::{FieldResult, keys, record};
+use super::record::{FieldResult, record};
 use super::synonym::{EYE, IMAGE_SIZE, TARGET};
 use super::value::{Point, Shutter, Vector};
 use super::view_size::ViewSize;
@@ -21,11 +21,12 @@ record! {
         /// The point in the middle of the image. The plane through it is in focus.
         center: Spanned<Point>, required, &TARGET;
         /// The up vector; its length is the size of a pixel in the plane through `center`.
-        up: Spanned<Vector>, required, keys!["up" "upVector" "viewUp" "worldUp" "vup"];
+        up: Spanned<Vector>, required,
+            &[&["up"], &["upVector"], &["viewUp"], &["worldUp"], &["vup"]];
         /// The vector from a pixel to its right neighbour. With it `up`, at a right angle, is the
         /// vector to the upper neighbour, and the image plane need not be perpendicular to the view
         /// direction. Without it pixels are square.
-        right: Spanned<Vector>, optional, keys!["right"];
+        right: Spanned<Vector>, optional, &[&["right"]];
         /// Width and height of the image in pixels.
         view_size: Spanned<ViewSize>, unless("sides"), &IMAGE_SIZE;
         /// Width and height of the image as two keys.
@@ -33,30 +34,30 @@ record! {
         /// The distance from the eye to an image plane with pixels of size 1; then only the
         /// directions of `center` and `up` are used.
         focal_distance: Spanned<Positive>, optional,
-            keys!["focalDistance" "planeDistance" "imagePlaneDistance"];
+            &[&["focalDistance"], &["planeDistance"], &["imagePlaneDistance"]];
         /// The size of a pixel in the image plane; then the length of `up` has no effect.
-        pixel_size: Spanned<Positive>, optional, keys!["pixelSize" "pixSize"];
+        pixel_size: Spanned<Positive>, optional, &[&["pixelSize"], &["pixSize"]];
         /// The vertical field of view in degrees, above 0 and below 180; then the length of `up`
         /// has no effect.
-        fov: Spanned<FieldOfView>, optional, keys!["fov" "fovy" "vfov" "yfov"];
+        fov: Spanned<FieldOfView>, optional, &[&["fov"], &["fovy"], &["vfov"], &["yfov"]];
         /// The projection: `perspective`, with all rays from the eye; or `orthographic`, with
         /// parallel rays in the direction from the eye to `center`, so that `fov` has no effect.
         projection: Spanned<ir::Projection>, default(ir::Projection::Perspective),
-            keys!["projection"];
+            &[&["projection"]];
         /// The distance between two eyes in scene units; 0 for one eye. What lies in the plane
         /// through `center` is at the same place for both.
-        stereo: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["stereo" "eyeDistance"];
+        stereo: Spanned<NonNegative>, default(NonNegative(0.0)), &[&["stereo"], &["eyeDistance"]];
         /// How the picture shows what two eyes see: `sideBySide`, each in one half of the picture;
         /// or `anaglyph`, for glasses with a red filter on the left and a cyan one on the right.
         stereo_view: Spanned<ir::StereoView>, default(ir::StereoView::SideBySide),
-            keys!["stereoView"];
+            &[&["stereoView"]];
         /// When the shutter opens and closes, in seconds: in between objects with a `velocity`
         /// move.
-        shutter: Spanned<Shutter>, default(Shutter([0.0, 1.0])), keys!["shutter"];
+        shutter: Spanned<Shutter>, default(Shutter([0.0, 1.0])), &[&["shutter"]];
         /// The radius of the lens in scene units; at 0 everything is in focus.
-        aperture_radius: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["apertureRadius"];
+        aperture_radius: Spanned<NonNegative>, default(NonNegative(0.0)), &[&["apertureRadius"]];
         /// The number of lens samples per sub-sample.
-        aperture_samples: Spanned<Count>, default(Count(1)), keys!["apertureSamples"];
+        aperture_samples: Spanned<Count>, default(Count(1)), &[&["apertureSamples"]];
     }
     variants { [view_size] [sides] }
 }

@@ -2,7 +2,7 @@
 
 use super::decode::{DecodeContext, Spanned};
 use super::lower::Lowering;
-use super::record::{FieldResult, keys, record};
+use super::record::{FieldResult, record};
 use super::rotation::{RotationRows, euler_axes};
 use super::value::{Channels, FileName, Vector};
 use rtc_diag::{Severity, codes};
@@ -15,15 +15,15 @@ record! {
     struct Environment, "environment" {
         /// The radiance: red, green, blue, or one number for all; with a `file`, a factor of the
         /// image.
-        color: Spanned<Channels>, default(Channels([1.0; 3])), keys!["color"];
+        color: Spanned<Channels>, default(Channels([1.0; 3])), &[&["color"]];
         /// An image of all directions, Radiance HDR or OpenEXR: longitude across, its middle
         /// towards −z, +y up.
-        file: Spanned<FileName>, optional, keys!["file"];
+        file: Spanned<FileName>, optional, &[&["file"]];
         /// The rotation of the environment by angles in radians: first about x, then y, then z.
-        rotation: Spanned<Vector>, optional, keys!["rotation"];
+        rotation: Spanned<Vector>, optional, &[&["rotation"]];
         /// The rotation as nine numbers, instead of `rotation`: the rows of the matrix from
         /// directions of the world to those of the image.
-        matrix: Spanned<RotationRows>, optional, keys!["matrix"];
+        matrix: Spanned<RotationRows>, optional, &[&["matrix"]];
     }
 }
 

@@ -3,7 +3,7 @@
 use super::decode::{Decode, DecodeContext, Spanned};
 use super::keyword::{KeywordTable, keyword, keyword_schema};
 use super::number::{Positive, Real};
-use super::record::{FieldResult, keys, record};
+use super::record::{FieldResult, record};
 use super::schema::SchemaDefinitions;
 use rtc_math::PixelFilter;
 use rtc_source::tree::NodeId;
@@ -57,15 +57,15 @@ record! {
     /// A filter of pixels by one key, with its numbers in pixels.
     struct FilterParameters, "filter" {
         /// The mean.
-        uniform: Spanned<FilterRadius>, optional, keys!["box"];
+        uniform: Spanned<FilterRadius>, optional, &[&["box"]];
         /// Linearly less.
-        tent: Spanned<FilterRadius>, optional, keys!["tent"];
+        tent: Spanned<FilterRadius>, optional, &[&["tent"]];
         /// A normal distribution.
-        gaussian: Spanned<GaussianFilter>, optional, keys!["gaussian"];
+        gaussian: Spanned<GaussianFilter>, optional, &[&["gaussian"]];
         /// The cubic of Mitchell and Netravali.
-        mitchell: Spanned<MitchellFilter>, optional, keys!["mitchell"];
+        mitchell: Spanned<MitchellFilter>, optional, &[&["mitchell"]];
         /// The sine cardinal under a window.
-        lanczos: Spanned<LanczosFilter>, optional, keys!["lanczos"];
+        lanczos: Spanned<LanczosFilter>, optional, &[&["lanczos"]];
     }
     variants { [uniform] [tent] [gaussian] [mitchell] [lanczos] }
 }
@@ -74,7 +74,7 @@ record! {
     /// A filter with a radius.
     struct FilterRadius, "filter with a radius" {
         /// The distance, along each axis, beyond which light counts nothing.
-        radius: Spanned<Positive>, required, keys!["radius"];
+        radius: Spanned<Positive>, required, &[&["radius"]];
     }
 }
 
@@ -82,9 +82,9 @@ record! {
     /// A normal distribution.
     struct GaussianFilter, "Gaussian filter" {
         /// The standard deviation.
-        deviation: Spanned<Positive>, default(Positive(0.5)), keys!["deviation"];
+        deviation: Spanned<Positive>, default(Positive(0.5)), &[&["deviation"]];
         /// The distance, along each axis, beyond which light counts nothing.
-        radius: Spanned<Positive>, default(Positive(2.0)), keys!["radius"];
+        radius: Spanned<Positive>, default(Positive(2.0)), &[&["radius"]];
     }
 }
 
@@ -92,11 +92,11 @@ record! {
     /// The cubic of Mitchell and Netravali.
     struct MitchellFilter, "Mitchell filter" {
         /// The blur, from 0 to 1.
-        b: Spanned<Real>, required, keys!["b"];
+        b: Spanned<Real>, required, &[&["b"]];
         /// The ringing, from 0 to 1.
-        c: Spanned<Real>, required, keys!["c"];
+        c: Spanned<Real>, required, &[&["c"]];
         /// The distance, along each axis, beyond which light counts nothing.
-        radius: Spanned<Positive>, default(Positive(2.0)), keys!["radius"];
+        radius: Spanned<Positive>, default(Positive(2.0)), &[&["radius"]];
     }
 }
 
@@ -104,9 +104,9 @@ record! {
     /// The sine cardinal under a window.
     struct LanczosFilter, "Lanczos filter" {
         /// The zero of the window, at least 1.
-        window: Spanned<Positive>, default(Positive(3.0)), keys!["window"];
+        window: Spanned<Positive>, default(Positive(3.0)), &[&["window"]];
         /// The distance, along each axis, beyond which light counts nothing, at least 1.
-        radius: Spanned<Positive>, default(Positive(3.0)), keys!["radius"];
+        radius: Spanned<Positive>, default(Positive(3.0)), &[&["radius"]];
     }
 }
 

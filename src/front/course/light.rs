@@ -6,7 +6,7 @@ use super::decode::{DecodeContext, Spanned};
 use super::keyword::{Keyword, KeywordTable};
 use super::lower::Lowering;
 use super::number::{HalfAngle, NonNegative, Positive};
-use super::record::{FieldResult, keys, record};
+use super::record::{FieldResult, record};
 use super::synonym::{POSITION, with_canonical};
 use super::value::{Channels, Color, FileName, Point, Vector};
 use rtc_diag::{Severity, codes};
@@ -20,46 +20,46 @@ record! {
     /// but the first two is rendered by path tracing.
     struct Light, "light" {
         /// The type of the light.
-        kind: Spanned<LightKind>, optional, keys!["type"];
+        kind: Spanned<LightKind>, optional, &[&["type"]];
         /// The position of the light.
         position: Spanned<Point>, optional, &with_canonical(POSITION, "position"), json "position";
         /// The colour: red, green, blue; values above 1 are allowed. With a `file`, a factor of its
         /// candelas.
-        color: Spanned<Color>, optional, keys!["color" "colour"], json "color";
+        color: Spanned<Color>, optional, &[&["color"], &["colour"]], json "color";
         /// The radius of the emitting sphere; 0 is a point. A larger radius makes soft shadows.
-        radius: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["radius" "size"];
+        radius: Spanned<NonNegative>, default(NonNegative(0.0)), &[&["radius"], &["size"]];
         /// The width of an area light, horizontal and perpendicular to its `direction`.
-        width: Spanned<Positive>, optional, keys!["width"];
+        width: Spanned<Positive>, optional, &[&["width"]];
         /// The height of an area light, perpendicular to its width and its `direction`.
-        height: Spanned<Positive>, optional, keys!["height"];
+        height: Spanned<Positive>, optional, &[&["height"]];
         /// The number of points of an area light along its width and its height, one number for
         /// both or a list of two, each with an equal part of the colour: more points make softer
         /// shadows.
-        cells: Spanned<AreaLightCells>, default(AreaLightCells([4; 2])), keys!["cells"];
+        cells: Spanned<AreaLightCells>, default(AreaLightCells([4; 2])), &[&["cells"]];
         /// The direction from the scene to a sun; the direction in which a spot points, or that an
         /// area light faces, which is down by default; with a `file`, the direction of vertical
         /// angle 0.
-        direction: Spanned<Vector>, optional, keys!["direction"];
+        direction: Spanned<Vector>, optional, &[&["direction"]];
         /// The irradiance on a surface that faces the sun: red, green, blue, or one number for all.
         /// A white diffuse surface then has the radiance irradiance/π.
-        irradiance: Spanned<Channels>, optional, keys!["irradiance"];
+        irradiance: Spanned<Channels>, optional, &[&["irradiance"]];
         /// The radiant intensity of a point or a spot, power per steradian: red, green, blue, or
         /// one number for all.
-        intensity: Spanned<Channels>, optional, keys!["intensity"];
+        intensity: Spanned<Channels>, optional, &[&["intensity"]];
         /// The distance at which a point or a spot with an `intensity` fades to 0, by the falloff
         /// of `KHR_lights_punctual`; unlimited by default.
-        range: Spanned<Positive>, optional, keys!["range"];
+        range: Spanned<Positive>, optional, &[&["range"]];
         /// The angle from the direction of a spot, in radians, up to which it has its full
         /// intensity.
-        inner_angle: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["innerAngle"];
+        inner_angle: Spanned<NonNegative>, default(NonNegative(0.0)), &[&["innerAngle"]];
         /// The angle from the direction of a spot, in radians, from which on it is dark: more than
         /// `innerAngle`, at most π/2.
-        outer_angle: Spanned<HalfAngle>, optional, keys!["outerAngle"];
+        outer_angle: Spanned<HalfAngle>, optional, &[&["outerAngle"]];
         /// The photometric profile: an IES file (LM-63) of type C with `TILT=NONE`.
-        file: Spanned<FileName>, optional, keys!["file"];
+        file: Spanned<FileName>, optional, &[&["file"]];
         /// The direction of horizontal angle 0 of the profile; only its component perpendicular to
         /// `direction` is used.
-        horizontal: Spanned<Vector>, default(Vector([1.0, 0.0, 0.0])), keys!["horizontal"];
+        horizontal: Spanned<Vector>, default(Vector([1.0, 0.0, 0.0])), &[&["horizontal"]];
     }
     variants {
         [position color] [position color width height] [position color width height direction]

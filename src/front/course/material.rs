@@ -7,7 +7,7 @@ use super::lower::Lowering;
 use super::number::{Count, NonNegative};
 use super::pattern::{FileOrPattern, PatternTexture};
 use super::reader::look_up;
-use super::record::{FieldResult, keys, record};
+use super::record::{FieldResult, HasRecord, record};
 use super::schema::SchemaDefinitions;
 use super::standard::{self, StandardMaterial};
 use super::texture::add_texture;
@@ -22,48 +22,50 @@ record! {
     /// A material: Phong's reflection model with mirror reflection and refraction.
     struct PhongMaterial, "material" {
         /// The colour: red, green, blue.
-        color: Spanned<Color>, optional, keys!["color" "colour"], json "color";
+        color: Spanned<Color>, optional, &[&["color"], &["colour"]], json "color";
         /// The image file of the colour; `UV` for the texture coordinates as the colours (u, 0,
         /// v); or a pattern: `checker`, `stripes`, `noise`, `worley`, or a map of its values. The
         /// other textures can be patterns, too.
-        texture: Spanned<FileOrPattern>, optional, keys!["texture"], json "texture";
+        texture: Spanned<FileOrPattern>, optional, &[&["texture"]], json "texture";
         /// The image file of a bump map: its brightness is the height of the surface.
-        bump: Spanned<FileOrPattern>, optional, keys!["bump"];
+        bump: Spanned<FileOrPattern>, optional, &[&["bump"]];
         /// The image file of a normal map: red to the right, green upwards, blue away from the
         /// surface.
-        normal_map: Spanned<FileOrPattern>, optional, keys!["normalMap"];
+        normal_map: Spanned<FileOrPattern>, optional, &[&["normalMap"]];
         /// The image file whose red channel multiplies `ks`.
-        specular_map: Spanned<FileOrPattern>, optional, keys!["specularMap"];
+        specular_map: Spanned<FileOrPattern>, optional, &[&["specularMap"]];
         /// The weight of the ambient light.
-        ka: Spanned<NonNegative>, required, keys!["ka" "ambient"], json "ka";
+        ka: Spanned<NonNegative>, required, &[&["ka"], &["ambient"]], json "ka";
         /// The weight of the diffuse light.
-        kd: Spanned<NonNegative>, required, keys!["kd" "diffuse"], json "kd";
+        kd: Spanned<NonNegative>, required, &[&["kd"], &["diffuse"]], json "kd";
         /// The weight of the highlight, and of the mirror reflection where there is no `kr`; 1
         /// beside a `specularMap` that replaces it.
-        ks: Spanned<NonNegative>, unless("specular_map"), keys!["ks" "specular"], json "ks";
+        ks: Spanned<NonNegative>, unless("specular_map"), &[&["ks"], &["specular"]], json "ks";
         /// The weight of the mirror reflection alone; `specularMap` does not scale it.
         kr: Spanned<NonNegative>, optional,
-            keys!["kr" "reflect" "reflection" "reflectivity" "reflectance" "mirror"];
+            &[&["kr"], &["reflect"], &["reflection"], &["reflectivity"], &["reflectance"],
+                &["mirror"]];
         /// The exponent of the highlight; a larger one makes it smaller and sharper.
         n: Spanned<NonNegative>, required,
-            keys!["n" "shininess" "exponent" "specularExponent"], json "n";
+            &[&["n"], &["shininess"], &["exponent"], &["specularExponent"]], json "n";
         /// The weight of the transmitted light; 0 is opaque.
-        kt: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["kt" "refract"];
+        kt: Spanned<NonNegative>, default(NonNegative(0.0)), &[&["kt"], &["refract"]];
         /// The index of refraction, for instance 1.5 for glass; 0 is opaque.
         eta: Spanned<NonNegative>, default(NonNegative(1.0)),
-            keys!["eta" "index" "nt" "ior" "refractiveIndex" "refractionIndex"], json "nt";
+            &[&["eta"], &["index"], &["nt"], &["ior"], &["refractiveIndex"], &["refractionIndex"]],
+            json "nt";
         /// Whether `kt` is divided by Fresnel's equations, as in glass: a fraction is reflected,
         /// the rest transmitted (Schlick's approximation).
-        fresnel: Spanned<bool>, default(false), keys!["fresnel"];
+        fresnel: Spanned<bool>, default(false), &[&["fresnel"]];
         /// In some files the kind of material: `refraction` is glass, a `kt` of 1 without `ka` and
         /// `kd`; `reflection` and `default` have a mirror reflection of weight `ks`, though in
         /// those files `default` has none.
-        kind: Spanned<MaterialFinish>, optional, keys!["type"];
+        kind: Spanned<MaterialFinish>, optional, &[&["type"]];
         /// In some files whether it is glass: `true` is a `kt` of 1 with `fresnel` besides its `ka`
         /// and `kd`, and no other mirror image; `false` a `kt` of 0.
-        is_transparent: Spanned<bool>, optional, keys!["isTransparent"], json "isTransparent";
+        is_transparent: Spanned<bool>, optional, &[&["isTransparent"]], json "isTransparent";
         /// The number of rays of a glossy reflection; 1 is a sharp mirror.
-        glossy_samples: Spanned<Count>, default(Count(1)), keys!["glossySamples"];
+        glossy_samples: Spanned<Count>, default(Count(1)), &[&["glossySamples"]];
     }
     variants { [color] [texture] [color texture] }
 }

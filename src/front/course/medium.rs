@@ -3,7 +3,7 @@
 use super::decode::Spanned;
 use super::lower::Lowering;
 use super::number::Real;
-use super::record::{keys, record};
+use super::record::record;
 use super::value::Channels;
 use rtc_ir::{EntityField, EntityKind, Medium};
 
@@ -12,12 +12,12 @@ record! {
     /// a coefficient is a list of red, green and blue, or one number for all.
     struct MediumCoefficients, "medium" {
         /// The absorption coefficient σ_a per unit of length.
-        sigma_a: Spanned<Channels>, default(Channels([0.0; 3])), keys!["sigmaA"];
+        sigma_a: Spanned<Channels>, default(Channels([0.0; 3])), &[&["sigmaA"]];
         /// The scattering coefficient σ_s per unit of length.
-        sigma_s: Spanned<Channels>, default(Channels([0.0; 3])), keys!["sigmaS"];
+        sigma_s: Spanned<Channels>, default(Channels([0.0; 3])), &[&["sigmaS"]];
         /// The mean cosine of the scattering angle, above −1 and below 1: positive numbers scatter
         /// light forwards, 0 into all directions (Henyey and Greenstein).
-        g: Spanned<Real>, default(Real(0.0)), keys!["g"];
+        g: Spanned<Real>, default(Real(0.0)), &[&["g"]];
     }
 }
 

@@ -9,7 +9,7 @@ use super::medium::MediumCoefficients;
 use super::object::{KINDS, ObjectKind};
 use super::path_settings::PathParameters;
 use super::pattern::PatternTexture;
-use super::record::{FieldDeclaration, FieldRequirement, Record};
+use super::record::{FieldDeclaration, FieldRequirement, HasRecord, Record};
 use super::sampling::SamplingMap;
 use super::schema::SchemaDefinitions;
 use super::settings::{Gooch, Scene};
@@ -39,19 +39,19 @@ const INFALLIBLE: &str = "writing to a string does not fail";
 pub fn page() -> String {
     let mut page = HEAD.to_owned();
     for (title, record) in [
-        ("The file", &Scene::RECORD),
-        ("`Camera`", &Camera::RECORD),
-        ("`ImageSize` as a map", &SizeMap::RECORD),
-        ("`SuperSampling`", &SamplingMap::RECORD),
-        ("`GoochParameters`", &Gooch::RECORD),
-        ("`PathParameters`", &PathParameters::RECORD),
-        ("`Environment`", &Environment::RECORD),
-        ("`Lights`", &Light::RECORD),
-        ("`material`", &PhongMaterial::RECORD),
-        ("`material` of `type: standard`", &StandardMaterial::RECORD),
-        ("`Medium`", &MediumCoefficients::RECORD),
-        ("A texture of a `standard` material", &TextureMap::RECORD),
-        ("A pattern as a texture", &PatternTexture::RECORD),
+        ("The file", Scene::RECORD),
+        ("`Camera`", Camera::RECORD),
+        ("`ImageSize` as a map", SizeMap::RECORD),
+        ("`SuperSampling`", SamplingMap::RECORD),
+        ("`GoochParameters`", Gooch::RECORD),
+        ("`PathParameters`", PathParameters::RECORD),
+        ("`Environment`", Environment::RECORD),
+        ("`Lights`", Light::RECORD),
+        ("`material`", PhongMaterial::RECORD),
+        ("`material` of `type: standard`", StandardMaterial::RECORD),
+        ("`Medium`", MediumCoefficients::RECORD),
+        ("A texture of a `standard` material", TextureMap::RECORD),
+        ("A pattern as a texture", PatternTexture::RECORD),
     ] {
         section(title, record, &mut page);
     }

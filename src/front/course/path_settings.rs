@@ -5,7 +5,7 @@ use super::decode::Spanned;
 use super::filter::FilterSetting;
 use super::lower::Lowering;
 use super::number::Count;
-use super::record::{FieldResult, keys, record};
+use super::record::{FieldResult, record};
 use super::settings::{Mode, Scene};
 use rtc_ir as ir;
 use rtc_math::PixelFilter;
@@ -15,17 +15,17 @@ record! {
     struct PathParameters, "path parameters" {
         /// The number of paths for each ray of `SuperSampling`. Without `PathParameters` it is 1;
         /// without both a pixel has 64 paths.
-        samples: Spanned<Count>, default(Count(64)), keys!["samples"];
+        samples: Spanned<Count>, default(Count(64)), &[&["samples"]];
         /// Whether light that bounces several times between the microfacets of a rough surface is
         /// kept (energy compensation).
-        multiple_scattering: Spanned<bool>, default(true), keys!["multipleScattering"];
+        multiple_scattering: Spanned<bool>, default(true), &[&["multipleScattering"]];
         /// Whether the caustics of small lights by smooth mirrors and clear glass are estimated
         /// (manifold sampling). Otherwise paths find them by chance, and those of point lights not
         /// at all.
-        caustics: Spanned<bool>, default(false), keys!["caustics"];
+        caustics: Spanned<bool>, default(false), &[&["caustics"]];
         /// The reconstruction filter of the pixels: how the light around the middle of a pixel is
         /// weighted.
-        filter: Spanned<FilterSetting>, default(FilterSetting(PixelFilter::PIXEL)), keys!["filter"];
+        filter: Spanned<FilterSetting>, default(FilterSetting(PixelFilter::PIXEL)), &[&["filter"]];
     }
 }
 

@@ -3,7 +3,7 @@
 use super::decode::{Decode, DecodeContext, Spanned};
 use super::keyword::{Keyword, KeywordTable, keyword_schema};
 use super::number::{NonNegative, integer, json_number, ranged};
-use super::record::{keys, record};
+use super::record::record;
 use super::schema::SchemaDefinitions;
 use super::value::{Color, FileName, tuple};
 use rtc_ir::Procedural;
@@ -23,20 +23,20 @@ record! {
         /// `checker`: cubes of the two colours in turn; `stripes`: slabs across the first axis;
         /// `noise`: gradient noise between the colours; `worley`: the distance to the nearest of
         /// random points, one in each cell.
-        pattern: Spanned<PatternKind>, required, keys!["pattern"];
+        pattern: Spanned<PatternKind>, required, &[&["pattern"]];
         /// The two colours, each red, green, blue; noise and distances blend them.
-        colors: Spanned<ColorPair>, default(COLORS), keys!["colors"];
+        colors: Spanned<ColorPair>, default(COLORS), &[&["colors"]];
         /// The number of cells per unit of the coordinates: 8 cells across texture coordinates from
         /// 0 to 1, for `mapping: world` the cells per scene unit.
-        scale: Spanned<NonNegative>, default(SCALE), keys!["scale"];
+        scale: Spanned<NonNegative>, default(SCALE), &[&["scale"]];
         /// The coordinates of the pattern: `uv` are the texture coordinates of the surface; `world`
         /// is the point in space, for surfaces without texture coordinates, too.
-        mapping: Spanned<TextureMapping>, default(TextureMapping::Uv), keys!["mapping"];
+        mapping: Spanned<TextureMapping>, default(TextureMapping::Uv), &[&["mapping"]];
         /// The seed of `noise` and `worley`: another number is another picture.
-        seed: Spanned<Seed>, default(SEED), keys!["seed"];
+        seed: Spanned<Seed>, default(SEED), &[&["seed"]];
         /// The number of octaves of `noise`: each has twice the frequency and half the weight of
         /// the one before.
-        octaves: Spanned<Octaves>, default(OCTAVES), keys!["octaves"];
+        octaves: Spanned<Octaves>, default(OCTAVES), &[&["octaves"]];
     }
 }
 

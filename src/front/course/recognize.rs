@@ -1,6 +1,7 @@
 //! Recognises scene texts by their top-level keys, without parsing them: a text that is broken may
 //! be a scene, and a text without mistakes may be the settings of another program.
 
+use super::record::HasRecord;
 use super::settings::Scene;
 use rtc_diag::nearest;
 

@@ -1,5 +1,5 @@
-//! Records: the maps of the format. [`record!`] declares each one once; the declaration is its
-//! type, its decoder and its schema.
+//! Records: the maps of the format. [`record!`] declares each one once; from the declaration
+//! come its type, its decoder and its schema.
 //!
 //! A field holds one value, or a group of values that are written with several keys. A field may
 //! have several spellings, the canonical one first; the declaration marks those of the course's
@@ -48,9 +48,14 @@ pub(super) struct Record {
     pub(super) variants_are_lowered: bool,
 }
 
-/// Spellings of one key, the canonical one first.
-macro_rules! keys {
-    ($($key:literal)+) => { &[$(&[$key]),+] };
+/// A type that is read from a map of its declaration.
+pub(super) trait HasRecord: Sized {
+    /// The declaration.
+    const RECORD: &'static Record;
+
+    /// Reads the map as one of this declaration, which may differ in name and description.
+    fn read(record: &'static Record, node: NodeId, context: &mut DecodeContext<'_>)
+    -> Option<Self>;
 }
 
 /// Declares a record: the struct, its decoder and its schema.
@@ -73,10 +78,9 @@ macro_rules! record {
                 $field: record!(@type $requirement $type),)+
         }
 
-        impl $name {
-            /// The declaration.
-            pub(crate) const RECORD: $crate::course::record::Record =
-                $crate::course::record::Record {
+        impl $crate::course::record::HasRecord for $name {
+            const RECORD: &'static $crate::course::record::Record =
+                &$crate::course::record::Record {
                 name: $record_name,
                 doc: concat!($($doc),+),
                 fields: &[$($crate::course::record::FieldDeclaration {
@@ -93,6 +97,17 @@ macro_rules! record {
                 ],
                 variants_are_lowered: !<[&str]>::is_empty(&[$($($(stringify!($lowered)),+),+)?]),
             };
+
+            fn read(
+                record: &'static $crate::course::record::Record,
+                node: rtc_source::tree::NodeId,
+                context: &mut $crate::course::decode::DecodeContext<'_>,
+            ) -> Option<Self> {
+                let mut reader = $crate::course::reader::MapReader::open(record, node, context)?;
+                $(let $field = reader.next::<$type>(context);)+
+                reader.close(context).then_some(())?;
+                Some(Self { $($field: record!(@value $requirement $field $(, $default)?)),+ })
+            }
         }
 
         impl $crate::course::decode::Decode for $name {
@@ -100,15 +115,15 @@ macro_rules! record {
                 node: rtc_source::tree::NodeId,
                 context: &mut $crate::course::decode::DecodeContext<'_>,
             ) -> Option<Self> {
-                let mut reader =
-                    $crate::course::reader::MapReader::open(&Self::RECORD, node, context)?;
-                $(let $field = reader.next::<$type>(context);)+
-                reader.close(context).then_some(())?;
-                Some(Self { $($field: record!(@value $requirement $field $(, $default)?)),+ })
+                use $crate::course::record::HasRecord;
+                Self::read(Self::RECORD, node, context)
             }
 
-            fn schema(definitions: &mut $crate::course::schema::SchemaDefinitions) -> serde_json::Value {
-                $crate::course::schema::record(&Self::RECORD, definitions)
+            fn schema(
+                definitions: &mut $crate::course::schema::SchemaDefinitions,
+            ) -> serde_json::Value {
+                use $crate::course::record::HasRecord;
+                $crate::course::schema::record(Self::RECORD, definitions)
             }
         }
     };
@@ -133,7 +148,7 @@ macro_rules! record {
     };
 }
 
-pub(super) use {keys, record};
+pub(super) use record;
 
 /// The result of reading a field.
 #[derive(Clone, Copy, Debug)]

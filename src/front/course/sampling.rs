@@ -3,7 +3,7 @@
 use super::decode::{Decode, DecodeContext, Spanned};
 use super::keyword::{Keyword, KeywordTable};
 use super::number::{Count, is_number, plain_number};
-use super::record::{keys, record};
+use super::record::record;
 use super::schema::SchemaDefinitions;
 use rtc_diag::codes;
 use rtc_ir as ir;
@@ -15,10 +15,10 @@ record! {
     /// The number and the positions of the rays of a pixel.
     struct SamplingMap, "`SuperSampling` map" {
         /// The number of rays along each side of a pixel.
-        factor: Spanned<Count>, required, keys!["factor"];
+        factor: Spanned<Count>, required, &[&["factor"]];
         /// The position of each ray: `grid` in the middle of its cell of the pixel, `jitter`
         /// anywhere in its cell, `random` anywhere in the pixel.
-        pattern: Spanned<ir::Pattern>, default(ir::Pattern::Grid), keys!["pattern"];
+        pattern: Spanned<ir::Pattern>, default(ir::Pattern::Grid), &[&["pattern"]];
     }
 }
 

@@ -66,9 +66,9 @@ fn definition(
 pub(super) fn operand(definitions: &mut SchemaDefinitions) -> Json {
     definition("operand", definitions, |definitions| {
         let mut choices = Vec::new();
-        for ObjectKind { names, schema, .. } in KINDS {
-            let schema = schema(definitions);
-            choices.extend(names.iter().map(|name| choice(name, &schema)));
+        for kind in KINDS {
+            let schema = record(kind.record, definitions);
+            choices.extend(kind.names.iter().map(|name| choice(name, &schema)));
         }
         let mut kind = json!({ "anyOf": enumeration(KINDS.iter().flat_map(words)) });
         kind["description"] = json!("What kind of object this is.");

@@ -10,7 +10,7 @@ use super::medium::MediumCoefficients;
 use super::number::{Count, Natural, NonNegative, Real, Stops, plain_number};
 use super::object::Object;
 use super::path_settings::PathParameters;
-use super::record::{FieldResult, keys, record};
+use super::record::{FieldResult, record};
 use super::sampling::SuperSampling;
 use super::schema::SchemaDefinitions;
 use super::value::{AnyScalar, Color, Point, Switch};
@@ -25,12 +25,12 @@ record! {
     /// A scene of the ray-tracing course.
     struct Scene, "scene" {
         /// The schema of this file for editors; ignored.
-        _schema: Spanned<AnyScalar>, optional, keys!["$schema"];
+        _schema: Spanned<AnyScalar>, optional, &[&["$schema"]];
         /// The camera of old files: it looks at the square from (0, 0, 0) to (400, 400, 0). Newer
         /// files have `Camera`.
-        eye: Spanned<Point>, optional, keys!["Eye"], json "Eye";
+        eye: Spanned<Point>, optional, &[&["Eye"]], json "Eye";
         /// The camera: its position, its target, and its image.
-        camera: Spanned<Camera>, optional, keys!["Camera"];
+        camera: Spanned<Camera>, optional, &[&["Camera"]];
         /// The camera as three keys: its position, its target, and the up vector, whose length is
         /// the size of a pixel; the image has 400 × 400 pixels. Better written as a `Camera`.
         look: [Spanned<Point>; 3], optional, &[&["CameraEye", "CameraLookPoint", "CameraUpVector"]];
@@ -38,66 +38,69 @@ record! {
         /// in physical units, an `Environment`, a glTF asset or a `standard` material); `zbuffer`,
         /// distances; `normal`, normals; `gooch`, Gooch shading; `texture`, texture coordinates as
         /// the colours (u, 0, v).
-        mode: Spanned<Mode>, default(Mode::Phong), keys!["RenderMode" "renderMode" "rendermode"];
+        mode: Spanned<Mode>, default(Mode::Phong),
+            &[&["RenderMode"], &["renderMode"], &["rendermode"]];
         /// Whether surfaces cast shadows.
-        shadows: Spanned<bool>, default(false), keys!["Shadows" "shadows" "shadow"], json "Shadows";
+        shadows: Spanned<bool>, default(false),
+            &[&["Shadows"], &["shadows"], &["shadow"]], json "Shadows";
         /// Whether lights with a radius cast soft shadows; `Off` sets their radius to 0. Only with
         /// `Shadows` there are shadows.
-        soft_shadows: Spanned<Switch>, optional, keys!["SoftShadows"];
+        soft_shadows: Spanned<Switch>, optional, &[&["SoftShadows"]];
         /// The maximal number of reflections or refractions after the first hit.
-        depth: Spanned<Natural>, default(Natural(0)), keys!["MaxRecursionDepth" "MaxIterations"],
+        depth: Spanned<Natural>, default(Natural(0)), &[&["MaxRecursionDepth"], &["MaxIterations"]],
             json "MaxRecursionDepth";
         /// Whether there are mirror reflections: `false` is a `MaxRecursionDepth` of 0, `true` one
         /// of 2 unless it is given.
-        reflections: Spanned<bool>, optional, keys!["Reflections"];
+        reflections: Spanned<bool>, optional, &[&["Reflections"]];
         /// The number of rays along each side of a pixel.
         sampling: Spanned<SuperSampling>, default(SuperSampling::ONE),
-            keys!["SuperSampling" "SuperSamplingFactor" "SuperSamplingRate" "AntiAliasing"
-                "AntiAlias" "AA"],
+            &[&["SuperSampling"], &["SuperSamplingFactor"], &["SuperSamplingRate"],
+                &["AntiAliasing"], &["AntiAlias"], &["AA"]],
             json "SuperSamplingFactor", json "AntiAliasing";
         /// Width and height of the image in pixels, beside an `Eye` or the three keys of a camera:
         /// the image begins at the origin and has pixels of size 1. A `Camera` has its own size.
-        image_size: Spanned<ViewSize>, optional, keys!["ImageSize" "Resolution"], json "ImageSize";
+        image_size: Spanned<ViewSize>, optional,
+            &[&["ImageSize"], &["Resolution"]], json "ImageSize";
         /// Width over height of the image; has no effect, because pixels are square and the size is
         /// given.
-        aspect_ratio: Spanned<Real>, optional, keys!["AspectRatio"];
+        aspect_ratio: Spanned<Real>, optional, &[&["AspectRatio"]];
         /// The number of samples of each light with a radius; 16 by default.
-        light_samples: Spanned<Count>, optional, keys!["LightSamples"];
+        light_samples: Spanned<Count>, optional, &[&["LightSamples"]];
         /// Whether `phong` uses toon shading: N·L in the steps 0, 0.25, 0.3 and 1, full highlights
         /// where R·V is at least 0.9, dark outlines; only for directly visible surfaces.
-        toon: Spanned<bool>, default(false), keys!["Toon"], json "Toon";
+        toon: Spanned<bool>, default(false), &[&["Toon"]], json "Toon";
         /// How often the ambient term of `phong` is added: `perLight` for each light, times its
         /// colour; `once`, independent of the lights. The default is `once` for a JSON scene and
         /// `perLight` for YAML.
-        ambient: Spanned<ir::Ambient>, optional, keys!["Ambient"], json "Ambient";
+        ambient: Spanned<ir::Ambient>, optional, &[&["Ambient"]], json "Ambient";
         /// The colour of the ambient light of `phong`: with it the ambient term is added once,
         /// times this colour.
-        ambient_light: Spanned<Color>, optional, keys!["AmbientLight"];
+        ambient_light: Spanned<Color>, optional, &[&["AmbientLight"]];
         /// The colour where the camera sees nothing, in the values of the picture file; black or
         /// the environment by default. Mirrors don't show it.
-        background: Spanned<Color>, optional, keys!["Background" "BackgroundColor"];
+        background: Spanned<Color>, optional, &[&["Background"], &["BackgroundColor"]];
         /// The colours of `RenderMode: gooch`.
-        gooch: Spanned<Gooch>, optional, keys!["GoochParameters"];
+        gooch: Spanned<Gooch>, optional, &[&["GoochParameters"]];
         /// The settings of path tracing.
-        paths: Spanned<PathParameters>, optional, keys!["PathParameters"];
+        paths: Spanned<PathParameters>, optional, &[&["PathParameters"]];
         /// The tone map of a PNG: `none`, linear values; `srgb`, clamped to 1 and sRGB-encoded;
         /// `agx`, AgX; `pbr-neutral`, Khronos PBR Neutral. The default is `srgb` for path tracing,
         /// else `none`. An EXR has linear values.
-        tone: Spanned<Tone>, optional, keys!["ToneMap"];
+        tone: Spanned<Tone>, optional, &[&["ToneMap"]];
         /// The exposure of a PNG in stops: each stop doubles the values before the tone map.
-        exposure: Spanned<Stops>, default(Stops(0.0)), keys!["Exposure"];
+        exposure: Spanned<Stops>, default(Stops(0.0)), &[&["Exposure"]];
         /// The environment light.
-        environment: Spanned<Environment>, optional, keys!["Environment"];
+        environment: Spanned<Environment>, optional, &[&["Environment"]];
         /// The participating medium around the camera, for instance fog. A scene with a medium is
         /// rendered by path tracing. A medium inside an object is the `interior` of its `standard`
         /// material.
-        medium: Spanned<MediumCoefficients>, optional, keys!["Medium" "medium"];
+        medium: Spanned<MediumCoefficients>, optional, &[&["Medium"], &["medium"]];
         /// The lights.
         lights: Spanned<LazyList<Light>>, default(LazyList::<Light>::none()),
-            keys!["Lights"], json "Lights";
+            &[&["Lights"]], json "Lights";
         /// The objects.
         objects: Spanned<LazyList<Object>>, default(LazyList::<Object>::none()),
-            keys!["Objects"], json "Objects";
+            &[&["Objects"]], json "Objects";
     }
     lowered_variants { [camera] [eye] [look] }
 }
@@ -106,13 +109,13 @@ record! {
     /// The colours of Gooch shading, from cool to warm.
     struct Gooch, "Gooch parameters" {
         /// The blue of the cool colour.
-        b: Spanned<Real>, default(Real(GOOCH.b)), keys!["b"];
+        b: Spanned<Real>, default(Real(GOOCH.b)), &[&["b"]];
         /// The yellow of the warm colour.
-        y: Spanned<Real>, default(Real(GOOCH.y)), keys!["y"];
+        y: Spanned<Real>, default(Real(GOOCH.y)), &[&["y"]];
         /// The fraction of the surface's colour in the cool colour.
-        alpha: Spanned<Real>, default(Real(GOOCH.alpha)), keys!["alpha"];
+        alpha: Spanned<Real>, default(Real(GOOCH.alpha)), &[&["alpha"]];
         /// The fraction of the surface's colour in the warm colour.
-        beta: Spanned<Real>, default(Real(GOOCH.beta)), keys!["beta"];
+        beta: Spanned<Real>, default(Real(GOOCH.beta)), &[&["beta"]];
     }
 }
 

@@ -6,11 +6,12 @@ use crate::course::decode::{DecodeContext, SharedValue, Spanned, SpannedVector};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Positive};
-use crate::course::record::{FieldResult, keys, record};
+use crate::course::record::{FieldResult, HasRecord, Record, record};
 use crate::course::synonym::{AXIS, ENDS, HEIGHT, POSITION, RADIUS, with_canonical};
 use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_ir as ir;
 use rtc_math::{Vec3, unit};
+use rtc_source::tree::NodeId;
 
 /// The values of the keys of a base and an axis.
 pub(super) struct AxisKeys<'o> {
@@ -56,65 +57,107 @@ impl AxisKeys<'_> {
     }
 }
 
-/// Declares a round record with one cap and a top: the cone and the paraboloid.
-macro_rules! round_record {
-    ($(#[doc = $doc:literal])+ $name:ident, $word:literal) => {
-        record! {
-            $(#[doc = $doc])+
-            struct $name, $word {
-                /// The type of the object.
-                kind: Spanned<AnyScalar>, required, keys!["type"];
-                /// The centre of the base.
-                position: Spanned<Point>, optional, &with_canonical(POSITION, "position");
-                /// From the centre of the base to the top; its length is the height.
-                up: Spanned<Vector>, optional, keys!["up"];
-                /// The direction from the base to the top, of any length but 0.
-                direction: Spanned<Vector>, optional, &with_canonical(AXIS, "direction");
-                /// From the base to the top, above 0.
-                height: Spanned<Positive>, optional, &HEIGHT;
-                /// The centre of the base, and the top.
-                ends: [Spanned<Point>; 2], optional, &ENDS;
-                /// The radius of the base; 0 is invisible.
-                radius: Spanned<NonNegative>, required, &with_canonical(RADIUS, "radius");
-                /// The material.
-                material: Spanned<SharedValue<Material>>, required, keys!["material"];
-                /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores
-                /// `false`.
-                shadow: Spanned<bool>, default(true), keys!["shadow"];
-                /// How far it moves per second along each axis, while the `shutter` of the `Camera`
-                /// is open.
-                velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
-            }
-            variants { [position up] [position direction height] [ends] }
-        }
-
-        impl LowerObject for $name {
-            fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
-                let Self {
-                    kind, position, up, direction, height, ends, radius, material, shadow,
-                    velocity,
-                } = self;
-                let axis_keys = AxisKeys { position, up, direction, height, ends };
-                let props = lowering.surface_props(kind, material, (shadow, velocity), context);
-                let (Some(props), Some((base, up))) = (props, axis_keys.base_and_up()) else {
-                    return;
-                };
-                let (shape, value_spans) = (
-                    ir::$name { base: base.value, up: up.value, radius: radius.value.0 },
-                    [("base", base.span), ("up", up.span), ("radius", radius.span)],
-                );
-                lowering.add_surface(&props, ir::Shape::$name(shape), &value_spans);
-            }
-        }
-    };
-}
-
-round_record! {
+record! {
     /// A cone with a cap at its base.
-    Cone, "cone"
+    struct Cone, "cone" {
+        /// The type of the object.
+        kind: Spanned<AnyScalar>, required, &[&["type"]];
+        /// The centre of the base.
+        position: Spanned<Point>, optional, &with_canonical(POSITION, "position");
+        /// From the centre of the base to the top; its length is the height.
+        up: Spanned<Vector>, optional, &[&["up"]];
+        /// The direction from the base to the top, of any length but 0.
+        direction: Spanned<Vector>, optional, &with_canonical(AXIS, "direction");
+        /// From the base to the top, above 0.
+        height: Spanned<Positive>, optional, &HEIGHT;
+        /// The centre of the base, and the top.
+        ends: [Spanned<Point>; 2], optional, &ENDS;
+        /// The radius of the base; 0 is invisible.
+        radius: Spanned<NonNegative>, required, &with_canonical(RADIUS, "radius");
+        /// The material.
+        material: Spanned<SharedValue<Material>>, required, &[&["material"]];
+        /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores
+        /// `false`.
+        shadow: Spanned<bool>, default(true), &[&["shadow"]];
+        /// How far it moves per second along each axis, while the `shutter` of the `Camera`
+        /// is open.
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
+    }
+    variants { [position up] [position direction height] [ends] }
 }
 
-round_record! {
-    /// A paraboloid with a cap at its base.
-    Paraboloid, "paraboloid"
+impl LowerObject for Cone {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
+        self.lower_as(lowering, context, |base, up, radius| {
+            ir::Shape::Cone(ir::Cone { base, up, radius })
+        });
+    }
+}
+
+/// A paraboloid, which has the keys of a cone.
+pub(super) struct Paraboloid(Cone);
+
+impl HasRecord for Paraboloid {
+    const RECORD: &'static Record = &Record {
+        name: "paraboloid",
+        doc: " A paraboloid with a cap at its base.",
+        ..*Cone::RECORD
+    };
+
+    fn read(
+        record: &'static Record,
+        node: NodeId,
+        context: &mut DecodeContext<'_>,
+    ) -> Option<Self> {
+        Cone::read(record, node, context).map(Self)
+    }
+}
+
+impl LowerObject for Paraboloid {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
+        self.0.lower_as(lowering, context, |base, up, radius| {
+            ir::Shape::Paraboloid(ir::Paraboloid { base, up, radius })
+        });
+    }
+}
+
+impl Cone {
+    /// Adds the shape with a base, the vector from it to the top, and a radius.
+    fn lower_as(
+        &self,
+        lowering: &mut Lowering,
+        context: &mut DecodeContext<'_>,
+        shape: impl FnOnce([f64; 3], [f64; 3], f64) -> ir::Shape,
+    ) {
+        let Self {
+            kind,
+            position,
+            up,
+            direction,
+            height,
+            ends,
+            radius,
+            material,
+            shadow,
+            velocity,
+        } = self;
+        let axis_keys = AxisKeys {
+            position,
+            up,
+            direction,
+            height,
+            ends,
+        };
+        let props = lowering.surface_props(kind, material, (shadow, velocity), context);
+        let (Some(props), Some((base, up))) = (props, axis_keys.base_and_up()) else {
+            return;
+        };
+        let value_spans = [
+            ("base", base.span),
+            ("up", up.span),
+            ("radius", radius.span),
+        ];
+        let shape = shape(base.value, up.value, radius.value.0);
+        lowering.add_surface(&props, shape, &value_spans);
+    }
 }

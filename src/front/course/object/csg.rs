@@ -10,7 +10,7 @@ use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, Positive};
 use crate::course::object::SurfaceProperties;
-use crate::course::record::{FieldResult, keys, record};
+use crate::course::record::{FieldResult, HasRecord, Record, record};
 use crate::course::rotation::{Rotation, RotationKeys};
 use crate::course::schema::{self, SchemaDefinitions};
 use crate::course::synonym::{POSITION, ROTATION, ROTATION_ANGLE, ROTATION_AXIS, with_canonical};
@@ -23,11 +23,11 @@ use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 /// An operand: an object of any type.
-pub(in crate::course) struct Operand(Box<Object>);
+pub(in crate::course) struct Operand(Object);
 
 impl Decode for Operand {
     fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
-        Object::decode(node, context).map(|object| Self(Box::new(object)))
+        Object::decode(node, context).map(Self)
     }
 
     fn schema(definitions: &mut SchemaDefinitions) -> Json {
@@ -63,96 +63,155 @@ impl Decode for Operands {
     }
 }
 
-/// Declares the record of an operation.
-macro_rules! set_record {
-    ($(#[doc = $doc:literal])+ $name:ident, $word:literal) => {
-        record! {
-            $(#[doc = $doc])+
-            struct $name, $word {
-                /// The type of the object.
-                kind: Spanned<AnyScalar>, required, keys!["type"];
-                /// The two operands: objects with an inside, of any of these types, too.
-                both: [Spanned<Operand>; 2], optional, &[&["a", "b"], &["left", "right"]];
-                /// The operands instead of `a` and `b`, at most 64.
-                of: Spanned<Operands>, optional,
-                    keys!["of" "operands" "objects" "children" "shapes"];
-                /// The material of operands that have none.
-                material: Spanned<SharedValue<Material>>, optional, keys!["material"];
-                /// The position of the origin of the operands' coordinates.
-                position: Spanned<Point>, default(Point([0.0; 3])),
-                    &with_canonical(POSITION, "position");
-                /// The scale factor of the operands, above 0.
-                scale: Spanned<Positive>, default(Positive(1.0)),
-                    keys!["uniformScale" "scale" "scaleFactor" "scaling"];
-                /// The rotation of the operands about their origin by angles in radians: first
-                /// about x, then y, then z; beside `angle` the axis of rotation.
-                rotation: Spanned<Rotation<Angles>>, optional, &ROTATION;
-                /// The axis of a rotation by `angle`.
-                axis: Spanned<Vector>, optional,
-                    &with_canonical(ROTATION_AXIS, "rotationAxis");
-                /// The angle of rotation about the axis, in degrees.
-                angle: Spanned<Degrees>, optional, &ROTATION_ANGLE;
-                /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores
-                /// `false`.
-                shadow: Spanned<bool>, default(true), keys!["shadow"];
-                /// How far it moves per second along each axis, while the `shutter` of the `Camera`
-                /// is open.
-                velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
-            }
-            variants { [both] [of] }
-        }
-
-        impl LowerObject for $name {
-            fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
-                let Self {
-                    kind, both, of, material, position, scale, rotation, axis, angle, shadow,
-                    velocity,
-                } = self;
-                let operands = match (both, of) {
-                    (FieldResult::Read(both), _) => &both[..],
-                    (_, FieldResult::Read(of)) => &of.value.0,
-                    _ => return,
-                };
-                let rotation = RotationKeys { rotation, axis, angle }.axes(context);
-                let expression = lowering.expression(SetStep::$name, operands, kind, context);
-                // Shared properties are lowered in the order of decoding, after the operands.
-                // Errors in a material that no operand uses are reported, too.
-                if let FieldResult::Read(material) = material
-                    && lowering.material(material, context).is_none()
-                {
-                    return;
-                }
-                let (Some(axes), Some(mut expression)) = (rotation, expression) else {
-                    return;
-                };
-                let placement =
-                    OperandPlacement { axes, scale: scale.value.0, position: position.value.0 };
-                if !placement.is_identity() {
-                    for operand in &mut expression.operands {
-                        placement.place(&mut operand.solid);
-                        lowering.drop_unused_rotation(operand);
-                    }
-                }
-                lowering.dependent.record_shadow(shadow);
-                lowering.add_expression(expression, kind.span, (shadow.value, *velocity));
-            }
-        }
-    };
-}
-
-set_record! {
+record! {
     /// The union: the points in any operand.
-    Union, "union"
+    struct Union, "union" {
+        /// The type of the object.
+        kind: Spanned<AnyScalar>, required, &[&["type"]];
+        /// The two operands: objects with an inside, of any of these types, too.
+        both: [Spanned<Operand>; 2], optional, &[&["a", "b"], &["left", "right"]];
+        /// The operands instead of `a` and `b`, at most 64.
+        of: Spanned<Operands>, optional,
+            &[&["of"], &["operands"], &["objects"], &["children"], &["shapes"]];
+        /// The material of operands that have none.
+        material: Spanned<SharedValue<Material>>, optional, &[&["material"]];
+        /// The position of the origin of the operands' coordinates.
+        position: Spanned<Point>, default(Point([0.0; 3])),
+            &with_canonical(POSITION, "position");
+        /// The scale factor of the operands, above 0.
+        scale: Spanned<Positive>, default(Positive(1.0)),
+            &[&["uniformScale"], &["scale"], &["scaleFactor"], &["scaling"]];
+        /// The rotation of the operands about their origin by angles in radians: first
+        /// about x, then y, then z; beside `angle` the axis of rotation.
+        rotation: Spanned<Rotation<Angles>>, optional, &ROTATION;
+        /// The axis of a rotation by `angle`.
+        axis: Spanned<Vector>, optional,
+            &with_canonical(ROTATION_AXIS, "rotationAxis");
+        /// The angle of rotation about the axis, in degrees.
+        angle: Spanned<Degrees>, optional, &ROTATION_ANGLE;
+        /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores
+        /// `false`.
+        shadow: Spanned<bool>, default(true), &[&["shadow"]];
+        /// How far it moves per second along each axis, while the `shutter` of the `Camera`
+        /// is open.
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
+    }
+    variants { [both] [of] }
 }
 
-set_record! {
-    /// The intersection: the points in all operands.
-    Intersection, "intersection"
+impl LowerObject for Union {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
+        self.lower_as(SetStep::Union, lowering, context);
+    }
 }
 
-set_record! {
-    /// The difference: the points in the first operand and in no other.
-    Difference, "difference"
+/// The intersection: the points in all operands.
+pub(super) struct Intersection(Union);
+
+impl HasRecord for Intersection {
+    const RECORD: &'static Record = &Record {
+        name: "intersection",
+        doc: " The intersection: the points in all operands.",
+        ..*Union::RECORD
+    };
+
+    fn read(
+        record: &'static Record,
+        node: NodeId,
+        context: &mut DecodeContext<'_>,
+    ) -> Option<Self> {
+        Union::read(record, node, context).map(Self)
+    }
+}
+
+impl LowerObject for Intersection {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
+        self.0.lower_as(SetStep::Intersection, lowering, context);
+    }
+}
+
+/// The difference: the points in the first operand and in no other.
+pub(super) struct Difference(Union);
+
+impl HasRecord for Difference {
+    const RECORD: &'static Record = &Record {
+        name: "difference",
+        doc: " The difference: the points in the first operand and in no other.",
+        ..*Union::RECORD
+    };
+
+    fn read(
+        record: &'static Record,
+        node: NodeId,
+        context: &mut DecodeContext<'_>,
+    ) -> Option<Self> {
+        Union::read(record, node, context).map(Self)
+    }
+}
+
+impl LowerObject for Difference {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
+        self.0.lower_as(SetStep::Difference, lowering, context);
+    }
+}
+
+impl Union {
+    /// Adds the solid that an operation makes of the operands.
+    fn lower_as(
+        &self,
+        operation: SetStep,
+        lowering: &mut Lowering,
+        context: &mut DecodeContext<'_>,
+    ) {
+        let Self {
+            kind,
+            both,
+            of,
+            material,
+            position,
+            scale,
+            rotation,
+            axis,
+            angle,
+            shadow,
+            velocity,
+        } = self;
+        let operands = match (both, of) {
+            (FieldResult::Read(both), _) => &both[..],
+            (_, FieldResult::Read(of)) => &of.value.0,
+            _ => return,
+        };
+        let rotation = RotationKeys {
+            rotation,
+            axis,
+            angle,
+        }
+        .axes(context);
+        let expression = lowering.expression(operation, operands, kind, context);
+        // Shared properties are lowered in the order of decoding, after the operands.
+        // Errors in a material that no operand uses are reported, too.
+        if let FieldResult::Read(material) = material
+            && lowering.material(material, context).is_none()
+        {
+            return;
+        }
+        let (Some(axes), Some(mut expression)) = (rotation, expression) else {
+            return;
+        };
+        let placement = OperandPlacement {
+            axes,
+            scale: scale.value.0,
+            position: position.value.0,
+        };
+        if !placement.is_identity() {
+            for operand in &mut expression.operands {
+                placement.place(&mut operand.solid);
+                lowering.drop_unused_rotation(operand);
+            }
+        }
+        lowering.dependent.record_shadow(shadow);
+        lowering.add_expression(expression, kind.span, (shadow.value, *velocity));
+    }
 }
 
 /// A solid with the properties of its surface.
@@ -208,7 +267,7 @@ impl Lowering {
         context: &mut DecodeContext<'_>,
     ) -> Option<CsgExpression> {
         let Operand(object) = &operand.value;
-        if matches!(**object, Object::Mesh(_) | Object::Gltf(_)) {
+        if object.0.is_in_file() {
             report(operand.span, "a mesh is no operand", "no solid", context);
             return None;
         }

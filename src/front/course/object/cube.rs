@@ -6,7 +6,7 @@ use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, NonNegative, Real};
 use crate::course::object::solid::box_around;
-use crate::course::record::{FieldResult, keys, record};
+use crate::course::record::{FieldResult, record};
 use crate::course::rotation::{Rotation, RotationKeys, axes_rotated_about};
 use crate::course::synonym::{POSITION, ROTATION, ROTATION_ANGLE, ROTATION_AXIS, with_canonical};
 use crate::course::value::{Angles, AnyScalar, Point, Vector};
@@ -16,11 +16,11 @@ record! {
     /// A cube, with or without a rotation. Better written as a `box`.
     struct Cube, "cube" {
         /// The type of the object.
-        kind: Spanned<AnyScalar>, required, keys!["type"];
+        kind: Spanned<AnyScalar>, required, &[&["type"]];
         /// The centre.
         position: Spanned<Point>, required, &with_canonical(POSITION, "position");
         /// The length of an edge; 0 is invisible.
-        length: Spanned<NonNegative>, required, keys!["length" "side" "size" "edge"];
+        length: Spanned<NonNegative>, required, &[&["length"], &["side"], &["size"], &["edge"]];
         /// The rotation about its centre by angles in radians: first about x, then y, then z;
         /// beside `angle` the axis of rotation.
         rotation: Spanned<Rotation<Angles>>, optional, &ROTATION;
@@ -29,16 +29,16 @@ record! {
         /// The angle of rotation about the axis, in degrees.
         angle: Spanned<Degrees>, optional, &ROTATION_ANGLE;
         /// The axis of rotation.
-        euler_axis: Spanned<Vector>, optional, keys!["eulerAxis"];
+        euler_axis: Spanned<Vector>, optional, &[&["eulerAxis"]];
         /// The angle of rotation, in radians.
-        euler_angle: Spanned<Real>, optional, keys!["eulerAngle"];
+        euler_angle: Spanned<Real>, optional, &[&["eulerAngle"]];
         /// The material.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, &[&["material"]];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
-        shadow: Spanned<bool>, default(true), keys!["shadow"];
+        shadow: Spanned<bool>, default(true), &[&["shadow"]];
         /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
         /// open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
     }
     variants {
         [position] [position euler_axis euler_angle] [position rotation] [position rotation angle]

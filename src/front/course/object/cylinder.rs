@@ -7,7 +7,7 @@ use crate::course::decode::{DecodeContext, SharedValue, Spanned, SpannedVector};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Positive, Real};
-use crate::course::record::{FieldResult, keys, record};
+use crate::course::record::{FieldResult, record};
 use crate::course::rotation::axes_rotated_about;
 use crate::course::synonym::{AXIS, ENDS, HEIGHT, POSITION, RADIUS, with_canonical};
 use crate::course::value::{AnyScalar, Point, Vector};
@@ -20,7 +20,7 @@ record! {
     /// some files, by its middle, a height, and the rotation from the x axis to its axis.
     struct Cylinder, "cylinder" {
         /// The type of the object.
-        kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
+        kind: Spanned<AnyScalar>, required, &[&["type"]], json "type";
         /// The centre of the base; beside `eulerAxis` the middle of the cylinder.
         position: Spanned<Point>, optional, &with_canonical(POSITION, "position"), json "origin";
         /// The direction from the base to the top, of any length but 0.
@@ -28,22 +28,22 @@ record! {
         /// From base to top, above 0.
         height: Spanned<Positive>, optional, &HEIGHT, json "height";
         /// From the base to the top; its length is the height.
-        up: Spanned<Vector>, optional, keys!["up"];
+        up: Spanned<Vector>, optional, &[&["up"]];
         /// The axis of the rotation from the x axis to the axis of the cylinder.
-        euler_axis: Spanned<Vector>, optional, keys!["eulerAxis"];
+        euler_axis: Spanned<Vector>, optional, &[&["eulerAxis"]];
         /// The angle of that rotation, in radians.
-        euler_angle: Spanned<Real>, optional, keys!["eulerAngle"];
+        euler_angle: Spanned<Real>, optional, &[&["eulerAngle"]];
         /// The centre of a cap.
         ends: [Spanned<Point>; 2], optional, &ENDS, json "p1";
         /// The radius; 0 is invisible.
         radius: Spanned<NonNegative>, required, &with_canonical(RADIUS, "radius"), json "radius";
         /// The material.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
+        material: Spanned<SharedValue<Material>>, required, &[&["material"]], json "material";
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
-        shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
+        shadow: Spanned<bool>, default(true), &[&["shadow"]], json "shadow";
         /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
         /// open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
     }
     variants {
         [position direction height] [ends] [position up] [position height euler_axis euler_angle]
@@ -138,7 +138,7 @@ record! {
     /// A cylinder without ends.
     struct InfiniteCylinder, "infinite cylinder" {
         /// The type of the object.
-        kind: Spanned<AnyScalar>, required, keys!["type"];
+        kind: Spanned<AnyScalar>, required, &[&["type"]];
         /// A point of the axis.
         position: Spanned<Point>, required, &with_canonical(POSITION, "position");
         /// The direction of the axis, of any length but 0.
@@ -146,12 +146,12 @@ record! {
         /// The radius; 0 is invisible.
         radius: Spanned<NonNegative>, required, &with_canonical(RADIUS, "radius");
         /// The material.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, &[&["material"]];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
-        shadow: Spanned<bool>, default(true), keys!["shadow"];
+        shadow: Spanned<bool>, default(true), &[&["shadow"]];
         /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
         /// open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
     }
 }
 

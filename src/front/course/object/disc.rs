@@ -5,7 +5,7 @@ use crate::course::decode::{DecodeContext, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::NonNegative;
-use crate::course::record::{keys, record};
+use crate::course::record::record;
 use crate::course::synonym::{AXIS, POSITION, RADIUS, with_canonical};
 use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_ir as ir;
@@ -14,7 +14,7 @@ record! {
     /// A two-sided disc.
     struct Disc, "circle" {
         /// The type of the object.
-        kind: Spanned<AnyScalar>, required, keys!["type"];
+        kind: Spanned<AnyScalar>, required, &[&["type"]];
         /// The centre.
         center: Spanned<Point>, required, &with_canonical(POSITION, "center");
         /// The normal, of any length but 0.
@@ -22,12 +22,12 @@ record! {
         /// The radius; 0 is invisible.
         radius: Spanned<NonNegative>, required, &with_canonical(RADIUS, "radius");
         /// The material.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, &[&["material"]];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
-        shadow: Spanned<bool>, default(true), keys!["shadow"];
+        shadow: Spanned<bool>, default(true), &[&["shadow"]];
         /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
         /// open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
     }
 }
 

@@ -5,7 +5,7 @@ use crate::course::decode::{DecodeContext, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::Degrees;
-use crate::course::record::{FieldResult, keys, record};
+use crate::course::record::{FieldResult, record};
 use crate::course::rotation::{
     AffineColumns, Rotation, RotationKeys, VectorList, world_from_object,
 };
@@ -20,11 +20,11 @@ record! {
     /// An ellipsoid.
     struct Ellipsoid, "ellipsoid" {
         /// The type of the object.
-        kind: Spanned<AnyScalar>, required, keys!["type"];
+        kind: Spanned<AnyScalar>, required, &[&["type"]];
         /// The centre.
         position: Spanned<Point>, optional, &with_canonical(POSITION, "position");
         /// The semi-axes along x, y and z; 0 is invisible.
-        radius: Spanned<Scale>, optional, keys!["radius" "radii" "semiAxes" "size"];
+        radius: Spanned<Scale>, optional, &[&["radius"], &["radii"], &["semiAxes"], &["size"]];
         /// The rotation about the centre by angles in radians: first about x, then y, then z;
         /// beside `angle` the axis of rotation.
         rotation: Spanned<Rotation<Angles>>, optional, &ROTATION;
@@ -34,14 +34,14 @@ record! {
         angle: Spanned<Degrees>, optional, &ROTATION_ANGLE;
         /// Twelve numbers instead of the other keys: the images of the x, y and z axis and of the
         /// origin under the map from the unit sphere.
-        transform: Spanned<AffineColumns>, optional, keys!["transform"];
+        transform: Spanned<AffineColumns>, optional, &[&["transform"]];
         /// The material.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, &[&["material"]];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
-        shadow: Spanned<bool>, default(true), keys!["shadow"];
+        shadow: Spanned<bool>, default(true), &[&["shadow"]];
         /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
         /// open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
     }
     variants { [position radius] [transform] }
 }

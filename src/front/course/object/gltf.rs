@@ -4,7 +4,7 @@ use super::LowerObject;
 use crate::course::decode::{DecodeContext, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::number::Degrees;
-use crate::course::record::{keys, record};
+use crate::course::record::record;
 use crate::course::rotation::{Rotation, RotationKeys, world_from_object};
 use crate::course::synonym::{
     FILE, POSITION, ROTATION, ROTATION_ANGLE, ROTATION_AXIS, SCALE, with_canonical,
@@ -16,7 +16,7 @@ record! {
     /// is rendered by path tracing.
     struct Gltf, "glTF asset" {
         /// The type of the object.
-        _kind: Spanned<AnyScalar>, required, keys!["type"];
+        _kind: Spanned<AnyScalar>, required, &[&["type"]];
         /// The file, .gltf or .glb, in the folder of the scene file or below it.
         file: Spanned<FileName>, required, &FILE;
         /// The position of the asset's origin.
@@ -34,6 +34,10 @@ record! {
 }
 
 impl LowerObject for Gltf {
+    fn is_in_file(&self) -> bool {
+        true
+    }
+
     fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         let Gltf {
             _kind: _,

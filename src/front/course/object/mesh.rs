@@ -9,7 +9,7 @@ use crate::course::keyword::{Keyword, KeywordTable};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, Real};
-use crate::course::record::{FieldResult, keys, record};
+use crate::course::record::{FieldResult, record};
 use crate::course::rotation::{
     AffineColumns, Rotation, RotationKeys, VectorList, world_from_object,
 };
@@ -28,7 +28,7 @@ record! {
     /// A mesh from an OBJ, OFF, STL or PLY file, or points from an XYZ file.
     struct Mesh, "mesh" {
         /// The type of the object.
-        kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
+        kind: Spanned<AnyScalar>, required, &[&["type"]], json "type";
         /// The file, in the folder of the scene file or below it.
         file: Spanned<FileName>, required, &FILE,
             json "filename", json "object";
@@ -47,14 +47,14 @@ record! {
         angle: Spanned<Degrees>, optional, &ROTATION_ANGLE;
         /// Twelve numbers instead of `position` and `scale`: the columns of the transform, that is
         /// the images of the x, y and z axis and of the origin.
-        transform: Spanned<AffineColumns>, optional, keys!["transform"];
+        transform: Spanned<AffineColumns>, optional, &[&["transform"]];
         /// A factor as `scale`, unless the mesh would fill the view or its box contain the eye:
         /// then 1.5 times the value of `fit`, with a warning. Better written `scale` or `fit`.
-        size: Spanned<Real>, optional, keys!["size"];
+        size: Spanned<Real>, optional, &[&["size"]];
         /// Half the longest side of the mesh in the scene, whatever its size in the file; above 0.
-        fit: Spanned<Radius>, optional, keys!["fit" "radius"];
+        fit: Spanned<Radius>, optional, &[&["fit"], &["radius"]];
         /// The material. Without it the materials of the OBJ are used, or grey if there are none.
-        material: Spanned<SharedValue<Material>>, optional, keys!["material"], json "material";
+        material: Spanned<SharedValue<Material>>, optional, &[&["material"]], json "material";
         /// `mtl`: the materials of the MTL file that an OBJ names take precedence over `material`.
         /// `Kd` is the `color`, with a `kd` of 1; `map_Kd` is the `texture`, with the largest
         /// channel of `Kd` as `kd` if it is above 0. `ka` is the mean of `Ka`, at most 0.2. `ks` is
@@ -64,16 +64,16 @@ record! {
         /// are clear without `d` and `Tr`. In path tracing the materials become `standard`
         /// materials, which also use `Ke`, `Tf`, `Pr`, `Pm`, `Ps`, `Pc`, `Pcr`, `aniso`, `map_d`,
         /// `map_Ke`, `map_Pr`, `map_Pm` and the placement of maps.
-        materials: Spanned<LibraryKind>, optional, keys!["materials"];
+        materials: Spanned<LibraryKind>, optional, &[&["materials"]];
         /// For an OBJ: only the faces with the `usemtl` of this name; empty for faces without one.
-        part: Spanned<MeshMaterialName>, optional, keys!["part"];
+        part: Spanned<MeshMaterialName>, optional, &[&["part"]];
         /// A name for people to read.
-        label: Spanned<DisplayName>, optional, keys!["label"];
+        label: Spanned<DisplayName>, optional, &[&["label"]];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
-        shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
+        shadow: Spanned<bool>, default(true), &[&["shadow"]], json "shadow";
         /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
         /// open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
     }
     variants { [file] [file scale] [file size] [file fit] [file transform] }
 }
@@ -113,6 +113,10 @@ impl Decode for MeshMaterialName {
 }
 
 impl LowerObject for Mesh {
+    fn is_in_file(&self) -> bool {
+        true
+    }
+
     fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         let Mesh {
             kind,

@@ -1,8 +1,7 @@
 //! The objects of the course: one record per `type`, in the file that is named after it.
 //!
-//! The macro `kinds!` lists all types with their names; [`Object`], [`KINDS`], the decoder and the
-//! schema come from this list. Each record implements `LowerObject`, which adds surfaces to the
-//! scene: first `Lowering::surface_props` lowers the properties that all surfaces of an object
+//! [`KINDS`] lists all types with their names; the decoder and the schema come from this list. Each
+//! record implements `LowerObject`, which adds surfaces to the scene: first `Lowering::surface_props` lowers the properties that all surfaces of an object
 //! share (material, shadow flag, span), then `Lowering::add_surface` adds each surface with the
 //! spans of its values.
 //!
@@ -38,7 +37,7 @@ use super::lower::Lowering;
 use super::material::Material;
 use super::number::NonNegative;
 use super::reader::{MATERIAL, look_up, missing_keys};
-use super::record::Record;
+use super::record::{HasRecord, Record};
 use super::schema::{self, SchemaDefinitions};
 use super::spelling::quoted_list;
 use super::value::{AnyScalar, Point};
@@ -54,67 +53,73 @@ use serde_json::Value as Json;
 pub(super) struct ObjectKind {
     pub(super) names: &'static [&'static str],
     pub(super) record: &'static Record,
-    decode: fn(NodeId, &mut DecodeContext<'_>) -> Option<Object>,
-    pub(super) schema: fn(&mut SchemaDefinitions) -> Json,
+    decode: fn(&'static Record, NodeId, &mut DecodeContext<'_>) -> Option<Object>,
 }
+
+impl ObjectKind {
+    const fn of<T: HasRecord + LowerObject + 'static>(names: &'static [&'static str]) -> Self {
+        Self {
+            names,
+            record: T::RECORD,
+            decode: |record, node, context| {
+                T::read(record, node, context).map(|object| Object(Box::new(object)))
+            },
+        }
+    }
+}
+
+/// An object of any type.
+pub(super) struct Object(Box<dyn LowerObject>);
 
 /// Lowers an object to surfaces of the IR.
 trait LowerObject {
     /// Lowers an object. An object without a valid material or variant is omitted, which is
     /// reported.
     fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>);
+
+    /// Whether it is read from a file, after the scene.
+    fn is_in_file(&self) -> bool {
+        false
+    }
 }
 
-/// Declares the types of objects: the module, the record and the names.
-macro_rules! kinds {
-    ($($file:ident $record:ident $($name:literal)+;)+) => {
-        /// An object of any type.
-        pub(super) enum Object {
-            $($record($file::$record)),+
-        }
+/// All types of objects.
+pub(super) const KINDS: &[ObjectKind] = &[
+    ObjectKind::of::<sphere::Sphere>(&["sphere"]),
+    ObjectKind::of::<plane::Plane>(&["plane"]),
+    ObjectKind::of::<triangle::Triangle>(&["triangle"]),
+    ObjectKind::of::<quad::Quad>(&["quad", "quadrilateral"]),
+    ObjectKind::of::<disc::Disc>(&["circle", "disc", "disk"]),
+    ObjectKind::of::<cylinder::Cylinder>(&["cylinder"]),
+    ObjectKind::of::<cone::Cone>(&["cone"]),
+    ObjectKind::of::<cone::Paraboloid>(&["paraboloid"]),
+    ObjectKind::of::<torus::Torus>(&["torus"]),
+    ObjectKind::of::<ellipsoid::Ellipsoid>(&["ellipsoid"]),
+    ObjectKind::of::<cylinder::InfiniteCylinder>(&["infiniteCylinder"]),
+    ObjectKind::of::<csg::Union>(&["union"]),
+    ObjectKind::of::<csg::Intersection>(&["intersection"]),
+    ObjectKind::of::<csg::Difference>(&["difference"]),
+    ObjectKind::of::<solid::Cuboid>(&["box"]),
+    ObjectKind::of::<solid::Tetrahedron>(&["tetrahedron"]),
+    ObjectKind::of::<cube::Cube>(&["cube"]),
+    ObjectKind::of::<solid::Prism>(&["prism", "prisme"]),
+    ObjectKind::of::<mesh::Mesh>(&[
+        "mesh",
+        "model",
+        "OBJModel",
+        "triangleMesh",
+        "triangleAggregate",
+    ]),
+    ObjectKind::of::<plane::BoundedPlane>(&["bplane"]),
+    ObjectKind::of::<gltf::Gltf>(&["gltf"]),
+];
 
-        /// All types of objects.
-        pub(super) const KINDS: &[ObjectKind] = &[$(ObjectKind {
-            names: &[$($name),+],
-            record: &$file::$record::RECORD,
-            decode: |node, context| $file::$record::decode(node, context).map(Object::$record),
-            schema: $file::$record::schema,
-        }),+];
-
-        impl Lowering {
-            /// Lowers an object. An object without a valid material or variant is omitted, which is
-            /// reported.
-            pub(super) fn object(&mut self, object: &Object, context: &mut DecodeContext<'_>) {
-                match object {
-                    $(Object::$record(record) => record.lower(self, context),)+
-                }
-            }
-        }
-    };
-}
-
-kinds! {
-    sphere Sphere "sphere";
-    plane Plane "plane";
-    triangle Triangle "triangle";
-    quad Quad "quad" "quadrilateral";
-    disc Disc "circle" "disc" "disk";
-    cylinder Cylinder "cylinder";
-    cone Cone "cone";
-    cone Paraboloid "paraboloid";
-    torus Torus "torus";
-    ellipsoid Ellipsoid "ellipsoid";
-    cylinder InfiniteCylinder "infiniteCylinder";
-    csg Union "union";
-    csg Intersection "intersection";
-    csg Difference "difference";
-    solid Cuboid "box";
-    solid Tetrahedron "tetrahedron";
-    cube Cube "cube";
-    solid Prism "prism" "prisme";
-    mesh Mesh "mesh" "model" "OBJModel" "triangleMesh" "triangleAggregate";
-    plane BoundedPlane "bplane";
-    gltf Gltf "gltf";
+impl Lowering {
+    /// Lowers an object. An object without a valid material or variant is omitted, which is
+    /// reported.
+    pub(super) fn object(&mut self, object: &Object, context: &mut DecodeContext<'_>) {
+        object.0.lower(self, context);
+    }
 }
 
 impl Decode for Object {
@@ -161,7 +166,7 @@ impl Decode for Object {
         if kind.record.fields.iter().any(|field| field.name == "of") {
             context.operand_material = own_material(node, context).or(outer);
         }
-        let object = (kind.decode)(node, context);
+        let object = (kind.decode)(kind.record, node, context);
         context.operand_material = outer;
         object
     }

@@ -8,7 +8,7 @@ use crate::course::keyword::{Keyword, KeywordTable};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Real};
-use crate::course::record::{FieldResult, keys, record};
+use crate::course::record::{FieldResult, record};
 use crate::course::synonym::{AXIS, POSITION, RADIUS, with_canonical, with_last};
 use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_diag::codes;
@@ -20,7 +20,7 @@ record! {
     /// three points, a point and two directions, or the four numbers of its equation.
     struct Plane, "plane" {
         /// The type of the object.
-        kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
+        kind: Spanned<AnyScalar>, required, &[&["type"]], json "type";
         /// The coefficients of the equation a·x + b·y + c·z + d = 0. Some programs use the opposite
         /// sign of `d`.
         equation: [Spanned<Real>; 4], optional, &[&["a", "b", "c", "d"]], json "a";
@@ -31,16 +31,16 @@ record! {
         /// The normal, of any length but 0.
         normal: Spanned<Vector>, optional, &with_canonical(AXIS, "normal"), json "normal";
         /// The distance from the origin, along the normal.
-        distance: Spanned<Real>, optional, keys!["distance" "d"];
+        distance: Spanned<Real>, optional, &[&["distance"], &["d"]];
         /// A direction in the plane.
         edges: [Spanned<Vector>; 2], optional, EDGES;
         /// The material.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
+        material: Spanned<SharedValue<Material>>, required, &[&["material"]], json "material";
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
-        shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
+        shadow: Spanned<bool>, default(true), &[&["shadow"]], json "shadow";
         /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
         /// open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
     }
     variants { [position normal] [normal distance] [corners] [position edges] [equation] }
 }
@@ -50,9 +50,9 @@ record! {
     /// or `circle`.
     struct BoundedPlane, "bounded plane" {
         /// The type of the object.
-        kind: Spanned<AnyScalar>, required, keys!["type"];
+        kind: Spanned<AnyScalar>, required, &[&["type"]];
         /// The outline: `quad` for a square, `circle` for a disc.
-        outline: Spanned<PlaneOutline>, required, keys!["typ"];
+        outline: Spanned<PlaneOutline>, required, &[&["typ"]];
         /// The centre.
         center: Spanned<Point>, required, &with_canonical(POSITION, "center");
         /// The normal; that of a square is along an axis.
@@ -60,12 +60,12 @@ record! {
         /// The radius, or half the side of the square; 0 is invisible.
         radius: Spanned<NonNegative>, required, &with_canonical(RADIUS, "radius");
         /// The material.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, &[&["material"]];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
-        shadow: Spanned<bool>, default(true), keys!["shadow"];
+        shadow: Spanned<bool>, default(true), &[&["shadow"]];
         /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
         /// open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
     }
 }
 

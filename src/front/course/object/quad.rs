@@ -6,7 +6,7 @@ use super::{LowerObject, SurfaceProperties};
 use crate::course::decode::{DecodeContext, SharedValue, Spanned, SpannedVector};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
-use crate::course::record::{FieldResult, Spellings, keys, record};
+use crate::course::record::{FieldResult, Spellings, record};
 use crate::course::synonym::CORNER;
 use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_diag::codes;
@@ -36,7 +36,7 @@ record! {
     /// Crossing edges are reported, and `--lenient` repairs them.
     struct Quad, "quad" {
         /// The type of the object.
-        kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
+        kind: Spanned<AnyScalar>, required, &[&["type"]], json "type";
         /// One of four corners, in order around it. The first is the lower left of a texture, the
         /// second the lower right.
         corners: [Spanned<Point>; 4], optional, FOUR_CORNERS, json "vertex0", json "A", json "p0";
@@ -46,14 +46,14 @@ record! {
         edges: [Spanned<Vector>; 2], optional, EDGES;
         /// Whether four corners that are not coplanar span a curved patch, or two triangles that
         /// share the diagonal from the first to the third. Programs do either.
-        curved: Spanned<bool>, optional, keys!["curved"];
+        curved: Spanned<bool>, optional, &[&["curved"]];
         /// The material.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
+        material: Spanned<SharedValue<Material>>, required, &[&["material"]], json "material";
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
-        shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
+        shadow: Spanned<bool>, default(true), &[&["shadow"]], json "shadow";
         /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
         /// open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
     }
     variants { [corners] [position edges] }
 }

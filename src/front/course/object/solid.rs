@@ -8,7 +8,7 @@ use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, Real, json_number};
 use crate::course::object::SurfaceProperties;
-use crate::course::record::{FieldResult, keys, record};
+use crate::course::record::{FieldResult, record};
 use crate::course::rotation::{Rotation, RotationKeys};
 use crate::course::schema::SchemaDefinitions;
 use crate::course::synonym::{POSITION, ROTATION, ROTATION_ANGLE, ROTATION_AXIS, with_canonical};
@@ -25,7 +25,7 @@ record! {
     /// or without a rotation; or by a corner and its three edges.
     struct Cuboid, "box" {
         /// The type of the object.
-        kind: Spanned<AnyScalar>, required, keys!["type"];
+        kind: Spanned<AnyScalar>, required, &[&["type"]];
         /// One of two opposite corners of an axis-aligned box.
         extremes: [Spanned<Point>; 2], optional, &[
             &["min", "max"], &["minimum", "maximum"], &["corner1", "corner2"], &["p1", "p2"],
@@ -36,7 +36,7 @@ record! {
         position: Spanned<Point>, optional, &with_canonical(POSITION, "position");
         /// The lengths along x, y and z before the rotation, or one length for all.
         dimension: Spanned<Scale>, optional,
-            keys!["dimension" "dimensions" "size" "extent" "extents"];
+            &[&["dimension"], &["dimensions"], &["size"], &["extent"], &["extents"]];
         /// The rotation about its centre by angles in radians: first about x, then y, then z;
         /// beside `angle` the axis of rotation.
         rotation: Spanned<Rotation<Angles>>, optional, &ROTATION;
@@ -47,14 +47,14 @@ record! {
         /// An edge from the corner `position`.
         edges: [Spanned<Vector>; 2], optional, &[&["up", "side"]];
         /// The third edge; or only its length, for an edge along `up` × `side`.
-        depth: Spanned<ThirdEdge>, optional, keys!["depth"];
+        depth: Spanned<ThirdEdge>, optional, &[&["depth"]];
         /// The material.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, &[&["material"]];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
-        shadow: Spanned<bool>, default(true), keys!["shadow"];
+        shadow: Spanned<bool>, default(true), &[&["shadow"]];
         /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
         /// open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
     }
     variants {
         [extremes] [position dimension] [position dimension rotation]
@@ -67,16 +67,16 @@ record! {
     /// A tetrahedron.
     struct Tetrahedron, "tetrahedron" {
         /// The type of the object.
-        kind: Spanned<AnyScalar>, required, keys!["type"];
+        kind: Spanned<AnyScalar>, required, &[&["type"]];
         /// A corner.
         corners: [Spanned<Point>; 4], required, FOUR_CORNERS;
         /// The material.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, &[&["material"]];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
-        shadow: Spanned<bool>, default(true), keys!["shadow"];
+        shadow: Spanned<bool>, default(true), &[&["shadow"]];
         /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
         /// open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
     }
 }
 
@@ -84,21 +84,21 @@ record! {
     /// A triangular prism, given by its base and the vector to its top, or by the corners of both.
     struct Prism, "prism" {
         /// The type of the object.
-        kind: Spanned<AnyScalar>, required, keys!["type"];
+        kind: Spanned<AnyScalar>, required, &[&["type"]];
         /// A corner of the base.
         corners: [Spanned<Point>; 3], optional, CORNERS;
         /// From the base to the top.
-        up: Spanned<Vector>, optional, keys!["up" "direction" "axis"];
+        up: Spanned<Vector>, optional, &[&["up"], &["direction"], &["axis"]];
         /// A corner of the base, and those of the top in the same order.
         ends: [Spanned<Point>; 6], optional,
             &[&["t1point1", "t1point2", "t1point3", "t2point1", "t2point2", "t2point3"]];
         /// The material.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, &[&["material"]];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
-        shadow: Spanned<bool>, default(true), keys!["shadow"];
+        shadow: Spanned<bool>, default(true), &[&["shadow"]];
         /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
         /// open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
     }
     variants { [corners up] [ends] }
 }

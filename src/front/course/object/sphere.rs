@@ -5,7 +5,7 @@ use crate::course::decode::{Decode, DecodeContext, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, NonNegative, json_number};
-use crate::course::record::{FieldResult, keys, record};
+use crate::course::record::{FieldResult, record};
 use crate::course::rotation::{Quaternion, Rotation};
 use crate::course::schema::SchemaDefinitions;
 use crate::course::synonym::{POSITION, RADIUS, with_canonical};
@@ -21,27 +21,27 @@ record! {
     /// A sphere.
     struct Sphere, "sphere" {
         /// The type of the object.
-        kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
+        kind: Spanned<AnyScalar>, required, &[&["type"]], json "type";
         /// The centre.
         position: Spanned<Point>, required, &with_canonical(POSITION, "position"), json "position";
         /// The radius, 0 being invisible; or a list of the radius and the axis of rotation of the
         /// texture.
         radius: Spanned<Radius>, required, &with_canonical(RADIUS, "radius"), json "radius";
         /// The angle of rotation of the texture about its axis, in degrees.
-        angle: Spanned<Degrees>, default(Degrees(0.0)), keys!["angle"], json "angle";
+        angle: Spanned<Degrees>, default(Degrees(0.0)), &[&["angle"]], json "angle";
         /// The axis through the poles of the texture, about which it is rotated.
-        axis: Spanned<Rotation<Vector>>, optional, keys!["axis" "rotation" "rotationVector"],
+        axis: Spanned<Rotation<Vector>>, optional, &[&["axis"], &["rotation"], &["rotationVector"]],
             json "rotation", json "rotationVector";
         /// The rotation of the texture as a quaternion (x, y, z, w) of any length but 0, instead of
         /// an axis and an angle.
-        quaternion: Spanned<Quaternion>, optional, keys!["quaternion"];
+        quaternion: Spanned<Quaternion>, optional, &[&["quaternion"]];
         /// The material.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
+        material: Spanned<SharedValue<Material>>, required, &[&["material"]], json "material";
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
-        shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
+        shadow: Spanned<bool>, default(true), &[&["shadow"]], json "shadow";
         /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
         /// open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
     }
 }
 

@@ -5,7 +5,7 @@ use crate::course::decode::{DecodeContext, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Positive};
-use crate::course::record::{FieldResult, keys, record};
+use crate::course::record::{FieldResult, record};
 use crate::course::synonym::{AXIS, POSITION, with_canonical};
 use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_diag::codes;
@@ -16,17 +16,17 @@ record! {
     /// A torus.
     struct Torus, "torus" {
         /// The type of the object.
-        kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
+        kind: Spanned<AnyScalar>, required, &[&["type"]], json "type";
         /// The centre.
         position: Spanned<Point>, required, &with_canonical(POSITION, "position"), json "position";
         /// The major and the minor radius: `radius` and `alpha`.
         radii: [Spanned<NonNegative>; 2], optional, &[&["R", "r"], &["radius", "r"]];
         /// The major radius, from the centre to the middle of the tube; above 0.
         radius: Spanned<Positive>, optional,
-            keys!["radius" "r" "R" "rad" "majorRadius" "major" "ringRadius"];
+            &[&["radius"], &["r"], &["R"], &["rad"], &["majorRadius"], &["major"], &["ringRadius"]];
         /// The minor radius, that of the tube; 0 is invisible.
         alpha: Spanned<NonNegative>, optional,
-            keys!["alpha" "minorRadius" "minor" "tubeRadius" "tube"];
+            &[&["alpha"], &["minorRadius"], &["minor"], &["tubeRadius"], &["tube"]];
         /// The radii of the hole and of the outer rim. If that torus would contain more of the eye,
         /// the lights and the other objects, they are taken as the minor and the major radius:
         /// `alpha` and `radius`.
@@ -36,12 +36,12 @@ record! {
         direction: Spanned<Vector>, default(Vector([0.0, 0.0, 1.0])),
             &with_canonical(AXIS, "direction");
         /// The material.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
+        material: Spanned<SharedValue<Material>>, required, &[&["material"]], json "material";
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
-        shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
+        shadow: Spanned<bool>, default(true), &[&["shadow"]], json "shadow";
         /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
         /// open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
     }
     variants { [radius alpha] [radii] [inner_outer] }
 }

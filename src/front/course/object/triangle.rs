@@ -4,7 +4,7 @@ use super::LowerObject;
 use crate::course::decode::{DecodeContext, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
-use crate::course::record::{FieldResult, Spellings, keys, record};
+use crate::course::record::{FieldResult, Spellings, record};
 use crate::course::value::{AnyScalar, Point, Uv};
 use rtc_ir as ir;
 
@@ -27,7 +27,7 @@ record! {
     /// A two-sided triangle.
     struct Triangle, "triangle" {
         /// The type of the object.
-        kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
+        kind: Spanned<AnyScalar>, required, &[&["type"]], json "type";
         /// A corner.
         corners: [Spanned<Point>; 3], required, CORNERS, json "vertex0", json "A", json "p0";
         /// The texture coordinates of a corner: (0, 0) is the lower left of the texture, (1, 1) the
@@ -36,12 +36,12 @@ record! {
             &[&["uv0", "uv1", "uv2"], &["uv1", "uv2", "uv3"], &["UV1", "UV2", "UV3"]],
             json "UV1";
         /// The material.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
+        material: Spanned<SharedValue<Material>>, required, &[&["material"]], json "material";
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
-        shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
+        shadow: Spanned<bool>, default(true), &[&["shadow"]], json "shadow";
         /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
         /// open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), keys!["velocity"];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
     }
 }
 

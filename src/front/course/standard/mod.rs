@@ -20,7 +20,9 @@ use super::lower::Lowering;
 use super::medium::MediumCoefficients;
 use super::number::{NonNegative, Positive, Real};
 use super::reader::MapReader;
-use super::record::{FieldDeclaration, FieldRequirement, FieldResult, FieldValue, Record};
+use super::record::{
+    FieldDeclaration, FieldRequirement, FieldResult, FieldValue, HasRecord, Record,
+};
 use super::schema::{self, SchemaDefinitions};
 use super::value::{AnyScalar, Color, DisplayName};
 use rtc_ir::{self as ir, Alpha, EntityField, EntityKind, MaterialId};
@@ -137,9 +139,8 @@ macro_rules! material {
             $($field: FieldResult<Spanned<written::$kind>>,)*
         }
 
-        impl StandardMaterial {
-            /// The declaration.
-            pub(crate) const RECORD: Record = Record {
+        impl HasRecord for StandardMaterial {
+            const RECORD: &'static Record = &Record {
                 name: "standard material",
                 doc: " A material: that of glTF 2.0 and of its extensions `KHR_materials_*`. \
                       Colours are linear; a texture multiplies the number or colour beside it, \
@@ -174,6 +175,20 @@ macro_rules! material {
                 variants_are_lowered: false,
             };
 
+            fn read(
+                record: &'static Record,
+                node: NodeId,
+                context: &mut DecodeContext<'_>,
+            ) -> Option<Self> {
+                let mut reader = MapReader::open(record, node, context)?;
+                let _ = reader.next::<Spanned<AnyScalar>>(context);
+                let name = reader.next(context);
+                $(let $field = reader.next(context);)*
+                reader.close(context).then_some(Self { name, $($field,)* })
+            }
+        }
+
+        impl StandardMaterial {
             /// Lowers the material; its textures are added to the pending assets.
             fn lowered(&self, lowering: &mut Lowering) -> ir::Standard {
                 let mut standard = ir::Standard::default();
@@ -186,24 +201,20 @@ macro_rules! material {
                 standard
             }
         }
-
-        impl Decode for StandardMaterial {
-            fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
-                let mut reader = MapReader::open(&Self::RECORD, node, context)?;
-                let _ = reader.next::<Spanned<AnyScalar>>(context);
-                let name = reader.next(context);
-                $(let $field = reader.next(context);)*
-                reader.close(context).then_some(Self { name, $($field,)* })
-            }
-
-            fn schema(definitions: &mut SchemaDefinitions) -> Json {
-                schema::record(&Self::RECORD, definitions)
-            }
-        }
     };
 }
 
 parameters!(material);
+
+impl Decode for StandardMaterial {
+    fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
+        Self::read(Self::RECORD, node, context)
+    }
+
+    fn schema(definitions: &mut SchemaDefinitions) -> Json {
+        schema::record(Self::RECORD, definitions)
+    }
+}
 
 /// The other material of a blend: a standard material, too.
 pub(crate) struct BlendedMaterial(Box<StandardMaterial>);

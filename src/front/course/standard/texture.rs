@@ -5,7 +5,7 @@ use super::super::keyword::{keyword, keyword_schema};
 use super::super::lower::Lowering;
 use super::super::pattern::{FileOrPattern, PatternTexture, pattern_word};
 use super::super::reader::look_up;
-use super::super::record::{FieldResult, keys, record};
+use super::super::record::{FieldResult, record};
 use super::super::rotation::PlaneRows;
 use super::super::schema::SchemaDefinitions;
 use super::super::value::{FileName, tuple};
@@ -21,17 +21,17 @@ record! {
     /// alone is a texture too.
     struct TextureMap, "texture" {
         /// The image file: PNG, JPEG, WebP or KTX2; its alpha channel is used.
-        file: Spanned<FileName>, required, keys!["file"];
+        file: Spanned<FileName>, required, &[&["file"]];
         /// The set of texture coordinates of the mesh, 0 or 1.
-        set: Spanned<SetIndex>, default(SetIndex(0)), keys!["set"];
+        set: Spanned<SetIndex>, default(SetIndex(0)), &[&["set"]];
         /// The wrap mode beyond the image along u and v, one keyword for both or a list of two:
         /// `repeat` the image, `mirror` it, or `clamp` to the texels of its edge.
-        wrap: Spanned<WrapModes>, default(WrapModes([Wrap::Repeat; 2])), keys!["wrap"];
+        wrap: Spanned<WrapModes>, default(WrapModes([Wrap::Repeat; 2])), &[&["wrap"]];
         /// The filter: `linear` blends the four nearest texels, `nearest` uses the nearest one.
-        filter: Spanned<Filter>, default(Filter::Linear), keys!["filter"];
+        filter: Spanned<Filter>, default(Filter::Linear), &[&["filter"]];
         /// Six numbers: the rows (a, b, c) of the map from texture coordinates of the surface to
         /// those of the image, each a·u + b·v + c.
-        transform: Spanned<PlaneRows>, optional, keys!["transform"];
+        transform: Spanned<PlaneRows>, optional, &[&["transform"]];
     }
 }
 

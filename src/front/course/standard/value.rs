@@ -3,7 +3,7 @@
 use super::super::decode::{Decode, DecodeContext, Spanned};
 use super::super::keyword::{Keyword, KeywordTable, keyword, keyword_schema};
 use super::super::number::{NonNegative, integer, json_number, number, ranged};
-use super::super::record::{keys, record};
+use super::super::record::record;
 use super::super::schema::SchemaDefinitions;
 use super::super::value::{Color, numbers, tuple};
 use super::Alpha;
@@ -78,7 +78,7 @@ record! {
     /// otherwise.
     struct Mask, "alpha mask" {
         /// The cutoff.
-        mask: Spanned<NonNegative>, required, keys!["mask"];
+        mask: Spanned<NonNegative>, required, &[&["mask"]];
     }
 }
 
@@ -138,9 +138,9 @@ record! {
     /// The complex index of refraction η + i·k of a conductor.
     struct ComplexNumbers, "complex index" {
         /// η at red, green and blue.
-        eta: Spanned<Color>, required, keys!["eta"];
+        eta: Spanned<Color>, required, &[&["eta"]];
         /// k at red, green and blue.
-        k: Spanned<Color>, required, keys!["k"];
+        k: Spanned<Color>, required, &[&["k"]];
     }
 }
 
