@@ -3,20 +3,15 @@
 use super::ExamplePart;
 
 /// The start of a scene with a sensor.
-macro_rules! seen {
-    ($more:literal) => {
-        concat!(
-            r#"<scene version="3.0.0"><sensor type="perspective"><film type="hdrfilm">"#,
-            r#"<rfilter type="box"/></film></sensor>"#,
-            $more
-        )
-    };
-}
+const SEEN: &str = concat!(
+    r#"<scene version="3.0.0"><sensor type="perspective"><film type="hdrfilm">"#,
+    r#"<rfilter type="box"/></film></sensor>"#,
+);
 
 pub(super) const PARTS: &[ExamplePart] = &[
     ExamplePart {
         title: "shapes",
-        before: seen!(""),
+        before: &[SEEN],
         after: "</scene>",
         examples: &[
             ("`sphere`", r#"<shape type="sphere"/>"#),
@@ -51,7 +46,7 @@ pub(super) const PARTS: &[ExamplePart] = &[
     },
     ExamplePart {
         title: "BSDFs",
-        before: seen!(r#"<shape type="sphere">"#),
+        before: &[SEEN, r#"<shape type="sphere">"#],
         after: "</shape></scene>",
         examples: &[
             ("`diffuse`", r#"<bsdf type="diffuse"/>"#),
@@ -119,7 +114,7 @@ pub(super) const PARTS: &[ExamplePart] = &[
     },
     ExamplePart {
         title: "textures",
-        before: seen!(r#"<shape type="rectangle"><bsdf type="diffuse">"#),
+        before: &[SEEN, r#"<shape type="rectangle"><bsdf type="diffuse">"#],
         after: "</bsdf></shape></scene>",
         examples: &[
             (
@@ -161,7 +156,7 @@ pub(super) const PARTS: &[ExamplePart] = &[
     },
     ExamplePart {
         title: "emitters",
-        before: seen!(""),
+        before: &[SEEN],
         after: "</scene>",
         examples: &[
             (
@@ -194,7 +189,7 @@ pub(super) const PARTS: &[ExamplePart] = &[
     },
     ExamplePart {
         title: "sensors",
-        before: r#"<scene version="3.0.0"><sensor type=""#,
+        before: &[r#"<scene version="3.0.0"><sensor type=""#],
         after: r#"</sensor></scene>"#,
         examples: &[
             (
@@ -237,7 +232,7 @@ pub(super) const PARTS: &[ExamplePart] = &[
     },
     ExamplePart {
         title: "integrators",
-        before: seen!(r#"<integrator type=""#),
+        before: &[SEEN, r#"<integrator type=""#],
         after: r#""/></scene>"#,
         examples: &[
             ("`path`", "path"),
@@ -250,7 +245,7 @@ pub(super) const PARTS: &[ExamplePart] = &[
     },
     ExamplePart {
         title: "the rest",
-        before: seen!(""),
+        before: &[SEEN],
         after: "</scene>",
         examples: &[
             (

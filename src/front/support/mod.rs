@@ -55,7 +55,7 @@ pub struct SupportRow {
 /// Examples of one kind: the text of each stands between `before` and `after`.
 struct ExamplePart {
     title: &'static str,
-    before: &'static str,
+    before: &'static [&'static str],
     after: &'static str,
     /// The name of each, in Markdown, and its text.
     examples: &'static [(&'static str, &'static str)],
@@ -107,7 +107,7 @@ impl ForeignFormat {
         let rows = self.parts().iter().flat_map(|part| {
             let beside = &beside;
             part.examples.iter().map(move |(name, text)| {
-                let text = [part.before, text, part.after].concat();
+                let text = [&part.before.concat(), *text, part.after].concat();
                 let (level, findings) = self.tried(&text, beside);
                 SupportRow {
                     part: part.title,

@@ -7,7 +7,7 @@ const WORLD: &str = "Camera \"perspective\"\nWorldBegin\n";
 pub(super) const PARTS: &[ExamplePart] = &[
     ExamplePart {
         title: "cameras",
-        before: "",
+        before: &[],
         after: "\nWorldBegin\n",
         examples: &[
             ("`perspective`", r#"Camera "perspective" "float fov" 40"#),
@@ -26,7 +26,7 @@ pub(super) const PARTS: &[ExamplePart] = &[
     },
     ExamplePart {
         title: "film, sampler, filter, integrator",
-        before: "Camera \"perspective\"\n",
+        before: &["Camera \"perspective\"\n"],
         after: "\nWorldBegin\n",
         examples: &[
             (
@@ -49,7 +49,7 @@ pub(super) const PARTS: &[ExamplePart] = &[
     },
     ExamplePart {
         title: "shapes",
-        before: WORLD,
+        before: &[WORLD],
         after: "\n",
         examples: &[
             ("`sphere`", r#"Shape "sphere" "float radius" 2"#),
@@ -102,7 +102,7 @@ pub(super) const PARTS: &[ExamplePart] = &[
     },
     ExamplePart {
         title: "materials",
-        before: WORLD,
+        before: &[WORLD],
         after: "\nShape \"sphere\"\n",
         examples: &[
             (
@@ -152,7 +152,7 @@ pub(super) const PARTS: &[ExamplePart] = &[
     },
     ExamplePart {
         title: "textures",
-        before: WORLD,
+        before: &[WORLD],
         after: "\nMaterial \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\"\n",
         examples: &[
             (
@@ -197,7 +197,7 @@ pub(super) const PARTS: &[ExamplePart] = &[
     },
     ExamplePart {
         title: "lights",
-        before: WORLD,
+        before: &[WORLD],
         after: "\n",
         examples: &[
             ("`point`", r#"LightSource "point" "rgb I" [ 1 2 3 ]"#),
@@ -238,7 +238,7 @@ pub(super) const PARTS: &[ExamplePart] = &[
     },
     ExamplePart {
         title: "the rest",
-        before: WORLD,
+        before: &[WORLD],
         after: "\n",
         examples: &[
             ("`Include`", r#"Include "part.pbrt""#),

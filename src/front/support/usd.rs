@@ -7,7 +7,7 @@ const STAGE: &str = "#usda 1.0\n(\n    upAxis = \"Y\"\n    metersPerUnit = 1\n)\
 pub(super) const PARTS: &[ExamplePart] = &[
     ExamplePart {
         title: "layers",
-        before: "#usda 1.0\n",
+        before: &["#usda 1.0\n"],
         after: "\n",
         examples: &[
             (
@@ -46,7 +46,7 @@ pub(super) const PARTS: &[ExamplePart] = &[
     },
     ExamplePart {
         title: "prims",
-        before: STAGE,
+        before: &[STAGE],
         after: "\n",
         examples: &[
             ("`Sphere`", "def Sphere \"s\" {}"),
@@ -104,13 +104,13 @@ pub(super) const PARTS: &[ExamplePart] = &[
     ExamplePart {
         title: "materials",
         // The stage of a ball with a material `m`, up to the kind of its shader.
-        before: concat!(
+        before: &[
             "#usda 1.0\n(\n upAxis = \"Y\"\n metersPerUnit = 1\n)\n",
             "def Sphere \"ball\" (\n prepend apiSchemas = [\"MaterialBindingAPI\"]\n)\n",
             "{\n rel material:binding = </m>\n}\n",
             "def Material \"m\"\n{\n token outputs:surface.connect = </m/s.outputs:surface>\n",
             " def Shader \"s\"\n {\n  uniform token info:id = ",
-        ),
+        ],
         after: "\n  token outputs:surface\n }\n}\n",
         examples: &[
             (
@@ -139,7 +139,7 @@ pub(super) const PARTS: &[ExamplePart] = &[
     },
     ExamplePart {
         title: "lights",
-        before: STAGE,
+        before: &[STAGE],
         after: "\n",
         examples: &[
             (
@@ -182,7 +182,7 @@ pub(super) const PARTS: &[ExamplePart] = &[
     },
     ExamplePart {
         title: "cameras",
-        before: STAGE,
+        before: &[STAGE],
         after: "\n",
         examples: &[
             (
