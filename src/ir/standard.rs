@@ -197,17 +197,15 @@ macro_rules! material {
             /// The names of the parameters in the IR, in the order of the table.
             pub const PARAMETERS: &'static [&'static str] = &[$(camel_case!($field)),*];
 
-            /// All texture maps.
-            pub fn maps(&self) -> impl Iterator<Item = &Map> {
-                let fields: [&dyn Any; Self::PARAMETERS.len()] = [$(&self.$field),*];
-                let maps = fields.into_iter().filter_map(<dyn Any>::downcast_ref::<Option<Map>>);
-                maps.flatten()
+            /// What each parameter is, in the order of the table.
+            pub const ABOUT: &'static [&'static str] = &[$(concat!($($about),*)),*];
+
+            fn parameters(&self) -> [&dyn Any; Self::PARAMETERS.len()] {
+                [$(&self.$field),*]
             }
 
-            /// The parameters that hold a texture map or none.
-            fn map_fields(&mut self) -> impl Iterator<Item = &mut Option<Map>> {
-                let fields: [&mut dyn Any; Self::PARAMETERS.len()] = [$(&mut self.$field),*];
-                fields.into_iter().filter_map(<dyn Any>::downcast_mut)
+            fn parameters_mut(&mut self) -> [&mut dyn Any; Self::PARAMETERS.len()] {
+                [$(&mut self.$field),*]
             }
         }
 
@@ -234,6 +232,32 @@ impl Standard {
             double_sided: true,
             ..Self::default()
         }
+    }
+
+    /// The parameter of this name in the IR.
+    #[must_use]
+    pub fn parameter(&self, name: &str) -> Option<&dyn Any> {
+        let at = Self::PARAMETERS.iter().position(|known| *known == name);
+        at.map(|at| self.parameters()[at])
+    }
+
+    /// The parameter of this name in the IR, mutably.
+    pub fn parameter_mut(&mut self, name: &str) -> Option<&mut dyn Any> {
+        let mut named = Self::PARAMETERS.iter().zip(self.parameters_mut());
+        named.find_map(|(known, parameter)| (*known == name).then_some(parameter))
+    }
+
+    /// All texture maps.
+    pub fn maps(&self) -> impl Iterator<Item = &Map> {
+        let maps = self.parameters().into_iter();
+        let maps = maps.filter_map(<dyn Any>::downcast_ref::<Option<Map>>);
+        maps.flatten()
+    }
+
+    /// The parameters that hold a texture map or none.
+    fn map_fields(&mut self) -> impl Iterator<Item = &mut Option<Map>> {
+        let fields = self.parameters_mut().into_iter();
+        fields.filter_map(<dyn Any>::downcast_mut)
     }
 
     /// All texture maps, mutably.

@@ -38,5 +38,6 @@ mod standard;
 
 pub use metal::{METALS, Metal};
 pub use standard::{
-    EXTENSION_ROWS, ExtensionRow, PhongFit, PhongTerms, PropertyKind, camel_bytes, fit_phong,
+    ExtensionProperty, MATERIAL_EXTENSIONS, PhongFit, PhongTerms, PropertyKind, camel_bytes,
+    fit_phong,
 };

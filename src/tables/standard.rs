@@ -3,6 +3,8 @@
 //! To add a parameter, add a row here. Each stage passes a macro to which all rows are given, and
 //! generates its part from them: the fields of the IR, their validation, the objects of glTF.
 
+use PropertyKind::{Color, Distance, Fraction, FractionColor, Map, NonNegative, NormalMap, Number};
+
 /// The parameters in the order of the IR: `field: kind = default, omitted;`.
 ///
 /// The kind defines the type of a value and its range; `omitted` names the test by which an IR text
@@ -144,103 +146,80 @@ macro_rules! parameters {
     };
 }
 
-/// The extensions whose properties are parameters unchanged: `"name" { field: kind "property"; }`.
-#[macro_export]
-macro_rules! extensions {
-    ($then:ident) => {
-        $then! {
-            "KHR_materials_ior" {
-                ior: non_negative "ior";
-            }
-            "KHR_materials_dispersion" {
-                dispersion: non_negative "dispersion";
-            }
-            "KHR_materials_specular" {
-                specular: fraction "specularFactor";
-                specular_map: map "specularTexture";
-                specular_color: color "specularColorFactor";
-                specular_color_map: map "specularColorTexture";
-            }
-            "KHR_materials_transmission" {
-                transmission: fraction "transmissionFactor";
-                transmission_map: map "transmissionTexture";
-            }
-            "KHR_materials_volume" {
-                thickness: non_negative "thicknessFactor";
-                thickness_map: map "thicknessTexture";
-                attenuation_distance: distance "attenuationDistance";
-                attenuation_color: fraction_color "attenuationColor";
-            }
-            "KHR_materials_clearcoat" {
-                clearcoat: fraction "clearcoatFactor";
-                clearcoat_map: map "clearcoatTexture";
-                clearcoat_roughness: fraction "clearcoatRoughnessFactor";
-                clearcoat_roughness_map: map "clearcoatRoughnessTexture";
-                clearcoat_normal_map: normal_map "clearcoatNormalTexture";
-            }
-            "KHR_materials_sheen" {
-                sheen_color: fraction_color "sheenColorFactor";
-                sheen_color_map: map "sheenColorTexture";
-                sheen_roughness: fraction "sheenRoughnessFactor";
-                sheen_roughness_map: map "sheenRoughnessTexture";
-            }
-            "KHR_materials_anisotropy" {
-                anisotropy: fraction "anisotropyStrength";
-                anisotropy_rotation: number "anisotropyRotation";
-                anisotropy_map: map "anisotropyTexture";
-            }
-            "KHR_materials_diffuse_transmission" {
-                diffuse_transmission: fraction "diffuseTransmissionFactor";
-                diffuse_transmission_map: map "diffuseTransmissionTexture";
-                diffuse_transmission_color: fraction_color "diffuseTransmissionColorFactor";
-                diffuse_transmission_color_map: map "diffuseTransmissionColorTexture";
-            }
-        }
-    };
-}
-
 /// What an extension's property is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(non_camel_case_types, reason = "the words of the table")]
-#[expect(missing_docs, reason = "each is named as in the table")]
 pub enum PropertyKind {
-    fraction,
-    number,
-    non_negative,
-    distance,
-    color,
-    fraction_color,
-    map,
-    normal_map,
+    /// A number from 0 to 1.
+    Fraction,
+    /// Any number.
+    Number,
+    /// A number of at least 0.
+    NonNegative,
+    /// A number above 0; none is infinite.
+    Distance,
+    /// Three numbers of at least 0.
+    Color,
+    /// Three numbers from 0 to 1.
+    FractionColor,
+    /// A texture.
+    Map,
+    /// A texture of normals, with the scale of its slopes.
+    NormalMap,
 }
 
-/// A row of [`extensions!`].
-#[derive(Clone, Copy, Debug)]
-pub struct ExtensionRow {
-    /// The extension.
-    pub extension: &'static str,
-    /// The parameter that the property is.
-    pub parameter: &'static str,
-    /// What it is.
-    pub kind: PropertyKind,
-    /// The key.
-    pub key: &'static str,
-}
+/// A property of an extension: its key, what it is, and the name of the parameter in the IR.
+pub type ExtensionProperty = (&'static str, PropertyKind, &'static str);
 
-/// Declares the rows of the table.
-macro_rules! extension_rows {
-    ($($name:literal { $($field:ident: $kind:ident $key:literal;)* })*) => {
-        /// All rows of [`extensions!`], those of an extension together.
-        pub const EXTENSION_ROWS: &[ExtensionRow] = &[$($(ExtensionRow {
-            extension: $name,
-            parameter: stringify!($field),
-            kind: PropertyKind::$kind,
-            key: $key,
-        },)*)*];
-    };
-}
-
-extensions!(extension_rows);
+/// The extensions whose properties are parameters unchanged, by name.
+#[rustfmt::skip]
+pub const MATERIAL_EXTENSIONS: &[(&str, &[ExtensionProperty])] = &[
+    ("KHR_materials_ior", &[
+        ("ior", NonNegative, "ior"),
+    ]),
+    ("KHR_materials_dispersion", &[
+        ("dispersion", NonNegative, "dispersion"),
+    ]),
+    ("KHR_materials_specular", &[
+        ("specularFactor", Fraction, "specular"),
+        ("specularTexture", Map, "specularMap"),
+        ("specularColorFactor", Color, "specularColor"),
+        ("specularColorTexture", Map, "specularColorMap"),
+    ]),
+    ("KHR_materials_transmission", &[
+        ("transmissionFactor", Fraction, "transmission"),
+        ("transmissionTexture", Map, "transmissionMap"),
+    ]),
+    ("KHR_materials_volume", &[
+        ("thicknessFactor", NonNegative, "thickness"),
+        ("thicknessTexture", Map, "thicknessMap"),
+        ("attenuationDistance", Distance, "attenuationDistance"),
+        ("attenuationColor", FractionColor, "attenuationColor"),
+    ]),
+    ("KHR_materials_clearcoat", &[
+        ("clearcoatFactor", Fraction, "clearcoat"),
+        ("clearcoatTexture", Map, "clearcoatMap"),
+        ("clearcoatRoughnessFactor", Fraction, "clearcoatRoughness"),
+        ("clearcoatRoughnessTexture", Map, "clearcoatRoughnessMap"),
+        ("clearcoatNormalTexture", NormalMap, "clearcoatNormalMap"),
+    ]),
+    ("KHR_materials_sheen", &[
+        ("sheenColorFactor", FractionColor, "sheenColor"),
+        ("sheenColorTexture", Map, "sheenColorMap"),
+        ("sheenRoughnessFactor", Fraction, "sheenRoughness"),
+        ("sheenRoughnessTexture", Map, "sheenRoughnessMap"),
+    ]),
+    ("KHR_materials_anisotropy", &[
+        ("anisotropyStrength", Fraction, "anisotropy"),
+        ("anisotropyRotation", Number, "anisotropyRotation"),
+        ("anisotropyTexture", Map, "anisotropyMap"),
+    ]),
+    ("KHR_materials_diffuse_transmission", &[
+        ("diffuseTransmissionFactor", Fraction, "diffuseTransmission"),
+        ("diffuseTransmissionTexture", Map, "diffuseTransmissionMap"),
+        ("diffuseTransmissionColorFactor", FractionColor, "diffuseTransmissionColor"),
+        ("diffuseTransmissionColorTexture", Map, "diffuseTransmissionColorMap"),
+    ]),
+];
 
 /// The layers: lobes that a material may have beside those of its base.
 ///

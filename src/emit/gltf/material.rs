@@ -9,8 +9,10 @@ use rtc_ir::{
     Alpha, Bump, Conductor, EntityField, EntityKind, Map, Material, MaterialId, MeshId, Phong,
     Standard, ValuePath,
 };
-use rtc_tables as standard;
+use rtc_tables::{ExtensionProperty, MATERIAL_EXTENSIONS, PropertyKind};
+use serde::Serialize;
 use serde_json::{Map as JsonObject, Value, json};
+use std::any::Any;
 
 /// A material of the scene, on meshes with or without each set of texture coordinates. Maps of a
 /// missing set have no effect and are dropped.
@@ -189,51 +191,57 @@ impl GltfWriter<'_> {
     }
 }
 
-/// The JSON of a parameter of each kind of the table; `None` for the default.
-macro_rules! written {
-    (map, $standard:ident.$field:ident, $writer:ident, $path:ident) => {
-        $standard
-            .$field
-            .as_ref()
-            .map(|map| json!($writer.texture_info(map, $path)))
-    };
-    (normal_map, $standard:ident.$field:ident, $writer:ident, $path:ident) => {
-        $standard.$field.as_ref().map(|map| {
-            let mut info = json!($writer.texture_info(map, $path));
-            info["scale"] = $standard.clearcoat_normal_scale.into();
-            info
-        })
-    };
-    ($kind:ident, $standard:ident.$field:ident, $writer:ident, $path:ident) => {
-        ($standard.$field != Standard::default().$field).then(|| json!($standard.$field))
-    };
-}
-
-/// Writes all extensions of the table.
-macro_rules! extensions {
-    ($($name:literal { $($field:ident: $kind:ident $key:literal;)* })*) => {
-        impl GltfWriter<'_> {
-            fn blocks(
-                &mut self,
-                standard: &Standard,
-                blocks: &mut JsonObject<String, Value>,
-                path: ValuePath,
-            ) {
-                $(
-                    let mut block = JsonObject::new();
-                    $(if let Some(value) = written!($kind, standard.$field, self, path) {
-                        block.insert($key.to_owned(), value);
-                    })*
-                    if !block.is_empty() {
-                        self.block($name, block.into(), blocks);
-                    }
-                )*
+impl GltfWriter<'_> {
+    /// Writes the extensions whose properties are parameters unchanged.
+    fn blocks(
+        &mut self,
+        standard: &Standard,
+        blocks: &mut JsonObject<String, Value>,
+        path: ValuePath,
+    ) {
+        for (name, properties) in MATERIAL_EXTENSIONS {
+            let mut block = JsonObject::new();
+            for property in *properties {
+                let value = self.property(standard, property, path);
+                block.extend(value.map(|value| (property.0.to_owned(), value)));
+            }
+            if !block.is_empty() {
+                self.block(name, block.into(), blocks);
             }
         }
-    };
+    }
+
+    /// The value of a property; `None` for the default.
+    fn property(
+        &mut self,
+        standard: &Standard,
+        (_, kind, parameter): &ExtensionProperty,
+        path: ValuePath,
+    ) -> Option<Value> {
+        let value = standard.parameter(parameter)?;
+        if let Some(map) = value.downcast_ref::<Option<Map>>() {
+            let mut info = json!(self.texture_info(map.as_ref()?, path));
+            if *kind == PropertyKind::NormalMap {
+                info["scale"] = standard.clearcoat_normal_scale.into();
+            }
+            return Some(info);
+        }
+        let default = Standard::default();
+        let default = default.parameter(parameter)?;
+        changed::<f64>(value, default)
+            .or_else(|| changed::<[f64; 3]>(value, default))
+            .or_else(|| changed::<Option<f64>>(value, default))
+    }
 }
 
-standard::extensions!(extensions);
+/// The JSON of a value of this type that is not the default.
+fn changed<T: PartialEq + Serialize + 'static>(
+    value: &dyn Any,
+    default: &dyn Any,
+) -> Option<Value> {
+    let (value, default) = (value.downcast_ref::<T>()?, default.downcast_ref::<T>()?);
+    (value != default).then(|| json!(value))
+}
 
 /// The power of two by which a colour is divided so that no channel exceeds 1, as glTF requires.
 pub(super) fn strength(color: [f64; 3]) -> f64 {

@@ -4,7 +4,7 @@
 use super::channel::AnimatedPath;
 use super::document::Document;
 use rtc_source::tree::{NodeId, NodeKind, SyntaxTree};
-use rtc_tables::{EXTENSION_ROWS, ExtensionRow, PropertyKind};
+use rtc_tables::{MATERIAL_EXTENSIONS, PropertyKind};
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
@@ -101,18 +101,28 @@ const FOLLOWED: &[PointerRow] = &[
     ("spot", "outerConeAngle", 1, [0.0, FRAC_PI_2]),
 ];
 
-/// The row of a property of the table of extensions; none for a map.
-fn of_extension(row: &ExtensionRow) -> Option<PointerRow> {
-    let (width, range) = match row.kind {
-        PropertyKind::fraction => (1, UNIT),
-        PropertyKind::number => (1, FREE),
-        PropertyKind::non_negative => (1, FACTOR),
-        PropertyKind::distance => (1, POSITIVE),
-        PropertyKind::color => (3, FACTOR),
-        PropertyKind::fraction_color => (3, UNIT),
-        PropertyKind::map | PropertyKind::normal_map => return None,
-    };
-    Some((row.extension, row.key, width, range))
+/// The rows of the properties of the table of extensions that are no maps.
+fn of_extensions() -> impl Iterator<Item = PointerRow> {
+    MATERIAL_EXTENSIONS.iter().flat_map(|(name, properties)| {
+        let numbers = properties.iter().filter_map(|(key, kind, _)| {
+            let (width, range) = width_and_range(*kind)?;
+            Some((*name, *key, width, range))
+        });
+        numbers
+    })
+}
+
+/// How many numbers a property of a kind has, and their range; none for a map.
+fn width_and_range(kind: PropertyKind) -> Option<(usize, [f64; 2])> {
+    Some(match kind {
+        PropertyKind::Fraction => (1, UNIT),
+        PropertyKind::Number => (1, FREE),
+        PropertyKind::NonNegative => (1, FACTOR),
+        PropertyKind::Distance => (1, POSITIVE),
+        PropertyKind::Color => (3, FACTOR),
+        PropertyKind::FractionColor => (3, UNIT),
+        PropertyKind::Map | PropertyKind::NormalMap => return None,
+    })
 }
 
 /// The node and the path that a pointer names, as channels without pointers do.
@@ -145,8 +155,7 @@ pub(super) fn resolve(
     let at = steps
         .take(STEPS)
         .try_fold(part, |at, step| json.get(at, step))?;
-    let of_extensions = EXTENSION_ROWS.iter().filter_map(of_extension);
-    let mut rows = FOLLOWED.iter().copied().chain(of_extensions);
+    let mut rows = FOLLOWED.iter().copied().chain(of_extensions());
     let is_row =
         |(number, name, ..): &PointerRow| *number == holder.unwrap_or(list) && *name == key;
     let (_, key, width, range) = rows.find(is_row)?;

@@ -14,6 +14,7 @@ use rtc_ir::{
 };
 use rtc_math::{Medium, to_u32};
 use rtc_source::tree::SyntaxTree;
+use rtc_tables::MATERIAL_EXTENSIONS;
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 
@@ -243,6 +244,30 @@ struct MaterialReader<'m, 'd, 'r, 's> {
 }
 
 impl MaterialReader<'_, '_, '_, '_> {
+    /// Reads the extensions whose properties are parameters unchanged; an absent property leaves the
+    /// default.
+    fn extensions(&mut self, fields: ObjectFields<'_, '_>, standard: &mut Standard) {
+        for (name, properties) in MATERIAL_EXTENSIONS {
+            let Some(extension) = fields.extension(name) else {
+                continue;
+            };
+            for (key, _, parameter) in *properties {
+                let Some(parameter) = standard.parameter_mut(parameter) else {
+                    continue;
+                };
+                if let Some(map) = parameter.downcast_mut::<Option<Map>>() {
+                    *map = self.map(Some(extension), key);
+                } else if let Some(number) = parameter.downcast_mut::<f64>() {
+                    *number = extension.number_or(key, *number);
+                } else if let Some(color) = parameter.downcast_mut::<[f64; 3]>() {
+                    *color = extension.vector_or(key, *color);
+                } else if let Some(distance) = parameter.downcast_mut::<Option<f64>>() {
+                    *distance = extension.number(key);
+                }
+            }
+        }
+    }
+
     fn map(&mut self, fields: Option<ObjectFields<'_, '_>>, key: &str) -> Option<Map> {
         let info = fields?.object(key)?;
         self.textures
@@ -403,41 +428,3 @@ fn extension<'t, 's>(fields: ObjectFields<'t, 's>, name: &str) -> Option<ObjectF
 fn number(fields: Option<ObjectFields<'_, '_>>, key: &str, default: f64) -> f64 {
     fields.map_or(default, |fields| fields.number_or(key, default))
 }
-
-/// Reads a property of an extension into a parameter of a kind of the table; an absent one leaves
-/// the default.
-macro_rules! read {
-    (map, $parameter:expr, $reader:ident, $extension:ident, $key:literal) => {
-        $parameter = $reader.map(Some($extension), $key)
-    };
-    (normal_map, $parameter:expr, $reader:ident, $extension:ident, $key:literal) => {
-        $parameter = $reader.map(Some($extension), $key)
-    };
-    (distance, $parameter:expr, $reader:ident, $extension:ident, $key:literal) => {
-        $parameter = $extension.number($key)
-    };
-    (color, $parameter:expr, $reader:ident, $extension:ident, $key:literal) => {
-        $parameter = $extension.vector_or($key, $parameter)
-    };
-    (fraction_color, $parameter:expr, $reader:ident, $extension:ident, $key:literal) => {
-        $parameter = $extension.vector_or($key, $parameter)
-    };
-    ($kind:ident, $parameter:expr, $reader:ident, $extension:ident, $key:literal) => {
-        $parameter = $extension.number_or($key, $parameter)
-    };
-}
-
-/// Reads all extensions of the table.
-macro_rules! extensions {
-    ($($name:literal { $($field:ident: $kind:ident $key:literal;)* })*) => {
-        impl MaterialReader<'_, '_, '_, '_> {
-            fn extensions(&mut self, fields: ObjectFields<'_, '_>, standard: &mut Standard) {
-                $(if let Some(extension) = fields.extension($name) {
-                    $(read!($kind, standard.$field, self, extension, $key);)*
-                })*
-            }
-        }
-    };
-}
-
-rtc_tables::extensions!(extensions);

@@ -11,7 +11,8 @@ use super::{
     FACTOR, FREE, IndexTarget, NumberRange, ObjectSchema, POSITIVE, PropertySchema, UNIT, optional,
     required,
 };
-use rtc_tables::PropertyKind;
+use rtc_tables::{MATERIAL_EXTENSIONS, PropertyKind};
+use std::sync::LazyLock;
 
 /// An extension.
 #[derive(Debug)]
@@ -28,7 +29,7 @@ pub(crate) fn find(name: &str) -> Option<&'static Extension> {
 
 /// All of them.
 pub(super) fn all() -> impl Iterator<Item = &'static Extension> {
-    EXTENSIONS.iter().chain(OF_MATERIALS)
+    EXTENSIONS.iter().chain(&*OF_MATERIALS)
 }
 
 /// A Markdown row for each extension, by name: the objects that carry it, and the supported
@@ -121,34 +122,27 @@ static EXTENSIONS: &[Extension] = &[
 /// A property of a kind.
 const fn value(kind: PropertyKind) -> Value {
     match kind {
-        PropertyKind::fraction => Number(UNIT),
-        PropertyKind::number => Number(FREE),
-        PropertyKind::non_negative => Number(FACTOR),
-        PropertyKind::distance => Number(POSITIVE),
-        PropertyKind::color => Numbers(&[3], FACTOR),
-        PropertyKind::fraction_color => Numbers(&[3], UNIT),
-        PropertyKind::map => One(&TEXTURE_INFO),
-        PropertyKind::normal_map => One(&NORMAL_TEXTURE),
+        PropertyKind::Fraction => Number(UNIT),
+        PropertyKind::Number => Number(FREE),
+        PropertyKind::NonNegative => Number(FACTOR),
+        PropertyKind::Distance => Number(POSITIVE),
+        PropertyKind::Color => Numbers(&[3], FACTOR),
+        PropertyKind::FractionColor => Numbers(&[3], UNIT),
+        PropertyKind::Map => One(&TEXTURE_INFO),
+        PropertyKind::NormalMap => One(&NORMAL_TEXTURE),
     }
 }
 
 /// The extensions of the table of parameters.
-macro_rules! of_materials {
-    ($($name:literal { $($field:ident: $kind:ident $key:literal;)* })*) => {
-        static OF_MATERIALS: &[Extension] = &[$(Extension {
-            name: $name,
-            places: &[(
-                "material",
-                &ObjectSchema {
-                    name: "extension",
-                    keys: &[$(optional($key, value(PropertyKind::$kind))),*],
-                },
-            )],
-        }),*];
-    };
-}
-
-rtc_tables::extensions!(of_materials);
+static OF_MATERIALS: LazyLock<Vec<Extension>> = LazyLock::new(|| {
+    let rows = MATERIAL_EXTENSIONS.iter().map(|(name, properties)| {
+        let keys = properties.iter();
+        let keys = keys.map(|(key, kind, _)| optional(key, value(*kind)));
+        let object: &ObjectSchema = Box::leak(Box::new(object(keys.collect::<Vec<_>>().leak())));
+        extension(name, vec![("material", object)].leak())
+    });
+    rows.collect()
+});
 
 /// An extension object with these properties.
 const fn object(keys: &'static [PropertySchema]) -> ObjectSchema {

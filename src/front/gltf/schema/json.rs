@@ -5,7 +5,8 @@
 use super::core::ROOT;
 use super::extension::all;
 use super::{NumberRange, ObjectSchema, PropertySchema, Value};
-use rtc_tables::EXTENSION_ROWS;
+use rtc_ir::Standard;
+use rtc_tables::MATERIAL_EXTENSIONS;
 use serde_json::{Map, Value as Json, json};
 
 /// Lines of `object.property | default | unit | description`.
@@ -152,22 +153,12 @@ impl AboutText {
 
 /// The description of an extension's property in the table of material parameters.
 fn of_parameter(key: &str) -> Option<String> {
-    let row = EXTENSION_ROWS.iter().find(|row| row.key == key)?;
-    let (_, lines) = PARAMETERS
-        .iter()
-        .find(|(entry, _)| *entry == row.parameter)?;
-    let words: Vec<_> = lines.iter().map(|line| line.trim()).collect();
-    Some(words.join(" ").trim_end_matches('.').to_owned())
+    let mut properties = MATERIAL_EXTENSIONS.iter().copied().flat_map(|(_, all)| all);
+    let (.., own) = properties.find(|(known, ..)| *known == key)?;
+    let mut parameters = Standard::PARAMETERS.iter().zip(Standard::ABOUT);
+    let (_, about) = parameters.find(|(name, _)| *name == own)?;
+    Some(about.trim().trim_end_matches('.').to_owned())
 }
-
-/// The descriptions of the parameters, as lines.
-macro_rules! documented {
-    ($($(#[doc = $doc:literal])* $field:ident: $kind:ident = $default:expr, $omitted:literal;)*) => {
-        const PARAMETERS: &[(&str, &[&str])] = &[$((stringify!($field), &[$($doc),*]),)*];
-    };
-}
-
-rtc_tables::parameters!(documented);
 
 #[cfg(test)]
 mod tests {
