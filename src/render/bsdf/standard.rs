@@ -138,19 +138,19 @@ impl StandardParameters<'_> {
     pub(super) fn dielectric_f0(&self) -> Vec3 {
         (self.specular_color * normal_reflectance(self.ior)).min(Vec3::ONE) * self.specular
     }
-}
 
-/// Which layers a material has at a point, from their table.
-macro_rules! layers {
-    ($($(#[doc = $about:literal])* $layer:ident = $slot:ident { $($row:tt)* })*) => {
-        impl StandardParameters<'_> {
-            /// Each layer, and whether the material has it here.
-            #[inline]
-            pub(crate) fn layers(&self) -> [(Layer, bool); Layer::ALL.len()] {
-                [$((Layer::$layer, self.$slot.is_some())),*]
-            }
-        }
-    };
+    /// Each layer, and whether the material has it here.
+    #[inline]
+    pub(crate) fn layers(&self) -> [(Layer, bool); Layer::ALL.len()] {
+        [
+            (Layer::Clearcoat, self.clearcoat.is_some()),
+            (Layer::Sheen, self.sheen.is_some()),
+            (Layer::Anisotropy, self.anisotropy.is_some()),
+            (Layer::Iridescence, self.iridescence.is_some()),
+            (
+                Layer::DiffuseTransmission,
+                self.diffuse_transmission.is_some(),
+            ),
+        ]
+    }
 }
-
-rtc_tables::layers!(layers);

@@ -68,7 +68,7 @@ fn peak(material: &StandardMaterial) -> Option<f64> {
         && material.media.is_none()
         && material.plastic.is_none()
         && material.clearcoat.is_none()
-        && material.plain.sheen.is_none()
+        && material.sheen.is_none()
         && material.anisotropy.is_none()
         && roughness >= MIN_ROUGHNESS;
     let alpha = roughness * roughness;

@@ -225,7 +225,9 @@ impl<'world> MaterialPoint<'world> {
         clearcoat: Vec3,
     ) {
         let (m, uvs) = (self.material, &self.uvs);
-        m.plain.add(standard, uvs);
+        standard.sheen = m.sheen.as_ref().and_then(|layer| layer.at(uvs));
+        let transmission = m.diffuse_transmission.as_ref();
+        standard.diffuse_transmission = transmission.and_then(|layer| layer.at(uvs));
         // Omit layers whose maps are 0 here.
         let coat = m.clearcoat.as_ref().map(|layer| Clearcoat {
             factor: layer.factor.at(uvs),

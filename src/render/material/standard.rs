@@ -48,7 +48,8 @@ pub(crate) struct StandardMaterial {
     pub(crate) media: Option<MediumInterface>,
     pub(crate) normal: Option<NormalMap>,
     pub(crate) bump: Option<BumpMap>,
-    pub(crate) plain: PlainLayers,
+    pub(crate) sheen: Option<SheenLayer>,
+    pub(crate) diffuse_transmission: Option<DiffuseTransmissionLayer>,
     pub(crate) clearcoat: Option<ClearcoatLayer>,
     pub(crate) anisotropy: Option<AnisotropyLayer>,
     pub(crate) iridescence: Option<IridescenceLayer>,
@@ -158,56 +159,43 @@ pub(crate) struct ClearcoatLayer {
     pub(crate) normal: Option<NormalMap>,
 }
 
-/// The prepared form of each kind of part.
-#[expect(non_camel_case_types, reason = "the words of the table")]
-mod prepared {
-    pub(super) type number = super::MappedNumber;
-    pub(super) type tint = super::MappedColor;
+/// The sheen.
+#[derive(Clone, Debug)]
+pub(crate) struct SheenLayer {
+    pub(crate) color: MappedColor,
+    pub(crate) roughness: MappedNumber,
 }
 
-/// The layers of the table that consist of numbers and colours only.
-macro_rules! plain_layers {
-    ($($layer:ident: $prepared:ident => $parameters:ident {
-        $weight:ident: $weight_kind:ident($($of_weight:tt)*);
-        $($part:ident: $kind:ident($($of:tt)*);)*
-    })*) => {
-        /// The layers whose parts are numbers and colours times maps.
-        #[derive(Clone, Debug)]
-        pub(crate) struct PlainLayers {
-            $(pub(crate) $layer: Option<$prepared>,)*
-        }
-
-        impl PlainLayers {
-            /// Adds them to the parameters at a point.
-            #[inline]
-            pub(crate) fn add(&self, standard: &mut StandardParameters<'_>, uvs: &UvSets) {
-                $(standard.$layer = self.$layer.as_ref().and_then(|layer| layer.at(uvs));)*
-            }
-        }
-
-        $(
-            #[derive(Clone, Debug)]
-            pub(crate) struct $prepared {
-                pub(crate) $weight: prepared::$weight_kind,
-                $(pub(crate) $part: prepared::$kind,)*
-            }
-
-            impl $prepared {
-                /// The layer at a point; `None` where its map is 0.
-                #[inline]
-                fn at(&self, uvs: &UvSets) -> Option<$parameters> {
-                    let layer = $parameters {
-                        $weight: self.$weight.at(uvs),
-                        $($part: self.$part.at(uvs),)*
-                    };
-                    layer.$weight.is_nonzero().then_some(layer)
-                }
-            }
-        )*
-    };
+impl SheenLayer {
+    /// The layer at a point; `None` where its map is 0.
+    #[inline]
+    pub(crate) fn at(&self, uvs: &UvSets) -> Option<Sheen> {
+        let sheen = Sheen {
+            color: self.color.at(uvs),
+            roughness: self.roughness.at(uvs),
+        };
+        sheen.color.is_nonzero().then_some(sheen)
+    }
 }
 
-rtc_tables::plain_layers!(plain_layers);
+/// The diffuse transmission.
+#[derive(Clone, Debug)]
+pub(crate) struct DiffuseTransmissionLayer {
+    pub(crate) factor: MappedNumber,
+    pub(crate) color: MappedColor,
+}
+
+impl DiffuseTransmissionLayer {
+    /// The layer at a point; `None` where its map is 0.
+    #[inline]
+    pub(crate) fn at(&self, uvs: &UvSets) -> Option<DiffuseTransmission> {
+        let transmission = DiffuseTransmission {
+            factor: self.factor.at(uvs),
+            color: self.color.at(uvs),
+        };
+        transmission.factor.is_nonzero().then_some(transmission)
+    }
+}
 
 /// The anisotropy of the highlights.
 #[derive(Clone, Debug)]

@@ -209,7 +209,9 @@ pub(super) fn standard(
             map: slots.textures.map(map, ColorSpace::Linear),
             scale: m.bump_scale,
         }),
-        plain: slots.plain_layers(m),
+        sheen: m.sheen_color.is_nonzero().then(|| slots.sheen(m)),
+        diffuse_transmission: (m.diffuse_transmission.is_nonzero())
+            .then(|| slots.diffuse_transmission(m)),
         clearcoat: (m.clearcoat > UnitInterval::ZERO).then(|| slots.clearcoat(m)),
         anisotropy: (m.anisotropy > UnitInterval::ZERO).then(|| slots.anisotropy(m)),
         iridescence: (m.iridescence > UnitInterval::ZERO).then(|| slots.iridescence(m)),
@@ -401,29 +403,22 @@ impl MappedParameters<'_> {
             spread: self.scaled(max - min, map, 1),
         }
     }
-}
 
-/// Prepares the layers of the table that consist of numbers and colours only.
-macro_rules! plain_layers {
-    ($($layer:ident: $prepared:ident => $parameters:ident {
-        $weight:ident: $weight_kind:ident($of_weight:ident, $weight_map:ident $(, $weight_channel:literal)?);
-        $($part:ident: $kind:ident($factor:ident, $map:ident $(, $channel:literal)?);)*
-    })*) => {
-        impl MappedParameters<'_> {
-            fn plain_layers(&self, m: &Standard) -> PlainLayers {
-                PlainLayers {
-                    $($layer: m.$of_weight.is_nonzero().then(|| $prepared {
-                        $weight: self.$weight_kind(
-                            m.$of_weight,
-                            m.$weight_map.as_ref()
-                            $(, $weight_channel)?
-                        ),
-                        $($part: self.$kind(m.$factor, m.$map.as_ref() $(, $channel)?),)*
-                    }),)*
-                }
-            }
+    fn sheen(&self, m: &Standard) -> SheenLayer {
+        SheenLayer {
+            color: self.tint(m.sheen_color, m.sheen_color_map.as_ref()),
+            roughness: self.number(m.sheen_roughness, m.sheen_roughness_map.as_ref(), 3),
         }
-    };
-}
+    }
 
-rtc_tables::plain_layers!(plain_layers);
+    fn diffuse_transmission(&self, m: &Standard) -> DiffuseTransmissionLayer {
+        let (map, color_map) = (
+            &m.diffuse_transmission_map,
+            &m.diffuse_transmission_color_map,
+        );
+        DiffuseTransmissionLayer {
+            factor: self.number(m.diffuse_transmission, map.as_ref(), 3),
+            color: self.tint(m.diffuse_transmission_color, color_map.as_ref()),
+        }
+    }
+}
