@@ -41,24 +41,24 @@ pub(super) trait ShapeFacts {
     }
 }
 
-/// Generates the dispatch over all shapes.
-macro_rules! facts {
-    (
-        all { $($(#[$doc:meta])* $Name:ident $name:ident $Store:ident $paths:tt;)* }
-        derived $derived:tt
-    ) => {
-        pub(super) fn shape_facts(shape: &Shape) -> &dyn ShapeFacts {
-            match shape {
-                $(Shape::$Name(shape) => {
-                    let shape: &$Name = shape;
-                    shape
-                })*
-            }
-        }
-    };
+/// A shape of any kind as something with facts.
+pub(super) fn shape_facts(shape: &Shape) -> &dyn ShapeFacts {
+    match shape {
+        Shape::Sphere(shape) => shape,
+        Shape::Plane(shape) => shape,
+        Shape::Triangle(shape) => shape,
+        Shape::Quad(shape) => &**shape,
+        Shape::Disc(shape) => shape,
+        Shape::Cylinder(shape) => shape,
+        Shape::Cone(shape) => shape,
+        Shape::Paraboloid(shape) => shape,
+        Shape::Torus(shape) => shape,
+        Shape::Instance(shape) => &**shape,
+        Shape::Ellipsoid(shape) => &**shape,
+        Shape::InfiniteCylinder(shape) => shape,
+        Shape::Csg(shape) => &**shape,
+    }
 }
-
-rtc_tables::shapes!(facts);
 
 impl ShapeFacts for Sphere {
     fn bounds(&self, _: &IdTable<Mesh, Bounds>) -> SurfaceBounds {

@@ -262,25 +262,40 @@ use crate::shape::triangle::WatertightRay;
 use kinds::*;
 use rtc_math::{Bounds, Vec3};
 
-/// The payload of an enum for a small shape.
-type Inline<T> = T;
-
-/// Declares the shapes.
-macro_rules! declare {
-    (
-        all { $($(#[$doc:meta])* $Name:ident $name:ident $Store:ident $paths:tt;)* }
-        derived $derived:tt
-    ) => {
-        /// A shape ready to be hit.
-        #[derive(Clone, Debug)]
-        pub enum Shape {
-            $($(#[$doc])* $Name($Store<$Name>),)*
-        }
-
-        dispatch!(Shape { $($Name)* });
-    };
+/// A shape ready to be hit.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// A sphere.
+    Sphere(Sphere),
+    /// An infinite plane.
+    Plane(Plane),
+    /// A triangle.
+    Triangle(Triangle),
+    /// A quadrilateral.
+    Quad(Box<Quad>),
+    /// A disc.
+    Disc(Disc),
+    /// A cylinder with two caps.
+    Cylinder(Cylinder),
+    /// A cone with a cap at its base.
+    Cone(Cone),
+    /// A paraboloid with a cap at its base.
+    Paraboloid(Paraboloid),
+    /// A torus.
+    Torus(Torus),
+    /// A mesh, placed.
+    Instance(Box<Instance>),
+    /// An ellipsoid.
+    Ellipsoid(Box<Ellipsoid>),
+    /// A cylinder without ends.
+    InfiniteCylinder(InfiniteCylinder),
+    /// A CSG solid.
+    Csg(Box<Csg>),
 }
 
-rtc_tables::shapes!(declare);
+dispatch!(Shape {
+    Sphere Plane Triangle Quad Disc Cylinder Cone Paraboloid Torus Instance Ellipsoid
+    InfiniteCylinder Csg
+});
 
 const _: () = assert!(size_of::<Shape>() == 192, "memory is what rays wait for");

@@ -62,101 +62,59 @@ impl Prepare for Shape {
 /// The meshes of a scene, prepared.
 type PreparedMeshes = IdTable<valid::Mesh, Arc<PreparedMesh>>;
 
-/// A validated shape of one kind.
-trait PrepareShape {
-    /// Its type in a world.
-    type Prepared;
-
-    /// Prepares it; `None` if no ray hits it.
-    fn prepared(&self, meshes: &PreparedMeshes) -> Option<Self::Prepared>;
-}
-
-/// Prepares each shape in its own way, or by the values of its row, in their order.
-macro_rules! prepare {
-    (
-        all { $($(#[$doc:meta])* $Name:ident $name:ident $Store:ident $paths:tt;)* }
-        derived { $($(#[$about:meta])* $Derived:ident $word:ident {
-            $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
-        })* }
-    ) => {
-        fn prepared(shape: &valid::Shape, meshes: &PreparedMeshes) -> Option<Shape> {
-            Some(match shape {
-                $(valid::Shape::$Name(shape) => Shape::$Name(shape.prepared(meshes)?.into()),)*
-            })
+fn prepared(shape: &valid::Shape, meshes: &PreparedMeshes) -> Option<Shape> {
+    Some(match shape {
+        valid::Shape::Sphere(s) => Shape::Sphere(textured_sphere(s)),
+        valid::Shape::Plane(s) => Shape::Plane(Plane::new(s.center, s.normal)),
+        valid::Shape::Triangle(s) => Shape::Triangle(textured_triangle(s)?),
+        valid::Shape::Quad(s) => Shape::Quad(Quad::new(s.vertices).into()),
+        valid::Shape::Disc(s) => Shape::Disc(Disc::new(s.center, s.normal, s.radius.get())),
+        valid::Shape::Cylinder(s) => {
+            let (height, radius) = (s.height.get(), s.radius.get());
+            Shape::Cylinder(Cylinder::new(s.base, s.axis, height, radius))
         }
-
-        $(impl PrepareShape for valid::$Derived {
-            type Prepared = $Derived;
-
-            fn prepared(&self, _: &PreparedMeshes) -> Option<$Derived> {
-                Some($Derived::new($(self.$value.into()),*))
-            }
-        })*
-    };
+        valid::Shape::Cone(s) => Shape::Cone(Cone::new(s.base, s.up, s.radius.get())),
+        valid::Shape::Paraboloid(s) => {
+            Shape::Paraboloid(Paraboloid::new(s.base, s.up, s.radius.get()))
+        }
+        valid::Shape::Torus(s) => {
+            let (major, minor) = (s.major.get(), s.minor.get());
+            Shape::Torus(Torus::new(s.center, s.axis, major, minor))
+        }
+        valid::Shape::Instance(s) => {
+            Shape::Instance(Instance::new(&meshes[s.mesh], s.world_from_object).into())
+        }
+        valid::Shape::Ellipsoid(s) => Shape::Ellipsoid(Ellipsoid::new(s.center, s.axes).into()),
+        valid::Shape::InfiniteCylinder(s) => {
+            let radius = s.radius.get();
+            Shape::InfiniteCylinder(InfiniteCylinder::new(s.center, s.axis, radius))
+        }
+        valid::Shape::Csg(s) => {
+            let operands = s.operands.iter();
+            let operands = operands.map(|operand| prepared(operand, meshes));
+            let operands = operands.collect::<Option<_>>()?;
+            Shape::Csg(Csg::new(operands, s.steps.clone(), s.faces).into())
+        }
+    })
 }
 
-rtc_tables::shapes!(prepare);
-
-impl PrepareShape for valid::Sphere {
-    type Prepared = TexturedSphere;
-
-    fn prepared(&self, _: &PreparedMeshes) -> Option<TexturedSphere> {
-        let rows = self.texture_from_world.as_deref().copied();
-        Some(TexturedSphere {
-            sphere: sphere::Sphere {
-                center: self.center,
-                radius: self.radius.get(),
-            },
-            texture_from_world: rows.unwrap_or(Vec3::AXES),
-        })
+fn textured_sphere(sphere: &valid::Sphere) -> TexturedSphere {
+    let rows = sphere.texture_from_world.as_deref().copied();
+    TexturedSphere {
+        sphere: sphere::Sphere {
+            center: sphere.center,
+            radius: sphere.radius.get(),
+        },
+        texture_from_world: rows.unwrap_or(Vec3::AXES),
     }
 }
 
-impl PrepareShape for valid::Triangle {
-    type Prepared = TexturedTriangle;
-
-    /// `None` for a triangle whose area the arithmetic cannot distinguish from 0: no ray hits it.
-    fn prepared(&self, _: &PreparedMeshes) -> Option<TexturedTriangle> {
-        Some(TexturedTriangle {
-            triangle: triangle::Triangle::new(self.vertices)?,
-            uvs: self.uvs.as_deref().copied(),
-        })
-    }
-}
-
-impl PrepareShape for valid::Quad {
-    type Prepared = Quad;
-
-    fn prepared(&self, _: &PreparedMeshes) -> Option<Quad> {
-        Some(Quad::new(self.vertices))
-    }
-}
-
-impl PrepareShape for valid::Ellipsoid {
-    type Prepared = Ellipsoid;
-
-    fn prepared(&self, _: &PreparedMeshes) -> Option<Ellipsoid> {
-        Some(Ellipsoid::new(self.center, self.axes))
-    }
-}
-
-impl PrepareShape for valid::Csg {
-    type Prepared = Csg;
-
-    fn prepared(&self, meshes: &PreparedMeshes) -> Option<Csg> {
-        let operands = self.operands.iter();
-        let operands = operands.map(|operand| prepared(operand, meshes));
-        let operands = operands.collect::<Option<_>>()?;
-        Some(Csg::new(operands, self.steps.clone(), self.faces))
-    }
-}
-
-impl PrepareShape for valid::Instance {
-    type Prepared = Instance;
-
-    fn prepared(&self, meshes: &PreparedMeshes) -> Option<Instance> {
-        Some(Instance::new(&meshes[self.mesh], self.world_from_object))
-    }
+/// `None` for a triangle whose area the arithmetic cannot distinguish from 0: no ray hits it.
+fn textured_triangle(triangle: &valid::Triangle) -> Option<TexturedTriangle> {
+    Some(TexturedTriangle {
+        triangle: triangle::Triangle::new(triangle.vertices)?,
+        uvs: triangle.uvs.as_deref().copied(),
+    })
 }
 
 impl Prepare for BasicShape {
