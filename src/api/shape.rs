@@ -30,7 +30,7 @@ mod argument {
 /// hand.
 macro_rules! constructors {
     (all $all:tt derived { $($(#[$doc:meta])* $Name:ident $name:ident {
-        $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
+        $($value:ident: $rule:ident $($words:literal)?;)*
     })* }) => {
         /// Constructors. An `axis`, `up` or `normal` is a direction; `up` has the height as length.
         impl Shape {

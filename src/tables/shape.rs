@@ -5,15 +5,14 @@
 ///
 /// A row holds the type, its name in snake case (the key in the IR is that in camel case), how
 /// enums store it, and its values in one of two ways:
-/// - `derived { "type" value: rule "key" "words"; … }`: a rule defines how each value is validated,
-///   prepared and written. The rules are `point`; `direction`, of any length but 0; `step`, a
-///   direction with a length; `length`, above 0. The type and the keys are those of the scene
-///   format, the words name the value in a diagnostic.
+/// - `derived { value: rule "words"; … }`: a rule defines how each value is validated. The rules are
+///   `point`; `direction`, of any length but 0; `step`, a direction with a length; `length`, above
+///   0. The words name the value in a diagnostic.
 /// - `custom { "value" … }`: the paths to the values in the IR; each stage has an `impl` for the
 ///   shape.
 ///
 /// The macro is given all rows, with the paths to their values, and once more the `derived` ones:
-/// `all { Type name Store ["value", …]; … } derived { Type name { "type" value: …; … } … }`.
+/// `all { Type name Store ["value", …]; … } derived { Type name { value: …; … } … }`.
 #[macro_export]
 macro_rules! shapes {
     (@sorted $stage:ident [$($all:tt)*] [$($derived:tt)*]) => {
@@ -29,14 +28,14 @@ macro_rules! shapes {
     };
     (@sorted $stage:ident [$($all:tt)*] [$($derived:tt)*]
         $(#[$doc:meta])* $Name:ident $name:ident $Store:ident derived {
-            $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
+            $($value:ident: $rule:ident $($words:literal)?;)*
         }
         $($rows:tt)*
     ) => {
         $crate::shapes! { @sorted $stage
             [$($all)* $(#[$doc])* $Name $name $Store [$(stringify!($value)),*];]
             [$($derived)* $(#[$doc])* $Name $name {
-                $type $($value: $rule $key $($words)?;)*
+                $($value: $rule $($words)?;)*
             }]
             $($rows)*
         }
@@ -47,9 +46,8 @@ macro_rules! shapes {
             Sphere sphere Inline custom { "center" "radius" }
             /// An infinite plane.
             Plane plane Inline derived {
-                "plane"
-                center: point "position";
-                normal: direction "normal" "normal of a plane";
+                center: point;
+                normal: direction "normal of a plane";
             }
             /// A triangle.
             Triangle triangle Inline custom { "vertices/0" "vertices/1" "vertices/2" }
@@ -57,40 +55,35 @@ macro_rules! shapes {
             Quad quad Box custom { "vertices/0" "vertices/1" "vertices/2" "vertices/3" }
             /// A disc.
             Disc disc Inline derived {
-                "circle"
-                center: point "center";
-                normal: direction "normal" "normal of a disc";
-                radius: length "radius" "radius";
+                center: point;
+                normal: direction "normal of a disc";
+                radius: length "radius";
             }
             /// A cylinder with two caps.
             Cylinder cylinder Inline derived {
-                "cylinder"
-                base: point "position";
-                axis: direction "direction" "axis of a cylinder";
-                height: length "height" "height";
-                radius: length "radius" "radius";
+                base: point;
+                axis: direction "axis of a cylinder";
+                height: length "height";
+                radius: length "radius";
             }
             /// A cone with a cap at its base.
             Cone cone Inline derived {
-                "cone"
-                base: point "position";
-                up: step "up" "height of a cone";
-                radius: length "radius" "radius";
+                base: point;
+                up: step "height of a cone";
+                radius: length "radius";
             }
             /// A paraboloid with a cap at its base.
             Paraboloid paraboloid Inline derived {
-                "paraboloid"
-                base: point "position";
-                up: step "up" "height of a paraboloid";
-                radius: length "radius" "radius";
+                base: point;
+                up: step "height of a paraboloid";
+                radius: length "radius";
             }
             /// A torus.
             Torus torus Inline derived {
-                "torus"
-                center: point "position";
-                axis: direction "direction" "axis of a torus";
-                major: length "radius" "radius";
-                minor: length "alpha" "radius of the tube";
+                center: point;
+                axis: direction "axis of a torus";
+                major: length "radius";
+                minor: length "radius of the tube";
             }
             /// A mesh, placed.
             Instance instance Box custom { "mesh" "worldFromObject" }
@@ -98,10 +91,9 @@ macro_rules! shapes {
             Ellipsoid ellipsoid Box custom { "center" "axes" }
             /// A cylinder without ends.
             InfiniteCylinder infinite_cylinder Inline derived {
-                "infiniteCylinder"
-                center: point "position";
-                axis: direction "direction" "axis of a cylinder";
-                radius: length "radius" "radius";
+                center: point;
+                axis: direction "axis of a cylinder";
+                radius: length "radius";
             }
             /// A CSG solid.
             Csg csg Box custom { "operands" }

@@ -1,177 +1,202 @@
 //! Writes the shapes.
 
 use super::{SceneWriter, quoted, triple};
-use rtc_ir::{self as ir, Csg, Ellipsoid, Instance, Quad, Scene, Shape, Sphere, Triangle};
+use rtc_ir::{
+    Cone, Cylinder, Disc, Ellipsoid, InfiniteCylinder, Instance, Paraboloid, Plane, Quad, Scene,
+    Shape, Sphere, Torus, Triangle,
+};
 use rtc_math::{Vec3, axis_and_angle, rotated_to_z, shortest, unit};
 
-/// A shape that the scene format can express.
-trait WriteShape {
+impl<'s> SceneWriter<'s> {
+    /// Writes a shape.
+    ///
     /// # Errors
     /// A message, if the format can't express the shape.
-    fn emit<'s>(&self, text: &mut SceneWriter<'s>, scene: &'s Scene) -> Result<(), String>;
-}
-
-/// Writes each shape by its own `impl`, or by the keys of its row.
-macro_rules! emit {
-    (
-        all { $($(#[$doc:meta])* $Name:ident $name:ident $Store:ident $paths:tt;)* }
-        derived { $($(#[$about:meta])* $Derived:ident $word:ident {
-            $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
-        })* }
-    ) => {
-        impl<'s> SceneWriter<'s> {
-            pub(super) fn shape(&mut self, shape: &Shape, scene: &'s Scene) -> Result<(), String> {
-                match shape {
-                    $(Shape::$Name(shape) => shape.emit(self, scene),)*
-                }
+    pub(super) fn shape(&mut self, shape: &Shape, scene: &'s Scene) -> Result<(), String> {
+        match shape {
+            Shape::Sphere(sphere) => return self.sphere(sphere),
+            Shape::Triangle(triangle) => self.triangle(triangle),
+            Shape::Quad(quad) => self.quad(quad),
+            Shape::Instance(instance) => return self.instance(instance, scene),
+            Shape::Ellipsoid(ellipsoid) => self.ellipsoid(ellipsoid),
+            Shape::Csg(_) => {
+                let message = "a CSG solid can only be written with all parts of its boundary";
+                return Err(message.to_owned());
+            }
+            Shape::Plane(Plane { center, normal }) => {
+                self.values("plane", &[("position", center), ("normal", normal)], &[]);
+            }
+            Shape::Disc(Disc {
+                center,
+                normal,
+                radius,
+            }) => {
+                self.values(
+                    "circle",
+                    &[("center", center), ("normal", normal)],
+                    &[("radius", radius)],
+                );
+            }
+            Shape::Cylinder(Cylinder {
+                base,
+                axis,
+                height,
+                radius,
+            }) => {
+                self.values(
+                    "cylinder",
+                    &[("position", base), ("direction", axis)],
+                    &[("height", height), ("radius", radius)],
+                );
+            }
+            Shape::Cone(Cone { base, up, radius }) => {
+                self.values(
+                    "cone",
+                    &[("position", base), ("up", up)],
+                    &[("radius", radius)],
+                );
+            }
+            Shape::Paraboloid(Paraboloid { base, up, radius }) => {
+                self.values(
+                    "paraboloid",
+                    &[("position", base), ("up", up)],
+                    &[("radius", radius)],
+                );
+            }
+            Shape::Torus(Torus {
+                center,
+                axis,
+                major,
+                minor,
+            }) => {
+                self.values(
+                    "torus",
+                    &[("position", center), ("direction", axis)],
+                    &[("radius", major), ("alpha", minor)],
+                );
+            }
+            Shape::InfiniteCylinder(InfiniteCylinder {
+                center,
+                axis,
+                radius,
+            }) => {
+                self.values(
+                    "infiniteCylinder",
+                    &[("position", center), ("direction", axis)],
+                    &[("radius", radius)],
+                );
             }
         }
+        Ok(())
+    }
 
-        $(impl WriteShape for ir::$Derived {
-            fn emit<'s>(&self, text: &mut SceneWriter<'s>, _: &'s Scene) -> Result<(), String> {
-                let Self { $($value),* } = self;
-                text.kind($type);
-                $(text.$rule($key, $value);)*
-                Ok(())
-            }
-        })*
-    };
-}
+    /// Writes a shape by the values of its keys.
+    fn values(&mut self, kind: &str, vectors: &[(&str, &[f64; 3])], lengths: &[(&str, &f64)]) {
+        self.kind(kind);
+        for (key, vector) in vectors {
+            self.numbers(key, *vector, 4);
+        }
+        for (key, length) in lengths {
+            self.number(key, **length, 4);
+        }
+    }
 
-rtc_tables::shapes!(emit);
-
-impl SceneWriter<'_> {
     fn kind(&mut self, word: &str) {
         self.line(2, &format!("- type: {word}"));
     }
 
-    fn point(&mut self, key: &str, value: &[f64; 3]) {
-        self.numbers(key, value, 4);
-    }
-
-    fn direction(&mut self, key: &str, value: &[f64; 3]) {
-        self.numbers(key, value, 4);
-    }
-
-    fn step(&mut self, key: &str, value: &[f64; 3]) {
-        self.numbers(key, value, 4);
-    }
-
-    fn length(&mut self, key: &str, value: &f64) {
-        self.number(key, *value, 4);
-    }
-
     fn corners<const N: usize>(&mut self, corners: &[[f64; 3]; N]) {
         for (key, corner) in ["v0", "v1", "v2", "v3"].into_iter().zip(corners) {
-            self.point(key, corner);
+            self.numbers(key, corner, 4);
         }
     }
-}
 
-impl WriteShape for Sphere {
-    fn emit<'s>(&self, text: &mut SceneWriter<'s>, _: &'s Scene) -> Result<(), String> {
-        let Self {
+    fn sphere(&mut self, sphere: &Sphere) -> Result<(), String> {
+        let Sphere {
             center,
             radius,
             texture_from_world: rotation,
-        } = self;
-        text.kind("sphere");
-        text.point("position", center);
+        } = sphere;
+        self.kind("sphere");
+        self.numbers("position", center, 4);
         let Some(rotation) = rotation else {
-            text.length("radius", radius);
+            self.number("radius", *radius, 4);
             return Ok(());
         };
         let rotation = axis_angle_of(*rotation)
             .ok_or("the texture of a sphere is turned as no axis and angle say to the last bit")?;
         let (axis, angle) = rotation;
-        text.finite &= [*radius, angle]
+        self.finite &= [*radius, angle]
             .iter()
             .chain(&axis)
             .all(|number| number.is_finite());
-        text.line(
+        self.line(
             4,
             &format!("radius: [{}, {}]", shortest(*radius), triple(axis)),
         );
-        text.number("angle", angle, 4);
+        self.number("angle", angle, 4);
         Ok(())
     }
-}
 
-impl WriteShape for Triangle {
-    fn emit<'s>(&self, text: &mut SceneWriter<'s>, _: &'s Scene) -> Result<(), String> {
-        let Self { vertices, uvs } = self;
-        text.kind("triangle");
-        text.corners(vertices);
+    fn triangle(&mut self, triangle: &Triangle) {
+        let Triangle { vertices, uvs } = triangle;
+        self.kind("triangle");
+        self.corners(vertices);
         for (key, [u, v]) in ["uv0", "uv1", "uv2"].into_iter().zip(uvs.iter().flatten()) {
-            text.finite &= u.is_finite() && v.is_finite();
-            text.line(4, &format!("{key}: [{}, {}]", shortest(*u), shortest(*v)));
+            self.finite &= u.is_finite() && v.is_finite();
+            self.line(4, &format!("{key}: [{}, {}]", shortest(*u), shortest(*v)));
         }
-        Ok(())
     }
-}
 
-impl WriteShape for Quad {
-    fn emit<'s>(&self, text: &mut SceneWriter<'s>, _: &'s Scene) -> Result<(), String> {
-        let Self { vertices } = self;
-        text.kind("quad");
-        text.corners(vertices);
-        if self.is_bent() {
-            text.line(4, "curved: true");
+    fn quad(&mut self, quad: &Quad) {
+        let Quad { vertices } = quad;
+        self.kind("quad");
+        self.corners(vertices);
+        if quad.is_bent() {
+            self.line(4, "curved: true");
         }
-        Ok(())
     }
-}
 
-impl WriteShape for Instance {
-    fn emit<'s>(&self, text: &mut SceneWriter<'s>, scene: &'s Scene) -> Result<(), String> {
-        let Self {
+    fn instance(&mut self, instance: &Instance, scene: &'s Scene) -> Result<(), String> {
+        let Instance {
             mesh,
             world_from_object,
-        } = self;
+        } = instance;
         let [axes @ .., origin] = world_from_object;
         let scale = [axes[0][0], axes[1][1], axes[2][2]];
         let [x, y, z] = Vec3::AXES;
         let straight = [x * scale[0], y * scale[1], z * scale[2]].map(|axis| axis.to_array());
-        let (file, part) = text.names.mesh(scene, *mesh)?;
-        text.kind("mesh");
-        text.line(4, &format!("file: {file}"));
+        let (file, part) = self.names.mesh(scene, *mesh)?;
+        self.kind("mesh");
+        self.line(4, &format!("file: {file}"));
         if let Some(part) = part {
-            text.line(4, &format!("part: {}", quoted(part)));
+            self.line(4, &format!("part: {}", quoted(part)));
         }
         if axes.map(|axis| axis.map(f64::to_bits)) != straight.map(|axis| axis.map(f64::to_bits)) {
-            let columns = text.list(world_from_object.iter().flatten().copied());
-            text.line(4, &format!("transform: {columns}"));
+            let columns = self.list(world_from_object.iter().flatten().copied());
+            self.line(4, &format!("transform: {columns}"));
             return Ok(());
         }
-        text.point("position", origin);
+        self.numbers("position", origin, 4);
         match scale {
-            [x, y, z] if x == y && y == z => text.number("scale", x, 4),
-            _ => text.numbers("scale", &scale, 4),
+            [x, y, z] if x == y && y == z => self.number("scale", x, 4),
+            _ => self.numbers("scale", &scale, 4),
         }
         Ok(())
     }
-}
 
-impl WriteShape for Ellipsoid {
-    fn emit<'s>(&self, text: &mut SceneWriter<'s>, _: &'s Scene) -> Result<(), String> {
-        let Self { center, axes } = self;
-        text.kind("ellipsoid");
+    fn ellipsoid(&mut self, ellipsoid: &Ellipsoid) {
+        let Ellipsoid { center, axes } = ellipsoid;
+        self.kind("ellipsoid");
         let [x, y, z] = axes;
         let straight = [[x[0], 0.0, 0.0], [0.0, y[1], 0.0], [0.0, 0.0, z[2]]];
         if axes.map(|axis| axis.map(f64::to_bits)) != straight.map(|axis| axis.map(f64::to_bits)) {
-            let columns = text.list(axes.iter().chain([center]).flatten().copied());
-            text.line(4, &format!("transform: {columns}"));
-            return Ok(());
+            let columns = self.list(axes.iter().chain([center]).flatten().copied());
+            self.line(4, &format!("transform: {columns}"));
+            return;
         }
-        text.point("position", center);
-        text.numbers("radius", &[x[0], y[1], z[2]], 4);
-        Ok(())
-    }
-}
-
-impl WriteShape for Csg {
-    fn emit<'s>(&self, _: &mut SceneWriter<'s>, _: &'s Scene) -> Result<(), String> {
-        Err("a CSG solid can only be written with all parts of its boundary".to_owned())
+        self.numbers("position", center, 4);
+        self.numbers("radius", &[x[0], y[1], z[2]], 4);
     }
 }
 
