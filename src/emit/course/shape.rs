@@ -94,7 +94,7 @@ impl<'s> SceneWriter<'s> {
     fn values(&mut self, kind: &str, vectors: &[(&str, &[f64; 3])], lengths: &[(&str, &f64)]) {
         self.kind(kind);
         for (key, vector) in vectors {
-            self.numbers(key, *vector, 4);
+            self.numbers(key, vector, 4);
         }
         for (key, length) in lengths {
             self.number(key, **length, 4);

@@ -104,11 +104,10 @@ const FOLLOWED: &[PointerRow] = &[
 /// The rows of the properties of the table of extensions that are no maps.
 fn of_extensions() -> impl Iterator<Item = PointerRow> {
     MATERIAL_EXTENSIONS.iter().flat_map(|(name, properties)| {
-        let numbers = properties.iter().filter_map(|(key, kind, _)| {
+        properties.iter().filter_map(|(key, kind, _)| {
             let (width, range) = width_and_range(*kind)?;
             Some((*name, *key, width, range))
-        });
-        numbers
+        })
     })
 }
 

@@ -53,7 +53,7 @@ pub(crate) fn surface(
 }
 
 /// The state of validating a surface.
-struct SurfaceCheck<'a, 'run> {
+pub(super) struct SurfaceCheck<'a, 'run> {
     kind: ShapeKind,
     index: usize,
     counts: &'a EntityCounts,
@@ -76,23 +76,23 @@ impl SurfaceCheck<'_, '_> {
     }
 
     /// A point: its components are finite and in range.
-    fn point(&mut self, value: [f64; 3], path: &str, _name: &str) -> Option<Vec3> {
+    pub(super) fn point(&mut self, value: [f64; 3], path: &str, _name: &str) -> Option<Vec3> {
         self.check.vector(value, self.at(path))
     }
 
     /// A direction: a point that is not 0, scaled.
-    fn direction(&mut self, value: [f64; 3], path: &str, name: &str) -> Option<Vec3> {
+    pub(super) fn direction(&mut self, value: [f64; 3], path: &str, name: &str) -> Option<Vec3> {
         self.check.direction(value, name, self.at(path))
     }
 
     /// A length: above 0, and in range.
-    fn length(&mut self, value: f64, path: &str, name: &str) -> Option<Positive> {
+    pub(super) fn length(&mut self, value: f64, path: &str, name: &str) -> Option<Positive> {
         self.check
             .length(value, self.at(path), &codes::RADIUS, name)
     }
 
     /// A step: a point whose distance from 0 is a valid length.
-    fn step(&mut self, value: [f64; 3], path: &str, name: &str) -> Option<Vec3> {
+    pub(super) fn step(&mut self, value: [f64; 3], path: &str, name: &str) -> Option<Vec3> {
         let step = self.point(value, path, name);
         let longest = step.map(|step| step.abs().max_element());
         longest.and_then(|longest| self.length(longest, path, name))?;
@@ -113,40 +113,10 @@ impl SurfaceCheck<'_, '_> {
 }
 
 /// Validation of a shape of the IR.
-trait Validate {
+pub(super) trait Validate {
     /// The valid shape; `Some(None)` for a face without an area.
     fn validate(&self, surface_check: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>>;
 }
-
-/// Validates each shape by its own `impl`, or by the rules of its row. All values are checked, even
-/// after an error.
-macro_rules! validate {
-    (
-        all { $($(#[$doc:meta])* $Name:ident $name:ident $Store:ident $paths:tt;)* }
-        derived { $($(#[$about:meta])* $Derived:ident $word:ident {
-            $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
-        })* }
-    ) => {
-        impl Validate for ir::Shape {
-            fn validate(&self, surface_check: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
-                match self {
-                    $(Self::$Name(shape) => shape.validate(surface_check),)*
-                }
-            }
-        }
-
-        $(impl Validate for ir::$Derived {
-            fn validate(&self, surface_check: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
-                let Self { $($value),* } = *self;
-                $(let $value =
-                    surface_check.$rule($value, stringify!($value), concat!($($words)?));)*
-                Some(Some(Shape::$Derived(super::$Derived { $($value: $value?),* })))
-            }
-        })*
-    };
-}
-
-rtc_tables::shapes!(validate);
 
 impl Validate for ir::Sphere {
     fn validate(&self, surface_check: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {

@@ -7,6 +7,8 @@ pub(super) use area::has_area;
 pub(super) use check::surface;
 
 use crate::{MaterialId, MeshId};
+use check::{SurfaceCheck, Validate};
+use rtc_ir as ir;
 use rtc_math::{Positive, SetStep, Vec3, is_flat};
 
 /// A shape and the index of its material.
@@ -28,12 +30,37 @@ pub struct Surface {
 /// The storage of a small shape in an enum.
 type Inline<T> = T;
 
-/// Declares the valid shapes: the struct of those with `derived` values, and the enum of all.
+/// The type of a valid value of each rule of the table, and how such a value changes when the shape
+/// is moved.
+#[expect(non_camel_case_types, reason = "the words of the table")]
+mod rule {
+    use rtc_math::{Positive, Vec3};
+
+    pub(super) type point = Vec3;
+    /// Its largest component is in [1, 2).
+    pub(super) type direction = Vec3;
+    pub(super) type step = Vec3;
+    pub(super) type length = Positive;
+
+    pub(super) fn point(value: &mut Vec3, by: Vec3) {
+        *value += by;
+    }
+
+    pub(super) fn direction(_: &mut Vec3, _: Vec3) {}
+
+    pub(super) fn step(_: &mut Vec3, _: Vec3) {}
+
+    pub(super) fn length(_: &mut Positive, _: Vec3) {}
+}
+
+/// Declares the valid shapes: the struct of those with `derived` values, and the enum of all. Each
+/// is validated by its own `impl`, or by the rules of its row; all values are checked, even after an
+/// error.
 macro_rules! declare {
     (
         all { $($(#[$doc:meta])* $Name:ident $name:ident $Store:ident $paths:tt;)* }
         derived { $($(#[$about:meta])* $Derived:ident $word:ident {
-            $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
+            $($value:ident: $rule:ident $($words:literal)?;)*
         })* }
     ) => {
         /// A shape of any kind.
@@ -57,9 +84,26 @@ macro_rules! declare {
             }
         }
 
+        impl Validate for ir::Shape {
+            fn validate(&self, surface_check: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
+                match self {
+                    $(Self::$Name(shape) => shape.validate(surface_check),)*
+                }
+            }
+        }
+
         $(impl $Derived {
             fn translate(&mut self, by: Vec3) {
-                $(validated_type!(translate $rule self.$value, by);)*
+                $(rule::$rule(&mut self.$value, by);)*
+            }
+        }
+
+        impl Validate for ir::$Derived {
+            fn validate(&self, surface_check: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
+                let Self { $($value),* } = *self;
+                $(let $value =
+                    surface_check.$rule($value, stringify!($value), concat!($($words)?));)*
+                Some(Some(Shape::$Derived($Derived { $($value: $value?),* })))
             }
         })*
 
@@ -68,27 +112,12 @@ macro_rules! declare {
             #[derive(Clone, Copy, Debug)]
             pub struct $Derived {
                 $(
-                    #[doc = validated_type!(doc $rule $Derived $value)]
-                    pub $value: validated_type!($rule),
+                    #[doc = concat!("[`", stringify!($value), "`](rtc_ir::", stringify!($Derived), "::",
+                        stringify!($value), ")")]
+                    pub $value: rule::$rule,
                 )*
             }
         )*
-    };
-}
-
-/// The type of a value of a rule, its description, and how it changes with the place of the shape.
-macro_rules! validated_type {
-    (translate point $value:expr, $by:expr) => { $value += $by };
-    (translate $rule:ident $value:expr, $by:expr) => {};
-    (point) => { Vec3 };
-    (direction) => { Vec3 };
-    (step) => { Vec3 };
-    (length) => { Positive };
-    (doc direction $Name:ident $value:ident) => {
-        concat!(validated_type!(doc point $Name $value), ", with its largest component in [1, 2)")
-    };
-    (doc $rule:ident $Name:ident $value:ident) => {
-        concat!("[`", stringify!($value), "`](rtc_ir::", stringify!($Name), "::", stringify!($value), ")")
     };
 }
 
