@@ -65,7 +65,7 @@ impl Decode for Operands {
 
 record! {
     /// The union: the points in any operand.
-    struct Union, "union" {
+    struct SetUnion, "union" {
         /// The type of the object.
         kind: Spanned<AnyScalar>, required, &[&["type"]];
         /// The two operands: objects with an inside, of any of these types, too.
@@ -99,20 +99,20 @@ record! {
     variants { [both] [of] }
 }
 
-impl LowerObject for Union {
+impl LowerObject for SetUnion {
     fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         self.lower_as(SetStep::Union, lowering, context);
     }
 }
 
 /// The intersection: the points in all operands.
-pub(super) struct Intersection(Union);
+pub(super) struct SetIntersection(SetUnion);
 
-impl HasRecord for Intersection {
+impl HasRecord for SetIntersection {
     const RECORD: &'static Record = &Record {
         name: "intersection",
         doc: " The intersection: the points in all operands.",
-        ..*Union::RECORD
+        ..*SetUnion::RECORD
     };
 
     fn read(
@@ -120,24 +120,24 @@ impl HasRecord for Intersection {
         node: NodeId,
         context: &mut DecodeContext<'_>,
     ) -> Option<Self> {
-        Union::read(record, node, context).map(Self)
+        SetUnion::read(record, node, context).map(Self)
     }
 }
 
-impl LowerObject for Intersection {
+impl LowerObject for SetIntersection {
     fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         self.0.lower_as(SetStep::Intersection, lowering, context);
     }
 }
 
 /// The difference: the points in the first operand and in no other.
-pub(super) struct Difference(Union);
+pub(super) struct SetDifference(SetUnion);
 
-impl HasRecord for Difference {
+impl HasRecord for SetDifference {
     const RECORD: &'static Record = &Record {
         name: "difference",
         doc: " The difference: the points in the first operand and in no other.",
-        ..*Union::RECORD
+        ..*SetUnion::RECORD
     };
 
     fn read(
@@ -145,17 +145,17 @@ impl HasRecord for Difference {
         node: NodeId,
         context: &mut DecodeContext<'_>,
     ) -> Option<Self> {
-        Union::read(record, node, context).map(Self)
+        SetUnion::read(record, node, context).map(Self)
     }
 }
 
-impl LowerObject for Difference {
+impl LowerObject for SetDifference {
     fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
         self.0.lower_as(SetStep::Difference, lowering, context);
     }
 }
 
-impl Union {
+impl SetUnion {
     /// Adds the solid that an operation makes of the operands.
     fn lower_as(
         &self,

@@ -244,8 +244,8 @@ struct MaterialReader<'m, 'd, 'r, 's> {
 }
 
 impl MaterialReader<'_, '_, '_, '_> {
-    /// Reads the extensions whose properties are parameters unchanged; an absent property leaves the
-    /// default.
+    /// Reads the extensions whose properties are parameters unchanged; an absent property leaves
+    /// the default.
     fn extensions(&mut self, fields: ObjectFields<'_, '_>, standard: &mut Standard) {
         for (name, properties) in MATERIAL_EXTENSIONS {
             let Some(extension) = fields.extension(name) else {
