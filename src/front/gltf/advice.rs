@@ -17,7 +17,8 @@ pub(super) fn advice(code: &Code, alias: &str) -> Option<&'static str> {
 
 /// The rows: kinds and their instruction.
 fn rows() -> impl Iterator<Item = (impl Iterator<Item = &'static str>, &'static str)> {
-    let rows = ADVICE.lines().filter_map(|line| line.split_once(" | "));
+    let lines = ADVICE.lines().filter(|line| !line.starts_with('#'));
+    let rows = lines.filter_map(|line| line.split_once(" | "));
     rows.map(|(kinds, text)| (kinds.split(' '), text))
 }
 
