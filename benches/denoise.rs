@@ -1,12 +1,14 @@
 //! Denoises pictures with other seeds, and prints as Markdown how far they are from converged ones,
 //! what is told of that, how often the bound holds, and how often a picture is worse than the plain
 //! one. Arguments are the side of a picture in pixels, the paths a pixel of each of two references,
-//! how many seeds, and files of scenes. `benches/denoise.sh` runs it.
+//! how many seeds, and files of scenes. `benches/denoise.sh` runs it. OIDN names a Python that has
+//! pyoidn, by which `benches/denoise_oidn.py` filters the same plain pictures.
 
 #![expect(
     clippy::unwrap_used,
     clippy::print_stdout,
-    reason = "a measurement stops at the first surprise, and prints"
+    clippy::disallowed_methods,
+    reason = "a measurement stops at the first surprise, prints, and asks another program"
 )]
 
 #[path = "honest/limits.rs"]
@@ -20,9 +22,12 @@ use rtc::internals::image::{BackgroundFill, FileFormat, Image};
 use rtc::internals::passes::{IntegratorChoice, ViewAndLight};
 use rtc::internals::pipeline::{Input, Options, OutputTransform, PictureSetup, RenderObserver};
 use rtc::internals::plan::{Plan, RuleSet};
-use rtc::internals::render::{AnyWorld, RenderSelection, SamplingSeeds};
+use rtc::internals::render::{AnyWorld, Aov, RenderSelection, SamplingSeeds};
 use rtc::internals::study::{LEVELS, PictureErrors, RenderRequest, probe};
+use std::ffi::OsString;
+use std::io::Write as _;
 use std::path::Path;
+use std::process::{Command, Stdio};
 
 /// The paths a pixel of a picture, and of the plain one it is to be as good as.
 const SAMPLES: [u32; 2] = [16, 64];
@@ -88,6 +93,37 @@ impl Case {
         film.unwrap().image
     }
 
+    /// A plain picture as OIDN filters it, by `python`, with the albedo and the normals of the
+    /// first hits.
+    fn by_oidn(&self, plain: &Image, seed: u64, python: &OsString) -> Image {
+        let layers = [Aov::Albedo, Aov::Normal];
+        let guides = self.world.layers(&layers, &self.job(seed), &|_| true);
+        let colors = plain.pixels.iter().flatten().map(|value| *value as f32);
+        let [width, height] = [plain.width, plain.height].map(|side| side.to_string());
+        let mut oidn = Command::new(python)
+            .args(["benches/denoise_oidn.py", &width, &height])
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let numbers: Vec<u8> = colors
+            .chain(guides.unwrap().values)
+            .flat_map(f32::to_le_bytes)
+            .collect();
+        oidn.stdin.take().unwrap().write_all(&numbers).unwrap();
+        let out = oidn.wait_with_output().unwrap();
+        assert!(out.status.success(), "OIDN filtered nothing");
+        let (values, _) = out.stdout.as_chunks::<4>();
+        let values: Vec<f64> = values
+            .iter()
+            .map(|bytes| f32::from_le_bytes(*bytes).into())
+            .collect();
+        Image {
+            pixels: values.as_chunks::<3>().0.to_vec(),
+            ..*plain
+        }
+    }
+
     /// What a display shows of it.
     fn shown(&self, image: &Image) -> Image {
         let (tone, exposure) = self.order.display;
@@ -105,6 +141,8 @@ struct Tally {
     pictures: u64,
     /// Of plain pictures of few and of many paths, and of denoised ones.
     relative: [f64; 3],
+    /// Of those that OIDN filters.
+    oidn: f64,
     flip: [f64; 3],
     /// The mean square errors in squares of grey levels: those of a plain and of a denoised
     /// picture, the estimate of that, and the bound.
@@ -125,6 +163,7 @@ impl Tally {
         self.held += other.held;
         self.unbounded += other.unbounded;
         self.worse += other.worse;
+        self.oidn += other.oidn;
         self.most = self.most.max(other.most);
         let sums = [
             (&mut self.relative[..], &other.relative[..]),
@@ -159,7 +198,11 @@ impl Tally {
         let order = RenderRequest { seed, ..few.order };
         let rays = picture.film.counts.rays();
         let (film, probed) = probe(&few.world, &order, picture, few.paths, &|_| true).unwrap();
-        let [plain, more] = [few, many].map(|case| case.shown(&case.plain(seed)));
+        let noisy = few.plain(seed);
+        let oidn = std::env::var_os("OIDN").map_or(0.0, |python| {
+            relative(&few.shown(&few.by_oidn(&noisy, seed, &python)), a, b)
+        });
+        let [plain, more] = [few.shown(&noisy), many.shown(&many.plain(seed))];
         let shown = few.shown(&film.image);
         let [before, truth] = [&plain, &shown].map(|image| mean(image, a, b) * LEVELS * LEVELS);
         let pictures = [&plain, &more, &shown];
@@ -168,6 +211,7 @@ impl Tally {
         Self {
             pictures: 1,
             relative: pictures.map(|image| relative(image, a, b)),
+            oidn,
             flip: all.map(|errors| errors.flip),
             squares: [
                 before,
@@ -194,9 +238,13 @@ impl Tally {
         let flip = self.flip.map(|sum| sum / n);
         let [before, truth, probed, bound] = self.squares.map(|sum| (sum / n).max(0.0).sqrt());
         println!(
-            "| {name} | {plain:.5} | {more:.5} | {denoised:.5} | {:.3} | {:.3} | {:.3} \
+            "| {name} | {plain:.5} | {more:.5} | {denoised:.5} | {} | {:.3} | {:.3} | {:.3} \
              | {before:.2} | {truth:.2} | {:.2} | {} | {probed:.2} | {bound:.2} | {} of {} | {} \
              | {:.0} % |",
+            match self.oidn / n {
+                0.0 => String::new(),
+                oidn => format!("{oidn:.5}"),
+            },
             flip[0],
             flip[1],
             flip[2],
@@ -250,10 +298,10 @@ fn main() {
     };
     let [side, paths, seeds] = [side, paths, seeds].map(|word| word.parse::<u32>().unwrap());
     println!(
-        "| scene | relMSE 16 | relMSE 64 | denoised | FLIP 16 | FLIP 64 | denoised | error 16 \
+        "| scene | relMSE 16 | relMSE 64 | denoised | OIDN | FLIP 16 | FLIP 64 | denoised | error 16 \
          | denoised | most | worse | estimate | bound | held | no bound | rays of probes |"
     );
-    println!("| --- |{}", " --: |".repeat(15));
+    println!("| --- |{}", " --: |".repeat(16));
     let mut sum = Tally::default();
     for file in files {
         let path = Path::new(file);

@@ -2,7 +2,7 @@
 # Denoised pictures of 16 paths a pixel beside plain ones, the error told of them beside the true one, how often the bound holds and how often
 # a picture is worse than the plain one, as Markdown (benches/denoise.md). SIDE (256 pixels), PATHS (192 a pixel of each of two references) and
 # SEEDS (1) set how much is measured; `unseen` as an argument takes scenes that the filter was not made with, from tests/, scenes/ and
-# ../shared, and only what is here. DENOISE is a driver that was built before.
+# ../shared, and only what is here. DENOISE is a driver that was built before; OIDN is a Python that has pyoidn, which filters the same plain pictures.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . benches/driver.sh
