@@ -22,6 +22,7 @@ use rtc::{
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::Duration;
 use tempfile::TempDir;
 
 /// A ball, and a light on it.
@@ -252,8 +253,12 @@ fn a_denoised_picture_says_its_error() {
     assert_eq!(plain.error(), None);
     assert!(denoised.error().is_some_and(|error| error > 0.0));
     assert!(denoised.pixels() != plain.pixels());
-    let both = options.denoise(true).target_error(2.0);
-    assert!(refusal(&both).contains("no target error"));
+    let good = scene.render(&options.clone().denoise(true).target_error(0.5));
+    let good = good.unwrap();
+    assert!(good.error().is_some_and(|error| error <= 0.5));
+    assert!(good.statistics().rays > denoised.statistics().rays);
+    let hasty = options.denoise(true).time_budget(Duration::from_secs(1));
+    assert!(refusal(&hasty).contains("no time budget"));
 }
 
 #[test]

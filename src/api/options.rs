@@ -275,7 +275,8 @@ impl Options {
         self
     }
 
-    /// Denoises a path-traced picture; needs at least two paths per pixel.
+    /// Denoises a path-traced picture; needs at least two paths per pixel. With a target error the
+    /// picture is rendered again with more paths until it is met.
     /// [`Picture::error`](super::Picture::error) is the error reached.
     pub fn denoise(mut self, denoise: bool) -> Self {
         self.denoise = denoise;
@@ -398,10 +399,8 @@ impl Options {
         if let Some(fault) = self.fault() {
             return Err(refused(fault));
         }
-        if self.denoise && (self.target_error.is_some() || self.time_budget.is_some()) {
-            return Err(refused(
-                "a denoised picture has no target error or time budget",
-            ));
+        if self.denoise && self.time_budget.is_some() {
+            return Err(refused("a denoised picture has no time budget"));
         }
         let kind = self.format.kind();
         let look =

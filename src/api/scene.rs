@@ -300,7 +300,7 @@ impl SceneRun<'_> {
         setup.check_memory(subject, window)?;
         setup.check_layers()?;
         // Progress is measured by time, error or pixels.
-        let has_goal = setup.goal != RenderGoal::default();
+        let has_goal = setup.is_progressive();
         let measure = match setup.goal.time {
             Some(time) => ProgressMeasure::Time(&stopwatch, time),
             None if has_goal => ProgressMeasure::Error,

@@ -1,8 +1,8 @@
 //! Denoised pictures and their errors; path tracing only, with at least two samples per pixel.
 
 use super::{PictureSetup, RayCounter, RenderError, RenderSubject, Renderer};
-use rtc_render::{Film, PixelObserver, RenderSelection};
-use rtc_study::{ProbedError, RenderRequest, probe};
+use rtc_render::{Film, PixelObserver, RayCounts, RenderSelection};
+use rtc_study::{ProbedError, RenderGoal, RenderRequest, probe};
 use rtc_valid::{Mode, ValidScene};
 
 /// A picture rendered with the settings of its scene.
@@ -29,6 +29,7 @@ impl PictureSetup {
         (on_pixel, counter): (&PixelObserver<'_>, &RayCounter),
     ) -> Result<Option<Traced>, RenderError> {
         let samples = paths(&subject.validated.scene, "--denoise")?;
+        let samples = self.goal.error.map_or(samples, first_paths);
         if samples < 2 {
             let message = "`--denoise` takes at least `--spp 2`";
             return Err(RenderError::Refused(message.to_owned()));
@@ -39,7 +40,15 @@ impl PictureSetup {
         };
         let order = self.order(subject, window, None);
         let (_, renderer) = self.renderer(subject)?;
-        Ok(renderer.denoised(samples, (job, &order), (on_pixel, counter)))
+        let between = || counter.begin_round();
+        Ok(renderer.denoised(samples, (job, &order), (on_pixel, &between)))
+    }
+
+    /// Whether the picture grows in rounds towards a target error or within a time. A denoised one
+    /// does not: it is rendered again with more paths, until its error is small enough.
+    #[must_use]
+    pub fn is_progressive(&self) -> bool {
+        self.goal != RenderGoal::default() && !self.denoise
     }
 
     /// The memory of the denoiser in bytes per pixel, in addition to the film.
@@ -54,22 +63,73 @@ impl PictureSetup {
 
 impl Renderer {
     /// Renders a denoised path-traced picture with `samples` (at least 2) per pixel and estimates
-    /// its error. `None` if `on_pixel` stopped it.
+    /// its error; with a target error, again with more until it is met. `None` if `on_pixel`
+    /// stopped it.
     fn denoised(
         &self,
-        samples: u32,
+        mut samples: u32,
         (job, order): (&RenderSelection, &RenderRequest),
-        (on_pixel, counter): (&PixelObserver<'_>, &RayCounter),
+        (on_pixel, between): (&PixelObserver<'_>, &(dyn Fn() + Sync)),
     ) -> Option<Traced> {
-        self.threads.install(|| {
-            let between = || counter.begin_round();
-            let picture = self.world.denoised(samples, job, on_pixel, &between)?;
-            between();
-            let (film, probed) = probe(&self.world, order, picture, samples, on_pixel)?;
-            let probed = Some(probed);
-            Some(Traced { film, probed })
-        })
+        let mut counts = RayCounts::default();
+        for picture in 1.. {
+            // Denoise; each picture has probes of its own.
+            let seed = order.seed + picture - 1;
+            let order = RenderRequest { seed, ..*order };
+            let (mut film, probed) = self.threads.install(|| {
+                let picture = self.world.denoised(samples, job, on_pixel, between)?;
+                between();
+                probe(&self.world, &order, picture, samples, on_pixel)
+            })?;
+            counts = counts.plus(film.counts);
+            // Render again if it is not good enough.
+            let target = order.goal.error.filter(|target| probed.error > *target);
+            match target {
+                Some(target) if picture < PICTURES && samples < MAX_PATHS => {
+                    samples = more_paths(samples, probed.error / target);
+                    between();
+                }
+                _ => {
+                    film.counts = counts;
+                    let probed = Some(probed);
+                    return Some(Traced { film, probed });
+                }
+            }
+        }
+        None
     }
+}
+
+/// The maximum number of denoised pictures towards a target error.
+const PICTURES: u64 = 4;
+
+/// The maximum number of paths per pixel of the last one.
+const MAX_PATHS: u32 = 1 << 14;
+
+/// The paths per pixel of the first picture towards a target error in grey levels. 16 leave some
+/// 1.5 grey levels, and the squared error of noise falls as their number grows.
+fn first_paths(target: f64) -> u32 {
+    let ratio = 1.5 / target;
+    even((16.0 * ratio * ratio).clamp(4.0, 64.0))
+}
+
+/// The paths per pixel after a picture of `samples`, whose error was `excess` times the target.
+fn more_paths(samples: u32, excess: f64) -> u32 {
+    /// By so much the next error is to be below the target: it has noise.
+    const MARGIN: f64 = 1.1;
+    let aim = MARGIN * excess;
+    let growth = (aim * aim).clamp(1.5, 16.0);
+    even((f64::from(samples) * growth).min(f64::from(MAX_PATHS)))
+}
+
+/// The next even number: both halves of the paths weigh the same.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "from 4 to MAX_PATHS"
+)]
+fn even(paths: f64) -> u32 {
+    (paths.ceil() as u32).next_multiple_of(2)
 }
 
 /// Rejects an option that needs path tracing for other scenes.

@@ -212,9 +212,8 @@ impl PictureSetup {
         /// Bytes per pixel of a film with its counts, and of a progressive one.
         const FILM: [usize; 2] = [40, 320];
         let Crop { width, height, .. } = window;
-        let pixel = FILM[usize::from(self.goal != RenderGoal::default())]
-            + self.look.memory()
-            + self.denoiser_memory();
+        let pixel =
+            FILM[usize::from(self.is_progressive())] + self.look.memory() + self.denoiser_memory();
         let bytes = (width as usize)
             .saturating_mul(height as usize)
             .saturating_mul(pixel);
@@ -324,7 +323,7 @@ impl PictureSetup {
     pub fn check_layers(&self) -> Result<(), RenderError> {
         let mut of_samples = self.look.aovs.iter().filter(|aov| aov.is_of_samples());
         match of_samples.next() {
-            Some(aov) if self.goal == RenderGoal::default() => Err(RenderError::Refused(format!(
+            Some(aov) if !self.is_progressive() => Err(RenderError::Refused(format!(
                 "the layer `{}` is of pictures to a target error or within a time; give \
                  `--target-error LEVELS` or `--time-budget SECONDS`",
                 aov.name()

@@ -241,6 +241,20 @@ fn a_picture_is_told_as_an_object() {
     // A sixteenth of 1200 pixels, and 256 that are drawn, or some of them more than once.
     let probes = serde_json::json!({ "pixels": 331, "samples": 8 });
     assert_eq!(quality["probes"], probes, "{denoised}");
+    // Towards a target it takes the paths that it needs.
+    let paths = |more: &[&str]| {
+        last(render(
+            &[&["--integrator", "path", "--denoise"], more].concat(),
+        ))
+    };
+    let [good, reference] = ["good", "reference"].map(|word| paths(&["--quality", word]));
+    let error = |made: &serde_json::Value| made["quality"]["metError"].as_f64().unwrap();
+    assert!(
+        error(&good) <= 1.5 && error(&reference) <= 0.5,
+        "{good} {reference}"
+    );
+    assert!(reference["rays"].as_u64() > good["rays"].as_u64());
+    assert_eq!(reference["quality"]["endsAbove"], serde_json::Value::Null);
 }
 
 /// What a clamp takes is told, the same for any number of threads; one that takes nothing changes nothing.

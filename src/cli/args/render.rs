@@ -13,9 +13,7 @@ use std::time::Duration;
 const SAMPLE_COUNTS: [&str; 3] = ["supersampling", "aperture-samples", "spp"];
 
 /// The settings that do not go with work on the whole picture.
-const WHOLE_PICTURE: [&str; 7] = [
-    "target_error",
-    "quality",
+const WHOLE_PICTURE: [&str; 5] = [
     "time_budget",
     "part",
     "checkpoint",
@@ -97,7 +95,8 @@ pub(crate) struct RenderArgs {
     ///
     /// The denoiser uses albedo, normal and depth of the first hits, from more camera rays where
     /// these differ. Some pixels are sampled again: they tell the error, and how much of the plain
-    /// picture to keep; those in most doubt become better by these samples.
+    /// picture to keep; those in most doubt become better by these samples. With a target error the
+    /// picture is rendered with more paths until that is met.
     #[arg(
         long,
         conflicts_with_all = WHOLE_PICTURE,
@@ -112,7 +111,7 @@ pub(crate) struct RenderArgs {
         value_name = "LIMIT",
         value_parser = radiance,
         conflicts_with_all = WHOLE_PICTURE,
-        conflicts_with = "denoise",
+        conflicts_with_all = ["target_error", "quality", "denoise"],
         help_heading = "Sampling",
     )]
     pub(crate) clamp: Option<f64>,

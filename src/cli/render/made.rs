@@ -58,6 +58,8 @@ pub(super) enum EstimateSource {
         probes: usize,
         /// Each so often.
         samples: u32,
+        /// The target in grey levels, if the picture ended with a larger error.
+        ends_above: Option<f64>,
     },
 }
 
@@ -160,8 +162,8 @@ fn simulated(counts: &RayCounts) -> String {
 }
 
 impl PictureQuality {
-    /// For a denoised picture.
-    pub(super) fn probed(probed: &ProbedError) -> Self {
+    /// For a denoised picture, which may have a target error.
+    pub(super) fn probed(probed: &ProbedError, target: Option<f64>) -> Self {
         Self {
             error: probed.error,
             undersampled: probed.undersampled,
@@ -170,6 +172,7 @@ impl PictureQuality {
                 plain: probed.plain,
                 probes: probed.probes,
                 samples: probed.samples,
+                ends_above: target.filter(|target| probed.error > *target),
             },
         }
     }
@@ -213,7 +216,11 @@ impl PictureQuality {
                 plain,
                 probes,
                 samples,
+                ends_above,
             } => {
+                let end = ends_above.map_or_else(String::new, |target| {
+                    format!(", more than {target}; `--denoise` takes no more paths")
+                });
                 let bound = match self.undersampled {
                     None => format!(
                         "error {plain:.2} → {:.2} grey levels (90 %)",
@@ -222,7 +229,8 @@ impl PictureQuality {
                     Some(_) => format!("{bound}, without denoising {plain:.2}"),
                 };
                 format!(
-                    "{bound}, likely {estimate:.2}, by {samples} more samples of {probes} pixels"
+                    "{bound}, likely {estimate:.2}, by {samples} more samples of {probes} \
+                    pixels{end}"
                 )
             }
         }
@@ -255,7 +263,9 @@ impl PictureQuality {
                 plain,
                 probes,
                 samples,
+                ends_above,
             } => {
+                object["endsAbove"] = json!(ends_above);
                 object["toldError"] = json!(estimate);
                 object["plainError"] = json!(plain);
                 object["probes"] = json!({ "pixels": probes, "samples": samples });

@@ -328,14 +328,11 @@ impl RenderSetup {
     ) -> Result<(Picture, FinishedPicture), Failure> {
         // Render once, or until the goal is met.
         let quiet = reporter.is_quiet();
-        let rendering = match self.picture.goal {
-            RenderGoal {
-                error: None,
-                time: None,
-            } => self.trace(subject, (window, input.rays()), interrupt, quiet),
-            RenderGoal { error: _, time: _ } => {
-                self.approach(subject, (window, input.rays()), interrupt, quiet, None)
-            }
+        let order = (window, input.rays());
+        let rendering = if self.picture.is_progressive() {
+            self.approach(subject, order, interrupt, quiet, None)
+        } else {
+            self.trace(subject, order, interrupt, quiet)
         };
         let rendering = rendering.map_err(|error| ended(error, input, reporter))?;
         // Develop the film into the picture.

@@ -145,7 +145,9 @@ impl RenderSetup {
             pixels: Vec::new(),
             counts,
             elapsed,
-            quality: probed.as_ref().map(PictureQuality::probed),
+            quality: probed
+                .as_ref()
+                .map(|probed| PictureQuality::probed(probed, self.picture.goal.error)),
         })
     }
 
