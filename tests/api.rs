@@ -275,6 +275,8 @@ fn a_target_error_is_reached_and_said() {
     assert!(picture.encode().unwrap() == by_command(&scene, "x.png", &words));
     assert_eq!(ball().render(&Options::new()).unwrap().error(), None);
     assert!(refusal(&Options::new().layer(Aov::Error)).contains("`error`"));
+    let denoised = Options::new().layer(Aov::Samples).denoise(true);
+    assert!(refusal(&denoised).contains("`--denoise`"));
     assert!(refusal(&Options::new().target_error(0.0)).contains("above 0"));
 }
 
@@ -303,6 +305,35 @@ fn the_error_of_each_pixel_is_a_layer() {
         );
     }
     assert!(samples.iter().any(|count| *count > samples[0]) || samples[0] > 8.0);
+}
+
+/// The errors told of a fixed number of paths are those from a picture of far more.
+#[test]
+fn the_error_of_each_pixel_is_known_without_a_target() {
+    let scene = Scene::open(path("tests/render/camera/anaglyph-paths.yaml")).unwrap();
+    let layers = [Aov::Error, Aov::Samples, Aov::Undersampled];
+    let plain = Options::new().samples(32);
+    let options = layers
+        .into_iter()
+        .fold(Options::new().samples(32), Options::layer);
+    let picture = scene.render(&options).unwrap();
+    assert!(picture.pixels() == scene.render(&plain).unwrap().pixels());
+    let [error, samples, unmet] = layers.map(|aov| picture.layer(aov).unwrap());
+    let converged = scene.render(&Options::new().samples(1024)).unwrap();
+    let pairs = || picture.pixels().iter().zip(converged.pixels());
+    let off = |c: usize| pairs().map(move |(a, b)| (a[c] - b[c]) * (a[c] - b[c]));
+    let off: f64 = (0..3).flat_map(off).sum();
+    let told: f64 = error.iter().map(|error| f64::from(*error).powi(2)).sum();
+    let ratio = (told / off).sqrt();
+    assert!((0.8..2.0).contains(&ratio), "{ratio}");
+    assert!(samples.iter().all(|count| *count == 32.0));
+    // A blue sky may be brighter than white in an anaglyph, as the matrices say.
+    assert!(
+        unmet
+            .iter()
+            .all(|unmet| (*unmet - 3.0 * 1.2264 / 32.0).abs() < 1e-5),
+        "{unmet:?}"
+    );
 }
 
 #[test]

@@ -225,7 +225,7 @@ pub(super) struct SceneRun<'a> {
     scene: &'a Scene,
 }
 
-/// A film, the quality of its pixels if it grew towards a goal, and its error if that is known.
+/// A film, the quality of its pixels if layers show it, and its error if that is known.
 type RenderedFilm = (Film, Vec<PixelQuality>, Option<f64>);
 
 impl SceneRun<'_> {
@@ -315,9 +315,14 @@ impl SceneRun<'_> {
             let progress = (&counter, &stopwatch);
             approach(setup, subject, order, &observer(&on_step), progress)?
         } else {
-            let Traced { film, probed } = setup.trace(subject, order, &observer(&on_step))?;
+            let traced = setup.trace(subject, order, &observer(&on_step))?;
+            let Traced {
+                film,
+                probed,
+                quality,
+            } = traced;
             let verified = probed.filter(|probed| probed.undersampled.is_none());
-            (film, Vec::new(), verified.map(|probed| probed.error))
+            (film, quality, verified.map(|probed| probed.error))
         };
         let counts: &RayCounts = &rendered.0.counts;
         // Report the end.

@@ -2,7 +2,7 @@
 
 use super::{PictureSetup, RayCounter, RenderError, RenderSubject, Renderer};
 use rtc_render::{Film, PixelObserver, RayCounts, RenderSelection};
-use rtc_study::{ProbedError, RenderGoal, RenderRequest, probe};
+use rtc_study::{PixelQuality, ProbedError, RenderGoal, RenderRequest, probe};
 use rtc_valid::{Mode, ValidScene};
 
 /// A picture rendered with the settings of its scene.
@@ -11,11 +11,17 @@ pub struct Traced {
     pub film: Film,
     /// The error of a denoised picture.
     pub probed: Option<ProbedError>,
+    /// The quality of each pixel, if layers show it.
+    pub quality: Vec<PixelQuality>,
 }
 
 impl From<Film> for Traced {
     fn from(film: Film) -> Self {
-        Self { film, probed: None }
+        Self {
+            film,
+            probed: None,
+            quality: Vec::new(),
+        }
     }
 }
 
@@ -91,8 +97,10 @@ impl Renderer {
                 }
                 _ => {
                     film.counts = counts;
-                    let probed = Some(probed);
-                    return Some(Traced { film, probed });
+                    return Some(Traced {
+                        probed: Some(probed),
+                        ..Traced::from(film)
+                    });
                 }
             }
         }
@@ -138,7 +146,7 @@ pub(super) fn require_paths(scene: &ValidScene, option: &str) -> Result<(), Rend
 }
 
 /// The paths per pixel, for an option that needs path tracing.
-fn paths(scene: &ValidScene, option: &str) -> Result<u32, RenderError> {
+pub(super) fn paths(scene: &ValidScene, option: &str) -> Result<u32, RenderError> {
     match scene.settings().mode {
         Mode::Path(path) => Ok(path.samples.get()),
         Mode::Phong | Mode::Depth | Mode::Normal | Mode::Gooch(_) => Err(RenderError::Refused(

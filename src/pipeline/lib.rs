@@ -36,6 +36,7 @@ mod fix;
 mod input;
 mod layout;
 mod light;
+mod measured;
 mod output_transform;
 mod picture_diagnostics;
 mod ray_counter;

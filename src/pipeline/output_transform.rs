@@ -70,6 +70,8 @@ impl OutputTransform {
                 aovs.push(*aov);
             }
         }
+        // Layers of first hits come first, as their values do.
+        aovs.sort_by_key(|aov| aov.is_of_samples());
         Ok(Self {
             kind,
             tone,

@@ -212,8 +212,10 @@ impl PictureSetup {
         /// Bytes per pixel of a film with its counts, and of a progressive one.
         const FILM: [usize; 2] = [40, 320];
         let Crop { width, height, .. } = window;
-        let pixel =
-            FILM[usize::from(self.is_progressive())] + self.look.memory() + self.denoiser_memory();
+        let pixel = FILM[usize::from(self.is_progressive())]
+            + self.look.memory()
+            + self.denoiser_memory()
+            + self.measured_memory();
         let bytes = (width as usize)
             .saturating_mul(height as usize)
             .saturating_mul(pixel);
@@ -261,6 +263,18 @@ impl PictureSetup {
                 .map(|film| film.map(Traced::from))
         } else if self.denoise {
             self.denoised(subject, &job, (&on_pixel, &counter))?.map(Ok)
+        } else if self.is_measured() {
+            let made = self.measured(subject, &job, (&on_pixel, &counter))?;
+            let traced = made.map(|(film, quality)| {
+                let film = film
+                    .develop()
+                    .map_err(|error| RenderError::Refused(error.to_string()))?;
+                Ok::<_, RenderError>(Traced {
+                    quality,
+                    ..Traced::from(film)
+                })
+            });
+            traced.transpose()?.map(Ok)
         } else {
             let film = self.renderer(subject)?.1.render(&job, &on_pixel);
             film.map(|film| Ok(film.into()))
@@ -273,7 +287,7 @@ impl PictureSetup {
         traced.ok_or(RenderError::Stopped)?.map_err(rejected)
     }
 
-    /// The picture of a film, of whose pixels the quality is known if it grew towards a goal.
+    /// The picture of a film, with the quality of its pixels if layers show it.
     /// Diagnostics about it go to `input`.
     ///
     /// # Errors
@@ -316,17 +330,20 @@ impl PictureSetup {
         }
     }
 
-    /// Rejects layers of sample statistics without a target.
+    /// Rejects layers of sample statistics of pictures that show something else than the mean of
+    /// the samples, or are rendered twice.
     ///
     /// # Errors
     /// If there is such a layer.
     pub fn check_layers(&self) -> Result<(), RenderError> {
-        let mut of_samples = self.look.aovs.iter().filter(|aov| aov.is_of_samples());
-        match of_samples.next() {
-            Some(aov) if !self.is_progressive() => Err(RenderError::Refused(format!(
-                "the layer `{}` is of pictures to a target error or within a time; give \
-                 `--target-error LEVELS` or `--time-budget SECONDS`",
-                aov.name()
+        let options = [
+            (self.denoise, "--denoise"),
+            (self.verify, "--verify-effects"),
+        ];
+        let named = options.iter().find(|(is_on, _)| *is_on);
+        match named {
+            Some((_, option)) if self.is_measured() => Err(RenderError::Refused(format!(
+                "layers of samples (error, samples, unmet) are not of pictures by `{option}`"
             ))),
             _ => Ok(()),
         }

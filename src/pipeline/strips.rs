@@ -23,6 +23,8 @@ const GOAL: &str = "the error is known for a whole picture only, so `--target-er
 `--time-budget` have no strips; set the samples with `--spp` or `--supersampling`";
 const DISTANCES: &str = "the brightness of a distance depends on all others, so a depth buffer \
 has no strips; `--aov depth` of another mode holds distances as they are";
+const SAMPLES: &str = "layers of samples (error, samples, unmet) have no strips; parts and \
+checkpoints have them";
 const VERIFY: &str = "`--verify-effects` compares whole pictures, and has no strips; verify a \
 smaller picture, by `--size` or `--crop`";
 
@@ -66,6 +68,7 @@ impl PictureSetup {
             (self.goal != RenderGoal::default(), GOAL),
             (is_distances, DISTANCES),
             (self.verify, VERIFY),
+            (self.is_measured(), SAMPLES),
         ];
         match reasons.iter().find(|(is_so, _)| *is_so) {
             Some((_, reason)) => Err(RenderError::Refused((*reason).to_owned())),

@@ -105,7 +105,7 @@ pub use parameter::{Parameter, arithmetic, not_applicable};
 pub use precision::PrecisionCost;
 pub use probe::{ProbedError, probe};
 pub use progressive::{CheckpointSink, ProgressiveRender};
-pub use quality::{PixelQuality, with_quality};
+pub use quality::{PixelQuality, quality_of_halves, with_quality};
 pub use reference::{DepthEnd, ParameterLevel};
 #[cfg(feature = "cli")]
 pub use report::{SliderPage, csv, html, maps_page, slider_page, table, value_text, versus_table};

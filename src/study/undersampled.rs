@@ -63,7 +63,7 @@ impl UndersampledBound {
     /// The mean square error of undersampled features, for a white of 1, if the replicates of each
     /// pixel have at least `count` samples.
     fn square(&self, count: u32) -> f64 {
-        let changed = self.changed(count);
+        let changed = self.changed(2 * u64::from(count));
         let squares = if changed < 1.0 {
             changed * changed
         } else {
@@ -72,10 +72,10 @@ impl UndersampledBound {
         squares / self.pixels.max(1) as f64
     }
 
-    /// The change of a pixel, in multiples of white, by a feature that is missed by `count` samples
-    /// in each of two replicates.
-    fn changed(&self, count: u32) -> f64 {
-        EXPECTED_HITS * self.brightest / (2.0 * f64::from(count.max(1)))
+    /// The change of a pixel, in multiples of white, by a feature that is missed by all of its
+    /// samples, those of a pilot aside.
+    pub(super) fn changed(&self, samples: u64) -> f64 {
+        EXPECTED_HITS * self.brightest / samples.max(1) as f64
     }
 
     /// The quality of a pixel.
@@ -88,7 +88,7 @@ impl UndersampledBound {
         PixelQuality {
             error: pixel.standard_error().map(|error| error as f32),
             samples: pixel.samples(),
-            undersampled: self.changed(shown).min(1.0) as f32,
+            undersampled: self.changed(2 * u64::from(shown)).min(1.0) as f32,
         }
     }
 

@@ -242,12 +242,13 @@ fn run_with_kills(folder: &TempDir, args: &[&str], waits: &[u64]) -> usize {
 #[test]
 fn a_picture_that_grows_to_its_goal_goes_on_to_the_same_bytes() {
     let folder = scenes();
-    let render = ["render", "paths.json", "--target-error", "0.7", "-o"];
-    reported(&folder, &[&render[..], &["whole.png"]].concat());
-    let saving = ["a.png", "--checkpoint", "a.rtp", "--every", "0.01s"];
+    let goal = ["render", "paths.json", "--target-error", "0.7"];
+    let render = [&goal[..], &["--aov", "error,samples,unmet,depth", "-o"]].concat();
+    reported(&folder, &[&render[..], &["whole.exr"]].concat());
+    let saving = ["a.exr", "--checkpoint", "a.rtp", "--every", "0.01s"];
     let saving = [&render[..], &saving].concat();
     run_with_kills(&folder, &saving, &[60, 110, 160, 90]);
-    assert!(bytes(&folder, "a.png") == bytes(&folder, "whole.png"));
+    assert!(bytes(&folder, "a.exr") == bytes(&folder, "whole.exr"));
     // All of it is there.
     let before = bytes(&folder, "a.rtp");
     reported(&folder, &saving);

@@ -17,7 +17,7 @@ enum Cell {
 
 /// The rows: what the table calls it, the words of a render, its picture, and what checkpoints, parts,
 /// strips and frames do to it.
-const ROWS: [(&str, &[&str], &str, [Cell; 4]); 10] = [
+const ROWS: [(&str, &[&str], &str, [Cell; 4]); 11] = [
     (
         "target error",
         &["ball.json", "--target-error", "2"],
@@ -62,6 +62,12 @@ const ROWS: [(&str, &[&str], &str, [Cell; 4]); 10] = [
         &["ball.json", "--aov", "depth,normal"],
         "a.exr",
         [Same; 4],
+    ),
+    (
+        "layers of samples",
+        &["paths.json", "--aov", "depth,error,samples,unmet"],
+        "a.exr",
+        [Same, Same, Refused("have no strips"), Same],
     ),
     (
         "transparent background",
@@ -166,7 +172,8 @@ fn each_cell_of_the_table_is_as_it_says() {
                 }
                 Made => drop(made(&folder, words, picture, path_at)),
                 Refused(hint) => {
-                    let render = [&["render"], words, WAYS[path_at]].concat();
+                    let named: &[&str] = if path_at == 2 { &["-o", picture] } else { &[] };
+                    let render = [&["render"], words, WAYS[path_at], named].concat();
                     let output = rtc(&folder, &render);
                     assert_eq!(code(&output), 2, "{render:?}: {}", stderr(&output));
                     assert!(stderr(&output).contains(hint), "{}", stderr(&output));

@@ -4,7 +4,7 @@ use super::*;
 use rtc::internals::pipeline::RenderShard;
 
 /// The words of a render of a scene, and the name of its picture.
-pub(super) const PICTURES: [(&[&str], &str); 6] = [
+pub(super) const PICTURES: [(&[&str], &str); 9] = [
     (&["ball.json"], "a.png"),
     (
         &["ball.json", "--aperture-samples", "3", "--bits", "16"],
@@ -17,9 +17,22 @@ pub(super) const PICTURES: [(&[&str], &str); 6] = [
     (&["depth.json", "--crop", "9,3,20,20"], "d.png"),
     (&["paths.json", "--background", "transparent"], "e.png"),
     (&["paths.json", "--aov", "normal,depth,instance"], "f.exr"),
+    (&["paths.json", "--aov", "error,uv,unmet,samples"], "g.exr"),
+    (&["moving.yaml"], "h.png"),
+    (&["anaglyph.yaml"], "i.png"),
 ];
 
-/// The folder of all tests here: a ball, its distances, and its paths, with 40 samples a pixel.
+/// A ball by path tracing with 40 samples, with these settings of the camera and of the ball.
+fn text(camera: &str, ball: &str) -> String {
+    format!(
+        "Camera: {{eye: [0, 0, 6], center: [0, 0, 0], up: [0, 1, 0], fov: 40, viewSize: [40, 20]{camera}}}\n\
+         PathParameters: {{samples: 40}}\nEnvironment: {{color: 1}}\nObjects:\n\
+         - {{type: sphere, position: [0, 0, 0], radius: 1{ball}, material: {{type: standard}}}}\n"
+    )
+}
+
+/// The folder of all tests here: a ball, its distances, and its paths, with 40 samples a pixel; a
+/// ball that moves, and one for two eyes.
 pub(super) fn scenes() -> TempDir {
     let folder = folder();
     let write = |name: &str, mode: &str| {
@@ -32,6 +45,11 @@ pub(super) fn scenes() -> TempDir {
         "paths.json",
         "{\"path\": {\"samples\": 40, \"multipleScattering\": true}}",
     );
+    let moving = text(", shutter: [0, 1]", ", velocity: [1, 0, 0]");
+    let anaglyph = text(", stereo: 0.3, stereoView: anaglyph", "");
+    for (name, text) in [("moving.yaml", moving), ("anaglyph.yaml", anaglyph)] {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
     folder
 }
 
@@ -76,7 +94,10 @@ fn parts_make_the_bytes_of_one_process() {
     for (words, picture) in PICTURES {
         reported(&folder, &[&["render"], words, &["-o", picture]].concat());
         let whole = bytes(&folder, picture);
-        let ways: &[(&str, u32)] = if words[0] == "paths.json" {
+        let ways: &[(&str, u32)] = if picture == "g.exr" {
+            // Layers of samples tell of all samples of a pixel.
+            &[("tiles", 1), ("tiles", 7)]
+        } else if words[0] == "paths.json" {
             &[
                 ("tiles", 1),
                 ("tiles", 7),
@@ -86,6 +107,10 @@ fn parts_make_the_bytes_of_one_process() {
             ]
         } else {
             &[("tiles", 1), ("tiles", 2), ("tiles", 7)]
+        };
+        let ways = match words[0].ends_with(".yaml") {
+            true => &[("tiles", 3), ("samples", 2)],
+            false => ways,
         };
         for path_at in ways {
             // In any order, and one of them twice.
@@ -195,6 +220,12 @@ fn what_no_part_can_be_is_refused_before_work() {
         &["--parts-by", "samples"],
         "only pictures of traced paths have parts by samples",
     );
+    let layers = ["paths.json", "--aov", "error", "--picture", "a.exr"];
+    let share = ["--part", "1/2", "--parts-by", "samples", "-o", "b.rtp"];
+    let output = rtc(&folder, &[&["render"], &layers[..], &share].concat());
+    assert_eq!(code(&output), 2);
+    let words = "they have no parts by samples";
+    assert!(stderr(&output).contains(words), "{}", stderr(&output));
     let output = rtc(&folder, &["render", "ball.json", "--part", "3/2"]);
     assert!(stderr(&output).contains("as 3/8"), "{}", stderr(&output));
 }

@@ -203,6 +203,48 @@ fn beside(folder: &TempDir, extension: &str) -> Vec<String> {
 }
 
 #[test]
+fn motion_and_two_eyes_are_told_where_they_are_left_out() {
+    let scene = "\
+Camera: {eye: [0, 0, 5], center: [0, 0, 0], up: [0, 1, 0], fov: 40, viewSize: [40, 30], shutter: [0, 0.5],
+  stereo: 0.3, stereoView: anaglyph}
+PathParameters: {samples: 16}
+Environment: {color: 1}
+Objects:
+- {type: sphere, position: [0, 0, 0], radius: 1, velocity: [1, 0, 0], material: {type: standard}}
+";
+    for target in ["scene.xml", "scene.pbrt", "scene.pov"] {
+        let (_, _, reported) = written(scene, target);
+        for words in ["written with one eye", "motion is left out"] {
+            assert!(reported.contains(words), "{target}: {reported}");
+        }
+        assert!(reported.contains("warning[EX001]"), "{target}: {reported}");
+    }
+    // A text and a glTF hold both; of the latter no other program reads them.
+    let (_, text, reported) = written(scene, "copy.yaml");
+    assert_eq!(reported, "");
+    for words in [
+        "stereoView: anaglyph",
+        "velocity: [1, 0, 0]",
+        "shutter: [0, 0.5]",
+    ] {
+        assert!(text.contains(words), "{words} is missing: {text}");
+    }
+    let folder = folder();
+    fs::write(folder.path().join("scene.yaml"), scene).unwrap();
+    let done = rtc(
+        &folder,
+        &["compile", "scene.yaml", "-v", "-o", "scene.gltf"],
+    );
+    let reported = stderr(&done);
+    for words in [
+        "the velocity of a surface is written to",
+        "how the picture is made is written to",
+    ] {
+        assert!(reported.contains(words), "{words} is missing: {reported}");
+    }
+}
+
+#[test]
 fn the_light_of_the_studio_and_textures_go_beside_the_scene_of_mitsuba() {
     let scene = "\
 Camera: {eye: [0, 0, 5], center: [0, 0, 0], up: [0, 0.1, 0], right: [0.1, 0, 0], viewSize: [40, 30]}

@@ -6,7 +6,7 @@ use rtc::internals::image::Image;
 use rtc::internals::ir::{LoweredScene, Scene, SourceSpans};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::plan::{Plan, RuleSet};
-use rtc::internals::render::{AnyWorld, Background, Crop, Values};
+use rtc::internals::render::{AnyWorld, Background, Crop, SimdLevel, Values};
 use rtc::internals::source::SourceMap;
 use rtc::internals::study::{
     LEVELS, RenderCallbacks, RenderGoal, RenderRequest, SplitMix64, TargetResult, approach,
@@ -132,6 +132,11 @@ pub(crate) fn render(scene: &Scene, error: f64, seed: u64) -> TargetResult {
 
 /// The world of a valid scene.
 pub(crate) fn world(scene: &Scene) -> AnyWorld {
+    world_at(scene, SimdLevel::best())
+}
+
+/// As [`world`], for these instructions.
+pub(crate) fn world_at(scene: &Scene, level: SimdLevel) -> AnyWorld {
     let lowered = LoweredScene {
         scene: scene.clone(),
         source_spans: SourceSpans::default(),
@@ -142,7 +147,7 @@ pub(crate) fn world(scene: &Scene) -> AnyWorld {
         &mut DiagnosticSink::default(),
     )
     .expect("the scene is sound");
-    AnyWorld::prepare(&validated, &Plan::new(&validated, RuleSet::ALL))
+    AnyWorld::prepare_at(&validated, &Plan::new(&validated, RuleSet::ALL), level)
 }
 
 /// All of the picture.

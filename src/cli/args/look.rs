@@ -121,8 +121,8 @@ pub(crate) enum LayerArg {
     Instance,
     /// Channels position.X, .Y, .Z: world coordinates
     Position,
-    /// Channels error.R, .G, .B: standard errors, of display values, of a picture with
-    /// `--target-error` or `--time-budget`
+    /// Channels error.R, .G, .B: standard errors, of display values, of a picture of traced paths
+    /// (17 or more), or with `--target-error` or `--time-budget`
     Error,
     /// Channel samples.X: the number of samples of such a picture
     Samples,

@@ -110,7 +110,11 @@ impl FinishedPicture {
 
     /// The text about its quality, if that is known.
     pub(super) fn quality_text(&self) -> Option<String> {
-        self.quality.as_ref().map(PictureQuality::text)
+        let source = match self.counts.of(Effect::Caustics) {
+            0 => "paths hit lights via smooth metal or glass by chance",
+            _ => "estimated caustics have no greatest value near a focus",
+        };
+        self.quality.as_ref().map(|quality| quality.text(source))
     }
 
     /// As an object of one line, `{"rendered": …}`.
@@ -185,13 +189,14 @@ impl PictureQuality {
         }
     }
 
-    fn text(&self) -> String {
+    /// The text; `unbounded` says why there is no greatest value of a sample, if there is none.
+    fn text(&self, unbounded: &str) -> String {
         // State the bound of the error.
         let bound = match self.coarse() {
             Some(CoarsePicture { block, .. }) => {
                 format!("no bound: of some blocks of {block} × {block} pixels one was sampled")
             }
-            None => bound(self.error, self.undersampled),
+            None => bound(self.error, self.undersampled, unbounded),
         };
         // Tell how it was estimated.
         match &self.known {
@@ -276,8 +281,8 @@ impl PictureQuality {
 }
 
 /// A bound on the error in grey levels, as text; or the radiance, in multiples of white, that
-/// prevents a bound.
-fn bound(levels: f64, undersampled: Option<f64>) -> String {
+/// prevents a bound; if that is infinite, for the given reason.
+fn bound(levels: f64, undersampled: Option<f64>, unbounded: &str) -> String {
     match undersampled {
         None => format!("{} (90 %)", error(levels)),
         Some(white) if white <= 1.0 => format!(
@@ -285,8 +290,7 @@ fn bound(levels: f64, undersampled: Option<f64>) -> String {
             error(levels)
         ),
         Some(white) if white.is_infinite() => format!(
-            "no bound: paths hit lights via smooth metal or glass by chance; {} (90 %) for the \
-            sampled part",
+            "no bound: {unbounded}; {} (90 %) for the sampled part",
             error(levels)
         ),
         Some(white) => format!(

@@ -133,7 +133,11 @@ impl RenderSetup {
         };
         let traced = self.picture.trace(subject, (window, rays), &observer);
         let elapsed = progress.finish();
-        let Traced { film, probed } = traced?;
+        let Traced {
+            film,
+            probed,
+            quality: pixels,
+        } = traced?;
         let Film {
             image,
             coverage,
@@ -142,7 +146,7 @@ impl RenderSetup {
         Ok(RenderResult {
             image,
             coverage,
-            pixels: Vec::new(),
+            pixels,
             counts,
             elapsed,
             quality: probed

@@ -22,6 +22,10 @@ impl RenderShard {
                          the whole picture";
             return Err(RenderError::Refused(words.to_owned()));
         }
+        if self.aovs().iter().any(|aov| aov.is_of_samples()) {
+            let words = "it has layers that are not made tile by tile".to_owned();
+            return Err(RenderError::Refused(words));
+        }
         let mut setup = claim::setup(&metadata.settings, self.look().kind, self.aovs())?;
         setup.look.has_metadata = self.look().has_metadata();
         Ok(setup)

@@ -7,11 +7,16 @@ use super::super::{
 use super::ShardSource;
 use rtc_ir::{self as ir, Scene};
 use rtc_render::{Crop, RenderSelection};
+use rtc_study::with_quality;
 use rtc_valid as valid;
 
 /// The message for a picture that can't be divided by samples.
 const INSEPARABLE: &str = "only pictures of traced paths have parts by samples; \
      `--parts-by tiles` shares out any picture";
+
+/// The message for layers of samples of a picture that is divided by samples.
+const HALVES: &str = "the layers error, samples and unmet tell of all samples of a pixel, so they \
+     have no parts by samples; `--parts-by tiles` has them";
 
 impl PictureSetup {
     /// Checks that the picture can be divided this way.
@@ -63,21 +68,27 @@ impl PictureSetup {
             (observer.on_step)(step);
             !(observer.is_stopped)() && counter.step(step)
         };
-        let film = self
-            .renderer(subject)?
-            .1
-            .render_part(&job, samples, &on_pixel);
+        let film = match (self.is_measured(), samples) {
+            (true, None) => self.measured(subject, &job, (&on_pixel, &counter))?,
+            (true, Some(_)) => return Err(RenderError::Refused(HALVES.to_owned())),
+            (false, samples) => {
+                let (_, renderer) = self.renderer(subject)?;
+                let film = renderer.render_part(&job, samples, &on_pixel);
+                let film = film.map_err(|error| RenderError::Refused(error.to_string()))?;
+                film.map(|film| (film, Vec::new()))
+            }
+        };
         if let Some(diagnostic) = subject.ran_out(&counter, observer) {
             return Err(RenderError::RanOut(diagnostic));
         }
-        let film = film.map_err(|error| RenderError::Refused(error.to_string()))?;
-        let film = film.ok_or(RenderError::Stopped)?;
+        let (film, quality) = film.ok_or(RenderError::Stopped)?;
         let tiles = Some(shares.tiles());
         let layers = self.layers(
             subject,
             &RenderSelection { tiles, ..job },
             observer.is_stopped,
         )?;
+        let layers = with_quality(layers, &self.look.aovs, &quality);
         let metadata = self.metadata(&subject.validated.lowered.scene);
         let made = ShardSource {
             metadata,

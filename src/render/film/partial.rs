@@ -41,6 +41,15 @@ pub struct PartialFilm {
     pub(super) tiles: Vec<Vec<SumNode>>,
 }
 
+/// The mean of some samples of a pixel, linear; black without samples.
+#[derive(Clone, Copy, Debug)]
+pub struct MeanOfSamples {
+    /// The mean in each channel.
+    pub mean: [f64; 3],
+    /// The number of samples.
+    pub samples: u32,
+}
+
 /// A node of the tree over the blocks of samples, with its sums of the pixels of a tile.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SumNode {
@@ -256,6 +265,27 @@ impl PartialFilm {
         let is_in_blocks = matches!(self.layout.summation, Summation::InBlocks(_));
         let nodes = self.tiles[tile].iter();
         nodes.map(move |node| is_in_blocks.then(|| self.layout.samples_of(&node.blocks)))
+    }
+
+    /// For each pixel of a tile, row by row, the mean of the samples that are here; empty without
+    /// samples.
+    ///
+    /// # Panics
+    /// If there is no such tile.
+    #[must_use]
+    pub fn means_of_tile(&self, tile: usize) -> Vec<MeanOfSamples> {
+        let [first, others @ ..] = self.tiles[tile].as_slice() else {
+            return Vec::new();
+        };
+        let of_pixel = |(index, first): (usize, &PixelSum)| {
+            let others = others.iter().map(|node| node.sums[index]);
+            let sum = others.fold(*first, |sum, other| sum + other);
+            MeanOfSamples {
+                mean: sum.mean(),
+                samples: sum.samples,
+            }
+        };
+        first.sums.iter().enumerate().map(of_pixel).collect()
     }
 
     pub(crate) fn new(layout: FilmLayout) -> Self {

@@ -83,6 +83,17 @@ impl<'run, I: Integrator<'run, Sample = PixelSample>> Integrator<'run> for Anagl
     }
 }
 
+/// The most that a channel of the picture can change where what the eyes see changes by at most 1:
+/// the greatest sum of the positive, or of the negative, factors of a channel.
+pub(crate) fn gain() -> f64 {
+    let sum = |k: usize, sign: f64| -> f64 {
+        let factors = DUBOIS.iter().flat_map(|eye| eye[k].to_array());
+        factors.map(|factor| (sign * factor).max(0.0)).sum()
+    };
+    let sums = (0..3).flat_map(|k| [1.0, -1.0].map(|sign| sum(k, sign)));
+    sums.fold(0.0, f64::max)
+}
+
 /// The colour that shows two colours to two eyes.
 fn combined(views: [Vec3; 2]) -> Vec3 {
     let channel = |k: usize| {
@@ -105,6 +116,9 @@ mod tests {
         );
         let left = combined([Vec3::ONE, Vec3::ZERO]);
         assert!(left.x > 1.0 && left.y < 0.0 && left.z < 0.0, "{left}");
+        // The most that any colours bring: blue of the right eye alone.
+        let blue = combined([Vec3::ZERO, Vec3::Z]).z;
+        assert!((gain() - blue).abs() < 1e-12, "{}", gain());
         let right = combined([Vec3::ZERO, Vec3::ONE]);
         assert!(right.x < 0.0 && right.y > 1.0 && right.z > 1.0, "{right}");
     }

@@ -29,9 +29,10 @@ pub enum Aov {
     /// The position in the world.
     Position,
     /// The standard error of each channel, of display values: half the difference of the two
-    /// replicates; of pictures to a target error or within a time.
+    /// replicates of pictures to a target error or within a time, and of two halves of the samples
+    /// of other path-traced pictures (at least 17 samples).
     Error,
-    /// The number of samples, those of the pilot included; of the same pictures.
+    /// The number of samples, those of a pilot included; of the same pictures.
     Samples,
     /// A bound, in multiples of white, on the change of the pixel by light that no sample may have
     /// hit (95 %): 1 where there is no bound; of the same pictures.

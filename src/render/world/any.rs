@@ -95,7 +95,7 @@ impl AnyWorld {
     /// The greatest radiance that a path may find by chance, on a surface or outside the scene, in
     /// the strongest channel; 0 without path tracing, infinite where there is no useful bound on
     /// the throughput. Where only rough surfaces can find a light that is aimed at, it is what the
-    /// aimed sample brings.
+    /// aimed sample brings. An anaglyph may show more than what an eye sees.
     #[must_use]
     pub fn brightest(&self) -> f64 {
         each!(self, world => world.brightest())

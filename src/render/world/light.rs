@@ -2,6 +2,7 @@
 
 use super::World;
 use super::texture::Textures;
+use crate::integrator::anaglyph;
 use crate::light::course::CourseLight;
 use crate::light::environment::Environment;
 use crate::light::punctual::{DirectionalLight, Falloff, PointLight, ProjectedTexture, Punctual};
@@ -33,7 +34,11 @@ impl<S: Intersect> World<S> {
             return f64::INFINITY;
         }
         let environment = self.lights.environment.brightest();
-        paths.map_or(environment, |_| environment.max(self.brightest_surface()))
+        let seen = paths.map_or(environment, |_| environment.max(self.brightest_surface()));
+        match self.camera.is_anaglyph() {
+            true => seen * anaglyph::gain(),
+            false => seen,
+        }
     }
 }
 
