@@ -45,7 +45,7 @@ macro_rules! constructors {
     };
 }
 
-rtc_tables::shapes!(constructors);
+ir::shapes!(constructors);
 
 impl Shape {
     /// A sphere.

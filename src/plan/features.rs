@@ -1,31 +1,35 @@
 //! Feature sets of the integrators. They are compile-time constants, so that the code of unused
 //! effects is not compiled in.
 
-/// The operations that both feature sets share.
-macro_rules! set {
-    ($name:ident) => {
-        impl $name {
-            /// The union of two sets.
-            #[must_use]
-            pub const fn with(self, other: Self) -> Self {
-                Self(self.0 | other.0)
-            }
-
-            /// Whether all of `others` are in the set.
-            #[must_use]
-            pub const fn contains(self, others: Self) -> bool {
-                self.0 & others.0 == others.0
-            }
-        }
-    };
-}
-
-set!(WhittedFeatures);
-set!(PathFeatures);
+/// A set of features, of path tracing or of the Whitted integrator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FeatureSet<const OF_PATHS: bool>(pub u32);
 
 /// A set of features of the Whitted integrator.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct WhittedFeatures(pub u32);
+pub type WhittedFeatures = FeatureSet<false>;
+
+/// A set of features of the path integrator.
+pub type PathFeatures = FeatureSet<true>;
+
+impl<const OF_PATHS: bool> FeatureSet<OF_PATHS> {
+    /// The union of two sets.
+    #[must_use]
+    pub const fn with(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Whether all of `others` are in the set.
+    #[must_use]
+    pub const fn contains(self, others: Self) -> bool {
+        self.0 & others.0 == others.0
+    }
+
+    /// The number of features.
+    #[must_use]
+    pub const fn count(self) -> u32 {
+        self.0.count_ones()
+    }
+}
 
 impl WhittedFeatures {
     /// First hit only.
@@ -51,17 +55,7 @@ impl WhittedFeatures {
     pub const UNPRUNED: Self = Self(1 << 8);
     /// All of them.
     pub const EVERYTHING: Self = Self((1 << 9) - 1);
-
-    /// The number of features.
-    #[must_use]
-    pub const fn count(self) -> u32 {
-        self.0.count_ones()
-    }
 }
-
-/// A set of features of the path integrator.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PathFeatures(pub u32);
 
 impl PathFeatures {
     /// Diffuse surfaces only, without light sampling.
@@ -127,12 +121,12 @@ mod tests {
             PathFeatures::LAYERS,
             PathFeatures::MEDIA,
         ];
-        assert!(of_paths.iter().all(|feature| feature.0.count_ones() == 1));
+        assert!(of_paths.iter().all(|feature| feature.count() == 1));
         let all_of_paths = of_paths
             .into_iter()
             .fold(PathFeatures::NONE, PathFeatures::with);
         assert_eq!(all_of_paths, PathFeatures::EVERYTHING);
-        assert_eq!(PathFeatures::EVERYTHING.0.count_ones(), 7);
+        assert_eq!(PathFeatures::EVERYTHING.count(), 7);
         let two = WhittedFeatures::MAPS.with(WhittedFeatures::LIGHT);
         assert_eq!(two.with(WhittedFeatures::LIGHT), two);
         assert!(

@@ -61,7 +61,7 @@ mod surface_bounds;
 mod visibility;
 
 pub use effect::{Effect, EffectState, EffectStatus};
-pub use features::{PathFeatures, ShapeSet, WhittedFeatures};
+pub use features::{FeatureSet, PathFeatures, ShapeSet, WhittedFeatures};
 pub use hidden_maps::{HiddenMap, hidden_maps};
 pub use invisible::invisible_surfaces;
 pub use layer::Layer;

@@ -211,22 +211,23 @@ impl<S: Intersect> KernelTask for SumPaths<'_, S> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rtc_plan::FeatureSet;
 
     #[test]
     fn the_path_kernel_chosen_can_do_all_that_is_needed() {
         for needed in 0..=PathFeatures::EVERYTHING.0 {
-            let chosen = choose_for_paths(PathFeatures(needed));
+            let chosen = choose_for_paths(FeatureSet(needed));
             let features = PATH_KERNELS[chosen].features;
-            assert!(features.contains(PathFeatures(needed)), "{needed:b}");
+            assert!(features.contains(FeatureSet(needed)), "{needed:b}");
             let mut smaller = PATH_KERNELS.iter().take(chosen);
-            assert!(!smaller.any(|kernel| kernel.features.contains(PathFeatures(needed))));
+            assert!(!smaller.any(|kernel| kernel.features.contains(FeatureSet(needed))));
         }
     }
 
     #[test]
     fn the_kernel_chosen_can_do_all_that_is_needed_and_no_smaller_one_can() {
         for needed in 0..1 << 9 {
-            let needed = WhittedFeatures(needed);
+            let needed = FeatureSet(needed);
             let chosen = KERNELS[choose(needed)].features;
             assert!(chosen.contains(needed), "{needed:?}: {chosen:?}");
             let smaller = KERNELS

@@ -1,7 +1,8 @@
 //! The table of the parameters of the glTF material (glTF 2.0, appendix B, and `KHR_materials_*`).
 //!
 //! To add a parameter, add a row here. Each stage passes a macro to which all rows are given, and
-//! generates its part from them: the fields of the IR, their validation, the objects of glTF.
+//! generates its part from them: the fields of the IR, their validation, the keys of the scene
+//! format. A property of an extension of glTF that is a parameter is a row, too.
 
 use PropertyKind::{Color, Distance, Fraction, FractionColor, Map, NonNegative, NormalMap, Number};
 

@@ -43,7 +43,7 @@ use lobe_pdf::LobePdf;
 use microfacet::{Microfacet, ScatteredDirection};
 use plastic::PlasticBase;
 use rtc_math::{Microfacets, Vec3};
-use rtc_plan::PathFeatures;
+use rtc_plan::{FeatureSet, PathFeatures};
 use sheen::SheenFibres;
 use side::Side;
 use standard::{DiffuseTransmission, StandardParameters};
@@ -57,7 +57,7 @@ pub(crate) const TRANSMISSION: PathFeatures = PathFeatures::TRANSMISSION;
 
 /// Whether the features `F` hold one: known at compile time.
 pub(crate) const fn can<const F: u32>(feature: PathFeatures) -> bool {
-    PathFeatures(F).contains(feature)
+    FeatureSet(F).contains(feature)
 }
 
 /// A direction on the other side of the surface.

@@ -19,7 +19,7 @@ use crate::shape::geometry::Intersect;
 use crate::world::World;
 use crate::world::settings::Mode;
 use rtc_image::PixelLayers;
-use rtc_plan::{PixelClass, WhittedFeatures};
+use rtc_plan::{FeatureSet, PixelClass, WhittedFeatures};
 use std::iter::repeat_n;
 use std::ops::Range;
 
@@ -36,7 +36,7 @@ impl<S: Intersect> World<S> {
         if let Mode::Depth = self.settings.mode {
             return self.sum_distances(job, on_pixel);
         }
-        let samples = if WhittedFeatures(F).contains(WhittedFeatures::CAMERA) {
+        let samples = if FeatureSet(F).contains(WhittedFeatures::CAMERA) {
             self.settings.grid.samples()
         } else {
             1

@@ -236,7 +236,7 @@ pub(crate) mod tie;
 pub(crate) mod torus;
 pub(crate) mod triangle;
 
-/// The type for each row of the table of shapes, by the name in its row.
+/// The type of each kind of shape, by the name of the kind.
 pub(crate) mod kinds {
     pub(crate) use super::cone::Cone;
     pub(crate) use super::csg::Csg;
@@ -254,13 +254,18 @@ pub(crate) mod kinds {
 
 use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
+use crate::shape::baseline::ray::BaselineRay;
+use crate::shape::baseline::real::Real;
+use crate::shape::baseline::{Baseline, HasBaseline, baselines};
 use crate::shape::emitter::Emitter;
 use crate::shape::four::Shape4;
 use crate::shape::geometry::{AttributeRequest, Intersect, LocalRay, ShadingAttributes};
+use crate::shape::mesh::BaselineMesh;
 use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::WatertightRay;
 use kinds::*;
-use rtc_math::{Bounds, Vec3};
+use rtc_math::{Bounds, Vec3, Vector};
+use std::sync::Arc;
 
 /// A shape ready to be hit.
 #[derive(Clone, Debug)]
@@ -297,5 +302,10 @@ dispatch!(Shape {
     Sphere Plane Triangle Quad Disc Cylinder Cone Paraboloid Torus Instance Ellipsoid
     InfiniteCylinder Csg
 });
+
+baselines! {
+    Sphere Plane Triangle Quad Disc Cylinder Cone Paraboloid Torus Instance Ellipsoid
+    InfiniteCylinder Csg
+}
 
 const _: () = assert!(size_of::<Shape>() == 192, "memory is what rays wait for");

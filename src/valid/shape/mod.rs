@@ -121,7 +121,7 @@ macro_rules! declare {
     };
 }
 
-rtc_tables::shapes!(declare);
+ir::shapes!(declare);
 
 /// A sphere.
 #[derive(Clone, Debug)]

@@ -232,3 +232,27 @@ static TEXTURE_TRANSFORM: ObjectSchema = object(&[
     optional("scale", Numbers(&[2], FREE)),
     optional("texCoord", Integer(0, MAX_INTEGER)),
 ]);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rtc_ir::{Map, Standard};
+
+    /// Readers and writers find the parameter by its name and its type.
+    #[test]
+    fn each_property_is_a_parameter_of_its_kind() {
+        let standard = Standard::default();
+        for (key, kind, name) in MATERIAL_EXTENSIONS.iter().flat_map(|(_, all)| *all) {
+            let parameter = standard.parameter(name).expect(name);
+            let is_right = match kind {
+                PropertyKind::Fraction | PropertyKind::Number | PropertyKind::NonNegative => {
+                    parameter.is::<f64>()
+                }
+                PropertyKind::Distance => parameter.is::<Option<f64>>(),
+                PropertyKind::Color | PropertyKind::FractionColor => parameter.is::<[f64; 3]>(),
+                PropertyKind::Map | PropertyKind::NormalMap => parameter.is::<Option<Map>>(),
+            };
+            assert!(is_right, "{key}");
+        }
+    }
+}

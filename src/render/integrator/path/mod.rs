@@ -27,7 +27,7 @@ use crate::world::World;
 use crate::world::settings::Mode;
 pub(crate) use aov::{GuidedPathTracer, PathFirstHitFinder};
 use rtc_math::Vec3;
-use rtc_plan::{Effect, PathFeatures, RemainingEnvironment};
+use rtc_plan::{Effect, FeatureSet, PathFeatures, RemainingEnvironment};
 use state::PathState;
 use vertex::RayEnd;
 
@@ -114,7 +114,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     /// Whether this tracer can do it: known at compile time.
     #[inline]
     const fn can(feature: PathFeatures) -> bool {
-        PathFeatures(F).contains(feature)
+        FeatureSet(F).contains(feature)
     }
 
     /// Whether it is to be done: known at compile time where this tracer cannot.

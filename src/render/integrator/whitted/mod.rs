@@ -35,7 +35,7 @@ use crate::world::{Hit, World};
 use branch::{PendingWork, RayBranch, RayBranchKind};
 use pixel::PixelState;
 use rtc_math::Vec3;
-use rtc_plan::{Effect, Plan, Rule, WhittedFeatures};
+use rtc_plan::{Effect, FeatureSet, Plan, Rule, WhittedFeatures};
 use shade::{OUTLINE, ShadingPoint};
 
 /// Follows camera rays through a world with the [`WhittedFeatures`] `F`; reuse one for many rays,
@@ -97,7 +97,7 @@ impl<'world, S: Intersect, const F: u32> WhittedTracer<'world, S, F> {
     /// Whether this tracer can do it: known at compile time.
     #[inline]
     pub(crate) const fn can(feature: WhittedFeatures) -> bool {
-        WhittedFeatures(F).contains(feature)
+        FeatureSet(F).contains(feature)
     }
 
     /// Whether a rule that decides hit by hit applies: always, but for the naive tracer.

@@ -11,13 +11,12 @@ pub(crate) mod roots;
 
 use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
-use crate::shape::Shape;
 use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
-use crate::shape::kinds::*;
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::WatertightRay;
+use crate::shape::{BaselineKind, Shape};
 use ray::BaselineRay;
 use real::{Real, RealVector};
 use rtc_math::{Bounds, Vec3, Vector};
@@ -63,33 +62,35 @@ pub struct BaselineShape<R: Real> {
     robust: Box<Shape>,
 }
 
-/// Declares the baselines of all shapes.
-macro_rules! declare {
-    (
-        all { $($(#[$doc:meta])* $Name:ident $name:ident $Store:ident $paths:tt;)* }
-        derived $derived:tt
-    ) => {
-        /// Its intersection.
+/// Declares the intersection of a shape of any kind, and forwards its methods to the shape.
+macro_rules! baselines {
+    ($($Name:ident)*) => {
+        /// The intersection of a shape of any kind by baseline formulas in `R`.
         #[derive(Clone, Debug)]
-        enum BaselineKind<R: Real> {
+        pub(crate) enum BaselineKind<R: Real> {
             $($Name(<$Name as HasBaseline>::Baseline<R>),)*
         }
 
         impl<R: Real> BaselineKind<R> {
-            fn of(robust: &Shape, mesh: Option<&Arc<BaselineMesh<R>>>) -> Option<Self> {
+            pub(crate) fn of(robust: &Shape, mesh: Option<&Arc<BaselineMesh<R>>>) -> Option<Self> {
                 Some(match robust {
                     $(Shape::$Name(shape) => Self::$Name(shape.plain(mesh)?),)*
                 })
             }
 
             #[inline]
-            fn intersect(&self, ray: &BaselineRay<R>, t_max: f64) -> Option<(R, u32)> {
+            pub(crate) fn intersect(&self, ray: &BaselineRay<R>, t_max: f64) -> Option<(R, u32)> {
                 match self {
                     $(Self::$Name(shape) => Baseline::intersect(shape, ray, t_max),)*
                 }
             }
 
-            fn normal(&self, ray: &BaselineRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
+            pub(crate) fn normal(
+                &self,
+                ray: &BaselineRay<R>,
+                point: Vector<R>,
+                prim_id: u32,
+            ) -> Vector<R> {
                 match self {
                     $(Self::$Name(shape) => Baseline::normal(shape, ray, point, prim_id),)*
                 }
@@ -97,8 +98,7 @@ macro_rules! declare {
         }
     };
 }
-
-rtc_tables::shapes!(declare);
+pub(crate) use baselines;
 
 impl<R: Real> BaselineShape<R> {
     /// The baseline of a shape; `mesh` is that of an instance. `None` for an instance without one.
