@@ -23,6 +23,7 @@ const MOST_EXTENT: f64 = 0.25;
 pub(crate) struct CausticLights {
     casters: Vec<SurfaceId>,
     is_caster: IdTable<Surface, bool>,
+    is_of_glass: bool,
     targets: Vec<LightId>,
     by_power: DiscreteDistribution,
     is_target: IdTable<Surface, bool>,
@@ -90,7 +91,12 @@ impl CausticLights {
         for surface in targets.iter().filter_map(|light| lights.surface_of(*light)) {
             shines[surface] = true;
         }
+        let transmits = |surface: &SurfaceId| {
+            let material = world.surfaces[*surface].material;
+            world.standards[material].transmission.factor > 0.0
+        };
         (!targets.is_empty()).then_some(Self {
+            is_of_glass: casters.iter().all(transmits),
             casters,
             is_caster,
             targets,
@@ -103,6 +109,12 @@ impl CausticLights {
     #[inline]
     pub(crate) fn casts(&self, surface: SurfaceId) -> bool {
         self.is_caster[surface]
+    }
+
+    /// Whether all surfaces that cast caustics transmit light.
+    #[inline]
+    pub(crate) fn is_of_glass(&self) -> bool {
+        self.is_of_glass
     }
 
     /// Whether caustics of an emissive surface are estimated.
