@@ -15,7 +15,7 @@ from scenes import globe, write_glb
 FOLDER, RUNS = sys.argv[1], int(sys.argv[2])
 HERE = os.path.dirname(os.path.relpath(__file__))
 ASSETS = ["FlightHelmet", "MetalRoughGrid", "TransmissionRoughnessTest", "CornellLambert"]
-MODELS = ["own_MetalRoughGrid.glb", "FlightHelmet/FlightHelmet.gltf", "pirate.glb", "SheenCloth.glb"]
+MODELS = ["own_MetalRoughGrid.glb", "FlightHelmet/FlightHelmet.gltf", "ClearCoatTest.glb", "SheenCloth.glb"]
 GROWTH_RAYS = 1 << 18
 SAMPLES = {"Courtyard": 64, "FlightHelmet": 32, "MetalRoughGrid": 32, "TransmissionRoughnessTest": 32, "CornellLambert": 16}
 

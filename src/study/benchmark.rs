@@ -43,6 +43,13 @@ const MAX_ROUNDS: u64 = 9;
 /// to be timed alone.
 const MAX_REPEATS: u64 = 8;
 
+/// Tiles with less than this many times the work of preparing the picture are too few to be timed:
+/// their time would be the difference of two that are nearly equal.
+const MIN_WORK: u64 = 4;
+
+/// In their place the whole picture is timed, if that takes at most so many times the budget.
+const MAX_EXCESS: u64 = 4;
+
 /// Times all cases in at least three rounds, with about `budget` rays in all. Cases with few rays
 /// run in more rounds, and several times in each. With a reference, each render of a case after the
 /// first has its own seeds.
@@ -74,7 +81,7 @@ pub(super) fn benchmark(
     let wholes: Vec<Vec<Option<f64>>> = cases
         .iter()
         .zip(&timings)
-        .map(|(case, timings)| overheads.whole_picture(case, &timings.times, rng))
+        .map(|(case, timings)| overheads.whole_picture(case, timings, rng))
         .collect();
     // Compare wall time with processor time.
     let times = timings
@@ -138,6 +145,8 @@ struct Timings {
     /// The rounds that it runs in, and its renders in each.
     rounds: u64,
     repeats: u64,
+    /// Whether whole pictures are timed, not tiles.
+    is_of_whole: bool,
 }
 
 impl Default for Timings {
@@ -149,6 +158,7 @@ impl Default for Timings {
             is_resumed: false,
             rounds: MIN_ROUNDS,
             repeats: 1,
+            is_of_whole: false,
         }
     }
 }
@@ -170,21 +180,47 @@ impl Timings {
             ReseededRenders { reference, before },
             |rendered| {
                 if is_first {
-                    let work = subject.preparation_rays() + rendered.counts.rays();
-                    let fair = budget / work.max(1);
-                    self.repeats = (fair / MAX_ROUNDS).clamp(1, MAX_REPEATS);
-                    self.rounds = (fair / self.repeats).clamp(MIN_ROUNDS, MAX_ROUNDS);
+                    self.choose(subject, rendered.counts.rays(), budget);
                 }
                 self.repeats
             },
         )?;
+        let time = if self.is_of_whole {
+            let seeds = ReseededRenders {
+                reference: None,
+                before,
+            };
+            subject.whole().time(*setting, false, seeds, |_| 1)?.time
+        } else {
+            timed.time
+        };
         self.is_resumed |= timed.is_resumed;
         self.squares.extend(timed.squares);
         self.rendered.get_or_insert(timed.rendered);
         if let Some(slot) = self.times.last_mut() {
-            *slot = Some(timed.time);
+            *slot = Some(time);
         }
         Ok(())
+    }
+
+    /// Chooses what is timed and how often, by the rays of a render.
+    fn choose(&mut self, subject: &StudySubject<'_>, rays: u64, budget: u64) {
+        let preparation = subject.preparation_rays();
+        let whole = (rays as f64 / subject.fraction()) as u64 + preparation;
+        self.is_of_whole = !subject.is_whole()
+            && rays < MIN_WORK * preparation
+            && whole * MIN_ROUNDS <= MAX_EXCESS * budget;
+        let work = if self.is_of_whole {
+            whole
+        } else {
+            preparation + rays
+        };
+        let fair = budget / work.max(1);
+        self.repeats = match self.is_of_whole {
+            true => 1,
+            false => (fair / MAX_ROUNDS).clamp(1, MAX_REPEATS),
+        };
+        self.rounds = (fair / self.repeats).clamp(MIN_ROUNDS, MAX_ROUNDS);
     }
 }
 
@@ -223,10 +259,12 @@ impl<'a> Overheads<'a> {
     fn whole_picture(
         &mut self,
         case: &BenchmarkCase<'a>,
-        times: &[Option<Time>],
+        Timings {
+            times, is_of_whole, ..
+        }: &Timings,
         rng: &mut SplitMix64,
     ) -> Vec<Option<f64>> {
-        if case.subject.is_whole() {
+        if case.subject.is_whole() || *is_of_whole {
             let cpu = |time: &Option<Time>| time.as_ref().map(|time| time.cpu);
             return times.iter().map(cpu).collect();
         }

@@ -58,7 +58,11 @@ impl StudyScope {
             .collect::<Vec<_>>();
         let settings = own.into_iter().chain(best);
         let settings = settings
-            .flat_map(|setting| std::iter::once(setting).chain(pareto::cheaper(model, setting)))
+            .flat_map(|setting| {
+                let has_cheaper = self.has_arithmetics || setting == self.scene_setting;
+                let cheaper = has_cheaper.then(|| pareto::cheaper(model, setting));
+                std::iter::once(setting).chain(cheaper.flatten())
+            })
             .chain(self.scene_setting.denoised().filter(|_| is_denoised));
         // Render and time all of them.
         let cases: Vec<_> = settings

@@ -47,16 +47,19 @@ pub struct Stopped;
 impl<'runtime> StudySubject<'runtime> {
     /// The whole picture of a validated scene; `seed` gives the order of tiles for smaller parts.
     pub(super) fn new(scene: &Scene, seed: u64, runtime: &'runtime StudyRuntime<'runtime>) -> Self {
-        let [columns, rows] = scene.camera.size.map(|pixels| pixels.div_ceil(Tiles::SIDE));
-        let mut tiles: Vec<_> = (0..rows)
-            .flat_map(|y| (0..columns).map(move |x| [x, y]))
-            .collect();
-        tiles.sort_by_key(|tile| Tiles::rank(seed, *tile));
         Self {
             scene: Arc::new(scene.clone()),
             seed,
-            tiles,
+            tiles: all_tiles(scene.camera.size, seed),
             runtime,
+        }
+    }
+
+    /// The subject with all its tiles.
+    pub(super) fn whole(&self) -> Self {
+        Self {
+            tiles: all_tiles(self.scene.camera.size, self.seed),
+            ..self.clone()
         }
     }
 
@@ -387,6 +390,16 @@ impl<'runtime> StudySubject<'runtime> {
         }
         .within(width, height)
     }
+}
+
+/// The tiles of a picture of a size in pixels, in order of rank.
+fn all_tiles(size: [u32; 2], seed: u64) -> Vec<[u32; 2]> {
+    let [columns, rows] = size.map(|pixels| pixels.div_ceil(Tiles::SIDE));
+    let mut tiles: Vec<_> = (0..rows)
+        .flat_map(|y| (0..columns).map(move |x| [x, y]))
+        .collect();
+    tiles.sort_by_key(|tile| Tiles::rank(seed, *tile));
+    tiles
 }
 
 /// A part of a picture.

@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# What `rtc cost --effort quick` takes beside a render of the scene on one thread, for the scenes of scenes/: CPU-seconds, as Markdown. The
+# limit is 3, or 8 times the render if that is more; exits with 1 if a study takes longer. RTC is a program that was built before.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+. benches/driver.sh
+RTC=$(rtc)
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+TIMEFORMAT="%U %S"
+seconds() { { time "$RTC" "$@" >"$out/words" 2>&1; } 2>&1; }
+echo "| scene | render | study | limit |"
+echo "| --- | --: | --: | --: |"
+for scene in scenes/*.yaml; do
+    render=$(seconds render "$scene" --threads 1 -o "$out/picture.png")
+    study=$(seconds cost "$scene" --effort quick)
+    echo "$(basename "$scene" .yaml) $render $study"
+done | awk '{
+    render = $2 + $3; study = $4 + $5; limit = 8 * render > 3 ? 8 * render : 3
+    printf "| %s | %.2f | %.2f | %.1f |\n", $1, render, study, limit
+    if (study > limit) late = 1
+} END { exit late }'
