@@ -131,7 +131,7 @@ use sweep::{CostModel, sweep};
 
 /// The ray budget of a study, in rays of a simple scene of a few spheres. Other scenes are weighted
 /// by [`ray_cost`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Serialize, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct Effort(pub u64);
 
@@ -144,6 +144,12 @@ impl Effort {
     pub const DEFAULT: Self = Self(180_000_000);
     /// Ten minutes and more.
     pub const THOROUGH: Self = Self(3_000_000_000);
+
+    /// Whether there are rows of cheaper arithmetic in all settings, not in that of the scene
+    /// alone.
+    fn has_arithmetics(self) -> bool {
+        self > Self::QUICK
+    }
 
     /// The ray budget for a scene.
     fn rays(self, scene: &Scene) -> u64 {
@@ -248,8 +254,7 @@ struct StudyScope {
     sampling: Vec<Parameter>,
     /// The ray budget.
     rays: u64,
-    /// Whether there are rows of cheaper arithmetic in all settings, not in that of the scene
-    /// alone.
+    /// Whether there are rows of cheaper arithmetic in all settings.
     has_arithmetics: bool,
 }
 
@@ -276,7 +281,7 @@ impl StudyScope {
             used,
             sampling,
             rays: effort.rays(scene),
-            has_arithmetics: effort.0 > Effort::QUICK.0,
+            has_arithmetics: effort.has_arithmetics(),
         }
     }
 

@@ -2,24 +2,26 @@
 //! of mistake.
 
 use rtc_diag::Code;
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 /// Lines of `kinds | sentence`, the kinds being names of Khronos' validator and codes.
 const ADVICE: &str = include_str!("advice.txt");
 
+/// The sentence of each kind, read once: a file may have very many mistakes.
+static SENTENCES: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| rows().collect());
+
 /// What to do about a finding of `code` that the validator of Khronos calls `alias`.
 pub(super) fn advice(code: &Code, alias: &str) -> Option<&'static str> {
-    let of_kind = |wanted| {
-        let mut rows = rows();
-        rows.find_map(|(mut kinds, text)| kinds.any(|kind| kind == wanted).then_some(text))
-    };
+    let of_kind = |kind| SENTENCES.get(kind).copied();
     of_kind(alias).or_else(|| of_kind(code.id))
 }
 
-/// The rows: kinds and their instruction.
-fn rows() -> impl Iterator<Item = (impl Iterator<Item = &'static str>, &'static str)> {
+/// Each kind with its sentence.
+fn rows() -> impl Iterator<Item = (&'static str, &'static str)> {
     let lines = ADVICE.lines().filter(|line| !line.starts_with('#'));
     let rows = lines.filter_map(|line| line.split_once(" | "));
-    rows.map(|(kinds, text)| (kinds.split(' '), text))
+    rows.flat_map(|(kinds, text)| kinds.split(' ').map(move |kind| (kind, text)))
 }
 
 #[cfg(test)]
@@ -45,7 +47,7 @@ mod tests {
     #[test]
     fn each_row_is_of_a_known_kind_and_each_kind_has_one_row() {
         let mut seen = std::collections::BTreeSet::new();
-        for kind in rows().flat_map(|(kinds, _)| kinds) {
+        for (kind, _) in rows() {
             let is_known = |code: &&Code| code.id == kind || code.aliases.contains(&kind);
             assert!(
                 codes::GL.iter().any(is_known) && seen.insert(kind),

@@ -278,10 +278,17 @@ pub(super) fn part(study: &Study) -> String {
 pub(super) fn reference(study: &Study) -> String {
     let setting = study.reference.setting.label(&study.used());
     let floor = digits(study.reference.floor);
+    let omitted = match study.effort.has_arithmetics() {
+        true => "",
+        false => {
+            " A quick study has cheaper arithmetic in the setting of the scene alone; \
+             `--effort default` has it in each row."
+        }
+    };
     format!(
         "Reference: two renders with {setting}; its own error is {floor} grey levels. Errors are \
          root mean squares in grey levels of clamped display values; rays and processor times are \
-         for the whole picture; * marks the Pareto front."
+         for the whole picture; * marks the Pareto front.{omitted}"
     )
 }
 
