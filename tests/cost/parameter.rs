@@ -181,8 +181,8 @@ fn precision_is_told_without_noise() {
     );
 }
 
-/// Rows use a non-robust arithmetic only where no visible loss is expected, and the error stays the
-/// same.
+/// A row uses a non-robust arithmetic only where no visible loss is expected, and the error stays the
+/// same. A quick study has one, in the setting of the scene.
 #[test]
 fn precision_is_turned_where_that_adds_no_error() {
     let dull = [
@@ -211,8 +211,10 @@ fn precision_is_turned_where_that_adds_no_error() {
                 .iter()
                 .filter(move |row| row.setting.precision == arithmetic)
         };
+        let rows = if study.effort > Effort::QUICK { 3 } else { 1 };
         assert!(
-            by(least).count() > 2 && by(Arithmetic::F32).all(|row| is_borne(row.setting.precision)),
+            by(least).count() >= rows
+                && by(Arithmetic::F32).all(|row| is_borne(row.setting.precision)),
             "{table}"
         );
         for row in by(Arithmetic::Plain).chain(by(Arithmetic::F32)) {
