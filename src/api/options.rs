@@ -276,7 +276,7 @@ impl Options {
     }
 
     /// Denoises a path-traced picture; needs at least two paths per pixel. With a target error the
-    /// picture is rendered again with more paths until it is met.
+    /// picture is rendered again with more paths until it is met, at most four times.
     /// [`Picture::error`](super::Picture::error) is the error reached.
     pub fn denoise(mut self, denoise: bool) -> Self {
         self.denoise = denoise;

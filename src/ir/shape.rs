@@ -19,9 +19,9 @@ use serde::{Deserialize, Serialize};
 ///
 /// A row holds the type, its name in snake case (the key in the IR is that in camel case), how
 /// enums store it, and its values in one of two ways:
-/// - `derived { value: rule "words"; … }`: a rule defines how each value is validated. The rules are
-///   `point`; `direction`, of any length but 0; `step`, a direction with a length; `length`, above
-///   0. The words name the value in a diagnostic.
+/// - `derived { value: rule "words"; … }`: a rule defines how each value is validated. The rules
+///   are `point`; `direction`, of any length but 0; `step`, a direction with a length; `length`,
+///   above 0. The words name the value in a diagnostic.
 /// - `custom { "value" … }`: the paths to the values in the IR; the validator has an `impl` for the
 ///   shape.
 ///

@@ -77,34 +77,30 @@ impl Renderer {
         (job, order): (&RenderSelection, &RenderRequest),
         (on_pixel, between): (&PixelObserver<'_>, &(dyn Fn() + Sync)),
     ) -> Option<Traced> {
-        let mut counts = RayCounts::default();
-        for picture in 1.. {
+        let (mut counts, mut pictures) = (RayCounts::default(), 0);
+        loop {
             // Denoise; each picture has probes of its own.
-            let seed = order.seed + picture - 1;
+            let seed = order.seed + pictures;
             let order = RenderRequest { seed, ..*order };
             let (mut film, probed) = self.threads.install(|| {
                 let picture = self.world.denoised(samples, job, on_pixel, between)?;
                 between();
                 probe(&self.world, &order, picture, samples, on_pixel)
             })?;
-            counts = counts.plus(film.counts);
+            (counts, pictures) = (counts.plus(film.counts), pictures + 1);
             // Render again if it is not good enough.
-            let target = order.goal.error.filter(|target| probed.error > *target);
-            match target {
-                Some(target) if picture < PICTURES && samples < MAX_PATHS => {
-                    samples = more_paths(samples, probed.error / target);
-                    between();
-                }
-                _ => {
-                    film.counts = counts;
-                    return Some(Traced {
-                        probed: Some(probed),
-                        ..Traced::from(film)
-                    });
-                }
-            }
+            let can_improve = pictures < PICTURES && samples < MAX_PATHS;
+            let is_missed = |target: &f64| can_improve && probed.error > *target;
+            let Some(target) = order.goal.error.filter(is_missed) else {
+                film.counts = counts;
+                return Some(Traced {
+                    probed: Some(probed),
+                    ..film.into()
+                });
+            };
+            samples = more_paths(samples, probed.error / target);
+            between();
         }
-        None
     }
 }
 
@@ -146,11 +142,17 @@ pub(super) fn require_paths(scene: &ValidScene, option: &str) -> Result<(), Rend
 }
 
 /// The paths per pixel, for an option that needs path tracing.
-pub(super) fn paths(scene: &ValidScene, option: &str) -> Result<u32, RenderError> {
+fn paths(scene: &ValidScene, option: &str) -> Result<u32, RenderError> {
+    paths_per_pixel(scene).ok_or_else(|| {
+        let message = format!("`{option}` is for traced paths; `--integrator path` traces them");
+        RenderError::Refused(message)
+    })
+}
+
+/// The paths per pixel; `None` if none are traced.
+pub(super) fn paths_per_pixel(scene: &ValidScene) -> Option<u32> {
     match scene.settings().mode {
-        Mode::Path(path) => Ok(path.samples.get()),
-        Mode::Phong | Mode::Depth | Mode::Normal | Mode::Gooch(_) => Err(RenderError::Refused(
-            format!("`{option}` is for traced paths; `--integrator path` traces them"),
-        )),
+        Mode::Path(path) => Some(path.samples.get()),
+        Mode::Phong | Mode::Depth | Mode::Normal | Mode::Gooch(_) => None,
     }
 }

@@ -2,7 +2,7 @@
 //! are rendered in two halves, whose difference tells the error. Both together are, bit for bit,
 //! the film of all samples.
 
-use super::denoise::paths;
+use super::denoise::paths_per_pixel;
 use super::{PictureSetup, RayCounter, RenderError, RenderSubject};
 use rtc_render::{PartialFilm, PixelObserver, RenderSelection, SAMPLES_OF_BLOCK};
 use rtc_study::{PixelQuality, quality_of_halves};
@@ -36,8 +36,8 @@ impl PictureSetup {
         let named = self.look.aovs.iter().find(|aov| aov.is_of_samples());
         let name = named.map_or("error", |aov| aov.name());
         let scene = &subject.validated.scene;
-        let samples =
-            paths(scene, "").map_err(|_| refused(format!("the layer `{name}` is {UNSAMPLED}")))?;
+        let samples = paths_per_pixel(scene)
+            .ok_or_else(|| refused(format!("the layer `{name}` is {UNSAMPLED}")))?;
         if samples <= SAMPLES_OF_BLOCK {
             return Err(refused(format!(
                 "the layer `{name}` takes at least `--spp {}`",

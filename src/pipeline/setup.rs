@@ -264,17 +264,17 @@ impl PictureSetup {
         } else if self.denoise {
             self.denoised(subject, &job, (&on_pixel, &counter))?.map(Ok)
         } else if self.is_measured() {
-            let made = self.measured(subject, &job, (&on_pixel, &counter))?;
-            let traced = made.map(|(film, quality)| {
-                let film = film
-                    .develop()
-                    .map_err(|error| RenderError::Refused(error.to_string()))?;
-                Ok::<_, RenderError>(Traced {
-                    quality,
-                    ..Traced::from(film)
-                })
-            });
-            traced.transpose()?.map(Ok)
+            match self.measured(subject, &job, (&on_pixel, &counter))? {
+                Some((film, quality)) => {
+                    let film = film.develop();
+                    let film = film.map_err(|error| RenderError::Refused(error.to_string()))?;
+                    Some(Ok(Traced {
+                        quality,
+                        ..film.into()
+                    }))
+                }
+                None => None,
+            }
         } else {
             let film = self.renderer(subject)?.1.render(&job, &on_pixel);
             film.map(|film| Ok(film.into()))

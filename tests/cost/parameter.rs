@@ -181,8 +181,8 @@ fn precision_is_told_without_noise() {
     );
 }
 
-/// A row uses a non-robust arithmetic only where no visible loss is expected, and the error stays the
-/// same. A quick study has one, in the setting of the scene.
+/// A row uses a non-robust arithmetic only where no visible loss is expected, and the error stays
+/// the same. A quick study has one, in the setting of the scene.
 #[test]
 fn precision_is_turned_where_that_adds_no_error() {
     let dull = [

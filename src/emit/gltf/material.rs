@@ -199,10 +199,11 @@ impl GltfWriter<'_> {
         blocks: &mut JsonObject<String, Value>,
         path: ValuePath,
     ) {
+        let default = Standard::default();
         for (name, properties) in MATERIAL_EXTENSIONS {
             let mut block = JsonObject::new();
             for property in *properties {
-                let value = self.property(standard, property, path);
+                let value = self.property([standard, &default], property, path);
                 block.extend(value.map(|value| (property.0.to_owned(), value)));
             }
             if !block.is_empty() {
@@ -211,10 +212,10 @@ impl GltfWriter<'_> {
         }
     }
 
-    /// The value of a property; `None` for the default.
+    /// The value of a property; `None` for that of the default material.
     fn property(
         &mut self,
-        standard: &Standard,
+        [standard, default]: [&Standard; 2],
         (_, kind, parameter): &ExtensionProperty,
         path: ValuePath,
     ) -> Option<Value> {
@@ -226,7 +227,6 @@ impl GltfWriter<'_> {
             }
             return Some(info);
         }
-        let default = Standard::default();
         let default = default.parameter(parameter)?;
         changed::<f64>(value, default)
             .or_else(|| changed::<[f64; 3]>(value, default))

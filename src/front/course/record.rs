@@ -58,6 +58,35 @@ pub(super) trait HasRecord: Sized {
     -> Option<Self>;
 }
 
+/// A type that is read from the keys of another declaration, by a name of its own.
+pub(super) trait SameKeys: Sized {
+    /// The type of that declaration.
+    type Keys: HasRecord;
+    /// The name of this one.
+    const NAME: &'static str;
+    /// Its description.
+    const DOC: &'static str;
+
+    /// From the values of the keys.
+    fn from_keys(keys: Self::Keys) -> Self;
+}
+
+impl<T: SameKeys> HasRecord for T {
+    const RECORD: &'static Record = &Record {
+        name: T::NAME,
+        doc: T::DOC,
+        ..*T::Keys::RECORD
+    };
+
+    fn read(
+        record: &'static Record,
+        node: NodeId,
+        context: &mut DecodeContext<'_>,
+    ) -> Option<Self> {
+        T::Keys::read(record, node, context).map(Self::from_keys)
+    }
+}
+
 /// Declares a record: the struct, its decoder and its schema.
 macro_rules! record {
     (

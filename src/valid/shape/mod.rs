@@ -54,8 +54,8 @@ mod rule {
 }
 
 /// Declares the valid shapes: the struct of those with `derived` values, and the enum of all. Each
-/// is validated by its own `impl`, or by the rules of its row; all values are checked, even after an
-/// error.
+/// is validated by its own `impl`, or by the rules of its row; all values are checked, even after
+/// an error.
 macro_rules! declare {
     (
         all { $($(#[$doc:meta])* $Name:ident $name:ident $Store:ident $paths:tt;)* }

@@ -6,12 +6,11 @@ use crate::course::decode::{DecodeContext, SharedValue, Spanned, SpannedVector};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Positive};
-use crate::course::record::{FieldResult, HasRecord, Record, record};
+use crate::course::record::{FieldResult, SameKeys, record};
 use crate::course::synonym::{AXIS, ENDS, HEIGHT, POSITION, RADIUS, with_canonical};
 use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_ir as ir;
 use rtc_math::{Vec3, unit};
-use rtc_source::tree::NodeId;
 
 /// The values of the keys of a base and an axis.
 pub(super) struct AxisKeys<'o> {
@@ -97,19 +96,13 @@ impl LowerObject for Cone {
 /// A paraboloid, which has the keys of a cone.
 pub(super) struct Paraboloid(Cone);
 
-impl HasRecord for Paraboloid {
-    const RECORD: &'static Record = &Record {
-        name: "paraboloid",
-        doc: " A paraboloid with a cap at its base.",
-        ..*Cone::RECORD
-    };
+impl SameKeys for Paraboloid {
+    type Keys = Cone;
+    const NAME: &'static str = "paraboloid";
+    const DOC: &'static str = " A paraboloid with a cap at its base.";
 
-    fn read(
-        record: &'static Record,
-        node: NodeId,
-        context: &mut DecodeContext<'_>,
-    ) -> Option<Self> {
-        Cone::read(record, node, context).map(Self)
+    fn from_keys(keys: Cone) -> Self {
+        Self(keys)
     }
 }
 

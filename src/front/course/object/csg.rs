@@ -10,7 +10,7 @@ use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, Positive};
 use crate::course::object::SurfaceProperties;
-use crate::course::record::{FieldResult, HasRecord, Record, record};
+use crate::course::record::{FieldResult, SameKeys, record};
 use crate::course::rotation::{Rotation, RotationKeys};
 use crate::course::schema::{self, SchemaDefinitions};
 use crate::course::synonym::{POSITION, ROTATION, ROTATION_ANGLE, ROTATION_AXIS, with_canonical};
@@ -108,19 +108,13 @@ impl LowerObject for SetUnion {
 /// The intersection: the points in all operands.
 pub(super) struct SetIntersection(SetUnion);
 
-impl HasRecord for SetIntersection {
-    const RECORD: &'static Record = &Record {
-        name: "intersection",
-        doc: " The intersection: the points in all operands.",
-        ..*SetUnion::RECORD
-    };
+impl SameKeys for SetIntersection {
+    type Keys = SetUnion;
+    const NAME: &'static str = "intersection";
+    const DOC: &'static str = " The intersection: the points in all operands.";
 
-    fn read(
-        record: &'static Record,
-        node: NodeId,
-        context: &mut DecodeContext<'_>,
-    ) -> Option<Self> {
-        SetUnion::read(record, node, context).map(Self)
+    fn from_keys(keys: SetUnion) -> Self {
+        Self(keys)
     }
 }
 
@@ -133,19 +127,13 @@ impl LowerObject for SetIntersection {
 /// The difference: the points in the first operand and in no other.
 pub(super) struct SetDifference(SetUnion);
 
-impl HasRecord for SetDifference {
-    const RECORD: &'static Record = &Record {
-        name: "difference",
-        doc: " The difference: the points in the first operand and in no other.",
-        ..*SetUnion::RECORD
-    };
+impl SameKeys for SetDifference {
+    type Keys = SetUnion;
+    const NAME: &'static str = "difference";
+    const DOC: &'static str = " The difference: the points in the first operand and in no other.";
 
-    fn read(
-        record: &'static Record,
-        node: NodeId,
-        context: &mut DecodeContext<'_>,
-    ) -> Option<Self> {
-        SetUnion::read(record, node, context).map(Self)
+    fn from_keys(keys: SetUnion) -> Self {
+        Self(keys)
     }
 }
 

@@ -1,9 +1,9 @@
 //! The objects of the course: one record per `type`, in the file that is named after it.
 //!
 //! [`KINDS`] lists all types with their names; the decoder and the schema come from this list. Each
-//! record implements `LowerObject`, which adds surfaces to the scene: first `Lowering::surface_props` lowers the properties that all surfaces of an object
-//! share (material, shadow flag, span), then `Lowering::add_surface` adds each surface with the
-//! spans of its values.
+//! record implements `LowerObject`, which adds surfaces to the scene: first
+//! `Lowering::surface_props` lowers the properties that all surfaces of an object share (material,
+//! shadow flag, span), then `Lowering::add_surface` adds each surface with the spans of its values.
 //!
 //! * `sphere`, `plane`, `triangle`, `quad`, `disc`, `cylinder` (with the one without ends), `cone`
 //!   (with the paraboloid), `torus` and `ellipsoid` become the shape of the same name in the IR.
