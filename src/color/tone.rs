@@ -74,22 +74,27 @@ fn pbr_neutral(linear: [f64; 3]) -> [f64; 3] {
     base.map(|v| v / p * pn * g + pn * (1.0 - g))
 }
 
+/// Stops of middle grey below and above that AgX shows, 0.18·2⁻¹⁰ … 0.18·2^6.5.
+const BELOW: f64 = 10.0;
+const ABOVE: f64 = 6.5;
+
+/// Middle grey on the curve of AgX.
+const PIVOT: f64 = BELOW / (BELOW + ABOVE);
+
+/// The power and the scale of the curve of AgX below the pivot and above.
+const TOE: (f64, f64) = (3.0, 59.507_875);
+const SHOULDER: (f64, f64) = (3.25, 69.862_789_135_455_37);
+
 /// AgX as in Sobotka's configuration of 2022: inset, logarithm, sigmoid, and the inverse of the
 /// inset.
 fn agx(linear: [f64; 3]) -> [f64; 3] {
-    /// Stops of middle grey below and above, 0.18·2⁻¹⁰ … 0.18·2^6.5.
-    const BELOW: f64 = 10.0;
-    const ABOVE: f64 = 6.5;
     const GREY: f64 = 0.18;
     // Each channel takes a fifth of the grey, so that no colour is out of reach of white.
     let grey = agx_grey(linear);
     let inset = linear.map(|v| 0.8 * v + 0.2 * grey);
     let shown = inset.map(|v| {
         let stops = libm::log2(v.max(0.0) / GREY);
-        sigmoid(
-            ((stops + BELOW) / (BELOW + ABOVE)).clamp(0.0, 1.0),
-            BELOW / (BELOW + ABOVE),
-        )
+        sigmoid(((stops + BELOW) / (BELOW + ABOVE)).clamp(0.0, 1.0))
     });
     let grey = agx_grey(shown);
     shown.map(|v| (1.25 * v - 0.25 * grey).clamp(0.0, 1.0))
@@ -102,16 +107,12 @@ fn agx_grey([r, g, b]: [f64; 3]) -> f64 {
 }
 
 /// The curve of AgX on [0, 1]: through (0, 0), (pivot, ½) with slope 2, and (1, 1), bent with power
-/// 3 in the toe and 3.25 in the shoulder.
-fn sigmoid(v: f64, pivot: f64) -> f64 {
+/// 3 in the toe and 3.25 in the shoulder. The scale of a power p is (2·slope)ᵖ less the −p-th power
+/// of the way from the pivot to the end.
+fn sigmoid(v: f64) -> f64 {
     const SLOPE: f64 = 2.0;
-    let d = v - pivot;
-    let (power, reach) = if d < 0.0 {
-        (3.0, pivot)
-    } else {
-        (3.25, 1.0 - pivot)
-    };
-    let scale = libm::pow(2.0 * SLOPE, power) - libm::pow(reach, -power);
+    let d = v - PIVOT;
+    let (power, scale) = if d < 0.0 { TOE } else { SHOULDER };
     let denominator = libm::pow(1.0 + scale * libm::pow(d.abs(), power), 1.0 / power);
     0.5 + SLOPE * d / denominator
 }
@@ -191,13 +192,20 @@ mod tests {
     }
 
     #[test]
+    fn the_scales_of_agx_are_those_of_its_formula() {
+        for ((power, scale), reach) in [(TOE, PIVOT), (SHOULDER, 1.0 - PIVOT)] {
+            assert_eq!(scale, libm::pow(4.0, power) - libm::pow(reach, -power));
+        }
+    }
+
+    #[test]
     fn the_curve_of_agx_is_the_one_that_polynomials_are_fitted_to() {
         // The fit of degree 6 by Benjamin Wrensch ("Minimal AgX", 2023).
         let fit = [-0.002_32, 0.119_1, 0.429_8, -6.868, 31.96, -40.14, 15.5];
         for k in 0..=1000 {
             let x = f64::from(k) / 1000.0;
             let polynomial = fit.iter().rev().fold(0.0, |sum, c| sum * x + c);
-            let difference = (sigmoid(x, 20.0 / 33.0) - polynomial).abs();
+            let difference = (sigmoid(x) - polynomial).abs();
             assert!(difference < 0.006, "{x}: {difference}");
         }
     }

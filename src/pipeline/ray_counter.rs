@@ -132,13 +132,16 @@ impl RayCounter {
             &self.rows[y as usize],
             y as usize * self.crop.width as usize + x as usize,
         );
-        self.pixels[at].fetch_add(rays, Ordering::Relaxed);
-        row.rays.fetch_add(rays, Ordering::Relaxed);
+        if rays > 0 {
+            self.pixels[at].fetch_add(rays, Ordering::Relaxed);
+            row.rays.fetch_add(rays, Ordering::Relaxed);
+            self.total.fetch_add(rays, Ordering::Relaxed);
+        }
         if is_done {
             self.pixels[at].fetch_or(DONE, Ordering::Release);
             row.done.fetch_add(1, Ordering::AcqRel);
         }
-        let total = self.total.fetch_add(rays, Ordering::Relaxed) + rays;
+        let total = self.total.load(Ordering::Relaxed);
         // Check the limit.
         if self.before.load(Ordering::Relaxed) + total > self.limit && self.is_certain() {
             self.has_run_out.store(true, Ordering::Relaxed);

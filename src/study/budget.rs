@@ -2,6 +2,7 @@
 //! they reduce the error most. A pass that the time interrupts leaves complete tiles.
 
 use super::noise::{ErrorBound, FilmNoise};
+use super::parameter::{Parameter, not_applicable};
 use super::progressive::ProgressiveRender;
 use super::rounds::next_round;
 use super::subject::Stopped;
@@ -10,8 +11,10 @@ use super::target::{
     new_render,
 };
 use super::target::{set_sampling, tail_of};
+use rayon::prelude::*;
+use rtc_color::Tone;
 use rtc_ir::Scene;
-use rtc_render::{AnyWorld, RenderStep};
+use rtc_render::{AnyWorld, Crop, ProgressiveFilm, RenderStep};
 use std::time::Duration;
 
 /// The block sizes of the coarse passes: one pixel of each block is sampled. A size of 1 is the
@@ -61,7 +64,8 @@ pub(super) fn render_within(
         progressive,
         time,
     };
-    timed.reserve_output_time(order);
+    let is_toned = not_applicable(Parameter::Paths, scene).is_none();
+    timed.reserve_output_time(order, is_toned.then_some(order.display));
     if let Some(complete_after) = timed.coarse_pass()? {
         return Ok(timed.coarse(order, complete_after));
     }
@@ -135,15 +139,29 @@ impl TimedRender<'_, '_> {
         Ok(())
     }
 
-    /// Reserves the time that the output of the picture takes after the last sample.
-    fn reserve_output_time(&mut self, order: &RenderRequest) {
+    /// Reserves the time that the output of the picture takes after the last sample, by a few
+    /// grey rows.
+    fn reserve_output_time(&mut self, order: &RenderRequest, tone: Option<(Tone, f64)>) {
+        const ROWS: u32 = 32;
+        // Make the rows.
+        let rows = Crop {
+            height: order.crop.height.min(ROWS),
+            ..order.crop
+        };
+        let trial = ProgressiveRender {
+            film: ProgressiveFilm::grey(rows, tone),
+            ..new_render(1, order)
+        };
+        // Develop them.
         let start = self.elapsed();
         let undersampled = order.undersampled(self.world);
-        let noise = FilmNoise::of(&self.progressive.film, &undersampled);
+        let noise = FilmNoise::of(&trial.film, &undersampled);
         let bound = noise.bound(TAIL, order.goal.error);
-        drop(self.progressive.result(bound, &undersampled, order.values));
+        drop(trial.result(bound, &undersampled, order.values));
         let took = self.elapsed().saturating_sub(start);
-        self.time = self.time.saturating_sub(took);
+        // The picture takes as much longer as it has more rows.
+        let all = f64::from(order.crop.height) / f64::from(rows.height.max(1));
+        self.time = self.time.saturating_sub(took.mul_f64(all));
     }
 
     /// Doubles the samples of all pixels until each has those of a first round, then adds samples
@@ -204,7 +222,7 @@ impl TimedRender<'_, '_> {
                 .find(|block| has_samples(corner(index, *block)))
                 .unwrap_or(BLOCKS[0])
         };
-        let blocks: Vec<_> = (0..film.len()).map(finest).collect();
+        let blocks: Vec<_> = (0..film.len()).into_par_iter().map(finest).collect();
         // Without an estimate, the error is unbounded.
         let nothing = ErrorBound {
             error: f64::INFINITY,

@@ -21,7 +21,7 @@ impl FilmNoise {
     /// The noise of a film with samples in all pixels.
     pub(super) fn of(film: &ProgressiveFilm, undersampled: &UndersampledBound) -> Self {
         let (mut sum, mut squares) = (0.0, 0.0);
-        for variance in film.pixels().map(Replicates::variance) {
+        for variance in film.map(Replicates::variance) {
             sum += variance;
             squares += variance * variance;
         }
@@ -191,7 +191,7 @@ fn smoothed(film: &ProgressiveFilm) -> Vec<f64> {
     /// The weights of the neighbours and of the whole picture, in samples.
     const NEIGHBOUR_WEIGHT: f64 = 2.0;
     const PICTURE_WEIGHT: f64 = 0.25;
-    let variances: Vec<_> = film.pixels().map(Replicates::variance_of_samples).collect();
+    let variances = film.map(Replicates::variance_of_samples);
     let far = variances.iter().sum::<f64>() / variances.len().max(1) as f64;
     let (width, height) = (film.crop().width as usize, film.crop().height as usize);
     let around = |at: usize, end: usize| at.saturating_sub(1)..(at + 2).min(end);

@@ -122,11 +122,10 @@ impl ProgressiveRender {
         undersampled: &UndersampledBound,
         values: Values,
     ) -> TargetResult {
-        let quality = |pixel| undersampled.quality(pixel);
         TargetResult {
             image: self.film.image(values),
             coverage: self.film.coverage(),
-            quality: self.film.pixels().map(quality).collect(),
+            quality: self.film.map(|pixel| undersampled.quality(pixel)),
             counts: self.film.counts,
             error: bound.error,
             undersampled: bound.undersampled,
@@ -200,10 +199,10 @@ impl ProgressiveRender {
 }
 
 fn samples_of(film: &ProgressiveFilm) -> SampleStatistics {
-    let counts = || film.pixels().map(Replicates::samples);
+    let counts = film.map(Replicates::samples);
     SampleStatistics {
-        min: counts().min().unwrap_or(0),
-        mean: film.samples() as f64 / film.len().max(1) as f64,
-        most: counts().max().unwrap_or(0),
+        min: counts.iter().copied().min().unwrap_or(0),
+        mean: counts.iter().sum::<u64>() as f64 / film.len().max(1) as f64,
+        most: counts.iter().copied().max().unwrap_or(0),
     }
 }

@@ -10,6 +10,7 @@
 use super::pixel::{PixelAccumulator, PixelSample, SampleId, SampleRanges, SampleStream};
 use super::tiled::TiledValues;
 use super::{Background, Crop, DISPLAY, RayCounts, Tiles, Values, coverage};
+use rayon::prelude::*;
 use rtc_color::Tone;
 use rtc_image::Image;
 use rtc_math::Vec3;
@@ -68,6 +69,24 @@ impl ProgressiveFilm {
         }
     }
 
+    /// A film of grey samples, one a replicate, with the tone map of path tracing if there is one:
+    /// its picture takes as long to develop as one of a scene.
+    #[must_use]
+    pub fn grey(crop: Crop, tone: Option<(Tone, f64)>) -> Self {
+        let mut film = Self::new(crop, 0);
+        let grey = Vec3::splat(0.2);
+        let pixel = Replicates {
+            tone,
+            sums: [grey; 3],
+            square: grey.length_squared(),
+            linear: 2.0 * grey,
+            counts: [1, 1],
+            hits: 2,
+        };
+        film.pixels = TiledValues::new(crop, None, pixel);
+        film
+    }
+
     /// Its part of the picture.
     #[must_use]
     pub fn crop(&self) -> Crop {
@@ -84,6 +103,13 @@ impl ProgressiveFilm {
     /// The pixels row by row.
     pub fn pixels(&self) -> impl Iterator<Item = &Replicates> {
         self.pixels.iter()
+    }
+
+    /// A value of each pixel, row by row, found by all threads of the pool.
+    pub fn map<T: Send>(&self, value: impl Fn(&Replicates) -> T + Sync) -> Vec<T> {
+        let rows = (0..self.crop().height).into_par_iter();
+        rows.flat_map_iter(|row| self.pixels.row(row).map(&value))
+            .collect()
     }
 
     /// A pixel, counted row by row.
@@ -116,17 +142,14 @@ impl ProgressiveFilm {
         Image {
             width: self.crop().width,
             height: self.crop().height,
-            pixels: self
-                .pixels()
-                .map(|pixel| pixel.mean(values).to_array())
-                .collect(),
+            pixels: self.map(|pixel| pixel.mean(values).to_array()),
         }
     }
 
     /// For each pixel the fraction of the samples that hit a surface.
     #[must_use]
     pub fn coverage(&self) -> Vec<f32> {
-        self.pixels().map(Replicates::coverage).collect()
+        self.map(Replicates::coverage)
     }
 }
 
@@ -165,6 +188,7 @@ impl Replicates {
         let (n, [a, b, _]) = (f64::from(self.counts[SHOWN].max(1)), self.sums);
         match self.tone {
             None => (a - b) / n,
+            Some(_) if self.counts[SHOWN] == 0 => Vec3::ZERO,
             Some(tone) => shown(tone, a / n) - shown(tone, b / n),
         }
     }
@@ -211,7 +235,7 @@ impl Replicates {
         };
         let mean = sum / (2.0 * f64::from(self.counts[SHOWN].max(1)));
         match (values, self.tone) {
-            (Values::Display, Some(tone)) => shown(tone, mean),
+            (Values::Display, Some(tone)) if self.counts[SHOWN] > 0 => shown(tone, mean),
             (Values::Display | Values::Linear, _) => mean,
         }
     }
@@ -293,4 +317,27 @@ fn slope(tone: (Tone, f64), mean: f64, deviation: f64) -> f64 {
         [mean - deviation, mean + deviation].map(|grey| shown(tone, Vec3::splat(grey)).x);
     let slope = (high - low) / (2.0 * deviation);
     slope * slope
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn grey_samples_go_through_the_tone_map() {
+        let crop = Crop {
+            x: 3,
+            y: 15,
+            width: 20,
+            height: 2,
+        };
+        for tone in [None, Some((Tone::Agx, 2.0))] {
+            let film = ProgressiveFilm::grey(crop, tone);
+            let grey = tone.map_or([0.2; 3], |(tone, exposure)| {
+                tone.display([0.2 * exposure; 3])
+            });
+            assert_eq!(film.image(Values::Display).pixels, vec![grey; 40]);
+            assert!(film.pixels().all(|pixel| pixel.variance() == 0.0));
+        }
+    }
 }

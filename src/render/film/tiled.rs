@@ -71,7 +71,7 @@ impl<K> TiledValues<K> {
     }
 
     /// The values of a row: its pieces of one row of tiles.
-    fn row(&self, row: u32) -> impl Iterator<Item = &K> {
+    pub(super) fn row(&self, row: u32) -> impl Iterator<Item = &K> {
         let Crop {
             x, width, height, ..
         } = self.crop;
