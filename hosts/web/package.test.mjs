@@ -9,6 +9,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import test from "node:test";
 import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
 import { SceneError, load } from "./dist/package/index.js";
 
 const here = fileURLToPath(new URL(".", import.meta.url));
@@ -26,6 +27,12 @@ function native(name) {
     rmSync(folder, { recursive: true });
   }
 }
+
+test("the module is at most 2.5 MB compressed", () => {
+  const module = readFileSync(join(here, "dist/package/rtc_web_bg.wasm"));
+  const size = gzipSync(module, { level: 9 }).length;
+  assert.ok(size <= 2_500_000, `${size}`);
+});
 
 test("a picture has the bytes of the binary", async () => {
   const scene = await load("five-spheres.yaml", text);

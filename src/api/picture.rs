@@ -176,6 +176,16 @@ impl Picture {
         bytes.map_err(|error| Error::Refused(error.to_string()))
     }
 
+    /// The same of a picture made for PNG. In a program that calls no [`Self::encode`] or
+    /// [`Self::save`], the encoders of other formats are left out.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] if it is made for another format, or larger than PNG allows.
+    pub fn png(&self) -> Result<Vec<u8>, Error> {
+        let bytes = self.look.encode_png(&self.held, self.metadata.clone());
+        bytes.map_err(|error| Error::Refused(error.to_string()))
+    }
+
     /// Writes the file atomically. The extension must be that of the format.
     ///
     /// # Errors

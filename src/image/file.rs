@@ -97,14 +97,9 @@ impl PictureHeader {
     /// If it can't be written, the picture is empty or larger than the format can hold, or there
     /// is no next strip.
     pub fn write(&self, out: impl Write + Seek, mut strips: StripSource<'_>) -> io::Result<()> {
-        let [width, height] = self.size;
-        if width == 0 || height == 0 {
-            let words = format!("a picture of {width}×{height} pixels has no file");
-            return Err(io::Error::other(words));
-        }
+        self.check_size()?;
         match self.form {
-            FileFormat::Png8 => png::write(self, BitDepth::Eight, out, &mut strips),
-            FileFormat::Png16 => png::write(self, BitDepth::Sixteen, out, &mut strips),
+            FileFormat::Png8 | FileFormat::Png16 => self.write_png(out, &mut strips),
             FileFormat::Jpeg => compressed::write(self, CompressedForm::Jpeg, out, &mut strips),
             FileFormat::Webp => compressed::write(self, CompressedForm::Webp, out, &mut strips),
             FileFormat::Exr | FileFormat::ExrHalf => exr::write(self, out, &mut strips),
@@ -117,11 +112,53 @@ impl PictureHeader {
     /// # Errors
     /// If the picture is empty or larger than the format can hold.
     pub fn encode(&self, picture: &Picture) -> Result<Vec<u8>, EncodeError> {
+        self.encode_by(picture, |bytes, strips| self.write(bytes, strips))
+    }
+
+    /// The bytes of the PNG file of a whole picture; a program that calls nothing else has no code
+    /// for other formats.
+    ///
+    /// # Errors
+    /// If the form is no PNG, or the picture is empty or larger than the format can hold.
+    pub fn encode_png(&self, picture: &Picture) -> Result<Vec<u8>, EncodeError> {
+        self.encode_by(picture, |bytes, mut strips| {
+            self.check_size()?;
+            self.write_png(bytes, &mut strips)
+        })
+    }
+
+    fn encode_by(
+        &self,
+        picture: &Picture,
+        write: impl FnOnce(&mut Cursor<Vec<u8>>, StripSource<'_>) -> io::Result<()>,
+    ) -> Result<Vec<u8>, EncodeError> {
         let mut bytes = Cursor::new(Vec::new());
         let mut whole = || Ok(Cow::Borrowed(picture));
-        self.write(&mut bytes, StripSource::new(&mut whole))
+        write(&mut bytes, StripSource::new(&mut whole))
             .map_err(|error| EncodeError(error.to_string()))?;
         Ok(bytes.into_inner())
+    }
+
+    fn check_size(&self) -> io::Result<()> {
+        let [width, height] = self.size;
+        if width == 0 || height == 0 {
+            let words = format!("a picture of {width}×{height} pixels has no file");
+            return Err(io::Error::other(words));
+        }
+        Ok(())
+    }
+
+    fn write_png(&self, out: impl Write, strips: &mut StripSource<'_>) -> io::Result<()> {
+        let depth = match self.form {
+            FileFormat::Png8 => BitDepth::Eight,
+            FileFormat::Png16 => BitDepth::Sixteen,
+            FileFormat::Jpeg
+            | FileFormat::Webp
+            | FileFormat::Exr
+            | FileFormat::ExrHalf
+            | FileFormat::Hdr => return Err(io::Error::other("the picture is not made for PNG")),
+        };
+        png::write(self, depth, out, strips)
     }
 }
 
@@ -206,6 +243,25 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn the_encoder_of_png_alone_makes_the_same_bytes_and_no_other_form() {
+        let picture = picture([31, 20]);
+        for form in forms() {
+            let head = PictureHeader::of(&picture, form);
+            let png = head.encode_png(&picture).ok();
+            let is_png = matches!(form, FileFormat::Png8 | FileFormat::Png16);
+            let expected = is_png.then(|| head.encode(&picture).unwrap());
+            assert!(png == expected, "{form:?}");
+        }
+        let empty = Picture::opaque(Image {
+            width: 0,
+            height: 3,
+            pixels: Vec::new(),
+        });
+        let head = PictureHeader::of(&empty, FileFormat::Png8);
+        assert!(head.encode_png(&empty).is_err());
     }
 
     #[test]

@@ -332,11 +332,26 @@ impl ResolvedOutputTransform {
         picture: &Picture,
         metadata: impl FnOnce() -> PictureMetadata,
     ) -> Result<Vec<u8>, EncodeError> {
-        let head = PictureHeader {
-            metadata: self.metadata(metadata()),
+        self.head_of(picture, metadata()).encode(picture)
+    }
+
+    /// The bytes of the PNG file, for programs that write no other format.
+    ///
+    /// # Errors
+    /// If it is made for another format, or the picture is larger than the format allows.
+    pub fn encode_png(
+        &self,
+        picture: &Picture,
+        metadata: PictureMetadata,
+    ) -> Result<Vec<u8>, EncodeError> {
+        self.head_of(picture, metadata).encode_png(picture)
+    }
+
+    fn head_of(&self, picture: &Picture, metadata: PictureMetadata) -> PictureHeader {
+        PictureHeader {
+            metadata: self.metadata(metadata),
             ..PictureHeader::of(picture, self.kind)
-        };
-        head.encode(picture)
+        }
     }
 
     /// The properties of the file before rendering, given its size and layers.

@@ -153,7 +153,7 @@ impl Picture {
 
     /// The bytes of its PNG file, the same as those of `rtc render`.
     pub fn png(&self) -> Result<Vec<u8>, JsValue> {
-        self.0.encode().map_err(|error| thrown(&error))
+        self.0.png().map_err(|error| thrown(&error))
     }
 
     /// The rays that it took.

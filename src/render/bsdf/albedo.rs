@@ -6,11 +6,13 @@
 
 use super::fresnel::schlick;
 use super::warp::direction_at_angle;
+use packed::unpack;
 use rtc_math::Vec3;
 use std::sync::LazyLock;
 
 pub(super) mod anisotropic;
 pub(super) mod dielectric;
+mod packed;
 
 /// Entries along the cosine, denser towards grazing: entry i is at (i/(n − 1))².
 const COSINES: usize = 32;
@@ -18,11 +20,14 @@ const COSINES: usize = 32;
 /// Entries along the roughness.
 const ROUGHNESSES: usize = 64;
 
+/// The axes of a table.
+const AXES: [usize; 2] = [ROUGHNESSES, COSINES];
+
 /// Entries of a table.
 const ENTRIES: usize = ROUGHNESSES * COSINES;
 
-/// Little-endian numbers, a row for each roughness: both terms of each entry of microfacets, then
-/// the albedos of sheen.
+/// Packed little-endian numbers, a row for each roughness: both terms of microfacets, and the
+/// albedo of sheen.
 static STORED: [u8; 3 * 8 * ENTRIES] = *include_bytes!("albedo.bin");
 
 /// The tables.
@@ -65,11 +70,11 @@ pub(super) fn tables() -> &'static AlbedoTables {
 
 impl AlbedoTables {
     fn new() -> Self {
-        let numbers = STORED.as_chunks().0.iter().copied();
-        let numbers = numbers.map(f64::from_le_bytes).collect::<Vec<_>>();
-        let (specular, sheen) = numbers.split_at(2 * ENTRIES);
-        let specular = specular.as_chunks().0.to_vec();
-        let sheen = sheen.iter().map(|albedo| [*albedo, 0.0]).collect();
+        let entries = unpack(&STORED, &AXES).into_iter();
+        let entries = entries.map(|entry| entry.map(f64::from_le_bytes));
+        let (specular, sheen): (Vec<_>, _) = entries
+            .map(|[e0, e90, sheen]| ([e0, e90], [sheen, 0.0]))
+            .unzip();
         let mean = |row: &[[f64; 2]]| {
             // ∫ 2μ·E(μ) dμ with μ = x², by the midpoint rule over interpolated entries.
             const STEPS: u32 = 512;
@@ -192,11 +197,10 @@ fn interpolate<const D: usize, const N: usize>(
 }
 
 /// The numbers of a stored table, which lie in [−1, 1] and are stored as whole numbers.
-fn stored<const N: usize>(bytes: &[u8]) -> Vec<[f32; N]> {
-    let numbers = bytes.as_chunks().0.iter().copied();
-    let numbers = numbers.map(|bytes| f32::from(i16::from_le_bytes(bytes)) / f32::from(i16::MAX));
-    let numbers = numbers.collect::<Vec<_>>();
-    numbers.as_chunks().0.to_vec()
+fn stored<const N: usize>(packed: &[u8], axes: &[usize]) -> Vec<[f32; N]> {
+    let number = |bytes| f32::from(i16::from_le_bytes(bytes)) / f32::from(i16::MAX);
+    let entries = unpack(packed, axes).into_iter();
+    entries.map(|entry| entry.map(number)).collect()
 }
 
 #[cfg(test)]

@@ -207,6 +207,19 @@ macro_rules! dispatch {
     };
 }
 
+/// The shapes of plain arithmetic. Studies alone compare arithmetics, and a page has none, so it
+/// downloads the robust shapes only.
+#[cfg(not(target_family = "wasm"))]
+pub(crate) type PlainShape = baseline::BaselineShape<f64>;
+#[cfg(target_family = "wasm")]
+pub(crate) type PlainShape = Shape;
+
+/// The same in f32.
+#[cfg(not(target_family = "wasm"))]
+pub(crate) type PlainShapeF32 = baseline::BaselineShape<f32>;
+#[cfg(target_family = "wasm")]
+pub(crate) type PlainShapeF32 = Shape;
+
 pub(crate) mod baseline;
 pub(crate) mod basic;
 pub(crate) mod cone;

@@ -7,9 +7,8 @@ use crate::film::progressive::ProgressiveFilm;
 use crate::film::{Film, RayCounts, RenderSelection};
 use crate::frame::halves::GuidedFilm;
 use crate::integrator::aov::Aov;
-use crate::shape::Shape;
-use crate::shape::baseline::BaselineShape;
 use crate::shape::basic::BasicShape;
+use crate::shape::{PlainShape, PlainShapeF32, Shape};
 use crate::world::World;
 use rtc_image::{DenoisingGuide, PixelLayers};
 use rtc_math::StoredTree;
@@ -24,9 +23,9 @@ pub enum AnyWorld {
     /// With all shapes.
     All(World<Shape>),
     /// By baseline formulas.
-    Plain(World<BaselineShape<f64>>),
+    Plain(World<PlainShape>),
     /// By baseline formulas in f32.
-    F32(World<BaselineShape<f32>>),
+    F32(World<PlainShapeF32>),
 }
 
 /// Does the same with each kind of world.

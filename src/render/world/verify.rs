@@ -6,8 +6,7 @@ use super::shape::Prepare;
 use crate::film::heartbeat::PixelObserver;
 use crate::film::{Crop, Film, RenderSelection};
 use crate::frame::verify::{PlanMismatch, PlanVerification, first_difference};
-use crate::shape::Shape;
-use crate::shape::baseline::BaselineShape;
+use crate::shape::{PlainShape, PlainShapeF32, Shape};
 use rtc_plan::{Arithmetic, Effect, Plan, Rule, RuleSet};
 use rtc_valid::ValidScene;
 
@@ -25,8 +24,8 @@ pub fn verify(
     let planned = render(scene, plan, job, on_pixel)?;
     let (naive, verify) = match plan.arithmetic {
         Arithmetic::Robust => naively::<Shape>(scene, plan, job, on_pixel)?,
-        Arithmetic::Plain => naively::<BaselineShape<f64>>(scene, plan, job, on_pixel)?,
-        Arithmetic::F32 => naively::<BaselineShape<f32>>(scene, plan, job, on_pixel)?,
+        Arithmetic::Plain => naively::<PlainShape>(scene, plan, job, on_pixel)?,
+        Arithmetic::F32 => naively::<PlainShapeF32>(scene, plan, job, on_pixel)?,
     };
     if !plan.rules.contains(Rule::Cut)
         && let Some((pixel, color)) = first_difference(&planned, &naive, job)

@@ -14,7 +14,10 @@ pub(super) const COSINES: usize = 16;
 /// Entries along cos²φ, from across the axis x to along it.
 pub(super) const TURNS: usize = 5;
 
-/// The terms in f0 and in f90.
+/// The axes of the table.
+pub(super) const AXES: [usize; 4] = [WIDTHS, WIDTHS, COSINES, TURNS];
+
+/// The terms in f0 and in f90, packed.
 pub(super) static STORED: [u8; 2 * 2 * WIDTHS * WIDTHS * COSINES * TURNS] =
     *include_bytes!("anisotropic.bin");
 
@@ -63,7 +66,7 @@ fn means() -> Vec<[f32; 2]> {
 }
 
 fn look_up(surface: FacetDistribution, cosine: f64, turn: f64) -> SchlickAlbedo {
-    static TABLE: LazyLock<Vec<[f32; 2]>> = LazyLock::new(|| stored(&STORED));
+    static TABLE: LazyLock<Vec<[f32; 2]>> = LazyLock::new(|| stored(&STORED, &AXES));
     let [x, y] = surface.widths();
     let axes = [
         (x.sqrt(), WIDTHS),

@@ -14,8 +14,11 @@ pub(super) const ROUGHNESSES: usize = 12;
 /// Entries along the cosine, denser towards grazing as in the other tables.
 pub(super) const COSINES: usize = 24;
 
+/// The axes of the table.
+pub(super) const AXES: [usize; 3] = [INDICES, ROUGHNESSES, COSINES];
+
 /// Both factors of reflection and both of transmission from outside, then the three terms of both
-/// together from inside.
+/// together from inside; packed.
 pub(super) static STORED: [u8; 7 * 2 * INDICES * ROUGHNESSES * COSINES] =
     *include_bytes!("dielectric.bin");
 
@@ -50,7 +53,7 @@ pub(crate) fn inside(ior: f64, roughness: f64, cosine: f64) -> InsideAlbedo {
 }
 
 fn look_up(ior: f64, roughness: f64, cosine: f64) -> [f64; 7] {
-    static TABLE: LazyLock<Vec<[f32; 7]>> = LazyLock::new(|| stored(&STORED));
+    static TABLE: LazyLock<Vec<[f32; 7]>> = LazyLock::new(|| stored(&STORED, &AXES));
     let index = (0.5 * (ior - 1.0)).max(0.0).sqrt();
     let axes = [
         (index, INDICES),

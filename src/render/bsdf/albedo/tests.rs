@@ -3,6 +3,7 @@
 use super::super::distribution::FacetDistribution;
 use super::super::fresnel::{dielectric_curve, refracted_cosine, schlick};
 use super::super::sheen::integrated_albedo;
+use super::packed::pack;
 use super::*;
 use rtc_math::Vec3;
 
@@ -135,52 +136,61 @@ fn anisotropic_table() -> Vec<f64> {
     numbers
 }
 
-/// Compares a table with the expected one, or writes it.
+/// Compares a table with the stored one, or writes it.
 #[expect(clippy::disallowed_methods, reason = "this is how the tables are made")]
-fn is_stored(name: &str, bytes: &[u8], stored: &[u8]) {
+fn is_stored<const W: usize, const N: usize>(
+    name: &str,
+    table: &[[[u8; W]; N]],
+    axes: &[usize],
+    stored: &[u8],
+) {
     if std::env::var_os("RTC_UPDATE").is_some() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/bsdf/");
-        std::fs::write(format!("{folder}{name}"), bytes).unwrap();
+        std::fs::write(format!("{folder}{name}"), pack(table, axes)).unwrap();
         return;
     }
-    let differs = bytes
+    let stored = unpack::<W, N>(stored, axes);
+    let differs = table
         .iter()
-        .zip(stored)
+        .zip(&stored)
         .position(|(own, stored)| own != stored);
-    assert_eq!((differs, bytes.len()), (None, stored.len()), "{name}");
+    assert_eq!((differs, table.len()), (None, stored.len()), "{name}");
 }
 
 #[test]
 fn the_stored_tables_are_the_integrals() {
-    let specular = |roughness, cosine| {
-        integrated_specular(FacetDistribution::isotropic(roughness), view(cosine))
+    let entry = |roughness, cosine| {
+        let ggx = FacetDistribution::isotropic(roughness);
+        let [e0, e90] = integrated_specular(ggx, view(cosine));
+        [e0, e90, integrated_albedo(roughness, cosine)].map(f64::to_le_bytes)
     };
-    let specular = table(specular).into_iter().flatten();
-    let numbers = specular.chain(table(integrated_albedo));
-    let bytes = numbers.flat_map(f64::to_le_bytes).collect::<Vec<_>>();
-    is_stored("albedo.bin", &bytes, &STORED);
+    is_stored("albedo.bin", &table(entry), &AXES, &STORED);
 }
 
-#[test]
+/// The entries of a table of whole numbers.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "the tables are of whole numbers"
 )]
+fn whole<const N: usize>(numbers: &[f64]) -> Vec<[[u8; 2]; N]> {
+    let whole = |number: f64| (number * f64::from(i16::MAX)).round() as i16;
+    let (entries, _) = numbers.as_chunks::<N>();
+    let entry = |entry: &[f64; N]| entry.map(|number| whole(number).to_le_bytes());
+    entries.iter().map(entry).collect()
+}
+
+#[test]
 fn the_tables_of_dielectrics_and_of_anisotropy_are_the_integrals() {
-    let bytes = |numbers: Vec<f64>| {
-        let numbers = numbers
-            .into_iter()
-            .map(|number| (number * f64::from(i16::MAX)).round() as i16);
-        numbers.flat_map(i16::to_le_bytes).collect::<Vec<_>>()
-    };
     is_stored(
         "albedo/dielectric.bin",
-        &bytes(dielectric_table()),
+        &whole::<7>(&dielectric_table()),
+        &dielectric::AXES,
         &dielectric::STORED,
     );
     is_stored(
         "albedo/anisotropic.bin",
-        &bytes(anisotropic_table()),
+        &whole::<2>(&anisotropic_table()),
+        &anisotropic::AXES,
         &anisotropic::STORED,
     );
 }
