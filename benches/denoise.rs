@@ -72,7 +72,7 @@ impl Case {
         }
     }
 
-    fn job(&self, seed: u64) -> RenderSelection {
+    fn job(&self, seed: u64) -> RenderSelection<'_> {
         RenderSelection {
             crop: Some(self.order.crop),
             values: self.order.values,

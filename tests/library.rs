@@ -242,14 +242,31 @@ fn every_code_that_is_found_has_a_text() {
     assert!(rules.iter().all(|rule| rtc::explain(rule).is_some()));
 }
 
-/// Everything that is reported of a render.
-fn reports(scene: &Scene, options: Options) -> (Vec<Progress>, rtc::Picture) {
+/// What `see` tells of each report of a render.
+fn seen<T: Send + 'static>(
+    scene: &Scene,
+    options: Options,
+    see: impl Fn(Progress<'_>) -> T + Send + Sync + 'static,
+) -> (Vec<T>, rtc::Picture) {
     let reports = Arc::new(Mutex::new(Vec::new()));
-    let seen = Arc::clone(&reports);
-    let options = options.on_progress(move |progress| seen.lock().unwrap().push(progress));
+    let list = Arc::clone(&reports);
+    let options = options.on_progress(move |progress| list.lock().unwrap().push(see(progress)));
     let picture = scene.render(&options).unwrap();
-    let reports = reports.lock().unwrap().clone();
+    let reports = std::mem::take(&mut *reports.lock().unwrap());
     (reports, picture)
+}
+
+/// The share and the rays of a report.
+struct Report {
+    done: f64,
+    rays: u64,
+}
+
+fn reports(scene: &Scene, options: Options) -> (Vec<Report>, rtc::Picture) {
+    seen(scene, options, |progress| Report {
+        done: progress.done,
+        rays: progress.rays,
+    })
 }
 
 #[test]
@@ -292,4 +309,59 @@ fn progress_rises_to_one() {
         "{}",
         reports.len()
     );
+}
+
+#[test]
+fn a_picture_that_is_asked_for_has_the_final_bytes_in_its_finished_tiles() {
+    const SIDE: u32 = 40;
+    /// The pixels of the largest tile: those that are done in a tile that is not.
+    const TILE: f64 = 256.0;
+    let scene = build::scene().unwrap();
+    let plain = || Options::new().size(SIDE, SIDE).threads(1);
+    let traced = || plain().trace_paths(true).samples(1);
+    for (threads, options) in [
+        (1.0, plain()),
+        (1.0, traced().transparent()),
+        (1.0, traced().format(rtc::Format::Exr)),
+        (2.0, plain().threads(2)),
+    ] {
+        let asked = seen(&scene, options.clone(), |progress| {
+            (progress.done, progress.picture())
+        });
+        let (pictures, last) = asked;
+        assert_eq!(
+            last.encode().unwrap(),
+            scene.render(&options).unwrap().encode().unwrap()
+        );
+        let last = last.rgba8();
+        let mut counts = Vec::new();
+        for (done, picture) in pictures {
+            let Some(picture) = picture else {
+                assert_eq!(done, 1.0, "{options:?}");
+                continue;
+            };
+            let bytes = picture.rgba8();
+            let pairs = || bytes.as_chunks::<4>().0.iter().zip(last.as_chunks().0);
+            assert!(
+                pairs().all(|(now, last)| now == last || *now == [0; 4]),
+                "{options:?}"
+            );
+            let equal = pairs().filter(|(now, last)| now == last).count() as f64;
+            let pixels = (done * f64::from(SIDE * SIDE)).round();
+            assert!(
+                equal >= pixels - threads * TILE,
+                "{options:?}: {equal} at {done}"
+            );
+            counts.push(equal);
+        }
+        assert!(
+            counts.len() > 50 && counts.is_sorted(),
+            "{options:?}: {counts:?}"
+        );
+    }
+    // Pictures without final pixels before the end.
+    for options in [traced().samples(4).denoise(true), plain().target_error(9.0)] {
+        let (pictures, _) = seen(&scene, options, |progress| progress.picture().is_none());
+        assert!(pictures.iter().all(|is_none| *is_none));
+    }
 }

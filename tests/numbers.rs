@@ -30,7 +30,7 @@ fn read(text: &str) -> (Option<ValidScene>, DiagnosticSink) {
     (pipeline::validate(&lowered, &options, &mut sink), sink)
 }
 
-fn job() -> RenderSelection {
+fn job() -> RenderSelection<'static> {
     RenderSelection {
         values: Values::Linear,
         ..RenderSelection::default()

@@ -71,6 +71,7 @@ pub(crate) const WHOLE: RenderSelection = RenderSelection {
     background: Background::Environment,
     samples: None,
     clamp: None,
+    monitor: None,
 };
 
 pub(crate) fn validated(scene: &Scene) -> ValidScene {

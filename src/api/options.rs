@@ -270,7 +270,10 @@ impl Options {
 
     /// Calls `on_progress` about a hundred times during a render, from any of its threads but one
     /// at a time, and once at its end.
-    pub fn on_progress(mut self, on_progress: impl Fn(Progress) + Send + Sync + 'static) -> Self {
+    pub fn on_progress(
+        mut self,
+        on_progress: impl Fn(Progress<'_>) + Send + Sync + 'static,
+    ) -> Self {
         self.on_progress = Some(ProgressCallback(Arc::new(on_progress)));
         self
     }

@@ -4,7 +4,7 @@ use super::{Aov, Diagnostic, Error, Format, Tone};
 use rtc_color::quantize8;
 use rtc_image::{self as image, PictureMetadata};
 use rtc_pipeline::ResolvedOutputTransform;
-use rtc_render::RayCounts;
+use rtc_render::{FilmMonitor, RayCounts};
 
 /// A picture: rows from top to bottom, each from left to right.
 ///
@@ -77,6 +77,18 @@ impl Picture {
             error,
             diagnostics,
         }
+    }
+
+    /// A picture that is being rendered; `None` if no pixel of it is final yet.
+    pub(super) fn unfinished(
+        look: &ResolvedOutputTransform,
+        format: Format,
+        monitor: &FilmMonitor,
+    ) -> Option<Self> {
+        let held = look.unfinished(monitor)?;
+        let made = (held, look.clone(), PictureMetadata::default());
+        let counts = RayCounts::default();
+        Some(Self::new(made, format, (&counts, None), Vec::new()))
     }
 
     /// Width in pixels.

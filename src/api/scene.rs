@@ -11,7 +11,7 @@ use rtc_pipeline::{
     Traced,
 };
 use rtc_plan::{Plan, RuleSet};
-use rtc_render::{Crop, Film, RayCounts};
+use rtc_render::{Crop, Film, FilmMonitor, RayCounts};
 use rtc_study::{PixelQuality, RenderGoal};
 use std::fmt;
 use std::path::Path;
@@ -307,7 +307,11 @@ impl SceneRun<'_> {
             None => ProgressMeasure::Pixels,
         };
         let pixels = window.pixels() as u64;
-        let counter = ProgressReporter::new(options.on_progress.as_ref(), pixels, measure);
+        let look = setup.look.resolve(&subject.validated.scene.settings().mode);
+        let (look, monitor) = (look.without_metadata(), FilmMonitor::default());
+        let picture = || Picture::unfinished(&look, options.format, &monitor);
+        let on_progress = options.on_progress.as_ref();
+        let counter = ProgressReporter::new(on_progress, pixels, measure, &picture);
         let on_step = |step| counter.step(step);
         // Render until the goal is met, or once.
         let order = (window, options.rays.unwrap_or(self.input.rays()));
@@ -315,7 +319,8 @@ impl SceneRun<'_> {
             let progress = (&counter, &stopwatch);
             approach(setup, subject, order, &observer(&on_step), progress)?
         } else {
-            let traced = setup.trace(subject, order, &observer(&on_step))?;
+            let monitor = on_progress.map(|_| &monitor);
+            let traced = setup.trace_monitored(subject, order, &observer(&on_step), monitor)?;
             let Traced {
                 film,
                 probed,

@@ -9,7 +9,7 @@ use rtc_image::{
 };
 use rtc_ir::{Display, Scene};
 use rtc_plan::Arithmetic;
-use rtc_render::{Aov, Background, Values};
+use rtc_render::{Aov, Background, FilmMonitor, Values};
 use rtc_valid::Mode;
 use serde::{Deserialize, Serialize};
 
@@ -308,6 +308,42 @@ impl ResolvedOutputTransform {
         let is_beyond = |name: &&'static str| known.contains(name) || beyond.contains(name);
         losses.picture.beyond = channel_names.filter(is_beyond).collect();
         picture
+    }
+
+    /// The same, without metadata of the program and scene.
+    #[must_use]
+    pub fn without_metadata(self) -> Self {
+        Self {
+            has_metadata: false,
+            ..self
+        }
+    }
+
+    /// The picture of a film that is being rendered: pixels that are not final are transparent.
+    /// `None` if the monitor has none.
+    #[must_use]
+    pub fn unfinished(&self, monitor: &FilmMonitor) -> Option<Picture> {
+        let (film, finished) = monitor.film()?;
+        let all = self.develop(film.image, film.coverage);
+        let pixels = all.image.pixels.len();
+        let mut alpha = vec![0.0; pixels];
+        let mut picture = Picture::opaque(Image {
+            pixels: vec![[0.0; 3]; pixels],
+            ..all.image
+        });
+        for area in finished {
+            for row in area.y..area.y + area.height {
+                let first = row as usize * all.image.width as usize + area.x as usize;
+                let row = first..first + area.width as usize;
+                picture.image.pixels[row.clone()].copy_from_slice(&all.image.pixels[row.clone()]);
+                match &all.alpha {
+                    Some(own) => alpha[row.clone()].copy_from_slice(&own[row]),
+                    None => alpha[row].fill(1.0),
+                }
+            }
+        }
+        picture.alpha = Some(alpha);
+        Some(picture)
     }
 
     /// The values that the file can't hold. For PNG, clamping of colours is normal and not counted.

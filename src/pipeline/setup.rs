@@ -13,7 +13,7 @@ use rtc_image::{Image, Picture, PictureHeader, PictureMetadata, PixelLayers};
 use rtc_ir::{EntityField, EntityKind, Lens, Mode, Scene, Settings, ValuePath};
 use rtc_passes::{self as passes, Framing, Overrides};
 use rtc_plan::{self as plan, Plan, Rule, RuleSet};
-use rtc_render::{Aov, Crop, RayCounts, RenderSelection, RenderStep, SimdLevel};
+use rtc_render::{Aov, Crop, FilmMonitor, RayCounts, RenderSelection, RenderStep, SimdLevel};
 use rtc_study::{
     PixelQuality, Progress, RenderCallbacks, RenderGoal, RenderRequest, TargetResult, with_quality,
 };
@@ -236,8 +236,23 @@ impl PictureSetup {
     pub fn trace(
         &self,
         subject: &mut RenderSubject,
+        order: (Crop, u64),
+        observer: &RenderObserver<'_>,
+    ) -> Result<Traced, RenderError> {
+        self.trace_monitored(subject, order, observer, None)
+    }
+
+    /// As [`Self::trace`], where a monitor may show the film meanwhile, unless it is verified,
+    /// denoised or measured.
+    ///
+    /// # Errors
+    /// As [`Self::trace`].
+    pub fn trace_monitored(
+        &self,
+        subject: &mut RenderSubject,
         (window, rays): (Crop, u64),
         observer: &RenderObserver<'_>,
+        monitor: Option<&FilmMonitor>,
     ) -> Result<Traced, RenderError> {
         // The job.
         let job = RenderSelection {
@@ -276,6 +291,7 @@ impl PictureSetup {
                 None => None,
             }
         } else {
+            let job = RenderSelection { monitor, ..job };
             let film = self.renderer(subject)?.1.render(&job, &on_pixel);
             film.map(|film| Ok(film.into()))
         };

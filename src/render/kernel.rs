@@ -174,7 +174,7 @@ impl<S: Intersect> World<S> {
 /// Sums the samples of the pixels.
 struct Sum<'run, S>(
     &'run World<S>,
-    &'run RenderSelection,
+    &'run RenderSelection<'run>,
     &'run PixelObserver<'run>,
 );
 
@@ -193,7 +193,7 @@ struct SumPaths<'run, S>(
     &'run World<S>,
     SamplingStrategy,
     &'run Range<u32>,
-    &'run RenderSelection,
+    &'run RenderSelection<'run>,
     &'run PixelObserver<'run>,
 );
 

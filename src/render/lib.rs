@@ -58,6 +58,7 @@ pub use bsdf::standard::*;
 pub use bsdf::{Bsdf, BsdfEvaluation, BsdfLobes, BsdfSample, PlasticBoundary, dispersed};
 pub use camera::{Camera, Projection, camera_ray, image_point, vogel};
 pub use film::heartbeat::{PixelObserver, RenderStep};
+pub use film::monitor::FilmMonitor;
 pub use film::partial::{FilmError, MeanOfSamples, PartialFilm};
 pub use film::pixel::BLOCK as SAMPLES_OF_BLOCK;
 pub use film::progressive::{ProgressiveFilm, Replicates};

@@ -361,7 +361,7 @@ impl<'runtime> StudySubject<'runtime> {
     }
 
     /// The render job: the tiles, with seeds.
-    fn job(&self, seeds: SamplingSeeds) -> RenderSelection {
+    fn job(&self, seeds: SamplingSeeds) -> RenderSelection<'static> {
         let last = self
             .tiles
             .last()

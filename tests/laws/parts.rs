@@ -80,7 +80,7 @@ fn assert_same(ours: &Film, whole: &Film, what: &str) {
 }
 
 /// The tiles in three shares, each with some of them.
-fn shares(job: &RenderSelection) -> [RenderSelection; 3] {
+fn shares(job: &RenderSelection<'static>) -> [RenderSelection<'static>; 3] {
     let third = u64::MAX / 3;
     let cuts = [
         (0, third),

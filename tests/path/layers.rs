@@ -20,7 +20,7 @@ const WHOLE: Crop = Crop {
     height: 16,
 };
 
-fn of(crop: Crop) -> RenderSelection {
+fn of(crop: Crop) -> RenderSelection<'static> {
     RenderSelection {
         crop: Some(crop),
         ..RenderSelection::default()

@@ -359,7 +359,7 @@ struct TileRenderer<'s> {
     look: ResolvedOutputTransform,
     aovs: Vec<Aov>,
     window: Crop,
-    job: RenderSelection,
+    job: RenderSelection<'static>,
     rays: u64,
 }
 

@@ -5,6 +5,7 @@
 //! - `tile`, `tiled`: the tile a thread works on, and the storage of all tiles.
 //! - `partial`, `bytes`: a film of part of a picture, which can be saved and merged.
 //! - `progressive`, `growing`: a film that can be refined, and its bytes.
+//! - `monitor`: the finished tiles of a picture that is being rendered.
 //! - `heartbeat`: progress reports and interruption. `counts`: ray and effect counts.
 
 mod bytes;
@@ -12,6 +13,7 @@ mod counts;
 pub(crate) mod filter;
 pub(crate) mod growing;
 pub(crate) mod heartbeat;
+pub(crate) mod monitor;
 pub(crate) mod partial;
 pub(crate) mod pixel;
 pub(crate) mod progressive;
@@ -20,6 +22,7 @@ pub(crate) mod tiled;
 
 pub use counts::{ClampedLight, RayCounts};
 
+use monitor::FilmMonitor;
 use rtc_color::Tone;
 use rtc_image::Image;
 use rtc_math::mix;
@@ -27,7 +30,7 @@ use std::num::NonZeroU32;
 
 /// The pixels and samples to render.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct RenderSelection {
+pub struct RenderSelection<'m> {
     /// The requested crop, or the whole picture, clipped to the picture.
     pub crop: Option<Crop>,
     /// The kind of values in the film.
@@ -45,6 +48,8 @@ pub struct RenderSelection {
     /// The radiance that a traced path brings at most after its first bounce, in its largest
     /// channel, more than 0; all of it without.
     pub clamp: Option<f64>,
+    /// What may show the picture while it is rendered as a whole.
+    pub monitor: Option<&'m FilmMonitor>,
 }
 
 /// The value of a camera ray that hits no surface. The light on surfaces does not change.

@@ -31,6 +31,16 @@ impl<K: Clone> TiledValues<K> {
 }
 
 impl<K> TiledValues<K> {
+    /// No tile is held.
+    pub(crate) fn empty(crop: Crop, elsewhere: K) -> Self {
+        let tiles = tiles_of(crop).map(|_| Vec::new()).collect();
+        Self {
+            crop,
+            tiles,
+            elsewhere,
+        }
+    }
+
     /// The part of the picture.
     #[must_use]
     pub(crate) fn crop(&self) -> Crop {
@@ -92,7 +102,24 @@ impl<K> TiledValues<K> {
         held.map(|(area, tile)| (area, tile.as_mut_slice()))
     }
 
+    /// Takes the tiles held, each with its number and its rectangle of the picture.
+    pub(crate) fn take_tiles(&mut self) -> Vec<(usize, Crop, Vec<K>)> {
+        let tiles = tiles_of(self.crop).zip(&mut self.tiles).enumerate();
+        let taken = tiles.map(|(tile, (area, values))| (tile, area, std::mem::take(values)));
+        taken.filter(|(_, _, values)| !values.is_empty()).collect()
+    }
+
+    /// Stores the values of a tile, given its number.
+    pub(crate) fn put(&mut self, tile: usize, values: Vec<K>) {
+        self.tiles[tile] = values;
+    }
+
     /// The values of each tile in rows, tile by tile; none where the tile is not held.
+    pub(crate) fn tiles(&self) -> &[Vec<K>] {
+        &self.tiles
+    }
+
+    /// As [`Self::tiles`].
     pub(crate) fn into_tiles(self) -> Vec<Vec<K>> {
         self.tiles
     }

@@ -18,7 +18,9 @@ pub(crate) mod picture;
 pub(crate) mod progressive;
 pub(crate) mod verify;
 
-use super::film::pixel::PixelAccumulator;
+use super::film::monitor::FilmMonitor;
+use super::film::partial::FilmLayout;
+use super::film::pixel::{PixelAccumulator, PixelSum};
 use super::film::tile::{BeginPixel, Tile};
 use super::film::tiled::TiledValues;
 use super::film::{Crop, PixelStride, RayCounts, Tiles};
@@ -64,6 +66,35 @@ pub(crate) fn run<A: PixelAccumulator>(
     let (counts, is_done) = share(tiles, make_integrator, &|integrator, (area, kept)| {
         integrator.render(&mut Tile::new([area, crop], selection.stride, kept, open))
     });
+    is_done.then_some(counts)
+}
+
+/// As [`run`], where a monitor may show the film meanwhile.
+pub(crate) fn run_monitored<A: PixelAccumulator<PixelState = PixelSum>>(
+    (layout, film): (FilmLayout, &mut TiledValues<PixelSum>),
+    monitor: Option<&FilmMonitor>,
+    selection: PixelSelection,
+    make_integrator: &MakeIntegrator<'_, '_, A::Sample>,
+    open: &BeginPixel<'_, A>,
+) -> Option<RayCounts> {
+    let Some(monitor) = monitor else {
+        return run(film, selection, make_integrator, open);
+    };
+    monitor.begin(layout);
+    let (crop, tiles) = (film.crop(), film.take_tiles());
+    let (counts, is_done) = share(
+        tiles,
+        make_integrator,
+        &|integrator, (number, area, mut sums)| {
+            let mut tile = Tile::new([area, crop], selection.stride, &mut sums, open);
+            let is_done = integrator.render(&mut tile);
+            if is_done {
+                monitor.finish(number, sums);
+            }
+            is_done
+        },
+    );
+    *film = monitor.end()?;
     is_done.then_some(counts)
 }
 

@@ -1,12 +1,13 @@
 //! Complete and partial pictures: each pixel takes the samples of the scene's settings, or a range.
 //! Layers (AOVs) trace the same camera rays, to their first hits.
 
-use super::{MakeIntegrator, PixelSelection, run};
+use super::{MakeIntegrator, PixelSelection, run, run_monitored};
 use crate::film::heartbeat::PixelObserver;
 use crate::film::partial::{FilmError, FilmLayout, PartialFilm, Summation};
 use crate::film::pixel::{
     BlockAccumulator, PixelAccumulator, PixelSum, SampleRanges, SequentialAccumulator,
 };
+use crate::film::tile::BeginPixel;
 use crate::film::tiled::TiledValues;
 use crate::film::{Crop, Film, RayCounts, RenderSelection};
 use crate::integrator::anaglyph::for_eyes;
@@ -51,9 +52,7 @@ impl<S: Intersect> World<S> {
         };
         let tracer = || WhittedTracer::<S, F>::new(self, on_pixel);
         let make_integrator = || for_eyes(&self.camera, tracer());
-        let mut film = self.film(job);
-        let counts = run(&mut film, PixelSelection::of(job), &make_integrator, &open)?;
-        Some((film, counts))
+        self.run_job(job, &make_integrator, &open)
     }
 
     /// Sums samples of pixels by tracing paths with the features `F`; `None` if `on_pixel` said
@@ -79,9 +78,7 @@ impl<S: Intersect> World<S> {
                 tracer.before(job.background).clamped(job.clamp),
             )
         };
-        let mut film = self.film(job);
-        let counts = run(&mut film, PixelSelection::of(job), &make_integrator, &open)?;
-        Some((film, counts))
+        self.run_job(job, &make_integrator, &open)
     }
 
     /// Distances of the complete picture: the brightness of a pixel depends on all of them.
@@ -97,12 +94,24 @@ impl<S: Intersect> World<S> {
                 sample_ranges(job, 0..u32::from(!is_blank)),
             )
         };
+        let make_integrator = || Box::new(DepthIntegrator::new(self, on_pixel)) as _;
+        self.run_job(job, &make_integrator, &open)
+    }
+
+    /// Sums the samples of the pixels of a job.
+    fn run_job<A: PixelAccumulator<PixelState = PixelSum>>(
+        &self,
+        job: &RenderSelection<'_>,
+        make_integrator: &MakeIntegrator<'_, '_, A::Sample>,
+        open: &BeginPixel<'_, A>,
+    ) -> Option<PictureSums> {
         let mut film = self.film(job);
-        let counts = run(
-            &mut film,
+        let counts = run_monitored(
+            (self.layout(job), &mut film),
+            job.monitor,
             PixelSelection::of(job),
-            &|| Box::new(DepthIntegrator::new(self, on_pixel)),
-            &open,
+            make_integrator,
+            open,
         )?;
         Some((film, counts))
     }
@@ -132,6 +141,11 @@ impl<S: Intersect> World<S> {
         sum: impl Fn(&Range<u32>, &RenderSelection) -> Option<PictureSums>,
     ) -> Result<Option<PartialFilm>, FilmError> {
         let layout = self.layout(job);
+        // The pixels of a part are not final.
+        let job = &RenderSelection {
+            monitor: None,
+            ..*job
+        };
         let mut part = PartialFilm::new(layout);
         for blocks in layout.nodes_of(samples)? {
             let Some((film, counts)) = sum(&layout.samples_of(&blocks), job) else {
