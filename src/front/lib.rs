@@ -31,11 +31,13 @@ pub mod mesh;
 pub mod mitsuba;
 pub mod pbrt;
 pub mod pixels;
+mod plugin;
 mod support;
 pub mod usd;
 mod words;
 
 pub use foreign::foreign;
+pub use plugin::{Completion, Proposal, ProposalKind};
 pub use support::{ForeignFormat, SupportLevel, SupportRow, page as support_page};
 
 use rtc_diag::{Diagnostic, codes};

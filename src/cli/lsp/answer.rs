@@ -10,7 +10,8 @@ use super::uri::DocumentUri;
 use super::vocabulary::Vocabulary;
 use super::workspace::Workspace;
 use super::{
-    anchor, completion, diagnostics, folding, hover, inlay, lens, links, method, outline, semantic,
+    anchor, completion, diagnostics, folding, foreign, hover, inlay, lens, links, method, outline,
+    semantic,
 };
 use lsp_server::{ErrorCode, Request, RequestId, Response};
 use rtc_pipeline::Input;
@@ -35,9 +36,10 @@ impl Workspace {
                 let (document, schema) = self.known(&at.text_document.uri)?;
                 let (columns, form) = (self.columns, self.snippet_form);
                 let place = at.position;
-                Some(completion::completions(
-                    document, place, schema, columns, form,
-                ))
+                Some(match foreign::format(document.kind()) {
+                    Some(format) => foreign::completions(document, place, format, columns),
+                    None => completion::completions(document, place, schema, columns, form),
+                })
             }),
             method::DEFINITION => reply(id, params, |at: TextDocumentPositionParams| {
                 let (document, schema) = self.known(&at.text_document.uri)?;

@@ -1,7 +1,10 @@
-//! The hover text of a plugin or a parameter in a scene of Mitsuba, pbrt or USD: how the reader
-//! reads it, from the tables of `rtc schema support`.
+//! Scenes of Mitsuba, pbrt and USD: completions, and the hover text of a plugin or a parameter, which
+//! is its meaning and how the reader reads it, from the tables of `rtc schema support`.
 
-use rtc_front::{ForeignFormat, SupportLevel, SupportRow};
+use super::open_text::OpenText;
+use super::protocol::{CompletionItem, CompletionItemKind, Position, TextEdit};
+use super::text::Columns;
+use rtc_front::{ForeignFormat, Proposal, ProposalKind, SupportLevel, SupportRow};
 use rtc_pipeline::SourceKind;
 use std::sync::OnceLock;
 
@@ -19,12 +22,60 @@ pub(super) fn format(kind: SourceKind) -> Option<ForeignFormat> {
     }
 }
 
-/// How a reader reads the word at a byte, and the range of the word; `None` if no table has it.
+/// The completions at a position.
+pub(super) fn completions(
+    document: &OpenText,
+    position: Position,
+    format: ForeignFormat,
+    columns: Columns,
+) -> Vec<CompletionItem> {
+    let lines = document.lines(columns);
+    let completion = format.completion(&document.text, lines.offset(position));
+    let Some(completion) = completion else {
+        return Vec::new();
+    };
+    let range = lines.range(completion.replaced.start, completion.replaced.end);
+    let proposals = completion.proposals.into_iter().enumerate();
+    let item = |(at, Proposal { text, kind, about }): (usize, Proposal)| CompletionItem {
+        text_edit: Some(TextEdit::new(range, text.clone())),
+        documentation: (!about.is_empty()).then(|| about.to_owned()),
+        // Editors sort by names otherwise.
+        sort_text: Some(format!("{at:04}")),
+        ..CompletionItem::new(text, item_kind(kind))
+    };
+    proposals.map(item).collect()
+}
+
+fn item_kind(kind: ProposalKind) -> CompletionItemKind {
+    match kind {
+        ProposalKind::Keyword => CompletionItemKind::KEYWORD,
+        ProposalKind::Plugin => CompletionItemKind::VALUE,
+        ProposalKind::Parameter => CompletionItemKind::PROPERTY,
+        ProposalKind::Name => CompletionItemKind::REFERENCE,
+    }
+}
+
+/// What the table of a reader says of the word at a byte, then how the reader reads it; and the range
+/// of the text that is meant. `None` if no table has it.
 pub(super) fn meaning(
     text: &str,
     offset: usize,
     format: ForeignFormat,
 ) -> Option<(String, (usize, usize))> {
+    let completion = format.completion(text, offset);
+    let declared = completion.as_ref().and_then(|completion| {
+        let Proposal { text, about, .. } = completion.written(text)?;
+        let range = (completion.replaced.start, completion.replaced.end);
+        (!about.is_empty()).then(|| (format!("**`{text}`** {about}"), range))
+    });
+    match (declared, support(text, offset, format)) {
+        (Some((own, range)), Some((support, _))) => Some((format!("{own}\n\n{support}"), range)),
+        (declared, support) => declared.or(support),
+    }
+}
+
+/// How a reader reads the word at a byte, and the range of the word; `None` if no table has it.
+fn support(text: &str, offset: usize, format: ForeignFormat) -> Option<(String, (usize, usize))> {
     let (start, end) = word(text, offset)?;
     let word = text.get(start..end)?;
     let quoted = format!("`{word}`");

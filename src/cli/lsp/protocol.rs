@@ -311,6 +311,9 @@ pub(super) struct CompletionItem {
     pub(super) insert_text_format: Option<InsertTextFormat>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) sort_text: Option<String>,
+    /// What the editor changes, instead of the word under the cursor.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) text_edit: Option<TextEdit>,
 }
 
 impl CompletionItem {
@@ -324,6 +327,7 @@ impl CompletionItem {
             insert_text: None,
             insert_text_format: None,
             sort_text: None,
+            text_edit: None,
         }
     }
 }
@@ -335,6 +339,7 @@ pub(super) struct CompletionItemKind(u8);
 impl CompletionItemKind {
     pub(super) const PROPERTY: Self = Self(10);
     pub(super) const VALUE: Self = Self(12);
+    pub(super) const KEYWORD: Self = Self(14);
     pub(super) const SNIPPET: Self = Self(15);
     pub(super) const FILE: Self = Self(17);
     pub(super) const REFERENCE: Self = Self(18);

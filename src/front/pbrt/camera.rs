@@ -2,6 +2,7 @@
 
 use super::Lowering;
 use super::parameter::Parameters;
+use super::plugins::{CAMERAS, FILMS, FILTERS, INTEGRATORS, SAMPLERS};
 use crate::exchange::SpannedText;
 use crate::exchange::traced;
 use crate::exchange::transform::AffineTransform;
@@ -26,9 +27,6 @@ const LENS_SAMPLES: u32 = 2;
 const SEEN_SKEW: f64 = 1e-3;
 /// The tolerance of their perpendicularity: the rounding of products.
 const ROUNDING: f64 = 1e-12;
-
-const CAMERAS: [&str; 2] = ["perspective", "orthographic"];
-const INTEGRATORS: [&str; 3] = ["path", "volpath", "simplepath"];
 
 /// The directives that make the view, in any order before the world.
 #[derive(Default)]
@@ -65,7 +63,6 @@ const GAUSSIAN: PixelFilter = PixelFilter::Gaussian {
     deviation: 0.5,
     radius: 1.5,
 };
-const FILTERS: [&str; 5] = ["box", "gaussian", "mitchell", "sinc", "triangle"];
 
 /// The settings before an integrator and a sampler are read.
 pub(super) fn default_settings() -> Settings {
@@ -116,8 +113,8 @@ impl Lowering<'_> {
         };
         let side = |name, default| parameters.count(name).unwrap_or(default).max(1);
         let size = [side("xresolution", SIZE[0]), side("yresolution", SIZE[1])];
-        if !["image", "rgb", "gbuffer", "spectral"].contains(&plugin.text.as_str()) {
-            self.unsupported("film", plugin, &["rgb", "image"], "`rgb` replaces it");
+        if FILMS.find(&plugin.text).is_none() {
+            self.unsupported("film", plugin, &FILMS, "`rgb` replaces it");
         }
         // Parameters other than colours and size do not change the picture.
         parameters.skip(&["filename", "diagonal", "savefp16", "maxsampleluminance"]);
@@ -132,7 +129,7 @@ impl Lowering<'_> {
         }
         let bounds = parameters.numbers("pixelbounds").map(<[f64]>::to_vec);
         let window = parameters.numbers("cropwindow").map(<[f64]>::to_vec);
-        self.ignored("film", &plugin.text, parameters);
+        self.ignored("film", &plugin.text, (&FILMS, parameters));
         let crop = match (bounds.as_deref(), window.as_deref()) {
             (Some(&[x0, x1, y0, y1]), _) => [x0, x1, y0, y1],
             (None, Some(&[x0, x1, y0, y1])) => {
@@ -184,7 +181,7 @@ impl Lowering<'_> {
             // How samples are spread is `rtc`'s own affair.
             parameters.skip(&["jitter", "seed", "randomization", "dimensions", "scramble"]);
             parameters.skip(&["samplepixelcenter"]);
-            self.ignored("sampler", &plugin.text, parameters);
+            self.ignored("sampler", &plugin.text, (&SAMPLERS, parameters));
         }
         if let Mode::Path(path) = &mut self.scene.settings.mode {
             path.samples = samples.unwrap_or(SAMPLES).max(1);
@@ -202,8 +199,8 @@ impl Lowering<'_> {
         if self.ignores_media {
             self.scene.medium = None;
         }
-        match plugin.text.as_str() {
-            known if INTEGRATORS.contains(&known) => {}
+        match INTEGRATORS.known(&plugin.text) {
+            "path" | "volpath" | "simplepath" => {}
             // They find the same light by other ways.
             "bdpt" | "mlt" | "sppm" | "lightpath" | "photonmap" | "exphotonmap" | "igi"
             | "irradiancecache" => {
@@ -256,7 +253,7 @@ impl Lowering<'_> {
             }
             x
         };
-        match plugin.text.as_str() {
+        match FILTERS.known(&plugin.text) {
             "box" => PixelFilter::Box {
                 radius: radius(0.5),
             },
@@ -318,7 +315,7 @@ impl Lowering<'_> {
         film: &CroppedFilm,
     ) {
         let from_camera = self.squared(plugin, from_camera);
-        if !CAMERAS.contains(&plugin.text.as_str()) {
+        if CAMERAS.find(&plugin.text).is_none() {
             let instead = "a perspective camera replaces it";
             self.unsupported("camera", plugin, &CAMERAS, instead);
         }
@@ -328,11 +325,11 @@ impl Lowering<'_> {
         if !self.is_version_3 {
             self.exposure *= close - open;
         }
-        self.scene.camera = match plugin.text.as_str() {
+        self.scene.camera = match CAMERAS.known(&plugin.text) {
             "orthographic" => orthographic(parameters, &from_camera, film),
             _ => perspective(parameters, &from_camera, film),
         };
-        self.ignored("camera", &plugin.text, parameters);
+        self.ignored("camera", &plugin.text, (&CAMERAS, parameters));
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::Lowering;
 use super::parameter::{self, Parameters};
+use super::plugins::DIRECTIVES;
 use super::state::{ActiveTransform, StateOpener};
 use super::token::{PbrtToken, PbrtTokenKind};
 use crate::exchange::SpannedText;
@@ -11,53 +12,10 @@ use rtc_math::Vec3;
 use rtc_source::{FileId, Resource, Span};
 use std::rc::Rc;
 
-/// The directives of versions 3 and 4.
-const DIRECTIVES: [&str; 44] = [
-    "Accelerator",
-    "ActiveTransform",
-    "AreaLightSource",
-    "Attribute",
-    "AttributeBegin",
-    "AttributeEnd",
-    "Camera",
-    "ColorSpace",
-    "ConcatTransform",
-    "CoordinateSystem",
-    "CoordSysTransform",
-    "Film",
-    "Identity",
-    "Import",
-    "Include",
-    "Integrator",
-    "LightSource",
-    "LookAt",
-    "MakeNamedMaterial",
-    "MakeNamedMedium",
-    "Material",
-    "MediumInterface",
-    "NamedMaterial",
-    "ObjectBegin",
-    "ObjectEnd",
-    "ObjectInstance",
-    "Option",
-    "PixelFilter",
-    "ReverseOrientation",
-    "Rotate",
-    "Sampler",
-    "Scale",
-    "Shape",
-    "SurfaceIntegrator",
-    "Texture",
-    "Transform",
-    "TransformBegin",
-    "TransformEnd",
-    "TransformTimes",
-    "Translate",
-    "VolumeIntegrator",
-    "WorldBegin",
-    "WorldEnd",
-    "Renderer",
-];
+/// The names of the directives.
+fn names() -> impl Iterator<Item = &'static str> {
+    DIRECTIVES.iter().map(|directive| directive.name)
+}
 
 /// The directives without an argument, and first lines that only pbrt files have.
 const BARE: [&[u8]; 4] = [
@@ -78,14 +36,14 @@ pub(crate) fn begins_scene(bytes: &[u8]) -> bool {
     let Some(first) = lines.find(|line| !line.is_empty() && !line.starts_with(b"#")) else {
         return false;
     };
-    let is_directive = |word: &&str| {
+    let is_directive = |word: &str| {
         let rest = first.strip_prefix(word.as_bytes()).unwrap_or_default();
         let starts = rest.trim_ascii_start().first();
         let has_space = rest.first().is_some_and(u8::is_ascii_whitespace);
         has_space && starts.is_some_and(|byte| byte.is_ascii_digit() || b"\"-[.".contains(byte))
     };
     let has_colon = first.contains(&b':') && !first.contains(&b'"');
-    BARE.contains(&first) || (!has_colon && DIRECTIVES.iter().any(is_directive))
+    BARE.contains(&first) || (!has_colon && names().any(is_directive))
 }
 
 /// Whether a text has a directive that only whole scenes have.
@@ -207,7 +165,7 @@ impl Lowering<'_> {
                 }
             }
             "Texture" => self.texture_directive(span),
-            _ if DIRECTIVES.contains(&name) => {
+            _ if names().any(|known| known == name) => {
                 let Some(plugin) = self.argument(name, span) else {
                     return self.skip_arguments();
                 };
@@ -217,7 +175,7 @@ impl Lowering<'_> {
             _ => {
                 let message = format!("`{}` is no directive: it is left out", clip(name));
                 let mut diagnostic = Diagnostic::new(&codes::PBRT_PLUGIN, message).at(span, "");
-                if let Some(near) = nearest(name, DIRECTIVES.iter().copied()) {
+                if let Some(near) = nearest(name, names()) {
                     diagnostic = diagnostic.hint(format!("did you mean `{near}`?"));
                 }
                 self.sink.push(diagnostic);
@@ -334,8 +292,8 @@ impl Lowering<'_> {
         let reader = self.reader();
         while let Some(token) = reader.peek() {
             let bytes = reader.bytes(token);
-            let is_directive = token.kind == PbrtTokenKind::Word
-                && DIRECTIVES.iter().any(|known| known.as_bytes() == bytes);
+            let is_directive =
+                token.kind == PbrtTokenKind::Word && names().any(|known| known.as_bytes() == bytes);
             if is_directive {
                 return;
             }

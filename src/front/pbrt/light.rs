@@ -2,6 +2,7 @@
 
 use super::Lowering;
 use super::parameter::Parameters;
+use super::plugins::{AREA_LIGHTS, LIGHTS};
 use crate::exchange::SpannedText;
 use crate::exchange::spot::falling;
 use crate::pixels;
@@ -13,8 +14,6 @@ use rtc_source::{FileKind, Resource};
 use std::f64::consts::PI;
 
 use super::equal_area;
-
-const LIGHTS: [&str; 4] = ["point", "spot", "distant", "infinite"];
 
 /// The formats of environment maps.
 const MAPS: FileKind = FileKind {
@@ -58,7 +57,7 @@ impl AreaLight {
 
 impl Lowering<'_> {
     pub(super) fn light_source(&mut self, plugin: &SpannedText, parameters: &Parameters) {
-        match plugin.text.as_str() {
+        match LIGHTS.known(&plugin.text) {
             "point" => self.point(plugin, parameters),
             "spot" => self.spot(plugin, parameters),
             "distant" => self.distant(plugin, parameters),
@@ -73,7 +72,7 @@ impl Lowering<'_> {
         }
         // How often a light is sampled is `rtc`'s own affair.
         parameters.skip(&["samples", "nsamples"]);
-        self.ignored("light", &plugin.text, parameters);
+        self.ignored("light", &plugin.text, (&LIGHTS, parameters));
     }
 
     /// The factor of a light: that of the film, and its own.
@@ -267,9 +266,9 @@ impl Lowering<'_> {
     }
 
     pub(super) fn area_light_source(&mut self, plugin: &SpannedText, parameters: &Parameters) {
-        if !["diffuse", "area"].contains(&plugin.text.as_str()) {
+        if AREA_LIGHTS.find(&plugin.text).is_none() {
             let instead = "a diffuse light replaces it";
-            self.unsupported("area light", plugin, &["diffuse"], instead);
+            self.unsupported("area light", plugin, &AREA_LIGHTS, instead);
         }
         if parameters.get("filename").is_some() {
             self.approximate(plugin.span, "the picture of an area light is left out");
@@ -284,7 +283,7 @@ impl Lowering<'_> {
             text: plugin.clone(),
         };
         parameters.skip(&["samples", "nsamples"]);
-        self.ignored("area light", &plugin.text, parameters);
+        self.ignored("area light", &plugin.text, (&AREA_LIGHTS, parameters));
         self.state.area_light = Some(std::rc::Rc::new(light));
     }
 }

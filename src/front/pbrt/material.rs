@@ -7,6 +7,7 @@
 use super::Lowering;
 use super::medium::InterfaceMedia;
 use super::parameter::Parameters;
+use super::plugins::MATERIALS;
 use super::texture::{ColorWithMap, NumberWithMap};
 use crate::exchange::SpannedText;
 use crate::exchange::color::{MIRROR, of_reflectance};
@@ -26,19 +27,6 @@ const MATERIAL_BYTES: u64 = 2048;
 
 /// The names of the roughness for both directions, along u and along v.
 const ROUGHNESS: [&str; 3] = ["roughness", "uroughness", "vroughness"];
-
-const MATERIALS: [&str; 10] = [
-    "diffuse",
-    "coateddiffuse",
-    "conductor",
-    "coatedconductor",
-    "dielectric",
-    "thindielectric",
-    "diffusetransmission",
-    "mix",
-    "interface",
-    "matte",
-];
 
 /// A material of the scene.
 #[derive(Debug)]
@@ -93,7 +81,7 @@ impl Lowering<'_> {
         let standard = standard.map(|standard| self.with_bumps(standard, parameters));
         // `type` names the plugin of a named material.
         parameters.skip(&["type"]);
-        self.ignored("material", &plugin.text, parameters);
+        self.ignored("material", &plugin.text, (&MATERIALS, parameters));
         self.charge(Resource::Memory, MATERIAL_BYTES, plugin.span);
         self.material_count += 1;
         Rc::new(LoweredMaterial {
@@ -114,7 +102,7 @@ impl Lowering<'_> {
 
     /// A material as a standard material; `None` where light passes through.
     fn standard(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Option<Standard> {
-        Some(match plugin.text.as_str() {
+        Some(match MATERIALS.known(&plugin.text) {
             "diffuse" => self.diffuse(parameters, "reflectance"),
             "matte" => {
                 if self.scalar(parameters, "sigma", 0.0) != 0.0 {

@@ -3,12 +3,10 @@
 
 use super::Lowering;
 use super::parameter::Parameters;
+use super::plugins::MEDIA;
 use crate::exchange::SpannedText;
 use rtc_diag::{clip, codes};
 use rtc_ir::Medium;
-
-/// The media that are supported.
-const MEDIA: [&str; 1] = ["homogeneous"];
 
 /// The integrators that do not know media.
 const IN_VACUUM: [&str; 5] = [
@@ -56,7 +54,7 @@ impl Lowering<'_> {
             let message = format!("the medium `{}` has no `type`", clip(&name.text));
             return self.mistake(name.span, message);
         };
-        let medium = match plugin.text.as_str() {
+        let medium = match MEDIA.known(&plugin.text) {
             "homogeneous" => Some(self.homogeneous(&plugin, parameters)),
             _ => {
                 self.unsupported("medium", &plugin, &MEDIA, "it is left out");
@@ -89,7 +87,7 @@ impl Lowering<'_> {
         let sigma_a = self.color(parameters, "sigma_a").unwrap_or(SIGMA_A);
         let sigma_s = self.color(parameters, "sigma_s").unwrap_or(SIGMA_S);
         let g = parameters.number("g").unwrap_or(0.0);
-        self.ignored("medium", &plugin.text, parameters);
+        self.ignored("medium", &plugin.text, (&MEDIA, parameters));
         let [sigma_a, sigma_s] = [sigma_a, sigma_s].map(|sigma| sigma.map(|x| x * scale));
         Medium {
             sigma_a,

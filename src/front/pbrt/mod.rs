@@ -5,6 +5,8 @@
 //! ```
 //!
 //! - [`token`] splits the text into words with their spans, [`parameter`] reads typed parameters.
+//! - [`plugins`] lists the directives, and all plugins with their parameters, for the reader and for
+//!   editors; [`completion`] is what these propose at a place of a text.
 //! - [`directive`] reads a file and its included files, one directive after the other, and keeps
 //!   the graphics state of [`state`]: transform, material, area light, attributes.
 //! - [`camera`], [`material`], [`texture`], [`light`] and [`shape`] lower one kind of plugin each.
@@ -23,6 +25,7 @@
 )]
 
 mod camera;
+pub(crate) mod completion;
 mod directive;
 mod equal_area;
 mod file;
@@ -32,6 +35,9 @@ mod loop_subdivision;
 mod material;
 mod medium;
 mod parameter;
+// A table, one entry a line.
+#[rustfmt::skip]
+pub(crate) mod plugins;
 mod shape;
 mod spectrum;
 mod state;
@@ -40,6 +46,7 @@ mod token;
 
 use crate::exchange::texture::SampledTextures;
 use crate::exchange::{SpannedText, transform::AffineTransform};
+use crate::plugin::PluginKind;
 use crate::{FrontOptions, over_limit};
 use parameter::Parameters;
 use rtc_diag::{Code, Diagnostic, DiagnosticSink, clip, codes, nearest};
@@ -215,28 +222,31 @@ impl<'run> Lowering<'run> {
         self.report(&codes::PBRT_APPROXIMATE, span, message);
     }
 
-    /// Warns of a plugin that is left out or replaced; `known` are the names that are supported.
-    fn unsupported(
-        &mut self,
-        kind: &str,
-        plugin: &SpannedText,
-        known: &[&'static str],
-        instead: &str,
-    ) {
+    /// Warns of a plugin that is left out or replaced by another one of the table.
+    fn unsupported(&mut self, kind: &str, plugin: &SpannedText, table: &PluginKind, instead: &str) {
         let name = clip(&plugin.text);
         let message = format!("the {kind} `{name}` is not supported: {instead}");
         let mut diagnostic = Diagnostic::new(&codes::PBRT_PLUGIN, message).at(plugin.span, "");
-        if let Some(near) = nearest(&plugin.text, known.iter().copied()) {
+        if let Some(near) = nearest(&plugin.text, table.names()) {
             diagnostic = diagnostic.hint(format!("did you mean `{near}`?"));
         }
         self.sink.push(diagnostic);
     }
 
-    /// Warns of the parameters that were not read.
-    fn ignored(&mut self, kind: &str, plugin: &str, parameters: &Parameters) {
+    /// Warns of the parameters that were not read. The table has all that were.
+    fn ignored(
+        &mut self,
+        kind: &str,
+        plugin: &str,
+        (table, parameters): (&PluginKind, &Parameters),
+    ) {
         /// The maximum number of names that are searched for similar spellings.
         const COMPARED: usize = 32;
         let (unused, looked_up) = parameters.unused();
+        debug_assert!(
+            table.has_all(plugin, &looked_up),
+            "not in the table: one of {looked_up:?} of the {kind} `{plugin}`"
+        );
         for (count, name) in unused.into_iter().enumerate() {
             let plugin = clip(plugin);
             let own = clip(&name.text);

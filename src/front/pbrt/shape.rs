@@ -5,6 +5,7 @@ use super::loop_subdivision;
 use super::material::LoweredMaterial;
 use super::medium::InterfaceMedia;
 use super::parameter::Parameters;
+use super::plugins::SHAPES;
 use crate::exchange::SpannedText;
 use crate::exchange::one_sided::{behind, flat, flat_mesh};
 use crate::exchange::round::{disc, sphere};
@@ -17,17 +18,6 @@ use rtc_ir::{EntityKind, Mesh, MeshId, Quad, Shape, Surface, VertexColumn};
 use rtc_math::{Vec3, acos, cos, sin, unit};
 use rtc_source::{FileKind, Resource, Span};
 use std::rc::Rc;
-
-const SHAPES: [&str; 8] = [
-    "sphere",
-    "disk",
-    "cylinder",
-    "trianglemesh",
-    "plymesh",
-    "bilinearmesh",
-    "loopsubdiv",
-    "cone",
-];
 
 /// Mesh files, which may be compressed.
 const PLY: FileKind = FileKind {
@@ -88,7 +78,7 @@ impl Lowering<'_> {
             false => (material, opacity.number.clamp(0.0, 1.0)),
         };
         let geometries = self.geometries(plugin, parameters, &material);
-        self.ignored("shape", &plugin.text, parameters);
+        self.ignored("shape", &plugin.text, (&SHAPES, parameters));
         let Some(geometries) = geometries else { return };
         let (to_world, media) = (self.state.transform, self.state.media);
         for geometry in geometries {
@@ -264,7 +254,7 @@ impl Lowering<'_> {
         parameters: &Parameters,
         material: &LoweredMaterial,
     ) -> Option<Vec<ShapeGeometry>> {
-        let geometry = match plugin.text.as_str() {
+        let geometry = match SHAPES.known(&plugin.text) {
             "sphere" => self.sphere_shape(plugin, parameters, material),
             "disk" => self.disk_shape(plugin, parameters, material),
             "cylinder" | "cone" | "paraboloid" | "hyperboloid" => {
@@ -357,7 +347,7 @@ impl Lowering<'_> {
         self.approximate(plugin.span, message);
         let number = |name, default| parameters.number(name).unwrap_or(default);
         let point = |name, default| Vec3::from_array(parameters.vector(name).unwrap_or(default));
-        let radius = number("radius", 1.0).abs();
+        let radius = || number("radius", 1.0).abs();
         let phi = number("phimax", 360.0).clamp(0.0, 360.0);
         // The normal of a surface of revolution: across a line of its profile and the turn.
         let normal =
@@ -372,12 +362,17 @@ impl Lowering<'_> {
         let profile = match plugin.text.as_str() {
             "cylinder" => {
                 let (low, high) = (number("zmin", -1.0), number("zmax", 1.0));
+                let radius = radius();
                 flat(Vec3::new(radius, 0.0, low), Vec3::new(radius, 0.0, high))
             }
-            "cone" => flat(Vec3::new(radius, 0.0, 0.0), Vec3::Z * number("height", 1.0)),
+            "cone" => flat(
+                Vec3::new(radius(), 0.0, 0.0),
+                Vec3::Z * number("height", 1.0),
+            ),
             "hyperboloid" => line(point("p1", [0.0; 3]), point("p2", [1.0; 3])),
             _ => {
                 let (low, high) = (number("zmin", 0.0).max(0.0), number("zmax", 1.0));
+                let radius = radius();
                 let rows = (0..=ROWS).map(|row| {
                     let z = low + (high - low) * f64::from(row) / f64::from(ROWS);
                     let r = radius * (z / high).max(0.0).sqrt();

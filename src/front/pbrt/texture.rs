@@ -4,13 +4,12 @@
 use super::Lowering;
 use super::image::{ImageMap, ImageUse};
 use super::parameter::{ParameterValues, Parameters};
+use super::plugins::TEXTURES;
 use crate::exchange::SpannedText;
 use crate::exchange::checkerboard::checkerboard;
 use rtc_diag::{clip, codes};
 use rtc_ir::{Filter, Map, TextureId, Wrap};
 use std::rc::Rc;
-
-const TEXTURES: [&str; 5] = ["constant", "scale", "mix", "imagemap", "checkerboard"];
 
 /// A pattern over the texture coordinates.
 #[derive(Clone, Debug)]
@@ -91,8 +90,8 @@ impl Lowering<'_> {
     ) {
         let texture = self.texture_of(plugin, parameters);
         // The parameters of an unsupported texture are marked as read.
-        if TEXTURES.contains(&plugin.text.as_str()) {
-            self.ignored("texture", &plugin.text, parameters);
+        if TEXTURES.find(&plugin.text).is_some() {
+            self.ignored("texture", &plugin.text, (&TEXTURES, parameters));
         }
         match kind.text.as_str() {
             "float" => drop(self.floats.insert(name.text, texture)),
@@ -105,7 +104,7 @@ impl Lowering<'_> {
     }
 
     fn texture_of(&mut self, plugin: &SpannedText, parameters: &Parameters) -> ScaledTexture {
-        match plugin.text.as_str() {
+        match TEXTURES.known(&plugin.text) {
             "constant" => self.operand(parameters, "value", [1.0; 3]),
             "scale" => self.scale_texture(plugin, parameters),
             "mix" => self.mix_texture(plugin, parameters),

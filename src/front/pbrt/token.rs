@@ -2,11 +2,12 @@
 
 use crate::exchange::SpannedText;
 use rtc_source::{FileId, Span};
+use std::ops::Range;
 use std::rc::Rc;
 
 /// The kind of a token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum PbrtTokenKind {
+pub(crate) enum PbrtTokenKind {
     /// A string; its range excludes the quotes.
     Quoted,
     /// A name, a number, `true` or `false`.
@@ -19,10 +20,17 @@ pub(super) enum PbrtTokenKind {
 
 /// A token and the range of its bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct PbrtToken {
+pub(crate) struct PbrtToken {
     pub(super) kind: PbrtTokenKind,
     start: usize,
     end: usize,
+}
+
+impl PbrtToken {
+    /// Its bytes, without quotes.
+    pub(crate) fn range(self) -> Range<usize> {
+        self.start..self.end
+    }
 }
 
 /// The text of a file, and how far it was read.
@@ -110,7 +118,7 @@ impl TokenReader {
 }
 
 /// The token at or after an offset, behind white space and comments.
-fn token(bytes: &[u8], mut at: usize) -> Option<PbrtToken> {
+pub(crate) fn token(bytes: &[u8], mut at: usize) -> Option<PbrtToken> {
     loop {
         match bytes.get(at)? {
             b'#' => {

@@ -3,11 +3,14 @@
 //! The tables hold examples, not claims: the reader itself reads each one, and what it reports is
 //! what `rtc schema support` prints. A row without a finding is read as it is.
 
+#[cfg(test)]
+mod declared;
 mod files;
 mod mitsuba;
 mod pbrt;
 mod usd;
 
+use crate::plugin::Completion;
 use crate::{FrontOptions, mitsuba as mitsuba_reader, pbrt as pbrt_reader, usd as usd_reader};
 use rtc_diag::{DiagnosticSink, Severity, codes};
 use rtc_ir::LoweredScene;
@@ -118,6 +121,15 @@ impl ForeignFormat {
             })
         });
         rows.collect()
+    }
+
+    /// What an editor proposes at a byte of a text, which may be incomplete there.
+    #[must_use]
+    pub fn completion(self, text: &str, offset: usize) -> Option<Completion> {
+        match self {
+            Self::Pbrt => pbrt_reader::completion::completion(text, offset),
+            Self::Mitsuba | Self::Usd => None,
+        }
     }
 
     /// Has the reader read a text: how it is read, and the findings.
