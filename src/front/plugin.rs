@@ -58,7 +58,7 @@ pub(crate) const fn plugin(
 }
 
 impl DeclaredParameter {
-    pub(crate) fn types(&self) -> impl Iterator<Item = &'static str> {
+    pub(crate) fn types(&self) -> impl Iterator<Item = &'static str> + Clone {
         self.types.split_ascii_whitespace()
     }
 
@@ -90,10 +90,13 @@ impl PluginKind {
 
     /// Whether the parameters of a plugin have these names; of an unknown one they have any.
     pub(crate) fn has_all(&self, plugin: &str, names: &[&str]) -> bool {
-        self.find(plugin).is_none_or(|plugin| {
-            let has = |name: &&str| plugin.parameters().any(|known| known.name == *name);
-            names.iter().all(has)
-        })
+        self.find(plugin).is_none() || names.iter().all(|name| self.has(plugin, name))
+    }
+
+    /// Whether a plugin has a parameter of this name.
+    pub(crate) fn has(&self, plugin: &str, name: &str) -> bool {
+        let plugin = self.find(plugin);
+        plugin.is_some_and(|plugin| plugin.parameters().any(|known| known.name == name))
     }
 
     /// The names of those that are read.
@@ -163,9 +166,14 @@ impl Proposal {
         Self::new(text.to_owned(), ProposalKind::Name, "")
     }
 
-    /// Whether it is what a text says; the type of a parameter may have another name.
+    /// Whether it is what a text says; a parameter may have another type and
+    /// spelling.
     fn is(&self, written: &str) -> bool {
-        let name = |text: &str| text.rsplit(' ').next().unwrap_or_default().to_owned();
+        // Version 0 of Mitsuba has `intIOR` for `int_ior`.
+        let name = |text: &str| {
+            let name = text.rsplit(' ').next().unwrap_or_default();
+            name.replace('_', "").to_lowercase()
+        };
         match self.kind {
             ProposalKind::Parameter => name(&self.text) == name(written),
             ProposalKind::Keyword | ProposalKind::Plugin | ProposalKind::Name => {

@@ -227,7 +227,7 @@ fn capabilities(columns: Columns) -> Value {
             "codeActionKinds": [CodeActionKind::QUICKFIX, CodeActionKind::SOURCE_FIX_ALL],
         },
         "hoverProvider": true,
-        "completionProvider": { "triggerCharacters": [" ", "/", "*", "\""] },
+        "completionProvider": { "triggerCharacters": [" ", "/", "*", "\"", "<"] },
         "documentFormattingProvider": true,
         "documentSymbolProvider": true,
         "definitionProvider": true,

@@ -6,6 +6,7 @@
 
 use super::medium::ShapeMedia;
 use super::number::{NumberOrMap, NumberUse};
+use super::plugins::{BSDFS, TEXTURES};
 use super::xml::{PluginNode, Value};
 use super::{AssetTarget, Lowering};
 use crate::exchange::SpannedText;
@@ -110,9 +111,9 @@ impl<'run> Lowering<'run> {
             return Some(matte([0.5; 3]));
         }
         // Each plugin becomes the standard material nearest to it.
-        Some(match node.plugin.text.as_str() {
+        Some(match BSDFS.known(&node.plugin.text) {
             "diffuse" | "lambertian" => {
-                self.ignored(node, &["reflectance"]);
+                self.ignored(node);
                 let channel = self.channel(node, "reflectance", [0.5; 3], flip);
                 Standard {
                     base_color_map: channel.map,
@@ -159,7 +160,7 @@ impl<'run> Lowering<'run> {
                 self.each_other(first, with_map)
             }
             "bumpmap" => {
-                self.ignored(node, &["scale"]);
+                self.ignored(node);
                 let inner = self.inner(node, flip, depth)?;
                 let NumberOrMap { map, .. } =
                     self.number_or_map(node, "", 0.0, NumberUse::of(flip));
@@ -184,7 +185,7 @@ impl<'run> Lowering<'run> {
     /// A blend of two BSDFs, of which either may be a blend: the first material of a chain. `None`
     /// if light passes through both.
     fn blend(&mut self, node: &'run PluginNode, flip: bool, depth: usize) -> Option<Standard> {
-        self.ignored(node, &["weight"]);
+        self.ignored(node);
         let parts: Vec<_> = self.bsdf_children(node);
         let [first, second, ..] = parts[..] else {
             self.approximate(
@@ -476,7 +477,7 @@ impl<'run> Lowering<'run> {
     }
 
     fn mask(&mut self, node: &'run PluginNode, inner: Standard, flip: bool) -> Standard {
-        self.ignored(node, &["opacity"]);
+        self.ignored(node);
         let NumberOrMap { number, map } =
             self.number_or_map(node, "opacity", 0.5, NumberUse::of(flip));
         // One mask in another covers by the product of both.
@@ -549,7 +550,7 @@ impl<'run> Lowering<'run> {
                 map: None,
             };
         };
-        match texture.plugin.text.as_str() {
+        match TEXTURES.known(&texture.plugin.text) {
             "mesh_attribute" => {
                 let name = texture.string("name").map(|name| name.text.as_str());
                 if !matches!(name, Some("vertex_color" | "face_color")) {
@@ -591,20 +592,9 @@ impl<'run> Lowering<'run> {
     /// A texture as a map; `None` for one that is not supported.
     pub(super) fn texture(&mut self, node: &'run PluginNode, flip: bool) -> Option<Map> {
         // Find the image and the filter.
-        let (image, filter) = match node.plugin.text.as_str() {
+        let (image, filter) = match TEXTURES.known(&node.plugin.text) {
             "bitmap" => {
-                self.ignored(
-                    node,
-                    &[
-                        "filename",
-                        "to_uv",
-                        "wrap_mode",
-                        "filter_type",
-                        "raw",
-                        "uscale",
-                        "vscale",
-                    ],
-                );
+                self.ignored(node);
                 let path: &SpannedText = node.string("filename")?;
                 let filter = match node.string("filter_type") {
                     Some(name) if name.text == "nearest" => Filter::Nearest,

@@ -1,5 +1,6 @@
 //! Emitters: environment maps, points, spots, suns; area lights are part of their shapes.
 
+use super::plugins::EMITTERS;
 use super::sensor::{pixel_tangent, tangent};
 use super::xml::PluginNode;
 use super::{AssetTarget, Lowering};
@@ -20,7 +21,7 @@ impl<'run> Lowering<'run> {
     pub(super) fn emitter(&mut self, node: &'run PluginNode) {
         let to_world = node.transform("to_world");
         let color = |name: &str| node.color(name).unwrap_or([1.0; 3]);
-        match node.plugin.text.as_str() {
+        match EMITTERS.known(&node.plugin.text) {
             "constant" => self.environment(node, color("radiance"), false),
             "envmap" => {
                 let scale = node.number("scale").unwrap_or(1.0);
@@ -36,7 +37,7 @@ impl<'run> Lowering<'run> {
                     range: None,
                 };
                 self.light(node, emitter, color("intensity"));
-                self.ignored(node, &["position", "to_world", "intensity"]);
+                self.ignored(node);
             }
             "directional" => {
                 let direction = node.vector("direction").map(Vec3::from_array);
@@ -45,7 +46,7 @@ impl<'run> Lowering<'run> {
                     direction: (-direction).to_array(),
                 };
                 self.light(node, emitter, color("irradiance"));
-                self.ignored(node, &["direction", "to_world", "irradiance"]);
+                self.ignored(node);
             }
             "sky" | "sun" | "sunsky" => self.sky(node),
             "spot" => self.spot(node, &to_world),
@@ -76,18 +77,12 @@ impl<'run> Lowering<'run> {
         });
         let intensity = node.color("intensity").unwrap_or([1.0; 3]);
         self.projecting_light(node, emitter, intensity, projected);
-        self.ignored(
-            node,
-            &["to_world", "intensity", "cutoff_angle", "beam_width"],
-        );
+        self.ignored(node);
     }
 
     /// A projector: a texture as the irradiance on a plane at the distance 1.
     fn projector(&mut self, node: &'run PluginNode, to_world: &AffineTransform) {
-        self.ignored(
-            node,
-            &["to_world", "irradiance", "scale", "fov", "fov_axis"],
-        );
+        self.ignored(node);
         // The field of view is that of the texture, whose image is loaded later.
         let irradiance = self.channel(node, "irradiance", [1.0; 3], false);
         let scale = node.number("scale").unwrap_or(1.0);
@@ -152,7 +147,7 @@ impl<'run> Lowering<'run> {
             image,
             image_from_world: image.map(|_| rows),
         });
-        self.ignored(node, &["to_world", "radiance", "filename", "scale"]);
+        self.ignored(node);
     }
 
     /// The area light of a shape.

@@ -4,6 +4,7 @@
 //! the mean replaces a grid and a constant other volumes, with a warning.
 
 use super::Lowering;
+use super::plugins::{MEDIA, PHASES};
 use super::xml::PluginNode;
 use rtc_diag::{Diagnostic, clip, codes};
 use rtc_ir::Medium;
@@ -119,26 +120,11 @@ impl<'run> Lowering<'run> {
             self.sink.push(diagnostic.at(node.plugin.span, ""));
             return None;
         }
-        if !matches!(node.plugin.text.as_str(), "homogeneous" | "heterogeneous") {
+        if MEDIA.find(&node.plugin.text).is_none() {
             self.unsupported(node, "it is left out");
             return None;
         }
-        self.ignored(
-            node,
-            &[
-                "sigma_a",
-                "sigma_s",
-                "sigma_t",
-                "albedo",
-                "density",
-                "scale",
-                "sample_emitters",
-                "has_spectral_extinction",
-                "material",
-                "majorant_resolution_factor",
-                "majorant_factor",
-            ],
-        );
+        self.ignored(node);
         if let Some(name) = node.string("material") {
             let message = format!(
                 "the coefficients of the material `{}` are not known: those of the default \
@@ -208,7 +194,7 @@ impl<'run> Lowering<'run> {
         let Some(phase) = phase.and_then(|phase| self.resolve(phase)) else {
             return 0.0;
         };
-        match phase.plugin.text.as_str() {
+        match PHASES.known(&phase.plugin.text) {
             "isotropic" => 0.0,
             "hg" => phase.number("g").unwrap_or(0.8),
             _ => {

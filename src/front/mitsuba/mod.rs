@@ -7,6 +7,8 @@
 //! - [`xml`] reads the text. It resolves `<default>`, `<include>` and `<ref>`, converts the names
 //!   of older versions (`toWorld`) to those of version 3 (`to_world`), and collects all mistakes.
 //!   Each [`PluginNode`] keeps the spans of its element and of its properties.
+//! - [`plugins`] lists the elements, and all plugins with their parameters, for the reader and for
+//!   editors; [`completion`] is what these propose at a place of a text.
 //! - [`value`] parses numbers, vectors, matrices, colours and spectra.
 //! - [`sensor`], [`bsdf`], [`medium`], [`emitter`] and [`shape`] lower one kind of plugin each; [`one_sided`]
 //!   covers the backs of lights. A plugin that
@@ -25,11 +27,15 @@
 )]
 
 mod bsdf;
+pub(crate) mod completion;
 mod emitter;
 mod facets;
 mod medium;
 mod number;
 mod one_sided;
+// A table, one entry a line.
+#[rustfmt::skip]
+pub(crate) mod plugins;
 mod sensor;
 mod serialized;
 mod shape;
@@ -358,10 +364,12 @@ impl<'run> Lowering<'run> {
         self.sink.push(diagnostic.at(node.span, ""));
     }
 
-    /// Warns of properties of a plugin that were not read.
-    fn ignored(&mut self, node: &PluginNode, used: &[&str]) {
+    /// Warns of properties of a plugin that its table does not have.
+    fn ignored(&mut self, node: &PluginNode) {
+        let table = plugins::kind(&node.tag);
         for property in &node.properties {
-            if !used.contains(&property.name.text.as_str()) {
+            let name = property.name.text.as_str();
+            if !table.is_some_and(|table| table.has(&node.plugin.text, name)) {
                 let message = format!(
                     "`{}` of the {} `{}` has no effect",
                     clip(&property.name.text),

@@ -2,6 +2,7 @@
 
 use super::Lowering;
 use super::bsdf::checkerboard_colors;
+use super::plugins::TEXTURES;
 use super::xml::PluginNode;
 use crate::exchange::checkerboard::checkerboard;
 use crate::exchange::number::{NumberCoding, NumberSource, in_channel, linear_colors};
@@ -97,7 +98,7 @@ impl<'run> Lowering<'run> {
         let Some(texture) = texture else {
             return constant(default);
         };
-        let map = match texture.plugin.text.as_str() {
+        let map = match TEXTURES.known(&texture.plugin.text) {
             "uniform" | "srgb" => {
                 let value = texture.color("value").or_else(|| texture.color("color"));
                 return constant(value.map_or(default, luminance));

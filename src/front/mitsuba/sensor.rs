@@ -1,6 +1,7 @@
 //! Integrators, sensors, films and samplers.
 
 use super::Lowering;
+use super::plugins::{FILTERS, INTEGRATORS, SENSORS};
 use super::xml::PluginNode;
 use crate::exchange::traced;
 use crate::exchange::transform::AffineTransform;
@@ -53,14 +54,14 @@ impl<'run> Lowering<'run> {
     /// The depth of an integrator. A path of `max_depth` edges has `max_depth` − 1 bounces.
     pub(super) fn integrator(&mut self, node: &'run PluginNode) {
         self.integrator_of_media(node);
-        match node.plugin.text.as_str() {
+        match INTEGRATORS.known(&node.plugin.text) {
             "path" | "volpath" | "volpathmis" | "prb" | "volpath_simple" => {
                 let depth = node.number("max_depth").unwrap_or(-1.0);
                 if depth >= 0.0 {
                     let depth = node.count("max_depth").unwrap_or(0);
                     self.settings().max_depth = depth.saturating_sub(1);
                 }
-                self.ignored(node, &["max_depth", "rr_depth", "strict_normals"]);
+                self.ignored(node);
             }
             // Its light and its samples of the BSDF end at the first surface.
             "direct" => {
@@ -103,35 +104,18 @@ impl<'run> Lowering<'run> {
         }
         self.medium_of_sensor(node);
         // Lower the camera and report parameters that have no effect.
-        let mut used = vec![
-            "to_world",
-            "near_clip",
-            "far_clip",
-            "fov",
-            "fov_axis",
-            "focal_length",
-        ];
         let to_world = node.transform("to_world");
-        let camera = match node.plugin.text.as_str() {
+        let camera = match SENSORS.known(&node.plugin.text) {
             "orthographic" => orthographic(&to_world, size),
-            "thinlens" => {
-                used.extend(["aperture_radius", "focus_distance"]);
-                self.perspective(node, &to_world, size)
-            }
-            "perspective" => {
-                used.extend([
-                    "principal_point_offset_x",
-                    "principal_point_offset_y",
-                    "focus_distance",
-                ]);
-                self.perspective(node, &to_world, size)
-            }
+            "thinlens" | "perspective" => self.perspective(node, &to_world, size),
             _ => {
                 self.unsupported(node, "a perspective camera replaces it");
                 self.perspective(node, &to_world, size)
             }
         };
-        self.ignored(node, &used);
+        if SENSORS.find(&node.plugin.text).is_some() {
+            self.ignored(node);
+        }
         // A degenerate transform has no view.
         match camera {
             Some(camera) => {
@@ -184,7 +168,7 @@ impl<'run> Lowering<'run> {
 
     fn filter(&mut self, node: &PluginNode) -> PixelFilter {
         let number = |name, default| node.number(name).unwrap_or(default);
-        match node.plugin.text.as_str() {
+        match FILTERS.known(&node.plugin.text) {
             "box" => PixelFilter::Box {
                 radius: number("radius", 0.5),
             },

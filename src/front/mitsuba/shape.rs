@@ -2,6 +2,7 @@
 
 use super::Lowering;
 use super::one_sided::OneSided;
+use super::plugins::SHAPES;
 use super::xml::PluginNode;
 use crate::exchange::transform::AffineTransform;
 use crate::exchange::{round, tessellate};
@@ -26,7 +27,7 @@ impl<'run> Lowering<'run> {
             return;
         }
         let to_world = outer.after(&node.transform("to_world"));
-        match node.plugin.text.as_str() {
+        match SHAPES.known(&node.plugin.text) {
             // A group is shown where an instance refers to it.
             "shapegroup" => {}
             "instance" => self.instance(node, &to_world, depth),
@@ -57,7 +58,7 @@ impl<'run> Lowering<'run> {
 
     fn surface(&mut self, node: &'run PluginNode, to_world: AffineTransform) {
         let emitter = self.area_emitter(node);
-        let plugin = node.plugin.text.as_str();
+        let plugin = SHAPES.known(&node.plugin.text);
         let is_similar = to_world.similarity().is_some();
         // Mitsuba flips the v of OBJ files, so that v points down as in its pictures; the v of its
         // spheres points down, too.
@@ -123,17 +124,7 @@ impl<'run> Lowering<'run> {
     }
 
     fn mesh(&mut self, node: &'run PluginNode, to_world: &AffineTransform) -> Option<Shape> {
-        self.ignored(
-            node,
-            &[
-                "filename",
-                "to_world",
-                "face_normals",
-                "flip_normals",
-                "flip_tex_coords",
-                "shape_index",
-            ],
-        );
+        self.ignored(node);
         let Some(path) = node.string("filename") else {
             self.unsupported(node, "it names no file, and is left out");
             return None;
@@ -195,7 +186,7 @@ impl<'run> Lowering<'run> {
         to_world: &AffineTransform,
         has_maps: bool,
     ) -> Option<Shape> {
-        self.ignored(node, &["center", "radius", "to_world", "flip_normals"]);
+        self.ignored(node);
         let center = node.vector("center").unwrap_or([0.0; 3]);
         let radius = node.number("radius").unwrap_or(1.0);
         if has_maps && to_world.similarity().is_none() {
@@ -215,7 +206,7 @@ impl<'run> Lowering<'run> {
         to_world: &AffineTransform,
         has_maps: bool,
     ) -> Option<Shape> {
-        self.ignored(node, &["to_world", "flip_normals"]);
+        self.ignored(node);
         match round::disc(0.0, 1.0, to_world).filter(|_| !has_maps) {
             Some(disc) => Some(Shape::Disc(disc)),
             None => {
@@ -227,7 +218,7 @@ impl<'run> Lowering<'run> {
 
     /// A cylinder from `p0` to `p1`, open at both ends.
     fn cylinder(&mut self, node: &'run PluginNode, to_world: &AffineTransform) -> Option<Shape> {
-        self.ignored(node, &["p0", "p1", "radius", "to_world", "flip_normals"]);
+        self.ignored(node);
         self.approximate(
             node.span,
             "the cylinder is shown as a mesh of 256 triangles",

@@ -68,31 +68,7 @@ impl<'run> Lowering<'run> {
 
     /// Reports what is left out.
     fn report_sky(&mut self, node: &PluginNode) {
-        self.ignored(
-            node,
-            &[
-                "turbidity",
-                "albedo",
-                "sun_direction",
-                "sky_scale",
-                "sun_scale",
-                "scale",
-                "sun_aperture",
-                "sun_radius_scale",
-                "to_world",
-                "year",
-                "month",
-                "day",
-                "hour",
-                "minute",
-                "second",
-                "timezone",
-                "latitude",
-                "longitude",
-                "resolution",
-                "complex_sun",
-            ],
-        );
+        self.ignored(node);
         let widening = match (node.number("sun_radius_scale"), node.number("sun_aperture")) {
             (Some(scale), _) => scale,
             (None, Some(aperture)) => aperture / APERTURE,

@@ -4,6 +4,10 @@
 //! what `rtc schema support` prints. A row without a finding is read as it is.
 
 #[cfg(test)]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "its tests read the scenes and the sources of the repository"
+)]
 mod declared;
 mod files;
 mod mitsuba;
@@ -128,7 +132,8 @@ impl ForeignFormat {
     pub fn completion(self, text: &str, offset: usize) -> Option<Completion> {
         match self {
             Self::Pbrt => pbrt_reader::completion::completion(text, offset),
-            Self::Mitsuba | Self::Usd => None,
+            Self::Mitsuba => mitsuba_reader::completion::completion(text, offset),
+            Self::Usd => None,
         }
     }
 

@@ -228,3 +228,33 @@ fn plugins_of_other_renderers_say_how_they_are_read() {
         }
     }
 }
+
+#[test]
+fn scenes_of_other_renderers_are_completed_while_they_are_typed() {
+    let mut editor = Editor::new(tempfile::tempdir().unwrap());
+    let xml = "<scene version=\"3.0.0\">\n<!-- 😀 --><shape type=\"sphere\"><float name=\"ra\n";
+    let pbrt = "WorldBegin\nShape \"sphere\" # 😀\n  \"float ra\n";
+    for (file, text, place, whole) in [
+        ("a.xml", xml, (1, 47), ((1, 45), "radius")),
+        ("a.pbrt", pbrt, (2, 10), ((2, 3), "float radius")),
+    ] {
+        editor.open(file, text);
+        let (line, character) = place;
+        let place = json!({"line": line, "character": character});
+        let params = json!({"textDocument": {"uri": editor.uri(file)}, "position": place});
+        let items = editor.ask("textDocument/completion", params);
+        let ((line, start), name) = whole;
+        let mut items = items.as_array().unwrap().iter();
+        let item = items.find(|own| own["label"] == name).unwrap();
+        let edit = json!({"range": {"start": {"line": line, "character": start}, "end": place},
+            "newText": name});
+        assert_eq!(item["textEdit"], edit);
+        assert_eq!(item["documentation"], "The radius.");
+    }
+    let place = json!({"line": 1, "character": 9});
+    let params = json!({"textDocument": {"uri": editor.uri("a.pbrt")}, "position": place});
+    let hover = editor.ask("textDocument/hover", params);
+    let text = hover["contents"]["value"].as_str().unwrap();
+    assert!(text.starts_with("**`sphere`** A sphere"), "{text}");
+    assert_eq!(hover["range"]["start"]["character"], 7);
+}

@@ -1,70 +1,10 @@
-//! Tests that the tables of plugins are what the readers read, and what editors are proposed: over
-//! all examples and the scenes of the repository.
+//! The tables of pbrt.
 
-use super::*;
+use super::{ForeignFormat, assert_proposed, findings, texts};
+use crate::pbrt::completion::token;
 use crate::pbrt::plugins::{Argument, DIRECTIVES, Directive};
 use crate::plugin::{DeclaredParameter, Plugin};
-use std::fs;
-use std::path::{Path, PathBuf};
-
-/// The findings of the reader about a text, by their messages.
-fn findings(format: ForeignFormat, text: &str) -> String {
-    format.tried(text, &files::beside()).1
-}
-
-/// The scenes of the repository with this extension, and all examples of their format.
-fn texts(format: ForeignFormat, extension: &str) -> Vec<String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let mut open: Vec<PathBuf> = ["docs", "scenes", "tests"]
-        .map(|name| root.join(name))
-        .into();
-    let mut texts = Vec::new();
-    while let Some(path) = open.pop() {
-        if path.is_dir() {
-            open.extend(
-                fs::read_dir(&path)
-                    .unwrap()
-                    .map(|entry| entry.unwrap().path()),
-            );
-        } else if path.extension().is_some_and(|own| own == extension) {
-            texts.push(fs::read_to_string(&path).unwrap());
-        }
-    }
-    let parts = format.parts().iter();
-    texts.extend(parts.flat_map(|part| {
-        let example =
-            |(_, text): &(&str, &str)| [&part.before.concat(), *text, part.after].concat();
-        part.examples.iter().map(example)
-    }));
-    texts
-}
-
-/// Asserts that `expected` is proposed at the end of a word, and while it is typed: at the end of
-/// the text.
-fn assert_proposed(
-    format: ForeignFormat,
-    text: &str,
-    word: std::ops::Range<usize>,
-    expected: &str,
-) {
-    let name = expected.rsplit(' ').next().unwrap();
-    let typed = text.get(..word.start + 1).unwrap();
-    for (text, offset) in [(text, word.end), (typed, typed.len())] {
-        let found = format.completion(text, offset);
-        let proposals = found
-            .as_ref()
-            .map_or(&[][..], |found| found.proposals.as_slice());
-        let is_there = proposals
-            .iter()
-            .any(|own| own.text.rsplit(' ').next() == Some(name));
-        assert!(is_there, "{expected}: {found:?} in\n{text}");
-    }
-    let meaning = format.completion(text, word.end).unwrap();
-    assert!(
-        meaning.written(text).is_some(),
-        "{expected} has no meaning in\n{text}"
-    );
-}
+use std::ops::Range;
 
 /// A value of a type of pbrt, and the files and names that there are.
 fn value(parameter: &DeclaredParameter, kind: &str) -> &'static str {
@@ -163,11 +103,11 @@ fn the_tables_of_pbrt_are_what_its_reader_reads() {
 }
 
 /// The directives, plugins and parameters of a text of pbrt: their bytes and the text proposed there.
-fn pbrt_words(text: &str) -> Vec<(std::ops::Range<usize>, String)> {
+fn pbrt_words(text: &str) -> Vec<(Range<usize>, String)> {
     let (mut words, mut plugin, mut strings) = (Vec::new(), None, 0);
     let mut directive: Option<&Directive> = None;
     let (mut at, mut lists) = (0, 0);
-    while let Some(token) = crate::pbrt::completion::token(text.as_bytes(), at) {
+    while let Some(token) = token(text.as_bytes(), at) {
         let range = token.range();
         let own = text.get(range.clone()).unwrap();
         let is_string = text.get(..range.start).unwrap().ends_with('"');
@@ -255,29 +195,4 @@ fn names_of_a_scene_of_pbrt_are_proposed() {
         .unwrap();
     assert_eq!(text.get(found.replaced.clone()), Some("float "));
     assert!(!found.proposals.iter().any(|own| own.text == "float radius"));
-}
-
-#[test]
-fn no_cut_of_a_scene_panics() {
-    for (format, extension) in [
-        (ForeignFormat::Pbrt, "pbrt"),
-        (ForeignFormat::Mitsuba, "xml"),
-    ] {
-        for text in texts(format, extension).iter().take(12) {
-            for (at, _) in text.char_indices() {
-                let (start, end) = text.split_at(at);
-                for text in [
-                    start,
-                    &format!("{start}😀\"<{end}"),
-                    &format!("{start}é\\{end}"),
-                ] {
-                    for offset in [at, text.len(), text.ceil_char_boundary(at + 1), at + 9] {
-                        if let Some(found) = format.completion(text, offset) {
-                            assert!(text.get(found.replaced.clone()).is_some(), "{found:?}");
-                        }
-                    }
-                }
-            }
-        }
-    }
 }
