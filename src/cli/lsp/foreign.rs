@@ -1,5 +1,5 @@
-//! Scenes of Mitsuba, pbrt and USD: completions, and the hover text of a plugin or a parameter, which
-//! is its meaning and how the reader reads it, from the tables of `rtc schema support`.
+//! Scenes of Mitsuba, pbrt and USD: completions, and the hover text of a plugin or a parameter,
+//! which is its meaning and how the reader reads it, from the tables of `rtc schema support`.
 
 use super::open_text::OpenText;
 use super::protocol::{CompletionItem, CompletionItemKind, Position, TextEdit};
@@ -55,8 +55,8 @@ fn item_kind(kind: ProposalKind) -> CompletionItemKind {
     }
 }
 
-/// What the table of a reader says of the word at a byte, then how the reader reads it; and the range
-/// of the text that is meant. `None` if no table has it.
+/// What the table of a reader says of the word at a byte, then how the reader reads it; and the
+/// range of the text that is meant. `None` if no table has it.
 pub(super) fn meaning(
     text: &str,
     offset: usize,

@@ -236,7 +236,7 @@ fn scenes_of_other_renderers_are_completed_while_they_are_typed() {
     let pbrt = "WorldBegin\nShape \"sphere\" # 😀\n  \"float ra\n";
     for (file, text, place, whole) in [
         ("a.xml", xml, (1, 47), ((1, 45), "radius")),
-        ("a.pbrt", pbrt, (2, 10), ((2, 3), "float radius")),
+        ("a.pbrt", pbrt, (2, 11), ((2, 3), "float radius")),
     ] {
         editor.open(file, text);
         let (line, character) = place;

@@ -162,12 +162,12 @@ fn words(text: &str) -> Vec<PlacedWord> {
     let Ok(document) = roxmltree::Document::parse(text) else {
         return words;
     };
-    walk(document.root_element(), None, &mut words);
+    traverse(document.root_element(), None, &mut words);
     words
 }
 
 /// Adds the words of an element and of those in it, within a plugin.
-fn walk(
+fn traverse(
     node: roxmltree::Node<'_, '_>,
     parent: Option<&'static Plugin>,
     words: &mut Vec<PlacedWord>,
@@ -191,7 +191,7 @@ fn walk(
     });
     words.extend(role.map(|own| (own.range_value(), own.value().to_owned())));
     for child in node.children().filter(|child| child.is_element()) {
-        walk(child, plugin, words);
+        traverse(child, plugin, words);
     }
 }
 

@@ -102,7 +102,7 @@ fn the_tables_of_pbrt_are_what_its_reader_reads() {
     assert_eq!(faults, "");
 }
 
-/// The directives, plugins and parameters of a text of pbrt: their bytes and the text proposed there.
+/// The directives, plugins and parameters of a text: their bytes and the text proposed there.
 fn pbrt_words(text: &str) -> Vec<(Range<usize>, String)> {
     let (mut words, mut plugin, mut strings) = (Vec::new(), None, 0);
     let mut directive: Option<&Directive> = None;
