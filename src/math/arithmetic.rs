@@ -237,6 +237,22 @@ impl<S: Simd> Number for f64x4<S> {
     }
 }
 
+/// Whether the machine of a SIMD level multiplies and adds with a single rounding; known when the
+/// program is compiled, as a level is a type.
+#[inline(always)]
+pub fn fuses<S: Simd>(simd: S) -> bool {
+    let level = simd.level();
+    #[cfg(target_arch = "x86_64")]
+    return level.as_avx2().is_some();
+    #[cfg(target_arch = "aarch64")]
+    return level.as_neon().is_some();
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    {
+        let _ = level;
+        false
+    }
+}
+
 impl<S: Simd> Double for f64x4<S> {
     #[inline(always)]
     fn lanes(mask: mask64x4<S>) -> impl Iterator<Item = usize> {

@@ -3,7 +3,7 @@
 //! Exact unless a product leaves ±2^996 or its error falls below the subnormals; `valid` keeps
 //! scenes far inside.
 
-use super::{Double, Number, Vec3, Vector};
+use super::{Double, Number, Vec3};
 
 /// The sum and its rounding error: `a + b = s + e` exactly (Knuth, TAOCP 2, §4.2.2, theorem B).
 #[must_use]
@@ -62,12 +62,43 @@ pub fn difference_of_products<N: Double>(a: N, b: N, c: N, d: N) -> N {
     (p - q) + (p_error - q_error)
 }
 
+/// As [`two_product`]; if `FUSED`, by one instruction, for which the function of the caller is to
+/// be compiled: elsewhere it is a slow call.
+#[inline(always)]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "only where it is one instruction"
+)]
+fn product<const FUSED: bool>(a: f64, b: f64) -> (f64, f64) {
+    if FUSED {
+        let p = a * b;
+        (p, a.mul_add(b, -p))
+    } else {
+        two_product(a, b)
+    }
+}
+
 /// The cross product, each component to within 2 u of itself.
 #[must_use]
 #[inline(always)]
 pub fn cross(a: Vec3, b: Vec3) -> Vec3 {
-    let [a, b] = [a, b].map(|v| Vector::constant(0.0, v));
-    a.accurate_cross(b).lane(0)
+    cross_by::<false>(a, b)
+}
+
+/// As [`cross`]; `FUSED` only where [`super::fuses`] holds, with the same bits.
+#[must_use]
+#[inline(always)]
+pub fn cross_by<const FUSED: bool>(a: Vec3, b: Vec3) -> Vec3 {
+    let difference = |a, b, c, d| {
+        let (p, p_error) = product::<FUSED>(a, b);
+        let (q, q_error) = product::<FUSED>(c, d);
+        (p - q) + (p_error - q_error)
+    };
+    Vec3::new(
+        difference(a.y, b.z, a.z, b.y),
+        difference(a.z, b.x, a.x, b.z),
+        difference(a.x, b.y, a.y, b.x),
+    )
 }
 
 /// The dot product as if computed in twice the precision and rounded once (Ogita, Rump, Oishi,
@@ -75,9 +106,16 @@ pub fn cross(a: Vec3, b: Vec3) -> Vec3 {
 #[must_use]
 #[inline(always)]
 pub fn dot(a: Vec3, b: Vec3) -> f64 {
-    let (x, x_error) = two_product(a.x, b.x);
-    let (y, y_error) = two_product(a.y, b.y);
-    let (z, z_error) = two_product(a.z, b.z);
+    dot_by::<false>(a, b)
+}
+
+/// As [`dot`]; `FUSED` only where [`super::fuses`] holds, with the same bits.
+#[must_use]
+#[inline(always)]
+pub fn dot_by<const FUSED: bool>(a: Vec3, b: Vec3) -> f64 {
+    let (x, x_error) = product::<FUSED>(a.x, b.x);
+    let (y, y_error) = product::<FUSED>(a.y, b.y);
+    let (z, z_error) = product::<FUSED>(a.z, b.z);
     let (xy, xy_error) = two_sum(x, y);
     let (xyz, xyz_error) = two_sum(xy, z);
     xyz + ((x_error + y_error) + xy_error + (z_error + xyz_error))

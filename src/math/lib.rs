@@ -61,7 +61,7 @@ mod turns;
 mod vector;
 mod weight;
 
-pub use arithmetic::{Double, Number};
+pub use arithmetic::{Double, Number, fuses};
 pub use basis::{CameraBasisError, camera_basis, fallback_up, view_basis};
 pub use bounds::Bounds;
 pub use column::{SharedList, VertexColumn};
@@ -69,7 +69,9 @@ pub use complex_index::ComplexIndex;
 pub use count::to_u32;
 pub use direction::{length, unit, unit_scale};
 pub use double::DoubleDouble;
-pub use exact::{cross, difference_of_products, dot, two_difference, two_product, two_sum};
+pub use exact::{
+    cross, cross_by, difference_of_products, dot, dot_by, two_difference, two_product, two_sum,
+};
 pub use facets::{Microfacets, Plastic};
 pub use flat::is_flat;
 pub use func::{acos, atan2, cos, erf, exp, ldexp, ln, pow, sin, sin_cos};

@@ -137,7 +137,9 @@ impl Instance {
     #[inline(always)]
     fn root(&self, local: &LocalRay, candidate: &Candidate<'_>) -> Option<f64> {
         match candidate.corners() {
-            Some(corners) => triangle::root(&corners, &local.ray, &local.watertight),
+            Some(corners) => {
+                triangle::root(&corners, &local.ray, &local.watertight, candidate.is_fused)
+            }
             None => self.mesh.root(local, candidate.item),
         }
     }

@@ -132,7 +132,7 @@ impl PreparedMesh {
     pub(crate) fn root(&self, ray: &LocalRay, triangle: u32) -> Option<f64> {
         match self.prepared_triangles.get(triangle as usize) {
             Some(triangle) => triangle.intersect(&ray.ray, &ray.watertight),
-            None => triangle::root(&self.vertices(triangle), &ray.ray, &ray.watertight),
+            None => triangle::root(&self.vertices(triangle), &ray.ray, &ray.watertight, false),
         }
     }
 

@@ -11,7 +11,9 @@ use crate::shape::geometry::{Intersect, SolidCrossing};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::WatertightRay;
-use rtc_math::{Bounds, Double, U, Vec3, Vector, cross, dot, two_difference, unit_scale};
+use rtc_math::{
+    Bounds, Double, U, Vec3, Vector, cross_by, dot, dot_by, two_difference, unit_scale,
+};
 use std::sync::Arc;
 
 /// The orientation of a plane.
@@ -33,6 +35,20 @@ pub struct PlaneAxis {
 }
 
 impl PlaneAxis {
+    /// The axis that a scaled normal is parallel to, if any.
+    #[inline(always)]
+    fn along(raw: Vec3) -> Option<Self> {
+        let [x, y, z] = raw.to_array();
+        let (index, sign, others) = if z != 0.0 {
+            (2, z, [x, y])
+        } else if y != 0.0 {
+            (1, y, [x, z])
+        } else {
+            (0, x, [y, z])
+        };
+        (sign.abs() == 1.0 && others == [0.0; 2]).then_some(Self { index, sign })
+    }
+
     /// N·(anchor − p), but for the sign of a 0.
     #[inline(always)]
     fn distance<N: Double>(self, anchor: Vec3, p: Vector<N>) -> N {
@@ -58,12 +74,71 @@ pub struct Plane {
     pub(super) normal: PlaneNormal,
 }
 
+/// A vector at a right angle to a triangle, or `None` if its corners are collinear. `FUSED` as in
+/// [`cross_by`].
+#[inline(always)]
+fn across<const FUSED: bool>([a, b, c]: [Vec3; 3]) -> Option<Vec3> {
+    let (first, _) = unit_scale(b - a)?;
+    let (second, _) = unit_scale(c - a)?;
+    let normal = cross_by::<FUSED>(first, second);
+    (normal != Vec3::ZERO).then_some(normal)
+}
+
+/// A vector times the power of two that brings its largest component into [1, 2).
+#[inline(always)]
+fn scaled(vector: Vec3) -> Vec3 {
+    unit_scale(vector).map_or(vector, |(scaled, _)| scaled)
+}
+
+/// N·(anchor − p) of a normal N, as if in twice the precision.
+#[inline(always)]
+fn distance<const FUSED: bool>(
+    normal: Vec3,
+    axis: Option<PlaneAxis>,
+    anchor: Vec3,
+    p: Vec3,
+) -> f64 {
+    // The sign of a 0 is that of the sum.
+    if let Some(distance) = axis.map(|axis| axis.distance(anchor, Vector::constant(0.0, p)))
+        && distance != 0.0
+    {
+        return distance;
+    }
+    let (x, x_error) = two_difference(anchor.x, p.x);
+    let (y, y_error) = two_difference(anchor.y, p.y);
+    let (z, z_error) = two_difference(anchor.z, p.z);
+    let step = Vec3::new(x, y, z);
+    dot_by::<FUSED>(normal, step) + normal.dot(Vec3::new(x_error, y_error, z_error))
+}
+
+/// The t along a ray of the plane through `anchor` with a scaled normal; see [`Plane::parameter`].
+#[inline(always)]
+fn parameter<const FUSED: bool>(normal: Vec3, anchor: Vec3, ray: &Ray) -> Option<f64> {
+    let axis = PlaneAxis::along(normal);
+    let slope = match axis {
+        Some(PlaneAxis { index, sign }) => sign * ray.direction[index],
+        None => dot_by::<FUSED>(normal, ray.direction),
+    };
+    if slope == 0.0 {
+        return None;
+    }
+    Some(distance::<FUSED>(normal, axis, anchor, ray.origin) / slope)
+}
+
+/// The root above 0 of the plane of a triangle: that of [`PlaneNormal::of`], which is not needed
+/// whole.
+#[inline(always)]
+pub(crate) fn root_of_corners<const FUSED: bool>(corners: [Vec3; 3], ray: &Ray) -> Option<f64> {
+    let normal = scaled(across::<FUSED>(corners)?);
+    parameter::<FUSED>(normal, corners[0], ray).filter(|t| *t > 0.0)
+}
+
 impl PlaneNormal {
     /// The normal along a vector, which must not be zero.
     #[must_use]
     #[inline(always)]
     pub(crate) fn new(vector: Vec3) -> Self {
-        let raw = unit_scale(vector).map_or(vector, |(scaled, _)| scaled);
+        let raw = scaled(vector);
         let square = dot(raw, raw);
         Self {
             raw,
@@ -75,11 +150,8 @@ impl PlaneNormal {
     /// The normal of a triangle, or `None` if its corners are collinear.
     #[must_use]
     #[inline(always)]
-    pub(crate) fn of([a, b, c]: [Vec3; 3]) -> Option<Self> {
-        let (first, _) = unit_scale(b - a)?;
-        let (second, _) = unit_scale(c - a)?;
-        let normal = cross(first, second);
-        (normal != Vec3::ZERO).then(|| Self::new(normal))
+    pub(crate) fn of(corners: [Vec3; 3]) -> Option<Self> {
+        across::<false>(corners).map(Self::new)
     }
 
     /// The unit vector.
@@ -92,47 +164,13 @@ impl PlaneNormal {
     /// The t of the plane through `anchor` along the ray; see [`Plane::parameter`].
     #[inline(always)]
     fn parameter(&self, anchor: Vec3, ray: &Ray) -> Option<f64> {
-        let axis = self.axis();
-        let slope = match axis {
-            Some(PlaneAxis { index, sign }) => sign * ray.direction[index],
-            None => dot(self.raw, ray.direction),
-        };
-        if slope == 0.0 {
-            return None;
-        }
-        Some(self.distance(axis, anchor, ray.origin) / slope)
+        parameter::<false>(self.raw, anchor, ray)
     }
 
     /// The axis parallel to the normal, if any.
     #[inline(always)]
     fn axis(&self) -> Option<PlaneAxis> {
-        if self.square != 1.0 {
-            return None;
-        }
-        let [x, y, z] = self.raw.to_array();
-        let (index, sign, others) = if z != 0.0 {
-            (2, z, [x, y])
-        } else if y != 0.0 {
-            (1, y, [x, z])
-        } else {
-            (0, x, [y, z])
-        };
-        (others == [0.0; 2]).then_some(PlaneAxis { index, sign })
-    }
-
-    /// N·(anchor − p), as if in twice the precision.
-    #[inline(always)]
-    fn distance(&self, axis: Option<PlaneAxis>, anchor: Vec3, p: Vec3) -> f64 {
-        // The sign of a 0 is that of the sum.
-        if let Some(distance) = axis.map(|axis| axis.distance(anchor, Vector::constant(0.0, p)))
-            && distance != 0.0
-        {
-            return distance;
-        }
-        let (x, x_error) = two_difference(anchor.x, p.x);
-        let (y, y_error) = two_difference(anchor.y, p.y);
-        let (z, z_error) = two_difference(anchor.z, p.z);
-        dot(self.raw, Vec3::new(x, y, z)) + self.raw.dot(Vec3::new(x_error, y_error, z_error))
+        PlaneAxis::along(self.raw)
     }
 
     /// The root above 0 of the plane through `anchor`.
@@ -167,7 +205,7 @@ impl PlaneNormal {
         let point = if axis.is_some_and(|axis| axis.is_on(anchor, Vector::constant(0.0, near))) {
             near
         } else {
-            near + raw * (self.distance(axis, anchor, near) / square)
+            near + raw * (distance::<false>(raw, axis, anchor, near) / square)
         };
         Interaction::new(ray, point, unit, anchor, 0.0)
     }
@@ -354,6 +392,7 @@ impl<R: Real> Baseline<R> for BaselinePlane<R> {
 mod tests {
     use super::*;
     use crate::sampler::PathVertexKey;
+    use rtc_math::ldexp;
 
     /// Limits within 64 u of the root: uncompensated arithmetic is often right about them, and
     /// often wrong.
@@ -397,7 +436,7 @@ mod tests {
                 direction: Vec3::NEG_ONE,
             };
             for anchor in [place, Vec3::ONE] {
-                let distance = normal.distance(None, anchor, place);
+                let distance = distance::<false>(normal.raw, None, anchor, place);
                 let sum = place + normal.raw * (distance / normal.square);
                 let point = normal.interaction(anchor, &ray, 0.0).point;
                 let bits = |v: Vec3| v.to_array().map(f64::to_bits);
@@ -418,5 +457,39 @@ mod tests {
         };
         assert!(is_beyond(Vec3::Z));
         assert!(!is_beyond(Vec3::NEG_Z) && !is_beyond(Vec3::Z * 3.0));
+    }
+
+    #[test]
+    fn fused_products_change_no_bit_of_a_root() {
+        for index in 0..2000 {
+            let key = PathVertexKey::new([2, 7], index);
+            // Corners of single precision, of sizes from 2^-30 to 2^30, some on the axes.
+            let number = |k: u64| match key.bits(k) % 8 {
+                0 => 0.0,
+                _ => {
+                    let size = (key.bits(k + 100) % 61) as i32 - 30;
+                    f64::from(ldexp(2.0 * key.uniform(k + 200) - 1.0, size) as f32)
+                }
+            };
+            let point = |k: u64| Vec3::new(number(k), number(k + 1), number(k + 2));
+            let corners = [point(0), point(3), point(6)];
+            let ray = Ray {
+                origin: point(9) * 1.1,
+                direction: (corners[0] + corners[1] + corners[2]) / 3.0 - point(9) * 1.1,
+            };
+            let bits = |t: Option<f64>| t.map(f64::to_bits);
+            let whole =
+                PlaneNormal::of(corners).and_then(|normal| normal.intersect(corners[0], &ray));
+            assert_eq!(
+                bits(root_of_corners::<true>(corners, &ray)),
+                bits(whole),
+                "{corners:?}"
+            );
+            assert_eq!(
+                bits(root_of_corners::<false>(corners, &ray)),
+                bits(whole),
+                "{corners:?}"
+            );
+        }
     }
 }

@@ -14,7 +14,7 @@ use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::normal_field::NormalField;
-use crate::shape::plane::PlaneNormal;
+use crate::shape::plane::{PlaneNormal, root_of_corners};
 use rtc_math::{Bounds, U, Vec3, Vector, difference_of_products};
 use std::sync::Arc;
 
@@ -107,12 +107,21 @@ fn is_hit([a, b, c]: &[Vec3; 3], ray: &Ray, watertight: &WatertightRay) -> bool 
 }
 
 /// The root above 0 of the triangle of three corners, as [`Triangle::intersect`] has it.
+/// `is_fused` only where [`rtc_math::fuses`] holds.
 #[inline(always)]
-pub(crate) fn root(vertices: &[Vec3; 3], ray: &Ray, watertight: &WatertightRay) -> Option<f64> {
+pub(crate) fn root(
+    vertices: &[Vec3; 3],
+    ray: &Ray,
+    watertight: &WatertightRay,
+    is_fused: bool,
+) -> Option<f64> {
     if !is_hit(vertices, ray, watertight) {
-        return None;
+        None
+    } else if is_fused {
+        root_of_corners::<true>(*vertices, ray)
+    } else {
+        root_of_corners::<false>(*vertices, ray)
     }
-    PlaneNormal::of(*vertices)?.intersect(vertices[0], ray)
 }
 
 /// A prepared triangle, of the size of two cache lines.

@@ -69,7 +69,7 @@ impl<'traverse, S: Intersect> FlattenedRay<'traverse, S> {
             let watertight = self
                 .watertight
                 .get_or_insert_with(|| WatertightRay::new(&ray));
-            triangle::root(&corners, &ray, watertight)
+            triangle::root(&corners, &ray, watertight, candidate.is_fused)
         } else {
             let (shape, local) = self.brought_to(key.0);
             shape.intersect_prim(local, key.1)

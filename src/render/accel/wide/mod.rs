@@ -62,6 +62,8 @@ pub(crate) struct Candidate<'traverse> {
     leaf: WideLeaf<'traverse>,
     lane: usize,
     unit: Option<f64>,
+    /// Whether the instructions of the traversal fuse products and sums.
+    pub(crate) is_fused: bool,
 }
 
 impl Candidate<'_> {

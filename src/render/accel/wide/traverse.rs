@@ -6,6 +6,7 @@ use crate::accel::lanes::{BoxLanes, HitMask, LINKS, TriangleLanes, TriangleRow, 
 use crate::accel::simd::at_level;
 use crate::ray::Ray;
 use fearless_simd::Simd;
+use rtc_math::fuses;
 
 /// A BVH and a ray through it.
 struct Traversal<'traverse, S: Simd> {
@@ -131,6 +132,7 @@ impl WideBvh {
                 leaf,
                 lane,
                 unit,
+                is_fused: false,
             });
             if t_max < 0.0 {
                 return;
@@ -212,6 +214,7 @@ impl<S: Simd> Traversal<'_, S> {
                 leaf,
                 lane,
                 unit,
+                is_fused: fuses(simd),
             });
             if end < 0.0 {
                 return None;
