@@ -1,0 +1,49 @@
+"""What a camera ray of a picture asks of the machine, with all that follows it: instructions, and lines missed in the caches that
+valgrind simulates. `ray_counts.py`, with a program in RTC, vector instructions by RTC_SIMD, and the scenes of `peers/scenes.py` in
+target/peers. The difference of two pictures of 64 × 64 pixels, so that nothing counts but rays; it is the same on a busy machine."""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+SIDE, FEW, MANY = 64, 4, 20
+GHZ, WIDTH = 3.7, 4  # Of roofline.sh: what a core does, and the instructions it ends a cycle.
+L2 = "1048576,8,64"
+SCENES = [  # With the nanoseconds a sample that the goal beside the peer leaves, by the table of peers/run.sh.
+    ("courtyard", "target/peers/Courtyard.yaml", "Mitsuba scalar × 1.5", 909),
+    ("FlightHelmet", "target/peers/FlightHelmet.yaml", "Cycles × 2", 439),
+    ("MetalRoughGrid", "target/peers/MetalRoughGrid.yaml", "Cycles × 2", 625),
+    ("TransmissionRoughnessTest", "target/peers/TransmissionRoughnessTest.yaml", "Cycles × 2", 1724),
+    ("CornellLambert", "target/peers/CornellLambert.yaml", "Cycles × 2", 1786),
+]
+
+
+def counts(scene, samples):
+    """Instructions, and lines missed in D1 and in L2, of one picture."""
+    with tempfile.TemporaryDirectory() as folder:
+        valgrind = ["valgrind", "--tool=cachegrind", "--cachegrind-out-file=/dev/null", f"--LL={L2}"]
+        picture = [os.environ["RTC"], "render", scene, "--size", f"{SIDE}x{SIDE}", "--spp", str(samples), "--asset-root", "../shared"]
+        command = [*valgrind, *picture, "--threads", "1", "-q", "-o", f"{folder}/picture.png"]
+        said = subprocess.run(command, capture_output=True, text=True, check=True).stderr
+    names = ("I   refs", "D1  misses", "LLd misses")
+    return [int(re.search(f"{name}: *([0-9,]+)", said)[1].replace(",", "")) for name in names]
+
+
+def main():
+    print(f"A camera ray with all that follows it, `RTC_SIMD={os.environ.get('RTC_SIMD', 'best')}`, and the time that its instructions take at")
+    print(f"{WIDTH} a cycle and {GHZ} GHz, beside the time that a goal leaves.\n")
+    print("| scene | instructions | misses of D1 | of L2 | ns, instructions | goal | ns, goal |")
+    print("| --- | --: | --: | --: | --: | --- | --: |")
+    for name, scene, goal, nanoseconds in SCENES:
+        if not os.path.exists(scene):
+            print(f"no {scene}: it is left out", file=sys.stderr)
+            continue
+        few, many = counts(scene, FEW), counts(scene, MANY)
+        each = [max(b - a, 0) / (SIDE * SIDE * (MANY - FEW)) for a, b in zip(few, many)]
+        least = each[0] / WIDTH / GHZ
+        print(f"| {name} | {each[0]:.0f} | {each[1]:.1f} | {each[2]:.1f} | {least:.0f} | {goal} | {nanoseconds} |")
+
+
+if __name__ == "__main__":
+    main()
