@@ -8,12 +8,12 @@ mod picture;
 use findings::{SceneError, raised, told};
 use picture::Picture;
 use pyo3::prelude::*;
-use rtc::{Aov, Effort, Error, Format, Options, Reading, Tone};
+use rtc::{Aov, Effort, Error, Format, Options, Progress, Reading, Tone};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
@@ -172,26 +172,33 @@ impl Scene {
         findings.iter().map(|finding| told(py, finding)).collect()
     }
 
-    /// Its picture; `on_progress` is called with the share that is done.
+    /// Its picture; `on_progress` is called with the share that is done, `on_picture` with the
+    /// picture so far.
     fn render(
         &self,
         py: Python<'_>,
         words: PictureWords,
         on_progress: Option<Py<PyAny>>,
+        on_picture: Option<Py<PyAny>>,
     ) -> PyResult<Picture> {
         let (mut options, format) = (words.options()?, format(&words.format)?);
-        let share = Arc::new(AtomicU64::new(0));
-        if on_progress.is_some() {
-            let share = Arc::clone(&share);
-            options = options.on_progress(move |progress| {
-                share.store(progress.done.to_bits(), Ordering::Relaxed)
-            });
+        let state = Arc::new(RenderState::default());
+        state
+            .is_wanted
+            .store(on_picture.is_some(), Ordering::Relaxed);
+        if on_progress.is_some() || on_picture.is_some() {
+            let state = Arc::clone(&state);
+            options = options.on_progress(move |progress| state.report(progress));
         }
-        let report = |py: Python<'_>| match &on_progress {
-            Some(report) => report
-                .call1(py, (f64::from_bits(share.load(Ordering::Relaxed)),))
-                .map(drop),
-            None => Ok(()),
+        let report = |py: Python<'_>| {
+            if let Some(report) = &on_progress {
+                report.call1(py, (state.share(),))?;
+            }
+            if let (Some(show), Some(made)) = (&on_picture, state.take_picture()) {
+                show.call1(py, (Picture::new(made, format),))?;
+                state.is_wanted.store(true, Ordering::Relaxed);
+            }
+            Ok(())
         };
         let picture = beside(py, &report, |stop| self.0.render_until(&options, stop))?;
         Ok(Picture::new(picture, format))
@@ -212,6 +219,39 @@ impl Scene {
         };
         let cost = beside(py, &|_| Ok(()), |stop| self.0.cost_until(effort, stop))?;
         Ok(cost.json())
+    }
+}
+
+/// What the threads of a render tell the thread of Python.
+#[derive(Default)]
+struct RenderState {
+    /// The bits of the share that is done.
+    share: AtomicU64,
+    /// Whether the next report is to bring the picture so far.
+    is_wanted: AtomicBool,
+    picture: Mutex<Option<rtc::Picture>>,
+}
+
+impl RenderState {
+    fn report(&self, progress: Progress<'_>) {
+        self.share.store(progress.done.to_bits(), Ordering::Relaxed);
+        if self.is_wanted.swap(false, Ordering::Relaxed) {
+            let picture = progress.picture();
+            self.is_wanted.store(picture.is_none(), Ordering::Relaxed);
+            *self.lock() = picture;
+        }
+    }
+
+    fn share(&self) -> f64 {
+        f64::from_bits(self.share.load(Ordering::Relaxed))
+    }
+
+    fn take_picture(&self) -> Option<rtc::Picture> {
+        self.lock().take()
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Option<rtc::Picture>> {
+        self.picture.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

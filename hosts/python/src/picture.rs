@@ -29,14 +29,15 @@ impl Picture {
     }
 
     /// All channels of all pixels as 32-bit floats of this machine.
-    fn values<'py>(&self, py: Python<'py>) -> Bound<'py, PyByteArray> {
+    fn values<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyByteArray>> {
         let alpha = |at: usize| self.made.alpha().map(|alpha| alpha[at]);
         let pixels = self.made.pixels().iter().enumerate();
         let values = pixels.flat_map(|(at, pixel)| {
             let color = pixel.map(|value| value as f32);
             color.into_iter().chain(alpha(at))
         });
-        PyByteArray::new(py, &values.flat_map(f32::to_ne_bytes).collect::<Vec<u8>>())
+        let (height, width, channels) = self.shape();
+        array(py, height as usize * width as usize * channels, values)
     }
 
     /// Red, green, blue and opacity of all pixels in a byte each, as a display shows them.
@@ -52,8 +53,8 @@ impl Picture {
     ) -> PyResult<(Bound<'py, PyByteArray>, usize)> {
         let aov: Aov = crate::aov(name)?;
         let values = self.made.layer(aov).unwrap_or_default();
-        let bytes: Vec<u8> = values.into_iter().flat_map(f32::to_ne_bytes).collect();
-        Ok((PyByteArray::new(py, &bytes), aov.channels().len()))
+        let values = array(py, values.len(), values.into_iter())?;
+        Ok((values, aov.channels().len()))
     }
 
     /// The bytes of its file.
@@ -98,4 +99,19 @@ impl Picture {
         let findings = self.made.diagnostics().iter();
         findings.map(|finding| crate::told(py, finding)).collect()
     }
+}
+
+/// An array of bytes with that many values, which are written nowhere else before.
+fn array(
+    py: Python<'_>,
+    count: usize,
+    values: impl Iterator<Item = f32>,
+) -> PyResult<Bound<'_, PyByteArray>> {
+    PyByteArray::new_with(py, count * size_of::<f32>(), |bytes| {
+        let (places, _) = bytes.as_chunks_mut();
+        for (place, value) in places.iter_mut().zip(values) {
+            *place = value.to_ne_bytes();
+        }
+        Ok(())
+    })
 }

@@ -60,6 +60,18 @@ def test_numbers_of_numpy_are_taken(ball):
     assert scene.render(size=np.array([4, 6])).array.shape == (6, 4, 3)
 
 
+def test_the_picture_so_far_is_shown(ball):
+    pictures = []
+    last = rtc.load(ball).render(size=300, supersampling=8, on_picture=pictures.append)
+    assert pictures
+    for picture in pictures:
+        is_done = picture.rgba8[..., 3] > 0
+        assert not is_done.all()
+        assert (picture.rgba8[is_done] == last.rgba8[is_done]).all()
+    done = [np.count_nonzero(picture.rgba8[..., 3]) for picture in pictures]
+    assert done == sorted(done) and done[-1] > 0
+
+
 def test_progress_is_told(ball, capfd):
     shares = []
     rtc.load(ball).render(size=200, supersampling=4, progress=shares.append)

@@ -202,6 +202,7 @@ class Scene:
         transparent: bool = False,
         orbit: tuple[float, float] | None = None,
         progress: Progress = False,
+        on_picture: Callable[[Image], object] | None = None,
     ) -> Image:
         """Renders its picture; what is not said is as the scene says, or as `rtc render` does.
 
@@ -211,6 +212,8 @@ class Scene:
         levels of 8 bits, samples are taken until the picture is that good. `aovs` are layers: albedo, normal,
         depth, uv, instance, position. `format` is png or png16 (values as displayed), exr or exr16 (linear).
         `progress` is a function of the share that is done, or True for a bar (by tqdm, if it is there).
+        `on_picture` is a function of the picture so far, called up to twenty times a second: finished tiles of
+        16 × 16 pixels are as they will be, all others transparent. With `target_error` it is not called.
         Ctrl-C ends it with KeyboardInterrupt; other threads of Python run meanwhile.
         Raises SceneError if the scene has errors, or can't be rendered so.
         """
@@ -231,9 +234,17 @@ class Scene:
             "aovs": list(aovs),
         }
         begun = clock.perf_counter()
+
+        def image(made: _rtc.Picture, layers: List[str]) -> Image:
+            return Image(made, clock.perf_counter() - begun, layers, format)
+
+        def show(made: _rtc.Picture) -> None:
+            if on_picture is not None:
+                on_picture(image(made, []))
+
         with _Bar(progress) as report:
-            made = self._held.render(words, report)
-        return Image(made, clock.perf_counter() - begun, list(aovs), format)
+            made = self._held.render(words, report, None if on_picture is None else show)
+        return image(made, list(aovs))
 
     def cost(self, effort: str = "quick") -> Rows:
         """What accuracy costs in time, as `rtc cost` measures it. Ctrl-C ends it with KeyboardInterrupt.
