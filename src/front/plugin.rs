@@ -161,6 +161,11 @@ impl Proposal {
         Self { text, kind, about }
     }
 
+    /// A directive or an element.
+    pub(crate) fn keyword(text: &str, about: &'static str) -> Self {
+        Self::new(text.to_owned(), ProposalKind::Keyword, about)
+    }
+
     /// The name of something in the scene.
     pub(crate) fn name(text: &str) -> Self {
         Self::new(text.to_owned(), ProposalKind::Name, "")

@@ -1,11 +1,14 @@
 //! What an editor proposes at a place of a Mitsuba scene, which may be incomplete there.
 
 use super::plugins::{ELEMENTS, Element, SHAPES, find, kind};
-use crate::plugin::{Completion, DeclaredParameter, Plugin, PluginKind, Proposal, ProposalKind};
+use crate::plugin::{Completion, DeclaredParameter, PluginKind, Proposal};
 use std::ops::Range;
 
 /// The types of parameters that are elements with a plugin, to which a `<ref>` may lead.
 const REFERRED: [&str; 3] = ["texture", "medium", "volume"];
+
+/// The most elements that an end tag may close.
+const MAX_DEPTH: usize = 64;
 
 /// A start or end tag, closed or not.
 struct XmlTag<'t> {
@@ -55,21 +58,15 @@ impl<'t> XmlScanner<'t> {
 
     /// The tag of the next `<`; comments and declarations are passed.
     fn next_tag(&mut self) -> Option<XmlTag<'t>> {
+        const PASSED: [(&str, &str); 3] = [("<!--", "-->"), ("<?", "?>"), ("<!", ">")];
         loop {
             self.until(|c| c == '<');
-            for (start, end) in [("<!--", "-->"), ("<?", "?>"), ("<!", ">")] {
-                if self.take(start) {
-                    let passed = self.rest().find(end).map(|at| at + end.len());
-                    self.at += passed.unwrap_or(self.rest().len());
-                    break;
-                }
-            }
-            if self.take("<") {
-                return Some(self.tag());
-            }
-            if self.rest().is_empty() {
-                return None;
-            }
+            let mut passed = PASSED.iter();
+            let Some((_, end)) = passed.find(|(start, _)| self.take(start)) else {
+                return self.take("<").then(|| self.tag());
+            };
+            let length = self.rest().find(end).map(|at| at + end.len());
+            self.at += length.unwrap_or(self.rest().len());
         }
     }
 
@@ -161,11 +158,10 @@ impl<'t> ScannedScene<'t> {
         let Some(kind) = kind(parent.tag) else {
             return Vec::new();
         };
-        let plugin = parent.plugin.and_then(|name| kind.find(name));
-        plugin.map_or_else(
-            || kind.parameters(),
-            |own| Plugin::parameters(own).collect(),
-        )
+        match parent.plugin.and_then(|name| kind.find(name)) {
+            Some(plugin) => plugin.parameters().collect(),
+            None => kind.parameters(),
+        }
     }
 
     /// The elements that may stand here: the fixed ones, and the types of parameters.
@@ -182,11 +178,8 @@ impl<'t> ScannedScene<'t> {
             .iter()
             .filter(|name| **name != "shape" || parent.tag == "scene" || is_group);
         let mut names: Vec<&str> = fixed.copied().collect();
-        for name in self
-            .parameters()
-            .into_iter()
-            .flat_map(DeclaredParameter::types)
-        {
+        let parameters = self.parameters().into_iter();
+        for name in parameters.flat_map(DeclaredParameter::types) {
             if !names.contains(&name) {
                 names.push(name);
             }
@@ -231,20 +224,11 @@ impl<'t> ScannedScene<'t> {
         let tag = self.here.as_ref()?;
         let name = self.text.get(tag.name.clone())?;
         if offset <= tag.name.end {
-            let proposals = match tag.is_end_tag {
-                true => self
-                    .open
-                    .last()
-                    .and_then(|open| find(open.tag))
-                    .map(proposal)
-                    .into_iter()
-                    .collect(),
-                false => self.elements(),
-            };
-            let replaced = tag.name.clone();
+            let ended = self.open.last().filter(|_| tag.is_end_tag);
+            let ended = ended.map(|open| vec![Proposal::keyword(open.tag, "")]);
             return Some(Completion {
-                replaced,
-                proposals,
+                replaced: tag.name.clone(),
+                proposals: ended.unwrap_or_else(|| self.elements()),
             });
         }
         let mut attributes = tag.attributes.iter();
@@ -270,10 +254,12 @@ fn enter<'t>(open: &mut Vec<OpenElement<'t>>, text: &'t str, tag: &XmlTag<'t>) {
         name => name,
     };
     if tag.is_end_tag {
-        if let Some(at) = open.iter().rposition(|element| element.tag == name) {
-            open.truncate(at);
-        }
-        return;
+        let deepest = open.len().saturating_sub(MAX_DEPTH);
+        let last = open
+            .iter()
+            .skip(deepest)
+            .rposition(|element| element.tag == name);
+        return open.truncate(last.map_or(open.len(), |at| deepest + at));
     }
     let own = |name| attribute(text, tag, name);
     if let Some(parent) = open.last_mut() {
@@ -298,11 +284,7 @@ fn attribute<'t>(text: &'t str, tag: &XmlTag<'t>, name: &str) -> Option<&'t str>
 }
 
 fn proposal(element: &Element) -> Proposal {
-    Proposal::new(
-        element.name.to_owned(),
-        ProposalKind::Keyword,
-        element.about,
-    )
+    Proposal::keyword(element.name, element.about)
 }
 
 /// A name as version 0 spells it: `to_world` is `toWorld`, and `int_ior` is `intIOR`.

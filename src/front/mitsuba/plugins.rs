@@ -39,7 +39,7 @@ pub(crate) fn kind(tag: &str) -> Option<&'static PluginKind> {
 }
 
 /// All elements.
-pub(crate) const ELEMENTS: &[Element] = &[
+pub(crate) static ELEMENTS: &[Element] = &[
     element("scene", None, &["shape", "bsdf", "emitter", "sensor", "integrator", "texture", "medium", "default", "include", "alias", "path"], "A scene."),
     element("shape", Some(&SHAPES), &["bsdf", "emitter", "ref", "medium", "shape"], "A shape."),
     element("bsdf", Some(&BSDFS), &["bsdf", "texture", "ref"], "The material of a shape."),
@@ -95,7 +95,7 @@ const MESH: &[DeclaredParameter] = &[
 const FLIP_UV: &[DeclaredParameter] = &[p("flip_tex_coords", "boolean", "Whether v points down in the file.")];
 const RADIUS: &[DeclaredParameter] = &[p("radius", "float", "The radius.")];
 
-pub(crate) const SHAPES: PluginKind = PluginKind {
+pub(crate) static SHAPES: PluginKind = PluginKind {
     plugins: &[
         plugin("sphere", "A sphere.", &[&[p("center", "point", "The centre.")], RADIUS, ANY_SHAPE]),
         plugin("rectangle", "A square from −1 to 1 across z.", &[ANY_SHAPE]),
@@ -146,7 +146,7 @@ const PRINCIPLED: &[DeclaredParameter] = &[
     p("eta", "float", "The index of refraction."),
 ];
 
-pub(crate) const BSDFS: PluginKind = PluginKind {
+pub(crate) static BSDFS: PluginKind = PluginKind {
     plugins: &[
         plugin("diffuse", "A matte surface.", &[REFLECTANCE]),
         plugin("dielectric", "Glass and water.", &[IOR, GLASS, SPECULAR]),
@@ -188,7 +188,7 @@ const UV: &[DeclaredParameter] = &[
 ];
 const VALUE: &[DeclaredParameter] = &[p("value", "float rgb spectrum", "The value.")];
 
-pub(crate) const TEXTURES: PluginKind = PluginKind {
+pub(crate) static TEXTURES: PluginKind = PluginKind {
     plugins: &[
         plugin("bitmap", "A picture.", &[&[
             p("filename", "string", "The picture."),
@@ -237,7 +237,7 @@ const SKY: &[DeclaredParameter] = &[
     p("complex_sun", "boolean", NONE),
 ];
 
-pub(crate) const EMITTERS: PluginKind = PluginKind {
+pub(crate) static EMITTERS: PluginKind = PluginKind {
     plugins: &[
         plugin("area", "The light of a shape.", &[&[p("radiance", COLOR, "The radiance.")]]),
         plugin("constant", "Light of one colour from all around.", &[&[p("radiance", "rgb spectrum", "The radiance.")], TO_WORLD]),
@@ -278,7 +278,7 @@ const VIEW: &[DeclaredParameter] = &[
     p("focus_distance", "float", "The distance that is in focus."),
 ];
 
-pub(crate) const SENSORS: PluginKind = PluginKind {
+pub(crate) static SENSORS: PluginKind = PluginKind {
     plugins: &[
         plugin("perspective", "A perspective camera.", &[VIEW, &[
             p("principal_point_offset_x", "float", "The offset of the middle, in widths of the picture."),
@@ -302,7 +302,7 @@ const SIZE: &[DeclaredParameter] = &[
 ];
 
 /// The reader takes any film and any sampler.
-pub(crate) const FILMS: PluginKind = PluginKind {
+pub(crate) static FILMS: PluginKind = PluginKind {
     plugins: &[
         plugin("hdrfilm", "A picture.", &[SIZE]),
         plugin("ldrfilm", "A picture of 8 bits, in version 0.", &[SIZE]),
@@ -313,7 +313,7 @@ pub(crate) const FILMS: PluginKind = PluginKind {
 
 const COUNT: &[DeclaredParameter] = &[p("sample_count", "integer", "The samples of a pixel.")];
 
-pub(crate) const SAMPLERS: PluginKind = PluginKind {
+pub(crate) static SAMPLERS: PluginKind = PluginKind {
     plugins: &[
         plugin("independent", "Random points.", &[COUNT]),
         plugin("stratified", "Points in the cells of a grid.", &[COUNT]),
@@ -326,7 +326,7 @@ pub(crate) const SAMPLERS: PluginKind = PluginKind {
 
 const FILTER_RADIUS: &[DeclaredParameter] = &[p("radius", "float", "The radius, in pixels.")];
 
-pub(crate) const FILTERS: PluginKind = PluginKind {
+pub(crate) static FILTERS: PluginKind = PluginKind {
     plugins: &[
         plugin("gaussian", "A Gaussian.", &[&[p("stddev", "float", "Its standard deviation, in pixels.")]]),
         plugin("box", "The mean.", &[FILTER_RADIUS]),
@@ -348,7 +348,7 @@ const DEPTH: &[DeclaredParameter] = &[
     p("strict_normals", "boolean", NONE),
 ];
 
-pub(crate) const INTEGRATORS: PluginKind = PluginKind {
+pub(crate) static INTEGRATORS: PluginKind = PluginKind {
     plugins: &[
         plugin("path", "Path tracing.", &[DEPTH]),
         plugin("volpath", "Path tracing with participating media.", &[DEPTH]),
@@ -374,7 +374,7 @@ const MEDIUM: &[DeclaredParameter] = &[
     p("majorant_factor", "float", NONE),
 ];
 
-pub(crate) const MEDIA: PluginKind = PluginKind {
+pub(crate) static MEDIA: PluginKind = PluginKind {
     plugins: &[
         plugin("homogeneous", "A medium of one density.", &[MEDIUM]),
         plugin("heterogeneous", "A medium whose volumes are constant.", &[MEDIUM]),
@@ -382,7 +382,7 @@ pub(crate) const MEDIA: PluginKind = PluginKind {
     replaced: &[],
 };
 
-pub(crate) const PHASES: PluginKind = PluginKind {
+pub(crate) static PHASES: PluginKind = PluginKind {
     plugins: &[
         plugin("isotropic", "Equal into all directions.", &[]),
         plugin("hg", "The phase function of Henyey and Greenstein.", &[&[
@@ -392,7 +392,7 @@ pub(crate) const PHASES: PluginKind = PluginKind {
     replaced: &[],
 };
 
-pub(crate) const VOLUMES: PluginKind = PluginKind {
+pub(crate) static VOLUMES: PluginKind = PluginKind {
     plugins: &[plugin("constvolume", "One value.", &[VALUE])],
     replaced: &["gridvolume"],
 };

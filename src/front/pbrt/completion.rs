@@ -3,7 +3,8 @@
 use super::plugins::{Argument, DIRECTIVES, Directive, TARGETS};
 pub(crate) use super::token::token;
 use super::token::{PbrtToken, PbrtTokenKind};
-use crate::plugin::{Completion, DeclaredParameter, Plugin, PluginKind, Proposal, ProposalKind};
+use crate::plugin::{Completion, DeclaredParameter, Plugin, PluginKind, Proposal};
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// The directives that make names for others.
@@ -166,13 +167,12 @@ impl<'t> ScannedText<'t> {
     }
 
     fn made_by(&self, maker: &str) -> Vec<Proposal> {
-        let mut found: Vec<Proposal> = Vec::new();
-        for (_, name) in self.names.iter().filter(|(own, _)| *own == maker) {
-            if !found.iter().any(|known| known.text == *name) {
-                found.push(Proposal::name(name));
-            }
-        }
-        found
+        let mut known = BTreeSet::new();
+        let made = self.names.iter().filter(|(own, _)| *own == maker);
+        let names = made
+            .map(|(_, name)| *name)
+            .filter(|name| known.insert(*name));
+        names.map(Proposal::name).collect()
     }
 
     /// What may stand in a string of the statement.
@@ -229,14 +229,6 @@ impl<'t> ScannedText<'t> {
     }
 }
 
-/// The directives.
-fn directives() -> Vec<Proposal> {
-    let directives = DIRECTIVES.iter();
-    let proposal =
-        |own: &Directive| Proposal::new(own.name.to_owned(), ProposalKind::Keyword, own.about);
-    directives.map(proposal).collect()
-}
-
 /// What may stand at a byte of a text; `None` where nothing is proposed.
 pub(crate) fn completion(text: &str, offset: usize) -> Option<Completion> {
     let scanned = ScannedText::new(text, offset);
@@ -262,6 +254,9 @@ pub(crate) fn completion(text: &str, offset: usize) -> Option<Completion> {
         .starts_with(|c: char| c.is_ascii_uppercase());
     ((begins_line || is_capital) && !is_comment).then(|| Completion {
         replaced,
-        proposals: directives(),
+        proposals: DIRECTIVES
+            .iter()
+            .map(|own| Proposal::keyword(own.name, own.about))
+            .collect(),
     })
 }

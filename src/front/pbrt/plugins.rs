@@ -50,7 +50,7 @@ const TEXTURE: &[Argument] = &[
 ];
 
 /// The kinds of plugins that `Attribute` gives defaults to, and their words.
-pub(crate) const TARGETS: [(&str, &PluginKind); 4] = [
+pub(crate) static TARGETS: [(&str, &PluginKind); 4] = [
     ("shape", &SHAPES),
     ("light", &LIGHTS),
     ("material", &MATERIALS),
@@ -58,7 +58,7 @@ pub(crate) const TARGETS: [(&str, &PluginKind); 4] = [
 ];
 
 /// The directives of versions 3 and 4.
-pub(crate) const DIRECTIVES: &[Directive] = &[
+pub(crate) static DIRECTIVES: &[Directive] = &[
     directive("Accelerator", PLUGIN, Some(&ACCELERATORS), "How rays find surfaces; has no effect."),
     directive("ActiveTransform", &[], None, "Which transforms of a motion change: `StartTime`, `EndTime`, `All`."),
     directive("AreaLightSource", PLUGIN, Some(&AREA_LIGHTS), "The light of the shapes that follow."),
@@ -137,7 +137,7 @@ const VERTEX_VALUES: &[DeclaredParameter] = &[
 ];
 const DEGENERATE: &[DeclaredParameter] = &[p("discarddegenerateUVs", "bool", NONE)];
 
-pub(crate) const SHAPES: PluginKind = PluginKind {
+pub(crate) static SHAPES: PluginKind = PluginKind {
     plugins: &[
         plugin("sphere", "A sphere about the origin, or a part of it.", &[RADIUS, Z_RANGE, PHI_MAX, ANY_SHAPE]),
         plugin("disk", "A disc across z, or a ring.", &[RADIUS, HEIGHT, &[
@@ -205,7 +205,7 @@ const LAYERS: &[DeclaredParameter] = &[
     p("g", "float", NONE),
 ];
 
-pub(crate) const MATERIALS: PluginKind = PluginKind {
+pub(crate) static MATERIALS: PluginKind = PluginKind {
     plugins: &[
         plugin("diffuse", "A matte surface.", &[REFLECTANCE, ANY_MATERIAL]),
         plugin("coateddiffuse", "A matte surface under a clear coat.", &[REFLECTANCE, ROUGH, REMAP, INDEX, LAYERS, ANY_MATERIAL]),
@@ -282,7 +282,7 @@ const MAPPING: &[DeclaredParameter] = &[
     p("v2", "vector3", NONE),
 ];
 
-pub(crate) const TEXTURES: PluginKind = PluginKind {
+pub(crate) static TEXTURES: PluginKind = PluginKind {
     plugins: &[
         plugin("imagemap", "A picture.", &[&[
             p("filename", "string", "The picture."),
@@ -333,7 +333,7 @@ const ENVIRONMENT: &[DeclaredParameter] = &[
 ];
 const ILLUMINANCE: &[DeclaredParameter] = &[p("illuminance", "float", "The illuminance, in lux.")];
 
-pub(crate) const LIGHTS: PluginKind = PluginKind {
+pub(crate) static LIGHTS: PluginKind = PluginKind {
     plugins: &[
         plugin("point", "A point that shines into all directions.", &[INTENSITY, ANY_LIGHT]),
         plugin("spot", "A cone of light.", &[INTENSITY, TO, &[
@@ -355,7 +355,7 @@ const AREA_LIGHT: &[DeclaredParameter] = &[
     p("filename", "string", "The picture of the light, which is left out."),
 ];
 
-pub(crate) const AREA_LIGHTS: PluginKind = PluginKind {
+pub(crate) static AREA_LIGHTS: PluginKind = PluginKind {
     plugins: &[
         plugin("diffuse", "A surface that shines.", &[RADIANCE, AREA_LIGHT, ANY_LIGHT]),
         plugin("area", "A surface that shines, in version 3.", &[RADIANCE, AREA_LIGHT, ANY_LIGHT]),
@@ -370,7 +370,7 @@ const ANY_CAMERA: &[DeclaredParameter] = &[
     p("shutterclose", "float", "The time at which the shutter closes."),
 ];
 
-pub(crate) const CAMERAS: PluginKind = PluginKind {
+pub(crate) static CAMERAS: PluginKind = PluginKind {
     plugins: &[
         plugin("perspective", "A perspective camera, with a lens if it has a radius.", &[&[
             p("fov", "float", "The angle of view across the shorter side, in degrees."),
@@ -398,7 +398,7 @@ const FILM: &[DeclaredParameter] = &[
     p("maxcomponentvalue", "float", NONE),
 ];
 
-pub(crate) const FILMS: PluginKind = PluginKind {
+pub(crate) static FILMS: PluginKind = PluginKind {
     plugins: &[
         plugin("rgb", "A picture of RGB.", &[FILM]),
         plugin("gbuffer", "A picture of RGB; its layers are left out.", &[FILM]),
@@ -419,7 +419,7 @@ const SAMPLER: &[DeclaredParameter] = &[
 ];
 
 /// The reader takes any sampler: they differ in their noise alone.
-pub(crate) const SAMPLERS: PluginKind = PluginKind {
+pub(crate) static SAMPLERS: PluginKind = PluginKind {
     plugins: &[
         plugin("zsobol", "Sobol's points in the order of a Morton curve.", &[SAMPLER]),
         plugin("halton", "Halton's points.", &[SAMPLER]),
@@ -441,7 +441,7 @@ pub(crate) const SAMPLERS: PluginKind = PluginKind {
 
 const DEPTH: &[DeclaredParameter] = &[p("maxdepth", "integer", "The most bounces of a path; 5 by default.")];
 
-pub(crate) const INTEGRATORS: PluginKind = PluginKind {
+pub(crate) static INTEGRATORS: PluginKind = PluginKind {
     plugins: &[
         plugin("volpath", "Path tracing with participating media.", &[DEPTH]),
         plugin("path", "Path tracing.", &[DEPTH]),
@@ -461,7 +461,7 @@ const WIDTHS: &[DeclaredParameter] = &[
     p("ywidth", "float", "The radius along y, in version 3."),
 ];
 
-pub(crate) const FILTERS: PluginKind = PluginKind {
+pub(crate) static FILTERS: PluginKind = PluginKind {
     plugins: &[
         plugin("gaussian", "A Gaussian.", &[WIDTHS, &[
             p("sigma", "float", "Its standard deviation, in pixels."),
@@ -480,7 +480,7 @@ pub(crate) const FILTERS: PluginKind = PluginKind {
     replaced: &[],
 };
 
-pub(crate) const MEDIA: PluginKind = PluginKind {
+pub(crate) static MEDIA: PluginKind = PluginKind {
     plugins: &[plugin("homogeneous", "A medium of one density.", &[&[
         p("sigma_a", "rgb spectrum", "The coefficient of absorption."),
         p("sigma_s", "rgb spectrum", "The coefficient of scattering."),
@@ -494,7 +494,7 @@ pub(crate) const MEDIA: PluginKind = PluginKind {
     replaced: &[],
 };
 
-pub(crate) const ACCELERATORS: PluginKind = PluginKind {
+pub(crate) static ACCELERATORS: PluginKind = PluginKind {
     plugins: &[
         plugin("bvh", "A bounding volume hierarchy.", NO_PARAMETERS),
         plugin("kdtree", "A k-d tree.", NO_PARAMETERS),

@@ -212,7 +212,8 @@ fn a_scene_of_mitsuba_is_completed_while_it_is_typed() {
     let scene =
         "<scene version=\"3.0.0\"><!-- <bsdf id=\"no\"> --><bsdf type=\"diffuse\" id=\"red\"/>";
     let cases = [
-        ("<", "integrator"),
+        ("<!-- a --><!-- <", ""),
+        ("<!-- a --><!-- <x> --><", "integrator"),
         ("<shape type=\"sphere\"><", "point"),
         ("<shape type=\"sphere\">\n<flo", "float"),
         ("<shape type=\"sph", "sphere"),
