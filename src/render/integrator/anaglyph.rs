@@ -33,8 +33,9 @@ pub(crate) fn for_eyes<'run: 'work, 'work>(
     camera: &Camera,
     integrator: impl Integrator<'run, Sample = PixelSample> + 'work,
 ) -> Box<dyn Integrator<'run, Sample = PixelSample> + 'work> {
+    let integrator = Box::new(integrator);
     if !camera.is_anaglyph() {
-        return Box::new(integrator);
+        return integrator;
     }
     let right_begins = camera.size[0];
     Box::new(AnaglyphIntegrator {
@@ -43,14 +44,15 @@ pub(crate) fn for_eyes<'run: 'work, 'work>(
     })
 }
 
-/// Sees by both eyes with another integrator, whose images are side by side.
-struct AnaglyphIntegrator<I> {
-    integrator: I,
+/// Sees by both eyes with another integrator, whose images are side by side. Not generic, so that
+/// integrators are compiled once.
+struct AnaglyphIntegrator<'run, 'work> {
+    integrator: Box<dyn Integrator<'run, Sample = PixelSample> + 'work>,
     /// The column where the image of the right eye begins.
     right_begins: u32,
 }
 
-impl<'run, I: Integrator<'run, Sample = PixelSample>> Integrator<'run> for AnaglyphIntegrator<I> {
+impl<'run> Integrator<'run> for AnaglyphIntegrator<'run, '_> {
     type Sample = PixelSample;
 
     fn sample(&mut self, id: &SampleId) -> PixelSample {
