@@ -2,7 +2,6 @@
 //! they reduce the error most. A pass that the time interrupts leaves complete tiles.
 
 use super::noise::{ErrorBound, FilmNoise};
-use super::parameter::{Parameter, not_applicable};
 use super::progressive::ProgressiveRender;
 use super::rounds::next_round;
 use super::subject::Stopped;
@@ -13,7 +12,7 @@ use super::target::{
 use super::target::{set_sampling, tail_of};
 use rayon::prelude::*;
 use rtc_color::Tone;
-use rtc_ir::Scene;
+use rtc_ir::{Mode, Scene};
 use rtc_render::{AnyWorld, Crop, ProgressiveFilm, RenderStep};
 use std::time::Duration;
 
@@ -64,7 +63,7 @@ pub(super) fn render_within(
         progressive,
         time,
     };
-    let is_toned = not_applicable(Parameter::Paths, scene).is_none();
+    let is_toned = matches!(scene.settings.mode, Mode::Path(_));
     timed.reserve_output_time(order, is_toned.then_some(order.display));
     if let Some(complete_after) = timed.coarse_pass()? {
         return Ok(timed.coarse(order, complete_after));
@@ -150,7 +149,10 @@ impl TimedRender<'_, '_> {
         };
         let trial = ProgressiveRender {
             film: ProgressiveFilm::grey(rows, tone),
-            ..new_render(1, order)
+            requested: Vec::new(),
+            rounds: 0,
+            light_samples: 1,
+            keeps_lights: order.keep_lights,
         };
         // Develop them.
         let start = self.elapsed();

@@ -59,21 +59,13 @@ impl ProgressiveFilm {
     /// independent samples.
     #[must_use]
     pub fn new(crop: Crop, seed: u64) -> Self {
-        Self {
-            seed,
-            background: Background::default(),
-            display: (DISPLAY, 1.0),
-            tiles: None,
-            pixels: TiledValues::new(crop, None, Replicates::default()),
-            counts: RayCounts::default(),
-        }
+        Self::filled(crop, seed, Replicates::default())
     }
 
     /// A film of grey samples, one a replicate, with the tone map of path tracing if there is one:
     /// its picture takes as long to develop as one of a scene.
     #[must_use]
     pub fn grey(crop: Crop, tone: Option<(Tone, f64)>) -> Self {
-        let mut film = Self::new(crop, 0);
         let grey = Vec3::splat(0.2);
         let pixel = Replicates {
             tone,
@@ -83,8 +75,18 @@ impl ProgressiveFilm {
             counts: [1, 1],
             hits: 2,
         };
-        film.pixels = TiledValues::new(crop, None, pixel);
-        film
+        Self::filled(crop, 0, pixel)
+    }
+
+    fn filled(crop: Crop, seed: u64, pixel: Replicates) -> Self {
+        Self {
+            seed,
+            background: Background::default(),
+            display: (DISPLAY, 1.0),
+            tiles: None,
+            pixels: TiledValues::new(crop, None, pixel),
+            counts: RayCounts::default(),
+        }
     }
 
     /// Its part of the picture.

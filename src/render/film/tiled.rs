@@ -2,6 +2,7 @@
 //! need no memory. Tiles start at multiples of [`Tiles::SIDE`] of the picture, for every crop.
 
 use super::{Crop, Tiles};
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// One value a pixel of the tiles held, and one value for all pixels of the other tiles.
@@ -13,8 +14,9 @@ pub(crate) struct TiledValues<K> {
     elsewhere: K,
 }
 
-impl<K: Clone> TiledValues<K> {
-    /// The same value in all pixels. Only the tiles given are held, all of them without.
+impl<K: Clone + Send + Sync> TiledValues<K> {
+    /// The same value in all pixels. Only the tiles given are held, all of them without. All
+    /// threads of the pool fill them, as the system hands out their memory page by page.
     #[must_use]
     pub(crate) fn new(crop: Crop, held: Option<Tiles>, value: K) -> Self {
         let is_held = |area: &Crop| held.is_none_or(|tiles| tiles.contain([area.x, area.y]));
@@ -24,8 +26,12 @@ impl<K: Clone> TiledValues<K> {
         };
         Self {
             crop,
-            tiles: tiles_of(crop).map(tile).collect(),
-            elsewhere: value,
+            tiles: tiles_of(crop)
+                .collect::<Vec<_>>()
+                .into_par_iter()
+                .map(tile)
+                .collect(),
+            elsewhere: value.clone(),
         }
     }
 }
