@@ -1,22 +1,30 @@
 """What a camera ray of a picture asks of the machine, with all that follows it: instructions, and lines missed in the caches that
-valgrind simulates. `ray_counts.py`, with a program in RTC, vector instructions by RTC_SIMD, and the scenes of `peers/scenes.py` in
-target/peers. The difference of two pictures of 64 × 64 pixels, so that nothing counts but rays; it is the same on a busy machine."""
+valgrind simulates. `ray_counts.py`, with a program in RTC, vector instructions by RTC_SIMD, and the scenes and results of
+`peers/run.sh` in target/peers. The difference of two pictures of 64 × 64 pixels, so that nothing counts but rays; it is the same on
+a busy machine."""
+import json
 import os
 import re
 import subprocess
-import sys
 import tempfile
+from statistics import median
 
 SIDE, FEW, MANY = 64, 4, 20
 GHZ, WIDTH = 3.7, 4  # Of roofline.sh: what a core does, and the instructions it ends a cycle.
 L2 = "1048576,8,64"
-SCENES = [  # With the nanoseconds a sample that the goal beside the peer leaves, by the table of peers/run.sh.
-    ("courtyard", "target/peers/Courtyard.yaml", "Mitsuba scalar × 1.5", 909),
-    ("FlightHelmet", "target/peers/FlightHelmet.yaml", "Cycles × 2", 439),
-    ("MetalRoughGrid", "target/peers/MetalRoughGrid.yaml", "Cycles × 2", 625),
-    ("TransmissionRoughnessTest", "target/peers/TransmissionRoughnessTest.yaml", "Cycles × 2", 1724),
-    ("CornellLambert", "target/peers/CornellLambert.yaml", "Cycles × 2", 1786),
-]
+FOLDER = "target/peers"
+ASSETS = ["FlightHelmet", "MetalRoughGrid", "TransmissionRoughnessTest", "CornellLambert"]
+
+
+def goals(results):
+    """For each scene its goal, and the nanoseconds a sample that it leaves, by what `peers/run.sh` measured."""
+    turns = results["courtyard"]["turns"]["Mitsuba scalar, independent"]
+    samples = results["courtyard"]["pixels"] * results["courtyard"]["samples"]
+    yield "Courtyard", "Mitsuba scalar × 1.5", median(turn["cpu_s"] for turn in turns) / samples / 1.5
+    for name in ASSETS:
+        scene = results["assets"][name]
+        seconds = median(turn["render_s"] for turn in scene["turns"]["Cycles"])
+        yield name, "Cycles × 2", seconds / (scene["pixels"] * scene["samples"]) / 2
 
 
 def counts(scene, samples):
@@ -35,14 +43,13 @@ def main():
     print(f"{WIDTH} a cycle and {GHZ} GHz, beside the time that a goal leaves.\n")
     print("| scene | instructions | misses of D1 | of L2 | ns, instructions | goal | ns, goal |")
     print("| --- | --: | --: | --: | --: | --- | --: |")
-    for name, scene, goal, nanoseconds in SCENES:
-        if not os.path.exists(scene):
-            print(f"no {scene}: it is left out", file=sys.stderr)
-            continue
+    results = json.load(open(f"{FOLDER}/results-{os.environ.get('RTC_SIMD', 'best')}.json"))
+    for name, goal, seconds in goals(results):
+        scene = f"{FOLDER}/{name}.yaml"
         few, many = counts(scene, FEW), counts(scene, MANY)
         each = [max(b - a, 0) / (SIDE * SIDE * (MANY - FEW)) for a, b in zip(few, many)]
         least = each[0] / WIDTH / GHZ
-        print(f"| {name} | {each[0]:.0f} | {each[1]:.1f} | {each[2]:.1f} | {least:.0f} | {goal} | {nanoseconds} |")
+        print(f"| {name} | {each[0]:.0f} | {each[1]:.1f} | {each[2]:.1f} | {least:.0f} | {goal} | {1e9 * seconds:.0f} |")
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 //! Exact unless a product leaves ±2^996 or its error falls below the subnormals; `valid` keeps
 //! scenes far inside.
 
-use super::{Double, Number, Vec3};
+use super::{Double, Number, Vec3, Vector};
 
 /// The sum and its rounding error: `a + b = s + e` exactly (Knuth, TAOCP 2, §4.2.2, theorem B).
 #[must_use]
@@ -57,8 +57,12 @@ fn split<N: Double>(a: N) -> (N, N) {
 #[must_use]
 #[inline(always)]
 pub fn difference_of_products<N: Double>(a: N, b: N, c: N, d: N) -> N {
-    let (p, p_error) = two_product(a, b);
-    let (q, q_error) = two_product(c, d);
+    difference(two_product(a, b), two_product(c, d))
+}
+
+/// The difference of two products with their errors.
+#[inline(always)]
+fn difference<N: Double>((p, p_error): (N, N), (q, q_error): (N, N)) -> N {
     (p - q) + (p_error - q_error)
 }
 
@@ -89,16 +93,9 @@ pub fn cross(a: Vec3, b: Vec3) -> Vec3 {
 #[must_use]
 #[inline(always)]
 pub fn cross_by<const FUSED: bool>(a: Vec3, b: Vec3) -> Vec3 {
-    let difference = |a, b, c, d| {
-        let (p, p_error) = product::<FUSED>(a, b);
-        let (q, q_error) = product::<FUSED>(c, d);
-        (p - q) + (p_error - q_error)
-    };
-    Vec3::new(
-        difference(a.y, b.z, a.z, b.y),
-        difference(a.z, b.x, a.x, b.z),
-        difference(a.x, b.y, a.y, b.x),
-    )
+    let [a, b] = [a, b].map(|v| Vector::constant(0.0, v));
+    let of_products = |a, b, c, d| difference(product::<FUSED>(a, b), product::<FUSED>(c, d));
+    a.cross_by(b, of_products).lane(0)
 }
 
 /// The dot product as if computed in twice the precision and rounded once (Ogita, Rump, Oishi,

@@ -93,10 +93,16 @@ impl<N: Number> Vector<N> {
     #[inline(always)]
     #[must_use]
     pub fn cross(self, other: Self) -> Self {
+        self.cross_by(other, |a, b, c, d| a * b - c * d)
+    }
+
+    /// The vector product, whose coordinates are differences a·b − c·d by a function.
+    #[inline(always)]
+    pub(crate) fn cross_by(self, other: Self, difference: impl Fn(N, N, N, N) -> N) -> Self {
         Self {
-            x: self.y * other.z - self.z * other.y,
-            y: self.z * other.x - self.x * other.z,
-            z: self.x * other.y - self.y * other.x,
+            x: difference(self.y, other.z, self.z, other.y),
+            y: difference(self.z, other.x, self.x, other.z),
+            z: difference(self.x, other.y, self.y, other.x),
         }
     }
 
@@ -149,11 +155,7 @@ impl<N: Double> Vector<N> {
     #[inline(always)]
     #[must_use]
     pub fn accurate_cross(self, other: Self) -> Self {
-        Self {
-            x: difference_of_products(self.y, other.z, self.z, other.y),
-            y: difference_of_products(self.z, other.x, self.x, other.z),
-            z: difference_of_products(self.x, other.y, self.y, other.x),
-        }
+        self.cross_by(other, difference_of_products)
     }
 
     /// The unit vectors along them, and where there is one.

@@ -1,6 +1,7 @@
 //! What an editor proposes at a place of a Mitsuba scene, which may be incomplete there.
 
 use super::plugins::{ELEMENTS, Element, SHAPES, find, kind};
+use super::xml::current_tag;
 use crate::plugin::{Completion, DeclaredParameter, PluginKind, Proposal};
 use std::ops::Range;
 
@@ -72,7 +73,6 @@ impl<'t> XmlScanner<'t> {
 
     /// A tag behind its `<`. It ends at the next one if it is not closed.
     fn tag(&mut self) -> XmlTag<'t> {
-        let ends_name = |c: char| c.is_whitespace() || "=<>/\"'".contains(c);
         let is_end_tag = self.take("/");
         let mut tag = XmlTag {
             name: self.until(ends_name),
@@ -236,8 +236,7 @@ impl<'t> ScannedScene<'t> {
         let (attribute, range) = attributes.find(|(_, range)| inside(range))?;
         // Of a value without its second quote the word under the cursor.
         let value = self.text.get(range.clone())?;
-        let ends = |c: char| c.is_whitespace() || "=<>/\"'".contains(c);
-        let end = range.start + value.find(ends).unwrap_or(value.len());
+        let end = range.start + value.find(ends_name).unwrap_or(value.len());
         Some(Completion {
             replaced: range.start..end.max(offset),
             proposals: self.values(name, attribute),
@@ -245,14 +244,14 @@ impl<'t> ScannedScene<'t> {
     }
 }
 
+/// Whether a character ends a name or a word.
+fn ends_name(c: char) -> bool {
+    c.is_whitespace() || "=<>/\"'".contains(c)
+}
+
 /// Enters an element, or leaves those that end.
 fn enter<'t>(open: &mut Vec<OpenElement<'t>>, text: &'t str, tag: &XmlTag<'t>) {
-    // Older names.
-    let name = match text.get(tag.name.clone()).unwrap_or_default() {
-        "camera" => "sensor",
-        "luminaire" => "emitter",
-        name => name,
-    };
+    let name = current_tag(text.get(tag.name.clone()).unwrap_or_default());
     if tag.is_end_tag {
         let deepest = open.len().saturating_sub(MAX_DEPTH);
         let last = open

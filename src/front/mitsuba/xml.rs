@@ -290,12 +290,7 @@ impl XmlReader<'_> {
 
     /// An element and all below it.
     fn node(&mut self, file: FileId, element: XmlElement<'_, '_>, depth: usize) -> PluginNode {
-        let tag = match element.tag_name().name() {
-            // In version 0.5 every texture was a `<texture>`, and the sensor had another name.
-            "camera" => "sensor",
-            "luminaire" => "emitter",
-            name => name,
-        };
+        let tag = current_tag(element.tag_name().name());
         let element_span = span(file, &element);
         let attribute = |reader: &mut Self, name: &str| reader.attribute(file, element, name);
         let plugin = match tag {
@@ -770,4 +765,14 @@ fn span(file: FileId, element: &XmlElement<'_, '_>) -> Span {
 
 fn offset(at: usize) -> u32 {
     u32::try_from(at).unwrap_or(u32::MAX)
+}
+
+/// The name of an element in version 3. In version 0.5 every texture was a `<texture>`, and the
+/// sensor and the emitters had other names.
+pub(super) fn current_tag(name: &str) -> &str {
+    match name {
+        "camera" => "sensor",
+        "luminaire" => "emitter",
+        name => name,
+    }
 }

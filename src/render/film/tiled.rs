@@ -24,14 +24,11 @@ impl<K: Clone + Send + Sync> TiledValues<K> {
             let pixels = if is_held(&area) { area.pixels() } else { 0 };
             vec![value.clone(); pixels]
         };
+        let areas: Vec<_> = tiles_of(crop).collect();
         Self {
             crop,
-            tiles: tiles_of(crop)
-                .collect::<Vec<_>>()
-                .into_par_iter()
-                .map(tile)
-                .collect(),
-            elsewhere: value.clone(),
+            tiles: areas.into_par_iter().map(tile).collect(),
+            elsewhere: value,
         }
     }
 }
