@@ -212,7 +212,7 @@ impl Options {
         self
     }
 
-    /// Width and height in pixels; the vertical field of view stays.
+    /// Width and height in pixels; the picture shows at least what it shows in its own size.
     pub fn size(mut self, width: u32, height: u32) -> Self {
         self.overrides.size = Some([width, height]);
         self

@@ -8,7 +8,7 @@ use rtc_ir::{Material, Mode, Scene};
 /// Values that replace those of the scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Overrides {
-    /// Width and height in pixels. The image plane keeps its height, so the pixel size changes.
+    /// Width and height in pixels. The picture shows at least what it shows without.
     pub size: Option<[u32; 2]>,
     /// Sub-samples along each side of a pixel.
     pub supersampling: Option<u32>,
@@ -114,10 +114,7 @@ impl Overrides {
     /// Writes the given values into `scene`.
     pub fn apply(mut self, scene: &mut Scene) {
         if let Some(size) = self.size {
-            let ratio = f64::from(scene.camera.size[1]) / f64::from(size[1]);
-            scene.camera.right = scene.camera.right.map(|component| component * ratio);
-            scene.camera.up = scene.camera.up.map(|component| component * ratio);
-            scene.camera.size = size;
+            scene.camera.fit(size);
         }
         if let (Some(caustics), Mode::Path(path)) = (self.caustics, &mut scene.settings.mode) {
             path.caustics = caustics;

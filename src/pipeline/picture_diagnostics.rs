@@ -42,7 +42,7 @@ pub(super) fn fitted(before: [u32; 2], requested: [u32; 2]) -> Option<Diagnostic
     } else {
         "above and below"
     };
-    let message = format!("the camera of the asset sees another shape; more is shown {sides}");
+    let message = format!("the camera sees another shape; more is shown {sides}");
     let [width, height] = before;
     let hint = format!("its own picture is {width}×{height}, or any size of that shape");
     Some(Diagnostic::new(&codes::FITTED, message).hint(hint))

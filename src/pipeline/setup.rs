@@ -4,7 +4,7 @@
 use super::denoise::{Traced, require_paths};
 use super::light::FirstView;
 use super::{
-    Input, LoadedScene, OutputTransform, Provenance, RayCounter, Renderer, ValidatedScene, hash,
+    Input, LoadedScene, OutputTransform, RayCounter, Renderer, ValidatedScene, hash,
     picture_diagnostics,
 };
 use rayon::ThreadPoolBuildError;
@@ -151,7 +151,7 @@ impl PictureSetup {
             }
             self.look.show_as(&lowered.scene);
             let before = self.unasked(&lowered.scene);
-            fitted = resize(&mut lowered.scene, self.overrides.size, provenance);
+            fitted = resize(&mut lowered.scene, self.overrides.size, provenance.framing);
             self.overrides.apply(&mut lowered.scene);
             if let Some((lens, settings)) = &self.settings {
                 lowered.scene.camera.lens = lens.clone();
@@ -524,23 +524,21 @@ fn difference(path: &str, new: &Value, old: &Value, found: &mut Vec<[String; 3]>
     }
 }
 
-/// Changes the picture size. The view of an asset shows at least its former contents, which may
-/// give a diagnostic; other scenes keep their vertical field of view.
+/// Changes the picture size. A view that was framed is framed again; any other shows at least its
+/// former contents, which may give a diagnostic.
 fn resize(
     scene: &mut Scene,
     size: Option<[u32; 2]>,
-    provenance: &Provenance,
+    framing: Option<Framing>,
 ) -> Option<Diagnostic> {
-    match (size, provenance.framing) {
-        (Some(_), Some(framing)) => Framing { size, ..framing }.apply(scene),
-        (Some(size), None) if provenance.is_asset => {
-            let before = scene.camera.size;
-            scene.camera.fit(size);
-            return picture_diagnostics::fitted(before, size);
-        }
-        _ => {}
+    let requested = size?;
+    if let Some(framing) = framing {
+        Framing { size, ..framing }.apply(scene);
+        return None;
     }
-    None
+    let before = scene.camera.size;
+    scene.camera.fit(requested);
+    picture_diagnostics::fitted(before, requested)
 }
 
 impl PictureSetup {

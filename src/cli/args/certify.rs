@@ -48,7 +48,7 @@ pub(crate) struct CertifyArgs {
     pub(crate) format: ReportFormatArgs,
     /// Set width and height in pixels; one number is both
     ///
-    /// The picture keeps its height in the scene.
+    /// The picture shows at least what it shows in its own size.
     #[arg(long, value_name = "WxH|N", value_parser = size, help_heading = "Picture")]
     pub(crate) size: Option<[u32; 2]>,
     #[command(flatten)]

@@ -10,7 +10,7 @@ super::codes! { RD:
     EXPOSED = "RD007", Note, "the exposure of the picture is automatic";
     NEVER_SEEN = "RD008", Warning, "no ray of any pixel hits an object";
     FILLED = "RD009", Note, "the studio adds fill light to the light of the asset";
-    FITTED = "RD010", Note, "the picture shows more than the camera of the asset";
+    FITTED = "RD010", Note, "the picture shows more than the camera of the scene";
     TOO_SHORT = "RD011", Warning, "the time budget is too short";
     UNTEXTURED = "RD012", Warning, "a surface has no texture coordinates for its texture";
     Z_UP = "RD013", Warning, "a mesh stands as if z pointed up";
