@@ -7,6 +7,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use rtc_diag::{Diagnostic, codes};
 use rtc_image::{
     DecodeCost, DecodeError, OpacityUse, PixelFile, Pixels, Radiance, RadianceFile, is_picture,
+    is_radiance,
 };
 use rtc_ir as ir;
 use rtc_source::{Budget, FileKind, LimitExceeded, Resource};
@@ -15,6 +16,12 @@ use rtc_source::{Budget, FileKind, LimitExceeded, Resource};
 pub const PICTURES: FileKind = FileKind {
     extensions: &["png", "jpg", "jpeg", "webp", "ktx2"],
     begins: is_picture,
+};
+
+/// The image formats of textures that may be brighter than white, too.
+pub const TEXTURES: FileKind = FileKind {
+    extensions: &["png", "jpg", "jpeg", "webp", "ktx2", "exr", "hdr"],
+    begins: |head| is_picture(head) || is_radiance(head),
 };
 
 /// Why an image could not be decoded.
@@ -111,6 +118,51 @@ pub fn decode_radiance(bytes: &[u8], budget: &Budget) -> Result<Radiance, PixelD
     let file = RadianceFile::open(bytes, budget.limit(Resource::Pixels))?;
     charge(file.cost(), Resource::Memory, budget)?;
     Ok(file.decode()?)
+}
+
+/// Decodes the image of a texture of any of the [`TEXTURES`] formats.
+///
+/// # Errors
+/// As [`decode`].
+pub fn texture(
+    name: &str,
+    bytes: &[u8],
+    opacity: OpacityUse,
+    budget: &Budget,
+) -> Result<ir::Image, PixelDecodeError> {
+    match is_radiance(bytes) {
+        true => environment(name, bytes, budget),
+        false => picture(name, bytes, opacity, budget),
+    }
+}
+
+/// Decodes the image of a texture of 8 bits a channel.
+///
+/// # Errors
+/// As [`decode`].
+pub fn picture(
+    name: &str,
+    bytes: &[u8],
+    opacity: OpacityUse,
+    budget: &Budget,
+) -> Result<ir::Image, PixelDecodeError> {
+    budget.read(bytes.len());
+    let Pixels {
+        width,
+        height,
+        has_alpha,
+        bytes,
+    } = decode(bytes, opacity, budget)?;
+    Ok(ir::Image {
+        name: name.to_owned(),
+        width,
+        height,
+        kind: match has_alpha {
+            true => ir::Pixels::Rgba8,
+            false => ir::Pixels::Rgb8,
+        },
+        pixels: bytes.into(),
+    })
 }
 
 /// Decodes the image of an environment: a Radiance HDR or OpenEXR file.

@@ -3,9 +3,9 @@
 use super::{AssetLoader, AssetTarget, FileCache, MissingAssetPolicy, PendingAsset};
 use crate::pixels::{self, PixelDecodeError};
 use rtc_diag::{Diagnostic, DiagnosticSink, clip_path, codes};
-use rtc_image::{OpacityUse, Pixels};
+use rtc_image::OpacityUse;
 use rtc_ir::{
-    self as ir, Bump, EntityField, EntityKind, ImageId, LoweredScene, Material, Scene, Texture,
+    Bump, EntityField, EntityKind, Image, ImageId, LoweredScene, Material, Pixels, Scene, Texture,
     TextureId, ValuePath,
 };
 use rtc_source::FoundFile;
@@ -25,18 +25,8 @@ pub(super) fn load(
 ) -> Option<ImageId> {
     let found = loader.find(pending, policy(pending))?;
     let image = cache.get_or_load(&found, || {
-        let Pixels {
-            width,
-            height,
-            has_alpha,
-            bytes,
-        } = read(&found, pending, opacity, loader)?;
         let image = lowered.scene.images.get_mut(id.0 as usize)?;
-        if has_alpha {
-            image.kind = ir::Pixels::Rgba8;
-        }
-        (image.width, image.height) = (width, height);
-        image.pixels = bytes.into();
+        *image = read(&image.name, &found, (pending, opacity), loader)?;
         Some(id)
     });
     image.copied()
@@ -87,16 +77,22 @@ fn policy(pending: &PendingAsset) -> MissingAssetPolicy {
 }
 
 fn read(
+    name: &str,
     found: &FoundFile,
-    pending: &PendingAsset,
-    opacity: OpacityUse,
+    (pending, opacity): (&PendingAsset, OpacityUse),
     loader: &mut AssetLoader<'_>,
-) -> Option<Pixels> {
+) -> Option<Image> {
+    // The images of an MTL material are combined byte by byte.
+    let is_combined = matches!(policy(pending), MissingAssetPolicy::Map);
+    let decode = if is_combined {
+        pixels::picture
+    } else {
+        pixels::texture
+    };
     match loader.loader.found(found, MAX_BYTES, loader.map) {
         Ok(bytes) => {
-            loader.map.budget().read(bytes.len());
-            let pixels = pixels::decode(&bytes, opacity, loader.map.budget());
-            pixels
+            let image = decode(name, &bytes, opacity, loader.map.budget());
+            image
                 .map_err(|fault| loader.reject(rejection(&fault, found, pending), policy(pending)))
                 .ok()
         }
@@ -112,7 +108,7 @@ fn rejection(fault: &PixelDecodeError, found: &FoundFile, pending: &PendingAsset
     pixels::rejection(
         fault,
         &what,
-        "textures are PNG, JPEG, WebP, or KTX2 with Basis Universal",
+        "textures are PNG, JPEG, WebP, EXR, HDR, or KTX2 with Basis Universal",
     )
     .at(pending.span, "named here")
 }
@@ -146,7 +142,7 @@ pub(super) fn find_normal_maps(lowered: &mut LoweredScene, sink: &mut Diagnostic
             continue;
         };
         // Replace the bump map by a normal map.
-        if *is_normal_map[image].get_or_insert_with(|| holds_normals(&images[image].pixels)) {
+        if *is_normal_map[image].get_or_insert_with(|| holds_normals(&images[image])) {
             phong.normal_map = Some(texture);
             phong.bump = None;
             let message = format!(
@@ -168,8 +164,11 @@ pub(super) fn find_normal_maps(lowered: &mut LoweredScene, sink: &mut Diagnostic
 }
 
 /// Whether most pixels, decoded as 2·rgb − 1, are unit vectors that point out of the surface.
-pub(super) fn holds_normals(pixels: &[u8]) -> bool {
-    let pixels = pixels.as_chunks::<3>().0;
+pub(super) fn holds_normals(image: &Image) -> bool {
+    let pixels = match image.kind {
+        Pixels::Rgb8 => image.pixels.as_chunks::<3>().0,
+        Pixels::Rgba8 | Pixels::Rgb32f => &[],
+    };
     let is_normal = |pixel: &&[u8; 3]| {
         let [x, y, z] = pixel.map(|channel| f64::from(channel) / 127.5 - 1.0);
         z > 0.0 && z > x && z > y && (0.75..1.25).contains(&(x * x + y * y + z * z))

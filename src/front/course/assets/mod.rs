@@ -40,7 +40,7 @@ pub use standalone::lower_standalone_mesh;
 use super::lower::UnfinishedScene;
 use super::object;
 use crate::FrontOptions;
-use crate::pixels::PICTURES;
+use crate::pixels::{PICTURES, TEXTURES};
 use missing::missing;
 use rtc_diag::{Diagnostic, DiagnosticSink, Severity, clip_path, codes, nearest};
 use rtc_image::OpacityUse;
@@ -372,10 +372,8 @@ impl AssetLoader<'_> {
 /// The file formats of an asset.
 fn kind_of(target: &AssetTarget) -> &'static FileKind {
     match target {
-        AssetTarget::Image(_)
-        | AssetTarget::Sampled(_)
-        | AssetTarget::Map(_)
-        | AssetTarget::Mask(_) => &PICTURES,
+        AssetTarget::Image(_) | AssetTarget::Sampled(_) => &TEXTURES,
+        AssetTarget::Map(_) | AssetTarget::Mask(_) => &PICTURES,
         AssetTarget::Mesh(_) => &mesh::TEXT.file,
         AssetTarget::Environment(_) => &environment::KIND,
         AssetTarget::Gltf(_) => &gltf::KIND,

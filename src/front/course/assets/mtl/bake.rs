@@ -104,7 +104,7 @@ pub(crate) fn bake(
                 if scene
                     .images
                     .get(heights.0 as usize)
-                    .is_some_and(|own| holds_normals(&own.pixels)) =>
+                    .is_some_and(holds_normals) =>
             {
                 report_normals(scene, *heights, bake.span, loader);
                 *heights
