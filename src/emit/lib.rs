@@ -14,7 +14,7 @@
 //!
 //! Shared parts: `approximation` (the Phong model as a glTF material), `flat` (planes as squares),
 //! `tessellate` (meshes instead of shapes), `ply` (meshes as PLY files), `picture` (textures as
-//! image files), `sidecar` (names of sidecar files), `export` (helpers for other renderers),
+//! image files), `texture_area` (the part of a texture that is seen), `sidecar` (names of sidecar files), `export` (helpers for other renderers),
 //! `path_tracer` (what Mitsuba and pbrt have in common).
 
 mod approximation;
@@ -31,5 +31,6 @@ pub mod pov;
 mod reporter;
 mod sidecar;
 mod tessellate;
+mod texture_area;
 
 pub use export::ExportedScene;

@@ -1,21 +1,41 @@
 //! Textures as picture files for renderers that know bitmaps only: factors are multiplied in,
 //! channels picked, patterns drawn.
 
+use super::texture_area::TextureAreas;
 use rtc_color::{nearest8, srgb_decoded, srgb_encoded};
 use rtc_image::{EncodeError, FileFormat, Image as Radiances, Picture, png_bytes};
 use rtc_ir::{self as ir, Filter, Pixels, Sampled, Scene, TextureId, Wrap};
-use rtc_math::{TextureMapping, Vec3};
+use rtc_math::{TextureMapping, TexturePattern, Vec3};
 
-/// The side in pixels of the picture of a pattern.
-const PATTERN_SIDE: u32 = 512;
+/// The least and the greatest side in pixels of the picture of a pattern that has no period, and
+/// the pixels across one of its cells in between.
+const PATTERN_SIDES: [f64; 2] = [512.0, 2048.0];
+const CELL: f64 = 64.0;
+/// The side in pixels of the picture of the colours (u, 0, v).
+const UV_SIDE: u32 = 256;
+
+/// The unit square of texture coordinates, by its corner and its size.
+const UNIT: [[f64; 2]; 2] = [[0.0; 2], [1.0; 2]];
+/// The rows of the map that changes no coordinates.
+pub(super) const IDENTITY: [[f64; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
 /// How the values of a picture are coded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum ColorCoding {
     /// Colours; bytes are encoded with sRGB.
     Srgb,
     /// Numbers, without an encoding.
     Linear,
+}
+
+impl ColorCoding {
+    /// A linear value as a byte; what exceeds 1 becomes 1.
+    pub(super) fn byte(self, value: f64) -> u8 {
+        match self {
+            Self::Srgb => nearest8(srgb_encoded(value)),
+            Self::Linear => nearest8(value),
+        }
+    }
 }
 
 /// A texture of which a picture is made.
@@ -25,7 +45,9 @@ pub(super) struct TexturePicture<'s> {
     pub(super) wrap: [Wrap; 2],
     pub(super) filter: Filter,
     /// Whether v grows upwards.
-    pub(super) is_upward: bool,
+    is_upward: bool,
+    /// The least coordinates of the texture that it shows, and its size in them.
+    area: [[f64; 2]; 2],
 }
 
 enum TextureValueSource<'s> {
@@ -35,26 +57,24 @@ enum TextureValueSource<'s> {
 }
 
 impl<'s> TexturePicture<'s> {
-    pub(super) fn new(scene: &'s Scene, TextureId(id): TextureId) -> Self {
+    pub(super) fn new(scene: &'s Scene, areas: &TextureAreas, texture: TextureId) -> Self {
         let image = |id: ir::ImageId| &scene.images[id.0 as usize];
-        let drawn = |source, side| Self {
-            source,
-            size: [side; 2],
-            wrap: [Wrap::Repeat; 2],
-            filter: Filter::Linear,
-            is_upward: true,
-        };
         let of_image = |image: &'s ir::Image, wrap, filter, is_upward| Self {
             source: TextureValueSource::Image(image),
             size: [image.width, image.height],
             wrap,
             filter,
             is_upward,
+            area: UNIT,
         };
-        match &scene.textures[id as usize] {
+        match &scene.textures[texture.0 as usize] {
             ir::Texture::Uv => Self {
+                source: TextureValueSource::Uv,
+                size: [UV_SIDE; 2],
                 wrap: [Wrap::Clamp; 2],
-                ..drawn(TextureValueSource::Uv, PATTERN_SIDE / 2)
+                filter: Filter::Linear,
+                is_upward: true,
+                area: UNIT,
             },
             ir::Texture::Image(id) => of_image(image(*id), [Wrap::Repeat; 2], Filter::Linear, true),
             ir::Texture::Sampled(Sampled {
@@ -62,11 +82,49 @@ impl<'s> TexturePicture<'s> {
                 wrap,
                 filter,
             }) => of_image(image(*id), *wrap, *filter, false),
-            ir::Texture::Procedural(pattern) => {
-                let is_in_space = pattern.mapping == TextureMapping::World;
-                let side = if is_in_space { 1 } else { PATTERN_SIDE };
-                drawn(TextureValueSource::Pattern(pattern), side)
+            ir::Texture::Procedural(pattern) => Self::of_pattern(pattern, areas, texture),
+        }
+    }
+
+    /// One period of a pattern, with a pixel for each cell; all that is seen of one without a
+    /// period; the mean of one in space.
+    fn of_pattern(pattern: &'s ir::Procedural, areas: &TextureAreas, texture: TextureId) -> Self {
+        let periodic = |size| Self {
+            source: TextureValueSource::Pattern(pattern),
+            size,
+            wrap: [Wrap::Repeat; 2],
+            filter: Filter::Nearest,
+            is_upward: true,
+            area: [[0.0; 2], [2.0 / pattern.scale; 2]],
+        };
+        match (pattern.mapping, pattern.pattern) {
+            (TextureMapping::World, _) => periodic([1, 1]),
+            (TextureMapping::Uv, TexturePattern::Checker) => periodic([2, 2]),
+            (TextureMapping::Uv, TexturePattern::Stripes) => periodic([2, 1]),
+            (TextureMapping::Uv, TexturePattern::Noise(_) | TexturePattern::Worley { .. }) => {
+                let area = areas.of_texture(texture);
+                Self {
+                    size: area[1].map(|side| pattern_side(side * pattern.scale)),
+                    wrap: [Wrap::Clamp; 2],
+                    filter: Filter::Linear,
+                    area,
+                    ..periodic([1, 1])
+                }
             }
+        }
+    }
+
+    /// What the picture lacks of its texture.
+    pub(super) fn loss(&self) -> Option<&'static str> {
+        match self.source {
+            TextureValueSource::Pattern(pattern) if pattern.mapping == TextureMapping::World => {
+                Some("a pattern in space becomes the mean of its colours")
+            }
+            TextureValueSource::Pattern(_) if self.filter == Filter::Linear => {
+                Some("a pattern becomes a picture of it")
+            }
+            TextureValueSource::Uv => Some("the colours (u, 0, v) become a picture of them"),
+            TextureValueSource::Pattern(_) | TextureValueSource::Image(_) => None,
         }
     }
 
@@ -89,8 +147,12 @@ impl<'s> TexturePicture<'s> {
     /// The rows of the map to the coordinates of the picture, v downwards, from those of the
     /// surface.
     pub(super) fn rows(&self, map: &ir::Map) -> [[f64; 3]; 2] {
-        let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        let [u, [a, b, c]] = map.texture_from_surface.unwrap_or(identity);
+        let rows = map.texture_from_surface.unwrap_or(IDENTITY);
+        let [least, size] = self.area;
+        let [u, [a, b, c]] = [0, 1].map(|axis| {
+            let [a, b, c] = rows[axis];
+            [a, b, c - least[axis]].map(|number| number / size[axis])
+        });
         match self.is_upward {
             true => [u, [-a, -b, 1.0 - c]],
             false => [u, [a, b, c]],
@@ -111,11 +173,7 @@ impl<'s> TexturePicture<'s> {
             places.map(|(x, y)| change(self.texel(x, y, coding)))
         };
         if pixels().flatten().all(|value| value <= 1.0) {
-            let byte = |value: f64| match coding {
-                ColorCoding::Srgb => nearest8(srgb_encoded(value)),
-                ColorCoding::Linear => nearest8(value),
-            };
-            let bytes: Vec<u8> = pixels().flatten().map(byte).collect();
+            let bytes: Vec<u8> = pixels().flatten().map(|value| coding.byte(value)).collect();
             return Ok((png_bytes(self.size, false, &bytes), "png"));
         }
         let picture = Picture::opaque(Radiances {
@@ -124,6 +182,39 @@ impl<'s> TexturePicture<'s> {
             pixels: pixels().collect(),
         });
         Ok((picture.encode(FileFormat::Exr)?, "exr"))
+    }
+
+    /// The PNG of its colours, and whether some are brighter than white, which they become.
+    pub(super) fn png(&self, coding: ColorCoding) -> (Vec<u8>, bool) {
+        let [width, height] = self.size;
+        let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        let mut is_clipped = false;
+        let bytes = places.flat_map(|(x, y)| {
+            let [r, g, b, _] = self.texel(x, y, coding);
+            is_clipped |= r.max(g).max(b) > 1.0;
+            [r, g, b].map(|value| coding.byte(value))
+        });
+        let bytes: Vec<u8> = bytes.collect();
+        (png_bytes(self.size, false, &bytes), is_clipped)
+    }
+
+    /// The PNG of its texels changed by a function to colours with an opacity, coded as sRGB: a texel
+    /// as a colour, and as numbers.
+    pub(super) fn png_with_alpha(
+        &self,
+        change: impl Fn([f64; 4], [f64; 4]) -> [f64; 4],
+    ) -> Vec<u8> {
+        let [width, height] = self.size;
+        let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        let bytes = places.flat_map(|(x, y)| {
+            let [color, raw] =
+                [ColorCoding::Srgb, ColorCoding::Linear].map(|coding| self.texel(x, y, coding));
+            let [r, g, b, alpha] = change(color, raw);
+            let [r, g, b] = [r, g, b].map(|value| ColorCoding::Srgb.byte(value));
+            [r, g, b, ColorCoding::Linear.byte(alpha)]
+        });
+        let bytes: Vec<u8> = bytes.collect();
+        png_bytes(self.size, true, &bytes)
     }
 
     /// The mean colour, linear by `coding`.
@@ -140,10 +231,12 @@ impl<'s> TexturePicture<'s> {
 
     /// A texel, counted from the top left.
     fn texel(&self, x: u32, y: u32, coding: ColorCoding) -> [f64; 4] {
+        let [least, size] = self.area;
         let [u, v] = [
             (f64::from(x) + 0.5) / f64::from(self.size[0]),
             1.0 - (f64::from(y) + 0.5) / f64::from(self.size[1]),
         ];
+        let [u, v] = [least[0] + size[0] * u, least[1] + size[1] * v];
         match self.source {
             TextureValueSource::Uv => [u, 0.0, v, 1.0],
             TextureValueSource::Pattern(pattern) => {
@@ -161,6 +254,17 @@ impl<'s> TexturePicture<'s> {
             }
         }
     }
+}
+
+/// The pixels of a picture across this many cells of a pattern.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "brought into a range of positive numbers"
+)]
+fn pattern_side(cells: f64) -> u32 {
+    let [least, greatest] = PATTERN_SIDES;
+    (CELL * cells).clamp(least, greatest) as u32
 }
 
 /// A pixel of an image.

@@ -1,6 +1,6 @@
 //! Materials.
 
-use super::{Standard, TextureId};
+use super::{Map, Standard, TextureId};
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -27,6 +27,41 @@ impl Material {
         match self {
             Self::Phong(phong) => Some(phong),
             Self::Standard(_) => None,
+        }
+    }
+
+    /// The texture maps, each with the name of its parameter.
+    #[must_use]
+    pub fn maps(&self) -> Vec<(&'static str, Map)> {
+        match self {
+            Self::Phong(phong) => {
+                let bump = phong.bump.as_ref().map(|bump| bump.texture);
+                let maps = [
+                    ("colorMap", phong.color_map),
+                    ("specularMap", phong.specular_map),
+                    ("normalMap", phong.normal_map),
+                    ("bumpMap", bump),
+                ];
+                let maps = maps.into_iter();
+                maps.filter_map(|(name, texture)| Some((name, Map::from(texture?))))
+                    .collect()
+            }
+            Self::Standard(standard) => {
+                let named = |name: &&'static str| {
+                    let map = standard.parameter(name)?.downcast_ref::<Option<Map>>()?;
+                    Some((*name, map.clone()?))
+                };
+                Standard::PARAMETERS.iter().filter_map(named).collect()
+            }
+        }
+    }
+
+    /// The other material of a blend; `None` if it is no blend.
+    #[must_use]
+    pub fn blend_with(&self) -> Option<MaterialId> {
+        match self {
+            Self::Phong(_) => None,
+            Self::Standard(standard) => standard.blend_with,
         }
     }
 

@@ -4,10 +4,11 @@
 use super::document::{self, GltfIndex, PbrMetallicRoughness, TextureInfo};
 use super::writer::{GltfWriter, extras};
 use crate::approximation::{approximate_phong, without_index};
+use crate::picture::ColorCoding;
 use rtc_diag::codes;
 use rtc_ir::{
-    Alpha, Bump, Conductor, EntityField, EntityKind, Map, Material, MaterialId, MeshId, Phong,
-    Standard, ValuePath,
+    Alpha, Bump, Conductor, EntityField, EntityKind, Map, Material, MaterialId, MeshId, Mode,
+    Phong, Standard, ValuePath,
 };
 use rtc_tables::{ExtensionProperty, MATERIAL_EXTENSIONS, PropertyKind};
 use serde::Serialize;
@@ -31,17 +32,26 @@ impl GltfWriter<'_> {
             return *known;
         }
         let path = ValuePath::new(EntityKind::Material, id.0 as usize, EntityField::Whole);
-        let (mut standard, mut rtc_extras) = match &self.scene.materials[id.0 as usize] {
+        let material = &self.scene.materials[id.0 as usize];
+        let (mut standard, base_coding, mut rtc_extras) = match material {
             Material::Standard(standard) => {
                 let mut rtc_extras = self.conductor(standard, path);
                 self.facets(standard, &mut rtc_extras, path);
-                (without_index(standard), rtc_extras)
+                (without_index(standard), ColorCoding::Srgb, rtc_extras)
             }
             Material::Phong(phong) => {
-                let rtc_extras = self.phong(phong, key.1[0], path);
-                (approximate_phong(phong), rtc_extras)
+                let coding = match self.scene.settings.mode {
+                    Mode::Path(_) => ColorCoding::Srgb,
+                    // Phong's model has the values of a display.
+                    Mode::Phong | Mode::Depth | Mode::Normal | Mode::Gooch(_) => {
+                        ColorCoding::Linear
+                    }
+                };
+                let rtc_extras = self.phong(phong, key.1[0], coding, path);
+                (approximate_phong(phong), coding, rtc_extras)
             }
         };
+        self.patterns(material, &mut rtc_extras, path);
         standard.retain_maps(|map| key.1[map.set.min(1) as usize]);
         self.extra_maps(&standard, &mut rtc_extras, path);
         if let Some(other) = standard.blend_with {
@@ -51,7 +61,7 @@ impl GltfWriter<'_> {
             rtc_extras.insert("blendWith".to_owned(), json!(other));
             rtc_extras.insert("blendWeight".to_owned(), json!(standard.blend_weight));
         }
-        let material = self.standard(&standard, path);
+        let material = self.standard(&standard, base_coding, path);
         let material = document::Material {
             extras: extras(rtc_extras),
             ..material
@@ -61,8 +71,13 @@ impl GltfWriter<'_> {
         index
     }
 
-    fn standard(&mut self, standard: &Standard, path: ValuePath) -> document::Material {
-        let pbr_metallic_roughness = self.metallic_roughness(standard, path);
+    fn standard(
+        &mut self,
+        standard: &Standard,
+        base_coding: ColorCoding,
+        path: ValuePath,
+    ) -> document::Material {
+        let pbr_metallic_roughness = self.metallic_roughness(standard, base_coding, path);
         let mut blocks = JsonObject::new();
         self.blocks(standard, &mut blocks, path);
         self.other_blocks(standard, &mut blocks, path);
@@ -80,9 +95,9 @@ impl GltfWriter<'_> {
             pbr_metallic_roughness,
             normal_texture: standard.normal_map.as_ref().map(|map| TextureInfo {
                 scale: Some(standard.normal_scale),
-                ..self.texture_info(map, path)
+                ..self.texture_info(map, ColorCoding::Linear, path)
             }),
-            emissive_texture: self.info(standard.emissive_map.as_ref(), path),
+            emissive_texture: self.info(standard.emissive_map.as_ref(), ColorCoding::Srgb, path),
             emissive_factor: standard.emissive.map(|channel| channel / strength),
             extensions: blocks,
             extras: None,
@@ -91,7 +106,12 @@ impl GltfWriter<'_> {
 
     /// The metallic-roughness parameters. With `KHR_materials_pbrSpecularGlossiness` the colour is
     /// written there.
-    fn metallic_roughness(&mut self, standard: &Standard, path: ValuePath) -> PbrMetallicRoughness {
+    fn metallic_roughness(
+        &mut self,
+        standard: &Standard,
+        base_coding: ColorCoding,
+        path: ValuePath,
+    ) -> PbrMetallicRoughness {
         let is_core = standard.specular_glossiness.is_none();
         let color_map = standard.base_color_map.as_ref().filter(|_| is_core);
         PbrMetallicRoughness {
@@ -100,15 +120,24 @@ impl GltfWriter<'_> {
             } else {
                 [1.0; 4]
             },
-            base_color_texture: self.info(color_map, path),
+            base_color_texture: self.info(color_map, base_coding, path),
             metallic_factor: standard.metallic,
             roughness_factor: standard.roughness,
-            metallic_roughness_texture: self.info(standard.metallic_roughness_map.as_ref(), path),
+            metallic_roughness_texture: self.info(
+                standard.metallic_roughness_map.as_ref(),
+                ColorCoding::Linear,
+                path,
+            ),
         }
     }
 
-    fn info(&mut self, map: Option<&Map>, path: ValuePath) -> Option<TextureInfo> {
-        map.map(|map| self.texture_info(map, path))
+    fn info(
+        &mut self,
+        map: Option<&Map>,
+        coding: ColorCoding,
+        path: ValuePath,
+    ) -> Option<TextureInfo> {
+        map.map(|map| self.texture_info(map, coding, path))
     }
 
     /// Extensions whose properties are not direct copies of parameters.
@@ -180,7 +209,7 @@ impl GltfWriter<'_> {
     fn maps(&mut self, block: &mut Value, maps: &[(&str, &Option<Map>)], path: ValuePath) {
         for (key, map) in maps {
             if let Some(map) = map {
-                block[*key] = json!(self.texture_info(map, path));
+                block[*key] = json!(self.texture_info(map, coding_of(key), path));
             }
         }
     }
@@ -216,12 +245,12 @@ impl GltfWriter<'_> {
     fn property(
         &mut self,
         [standard, default]: [&Standard; 2],
-        (_, kind, parameter): &ExtensionProperty,
+        (key, kind, parameter): &ExtensionProperty,
         path: ValuePath,
     ) -> Option<Value> {
         let value = standard.parameter(parameter)?;
         if let Some(map) = value.downcast_ref::<Option<Map>>() {
-            let mut info = json!(self.texture_info(map.as_ref()?, path));
+            let mut info = json!(self.texture_info(map.as_ref()?, coding_of(key), path));
             if *kind == PropertyKind::NormalMap {
                 info["scale"] = standard.clearcoat_normal_scale.into();
             }
@@ -231,6 +260,16 @@ impl GltfWriter<'_> {
         changed::<f64>(value, default)
             .or_else(|| changed::<[f64; 3]>(value, default))
             .or_else(|| changed::<Option<f64>>(value, default))
+    }
+}
+
+/// The coding of the colours of a texture, by its key in an extension.
+fn coding_of(key: &str) -> ColorCoding {
+    let is_color = key.ends_with("ColorTexture")
+        || matches!(key, "diffuseTexture" | "specularGlossinessTexture");
+    match is_color {
+        true => ColorCoding::Srgb,
+        false => ColorCoding::Linear,
     }
 }
 
@@ -321,7 +360,7 @@ impl GltfWriter<'_> {
         for (key, what, map) in maps {
             if let Some(map) = map {
                 self.reporter.in_extras(what, path);
-                let info = json!(self.texture_info(map, path));
+                let info = json!(self.texture_info(map, ColorCoding::Linear, path));
                 rtc_extras.insert(key.to_owned(), info);
             }
         }
@@ -332,6 +371,7 @@ impl GltfWriter<'_> {
         &mut self,
         phong: &Phong,
         has_uvs: bool,
+        color_coding: ColorCoding,
         path: ValuePath,
     ) -> JsonObject<String, Value> {
         let Phong {
@@ -383,15 +423,16 @@ impl GltfWriter<'_> {
         ];
         for (key, texture) in maps {
             let Some(texture) = texture else { continue };
-            if !has_uvs && self.is_in_space(*texture) {
-                let message = "a pattern in space is left out";
-                self.reporter.report(&codes::GLTF_UNSAID, message, path);
-            }
-            if has_uvs {
-                rtc_extras[key] = self.texture(*texture, path).value().into();
+            if has_uvs && !self.is_pattern(*texture) {
+                let coding = match key {
+                    "colorMap" => color_coding,
+                    _ => ColorCoding::Linear,
+                };
+                rtc_extras[key] = self.texture(*texture, coding, path).value().into();
             }
         }
-        if let Some(Bump { height, .. }) = bump.as_ref().filter(|_| has_uvs) {
+        let is_shown = |bump: &&Bump| has_uvs || self.is_pattern(bump.texture);
+        if let Some(Bump { height, .. }) = bump.as_ref().filter(is_shown) {
             rtc_extras["bumpHeight"] = (*height).into();
         }
         JsonObject::from_iter([("phong".to_owned(), rtc_extras)])

@@ -14,6 +14,7 @@ mod document;
 mod light;
 mod material;
 mod mesh;
+mod pattern;
 mod settings;
 mod texture;
 mod writer;

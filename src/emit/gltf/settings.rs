@@ -1,12 +1,13 @@
 //! Writes settings, display and environment to `extras.rtc` of the asset.
 
 use super::writer::{GltfWriter, extras, number};
+use crate::picture::ColorCoding;
 use rtc_color::Tone;
 use rtc_ir::{Display, EntityField, EntityKind, Environment, Pixels, Settings, ValuePath};
 use serde_json::{Map as JsonObject, Value, json};
 
 impl GltfWriter<'_> {
-    /// Writes the settings, unless they are the defaults for glTF, the display settings and the
+    /// Writes the display settings, the settings, unless they are the defaults for glTF, and the
     /// environment.
     pub(super) fn settings(&mut self) {
         let mut rtc_extras = JsonObject::new();
@@ -18,13 +19,14 @@ impl GltfWriter<'_> {
         if !self.scene.display.is_plain() {
             let path = ValuePath::new(EntityKind::Settings, 0, EntityField::Whole);
             self.reporter.in_extras("how the picture is shown", path);
-            let Display { exposure, tone } = &self.scene.display;
-            let tone = tone.map(Tone::name);
-            rtc_extras.insert(
-                "display".to_owned(),
-                json!({ "exposure": exposure, "tone": tone.unwrap_or("mode") }),
-            );
         }
+        // Without them rtc would choose an exposure and a tone map, as for any asset.
+        let Display { exposure, tone } = &self.scene.display;
+        let tone = tone.map_or("mode", Tone::name);
+        rtc_extras.insert(
+            "display".to_owned(),
+            json!({ "exposure": exposure, "tone": tone }),
+        );
         if let Some(environment) = &self.scene.environment {
             self.environment(environment, &mut rtc_extras);
         }
@@ -54,7 +56,7 @@ impl GltfWriter<'_> {
             let image = &self.scene.images[id.0 as usize];
             match image.kind {
                 Pixels::Rgb8 | Pixels::Rgba8 => {
-                    values["image"] = self.image(number(*id)).value().into();
+                    values["image"] = self.image(number(*id), ColorCoding::Srgb).value().into();
                 }
                 Pixels::Rgb32f => {
                     values["pixels"] = self.pixels(image).value().into();

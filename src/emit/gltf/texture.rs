@@ -5,46 +5,32 @@ use super::document::{
     REPEAT, Sampler, Texture, TextureInfo,
 };
 use super::writer::{GltfWriter, number};
-use rtc_color::nearest8;
+use crate::picture::{ColorCoding, IDENTITY, TexturePicture};
 use rtc_diag::codes;
 use rtc_image::png_bytes;
 use rtc_ir::{
-    self as ir, EntityField, EntityKind, Filter, Map, Pixels, Procedural, Sampled, TextureId,
-    ValuePath, Wrap,
+    self as ir, EntityField, EntityKind, Filter, Map, Pixels, Sampled, TextureId, ValuePath, Wrap,
 };
-use rtc_math::{TextureMapping, Vec3, atan2, cos, sin};
+use rtc_math::{atan2, cos, sin};
 use serde_json::{Value, json};
 
-/// The side in pixels of the image of the colours (u, 0, v).
-const UV_SIDE: u32 = 256;
-/// The side in pixels of the picture of a pattern.
-const PATTERN_SIDE: u32 = 512;
-/// The rows of the map from texture coordinates of the course, v upwards, to those of glTF.
-const UPWARDS: [[f64; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, -1.0, 1.0]];
 /// The largest shear of a map that counts as none, relative to its size.
 const SHEAR: f64 = 1e-9;
 
 impl GltfWriter<'_> {
     /// The reference to a texture: its index, the set of coordinates, and their transform.
-    pub(super) fn texture_info(&mut self, map: &Map, path: ValuePath) -> TextureInfo {
-        let Map {
-            texture,
-            set,
-            texture_from_surface,
-        } = map;
-        let is_upward = matches!(
-            self.scene.textures[texture.0 as usize],
-            ir::Texture::Uv | ir::Texture::Image(_) | ir::Texture::Procedural(_)
-        );
-        let map = match (is_upward, texture_from_surface) {
-            (false, map) => *map,
-            (true, None) => Some(UPWARDS),
-            (true, Some([u, [a, b, c]])) => Some([*u, [-a, -b, 1.0 - c]]),
-        };
-        let index = self.texture(*texture, path);
-        let extensions = map.map(|map| {
+    pub(super) fn texture_info(
+        &mut self,
+        map: &Map,
+        coding: ColorCoding,
+        path: ValuePath,
+    ) -> TextureInfo {
+        let picture = TexturePicture::new(self.scene, &self.areas, map.texture);
+        let rows = picture.rows(map);
+        let index = self.texture(map.texture, coding, path);
+        let extensions = (rows != IDENTITY).then(|| {
             self.root.extensions_used.insert("KHR_texture_transform");
-            let transform = transform(map).unwrap_or_else(|| {
+            let transform = transform(rows).unwrap_or_else(|| {
                 let message = "a texture is sheared, which glTF can't express";
                 self.reporter.report(&codes::GLTF_UNSAID, message, path);
                 json!({})
@@ -54,49 +40,41 @@ impl GltfWriter<'_> {
         TextureInfo {
             index,
             scale: None,
-            tex_coord: *set,
+            tex_coord: map.set,
             extensions,
         }
     }
 
-    /// A texture of the scene.
-    pub(super) fn texture(&mut self, id: TextureId, path: ValuePath) -> GltfIndex<Texture> {
-        if let Some(known) = self.textures.get(&id.0) {
+    /// A texture of the scene, with the coding of its colours.
+    pub(super) fn texture(
+        &mut self,
+        id: TextureId,
+        coding: ColorCoding,
+        path: ValuePath,
+    ) -> GltfIndex<Texture> {
+        if let Some(known) = self.textures.get(&(id.0, coding)) {
             return *known;
         }
-        let (source, wrap, filter) = match &self.scene.textures[id.0 as usize] {
-            ir::Texture::Uv => {
-                let message = "the colours (u, 0, v) become a picture of them";
-                self.reporter
-                    .report(&codes::GLTF_APPROXIMATED, message, path);
-                (self.uv_image(), [Wrap::Clamp; 2], Filter::Linear)
+        let picture = TexturePicture::new(self.scene, &self.areas, id);
+        let source = match &self.scene.textures[id.0 as usize] {
+            ir::Texture::Image(image) | ir::Texture::Sampled(Sampled { image, .. }) => {
+                self.image(number(*image), coding)
             }
-            ir::Texture::Image(image) => (
-                self.image(number(*image)),
-                [Wrap::Repeat; 2],
-                Filter::Linear,
-            ),
-            ir::Texture::Sampled(Sampled {
-                image,
-                wrap,
-                filter,
-            }) => (self.image(number(*image)), *wrap, *filter),
-            ir::Texture::Procedural(texture) => {
-                let image = self.pattern_image(texture, path);
-                (image, [Wrap::Repeat; 2], Filter::Linear)
-            }
+            ir::Texture::Uv | ir::Texture::Procedural(_) => self.drawn(&picture, coding, path),
         };
-        let sampler = self.sampler(wrap, filter);
+        let sampler = self.sampler(picture.wrap, picture.filter);
         let index = GltfIndex::push(&mut self.root.textures, Texture { sampler, source });
-        self.textures.insert(id.0, index);
+        self.textures.insert((id.0, coding), index);
         index
     }
 
     fn sampler(&mut self, wrap: [Wrap; 2], filter: Filter) -> GltfIndex<Sampler> {
         let [wrap_s, wrap_t] = wrap.map(wrapping);
-        let [mag_filter, min_filter] = match filter {
-            Filter::Linear => [LINEAR, LINEAR_MIPMAP_LINEAR],
-            Filter::Nearest => [NEAREST_FILTER, NEAREST_FILTER],
+        // What is seen from afar is the mean of its texels.
+        let min_filter = LINEAR_MIPMAP_LINEAR;
+        let mag_filter = match filter {
+            Filter::Linear => LINEAR,
+            Filter::Nearest => NEAREST_FILTER,
         };
         let key = [wrap_s, wrap_t, mag_filter];
         if let Some(known) = self.samplers.get(&key) {
@@ -113,9 +91,11 @@ impl GltfWriter<'_> {
         sampler
     }
 
-    /// An image of the scene, with 8 bits per channel.
-    pub(super) fn image(&mut self, id: u32) -> GltfIndex<Image> {
-        if let Some(known) = self.images.get(&id) {
+    /// An image of the scene, with 8 bits per channel; floats are coded as asked.
+    pub(super) fn image(&mut self, id: u32, coding: ColorCoding) -> GltfIndex<Image> {
+        let is_float = self.scene.images[id as usize].kind == Pixels::Rgb32f;
+        let key = (id, coding == ColorCoding::Srgb && is_float);
+        if let Some(known) = self.images.get(&key) {
             return *known;
         }
         let ir::Image {
@@ -131,66 +111,41 @@ impl GltfWriter<'_> {
             Pixels::Rgb32f => {
                 let message = "a picture of floats as a texture is rounded to 8 bits a channel";
                 self.reporter.report(&codes::GLTF_UNSAID, message, path);
-                pixels.as_chunks::<4>().0.iter().map(quantized).collect()
+                let floats = pixels.as_chunks::<4>().0.iter();
+                let floats = floats.map(|bytes| f32::from_le_bytes(*bytes));
+                floats.map(|value| coding.byte(value.into())).collect()
             }
         };
         let png = png_bytes([*width, *height], *kind == Pixels::Rgba8, &bytes);
         let image = self.png(png, name);
-        self.images.insert(id, image);
+        self.images.insert(key, image);
         image
     }
 
-    /// The image of the colours (u, 0, v), v upwards.
-    fn uv_image(&mut self) -> GltfIndex<Image> {
-        if let Some(known) = self.uv_image {
-            return known;
+    /// The picture of a pattern, with colours up to white.
+    fn drawn(
+        &mut self,
+        picture: &TexturePicture<'_>,
+        coding: ColorCoding,
+        path: ValuePath,
+    ) -> GltfIndex<Image> {
+        if let Some(loss) = picture.loss() {
+            self.reporter.report(&codes::GLTF_APPROXIMATED, loss, path);
         }
-        let byte = |step: u32| u8::try_from(step * 255 / (UV_SIDE - 1)).unwrap_or(u8::MAX);
-        let pixels: Vec<u8> = (0..UV_SIDE)
-            .flat_map(|y| (0..UV_SIDE).flat_map(move |x| [byte(x), 0, byte(UV_SIDE - 1 - y)]))
-            .collect();
-        let png = png_bytes([UV_SIDE; 2], false, &pixels);
-        let image = self.png(png, "UV");
-        self.uv_image = Some(image);
-        image
+        let (png, is_clipped) = picture.png(coding);
+        if is_clipped {
+            let message = "a pattern brighter than white is written as white";
+            self.reporter.report(&codes::GLTF_UNSAID, message, path);
+        }
+        self.png(png, "pattern")
     }
 
-    /// Whether a texture is a pattern in space.
-    pub(super) fn is_in_space(&self, id: TextureId) -> bool {
+    /// Whether a texture is a pattern, which rtc reads from `extras.rtc`.
+    pub(super) fn is_pattern(&self, id: TextureId) -> bool {
         match &self.scene.textures[id.0 as usize] {
-            ir::Texture::Procedural(texture) => texture.mapping == TextureMapping::World,
-            ir::Texture::Uv | ir::Texture::Image(_) | ir::Texture::Sampled(_) => false,
+            ir::Texture::Uv | ir::Texture::Procedural(_) => true,
+            ir::Texture::Image(_) | ir::Texture::Sampled(_) => false,
         }
-    }
-
-    /// The picture of a pattern over the unit square of texture coordinates, or its mean colour.
-    fn pattern_image(&mut self, texture: &Procedural, path: ValuePath) -> GltfIndex<Image> {
-        let is_in_space = texture.mapping == TextureMapping::World;
-        let side = if is_in_space { 1 } else { PATTERN_SIDE };
-        let solid = texture.solid();
-        let color = |x: u32, y: u32| {
-            let [u, v] = [x, side - 1 - y].map(|k| (f64::from(k) + 0.5) / f64::from(side));
-            let color = solid.map_or(Vec3::ZERO, |solid| match is_in_space {
-                true => solid.mean(),
-                false => solid.color(Vec3::new(u, v, 0.0)),
-            });
-            color.to_array().map(nearest8)
-        };
-        let pixels: Vec<u8> = (0..side)
-            .flat_map(|y| (0..side).flat_map(move |x| color(x, y)))
-            .collect();
-        let (code, message) = match is_in_space {
-            true => (
-                &codes::GLTF_UNSAID,
-                "a pattern in space becomes the mean of its colours",
-            ),
-            false => (
-                &codes::GLTF_APPROXIMATED,
-                "a pattern becomes a picture of it",
-            ),
-        };
-        self.reporter.report(code, message, path);
-        self.png(png_bytes([side; 2], false, &pixels), "pattern")
     }
 
     fn png(&mut self, png: Vec<u8>, name: &str) -> GltfIndex<Image> {
@@ -214,11 +169,6 @@ fn wrapping(wrap: Wrap) -> u32 {
         Wrap::Mirror => MIRRORED_REPEAT,
         Wrap::Clamp => CLAMP_TO_EDGE,
     }
-}
-
-/// A little-endian float as a byte, 1 as 255.
-fn quantized(bytes: &[u8; 4]) -> u8 {
-    nearest8(f32::from_le_bytes(*bytes).into())
 }
 
 /// The scale, rotation and offset of `KHR_texture_transform` that equal a map; `None` if it has

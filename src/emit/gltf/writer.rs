@@ -7,8 +7,10 @@ use super::document::{
 };
 use super::material::GltfMaterialKey;
 use super::mesh::MeshAccessors;
+use crate::picture::ColorCoding;
 use crate::reporter::ExportReporter;
 use crate::sidecar;
+use crate::texture_area::TextureAreas;
 use rtc_diag::codes;
 use rtc_ir::{self as ir, ImageId, Scene, ValuePath};
 use rtc_source::{Budget, uri_path};
@@ -19,6 +21,7 @@ use xxhash_rust::xxh3::xxh3_64;
 /// Writes a scene of meshes.
 pub(super) struct GltfWriter<'w> {
     pub(super) scene: &'w Scene,
+    pub(super) areas: TextureAreas,
     pub(super) root: Root,
     pub(super) bin: Vec<u8>,
     pub(super) budget: &'w Budget,
@@ -27,14 +30,12 @@ pub(super) struct GltfWriter<'w> {
     pub(super) folder: Option<&'w str>,
     pub(super) files: BTreeMap<String, Vec<u8>>,
     /// The objects written so far, by their source.
-    pub(super) images: BTreeMap<u32, GltfIndex<Image>>,
-    pub(super) textures: BTreeMap<u32, GltfIndex<Texture>>,
+    pub(super) images: BTreeMap<(u32, bool), GltfIndex<Image>>,
+    pub(super) textures: BTreeMap<(u32, ColorCoding), GltfIndex<Texture>>,
     pub(super) samplers: BTreeMap<[u32; 3], GltfIndex<Sampler>>,
     pub(super) materials: BTreeMap<GltfMaterialKey, GltfIndex<Material>>,
     pub(super) attributes: BTreeMap<u32, MeshAccessors>,
     pub(super) meshes: BTreeMap<(u32, u32), GltfIndex<Mesh>>,
-    /// The image of the colours (u, 0, v).
-    pub(super) uv_image: Option<GltfIndex<Image>>,
 }
 
 impl<'w> GltfWriter<'w> {
@@ -46,6 +47,7 @@ impl<'w> GltfWriter<'w> {
     ) -> Self {
         Self {
             scene,
+            areas: TextureAreas::of(scene),
             root: Root::default(),
             bin: Vec::new(),
             budget,
@@ -58,7 +60,6 @@ impl<'w> GltfWriter<'w> {
             materials: BTreeMap::new(),
             attributes: BTreeMap::new(),
             meshes: BTreeMap::new(),
-            uv_image: None,
         }
     }
 

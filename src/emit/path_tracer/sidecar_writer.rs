@@ -5,6 +5,7 @@ use super::surface_material::{SurfaceMaterial, uv_set};
 use super::textured_factor::{TextureChannel, TexturedFactor};
 use crate::picture::{ColorCoding, TexturePicture};
 use crate::reporter::ExportReporter;
+use crate::texture_area::TextureAreas;
 use crate::{ply, sidecar};
 use rtc_diag::codes;
 use rtc_image::EncodeError;
@@ -23,6 +24,7 @@ const TRIANGLE: u64 = 13;
 /// The files beside a scene, with what their writing reports.
 pub(crate) struct SidecarWriter<'w> {
     pub(crate) scene: &'w Scene,
+    pub(crate) areas: TextureAreas,
     pub(crate) reporter: ExportReporter<'w>,
     pub(crate) budget: &'w Budget,
     folder: &'w str,
@@ -71,6 +73,7 @@ impl<'w> SidecarWriter<'w> {
     ) -> Self {
         Self {
             scene,
+            areas: TextureAreas::of(scene),
             reporter,
             budget,
             folder,
@@ -115,11 +118,14 @@ impl<'w> SidecarWriter<'w> {
         path: ValuePath,
     ) -> Option<BitmapTexture> {
         // Encode each texture and channel once.
-        let picture = TexturePicture::new(self.scene, map.texture);
+        let picture = TexturePicture::new(self.scene, &self.areas, map.texture);
         let key = format!("{} {channel:?} {factor:?}", map.texture.0);
         let file = match self.bitmaps.get(&key) {
             Some(file) => file.clone(),
             None => {
+                if let Some(loss) = picture.loss() {
+                    self.reporter.unsupported(loss, path);
+                }
                 self.reporter.charge(picture.cost(), self.budget, path)?;
                 let change = |texel| channel.pixel(factor, texel);
                 let encoded = picture.encode(channel.coding(), change);

@@ -115,7 +115,7 @@ impl PbrtWriter<'_> {
         let Some(map) = slot.map else {
             return slot.factor;
         };
-        let picture = TexturePicture::new(self.scene, map.texture);
+        let picture = TexturePicture::new(self.scene, &self.beside.areas, map.texture);
         let mean = picture.mean(slot.channel.coding());
         std::array::from_fn(|channel| slot.factor[channel] * mean[channel])
     }

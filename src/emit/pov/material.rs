@@ -4,31 +4,45 @@
 use super::{PovWriter, vector};
 use crate::approximation::without_index;
 use crate::export::{called, enumeration, used_materials};
+use crate::path_tracer::{TextureChannel, TexturedFactor, opacity};
 use crate::picture::{ColorCoding, TexturePicture};
 use crate::sidecar;
 use rtc_ir::{
-    Alpha, Ambient, Light, Map, Material, MaterialId, Phong, Scene, Shape, Standard, Surface,
-    TextureId, ValuePath,
+    Alpha, Ambient, Filter, Light, Map, Material, MaterialId, Phong, Scene, Shape, Standard,
+    Surface, TextureId, ValuePath,
 };
 use rtc_math::{ln, shortest};
 use xxhash_rust::xxh3::xxh3_64;
 
+/// Why a texture is left out.
+const NO_FILE: &str = "a texture is left out: it needs a file beside the text, as with `-o FILE`";
 /// The roughness below which a mirror image is written: POV-Ray's are sharp.
 const SHARP: f64 = 0.3;
 
-/// The texture of the colour of a material.
-pub(super) fn color_map(material: &Material) -> Option<Map> {
+/// The texture of a material that is written: that of its colour, or else of its opacity.
+pub(super) fn written_map(material: &Material) -> Option<Map> {
     match material {
         Material::Phong(phong) => phong.color_map.map(Map::from),
-        Material::Standard(standard) => standard.base_color_map.clone(),
+        Material::Standard(standard) => {
+            let color = standard.base_color_map.clone();
+            color.or_else(|| opacity(standard, false)?.map.cloned())
+        }
     }
+}
+
+/// The opacity of a material by a texture, if it is the one that is written.
+fn written_opacity(standard: &Standard) -> Option<TexturedFactor<'_>> {
+    let opacity = opacity(standard, false).filter(|opacity| opacity.map.is_some())?;
+    let color = standard.base_color_map.as_ref();
+    let is_written = color.is_none() || color == opacity.map;
+    is_written.then_some(opacity)
 }
 
 /// Whether a surface is written as it is: POV-Ray's shapes have texture coordinates of their own,
 /// so those with a texture become meshes, which have ours.
 pub(super) fn is_written(scene: &Scene, surface: &Surface) -> bool {
     let material = &scene.materials[surface.material.0 as usize];
-    matches!(surface.shape, Shape::Instance(_) | Shape::Csg(_)) || color_map(material).is_none()
+    matches!(surface.shape, Shape::Instance(_) | Shape::Csg(_)) || written_map(material).is_none()
 }
 
 impl PovWriter<'_> {
@@ -103,15 +117,12 @@ impl PovWriter<'_> {
             ColorCoding::Linear => [1.0; 3],
             ColorCoding::Srgb => color,
         };
-        let picture = TexturePicture::new(self.scene, map.texture);
-        self.reporter.charge(picture.cost(), self.budget, path)?;
+        let picture = self.picture(map, path)?;
         let encoded = picture.encode(coding, |[r, g, b, _]| {
             [r * factor[0], g * factor[1], b * factor[2]]
         });
         let Some((file, extension)) = self.beside(picture.name(), encoded.ok()?) else {
-            let message =
-                "a texture is left out: it needs a file beside the text, as with `-o FILE`";
-            self.reporter.unsupported(message, path);
+            self.reporter.unsupported(NO_FILE, path);
             return self.pigment(color, (None, coding), transmit, path);
         };
         let gamma = match (extension, coding) {
@@ -120,13 +131,48 @@ impl PovWriter<'_> {
             (_, ColorCoding::Linear) => " gamma 1",
         };
         let kind = if extension == "exr" { "exr" } else { "png" };
+        let interpolate = match picture.filter {
+            Filter::Linear => " interpolate 2",
+            Filter::Nearest => "",
+        };
         let transmit = match transmit > 0.0 {
             true => format!(" transmit all {}", shortest(transmit)),
             false => String::new(),
         };
         Some(format!(
-            "pigment {{ uv_mapping image_map {{ {kind} \"{file}\"{gamma} interpolate \
-             2{transmit} }} }}"
+            "pigment {{ uv_mapping image_map {{ {kind} \"{file}\"{gamma}{interpolate}{transmit} \
+             }} }}"
+        ))
+    }
+
+    /// The pigment of a colour, times its texture if it has one, whose opacity is that of a picture.
+    fn cut_pigment(
+        &mut self,
+        color: [f64; 3],
+        is_textured: bool,
+        opacity: TexturedFactor<'_>,
+        path: ValuePath,
+    ) -> Option<String> {
+        let picture = self.picture(opacity.map?, path)?;
+        let bytes = picture.png_with_alpha(|texel, raw| {
+            let [r, g, b, _] = if is_textured { texel } else { [1.0; 4] };
+            let [alpha, ..] = opacity.channel.pixel(opacity.factor, raw);
+            [r * color[0], g * color[1], b * color[2], alpha]
+        });
+        let is_cut = matches!(
+            opacity.channel,
+            TextureChannel::AlphaCut(_) | TextureChannel::RedCut(_)
+        );
+        let interpolate = match picture.filter {
+            Filter::Linear if !is_cut => " interpolate 2",
+            Filter::Linear | Filter::Nearest => "",
+        };
+        let Some((file, _)) = self.beside(picture.name(), (bytes, "png")) else {
+            self.reporter.unsupported(NO_FILE, path);
+            return self.pigment(color, (None, ColorCoding::Srgb), 0.0, path);
+        };
+        Some(format!(
+            "pigment {{ uv_mapping image_map {{ png \"{file}\" gamma srgb{interpolate} }} }}"
         ))
     }
 
@@ -149,12 +195,18 @@ impl PovWriter<'_> {
             called(&material.name)
         );
         self.reporter.unsupported(&message, path);
+        let has_cut = opacity(material, false).is_some_and(|opacity| opacity.map.is_some());
+        let cut = written_opacity(material);
         for (is_lost, what) in [
             (
                 material.blend_with.is_some(),
                 "the other material of its blend",
             ),
-            (material.opacity_map.is_some(), "the texture of its opacity"),
+            (
+                has_cut && cut.is_none(),
+                "the texture of its opacity, beside that of its colour",
+            ),
+            (material.emissive_map.is_some(), "the texture of its light"),
             (material.bump_map.is_some(), "its bump map"),
         ] {
             if is_lost {
@@ -188,7 +240,10 @@ impl PovWriter<'_> {
         let metal = if is_sharp { metallic } else { 0.0 };
         let diffuse = if material.unlit { 0.0 } else { 1.0 - metal };
         let map = (material.base_color_map.as_ref(), ColorCoding::Srgb);
-        let pigment = self.pigment(color, map, through, path)?;
+        let pigment = match cut {
+            Some(opacity) => self.cut_pigment(color, map.0.is_some(), opacity, path)?,
+            None => self.pigment(color, map, through, path)?,
+        };
         let reflection = match (is_sharp, metallic > 0.5) {
             (false, _) => String::new(),
             (true, true) => format!(" reflection {{ rgb {} }}", vector([r, g, b])),
@@ -207,7 +262,9 @@ impl PovWriter<'_> {
         let (ior, absorption) = match &self.scene.materials[id as usize] {
             Material::Phong(phong) if phong.kt > 0.0 => (phong.ior, None),
             Material::Standard(standard) if standard.roughness < SHARP => {
-                let is_solid = standard.thickness > 0.0 || standard.transmission == 0.0;
+                // Light passes a surface that covers a part as it is.
+                let is_solid = standard.alpha == Alpha::Opaque
+                    && (standard.thickness > 0.0 || standard.transmission == 0.0);
                 let distance = standard.attenuation_distance;
                 let absorption = distance
                     .filter(|_| standard.transmission > 0.0)
@@ -244,21 +301,32 @@ impl PovWriter<'_> {
     }
 }
 
-/// A pigment, and its multiple that is emitted: the colour of the surface where it has one in every
-/// channel that emits, else that of its light.
+impl<'w> PovWriter<'w> {
+    /// The picture of a texture; `None` if it exceeds the budget, which is reported.
+    fn picture(&mut self, map: &Map, path: ValuePath) -> Option<TexturePicture<'w>> {
+        let picture = TexturePicture::new(self.scene, &self.areas, map.texture);
+        if let Some(loss) = picture.loss() {
+            self.reporter.unsupported(loss, path);
+        }
+        self.reporter.charge(picture.cost(), self.budget, path)?;
+        Some(picture)
+    }
+}
+
+/// A pigment, and its multiple that is emitted: the colour of the surface, but hardly any where it
+/// has none and emits.
 fn emitting(color: [f64; 3], radiance: [f64; 3]) -> [[f64; 3]; 2] {
-    let has_color = (0..3).all(|channel| radiance[channel] == 0.0 || color[channel] > 0.0);
-    let color = if has_color {
-        color
-    } else {
-        let most = radiance.into_iter().fold(0.0, f64::max);
-        radiance.map(|channel| channel / most)
-    };
-    let ratio = |channel: usize| match color[channel] > 0.0 {
-        true => radiance[channel] / color[channel],
+    /// A reflectance that is not seen.
+    const LEAST: f64 = 1e-6;
+    let pigment = [0, 1, 2].map(|channel| match radiance[channel] > 0.0 {
+        true => color[channel].max(LEAST),
+        false => color[channel],
+    });
+    let emission = [0, 1, 2].map(|channel| match radiance[channel] > 0.0 {
+        true => radiance[channel] / pigment[channel],
         false => 0.0,
-    };
-    [color, [0, 1, 2].map(ratio)]
+    });
+    [pigment, emission]
 }
 
 /// The features of a material that are not written.

@@ -9,6 +9,7 @@ use super::ExportedScene;
 use super::export::joined;
 use super::reporter::ExportReporter;
 use super::tessellate::{TargetFormat, with_meshes};
+use super::texture_area::TextureAreas;
 use rtc_diag::{DiagnosticSink, codes};
 use rtc_ir::{
     Camera, Display, EntityField, EntityKind, Material, Mode, Pattern, Projection, Scene, Settings,
@@ -42,6 +43,7 @@ pub fn emit(
     let scene = &with_meshes(scene, &FORMAT, None, budget, &mut reporter)?;
     let mut writer = PovWriter {
         scene,
+        areas: TextureAreas::of(scene),
         folder,
         budget,
         reporter,
@@ -65,6 +67,7 @@ pub fn emit(
 /// The scene so far.
 struct PovWriter<'w> {
     scene: &'w Scene,
+    areas: TextureAreas,
     folder: Option<&'w str>,
     budget: &'w Budget,
     reporter: ExportReporter<'w>,

@@ -1,6 +1,6 @@
 //! Writes surfaces: all shapes except bilinear patches and paraboloids; meshes with all vertices.
 
-use super::material::color_map;
+use super::material::written_map;
 use super::{PovWriter, vector};
 use crate::export::{part_of, parts_of_one, shape_name};
 use crate::flat::split;
@@ -171,7 +171,7 @@ impl PovWriter<'_> {
 
     /// The name of a mesh with the texture coordinates that a material looks up.
     fn mesh_name(&self, MeshId(mesh): MeshId, MaterialId(material): MaterialId) -> String {
-        match color_map(&self.scene.materials[material as usize]) {
+        match written_map(&self.scene.materials[material as usize]) {
             Some(_) => format!("Mesh{mesh}M{material}"),
             None => format!("Mesh{mesh}"),
         }
@@ -191,7 +191,7 @@ impl PovWriter<'_> {
             let message = "the colours of the corners of a mesh are left out";
             self.reporter.unsupported(message, path);
         }
-        let map = color_map(&scene.materials[material as usize]);
+        let map = written_map(&scene.materials[material as usize]);
         let uvs = match map.as_ref().map_or(0, |map| map.set) {
             1 => &mesh.second_uvs,
             _ => &mesh.uvs,
@@ -209,7 +209,7 @@ impl PovWriter<'_> {
         }
         if let Some(map) = map.filter(|_| !uvs.is_empty()) {
             // POV-Ray's pictures have their origin at the bottom.
-            let [u, v] = TexturePicture::new(scene, map.texture).rows(&map);
+            let [u, v] = TexturePicture::new(scene, &self.areas, map.texture).rows(&map);
             let at = |row: [f64; 3], [u, v]: [f64; 2]| row[0] * u + row[1] * v + row[2];
             let each = (0..uvs.len()).map(|corner| uvs.at(corner));
             let each = each.map(|uv| vector([at(u, uv), 1.0 - at(v, uv)]));

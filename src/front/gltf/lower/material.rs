@@ -5,6 +5,7 @@ use super::super::field::ObjectFields;
 use super::super::pointer::AnimatedValues;
 use super::super::primitive::Primitive;
 use super::super::report::AssetReport;
+use super::pattern::add_patterns;
 use super::texture::LoweredTextures;
 use super::uv::TexCoordSets;
 use rtc_diag::codes;
@@ -16,6 +17,7 @@ use rtc_math::{Medium, to_u32};
 use rtc_source::tree::SyntaxTree;
 use rtc_tables::MATERIAL_EXTENSIONS;
 use serde::de::DeserializeOwned;
+use std::any::Any;
 use std::collections::BTreeMap;
 
 /// What became of the materials of the asset.
@@ -320,13 +322,30 @@ impl MaterialReader<'_, '_, '_, '_> {
         standard.bump_scale = number(extension, "bumpScale", 1.0);
         standard.blend_weight = number(extension, "blendWeight", 0.0);
         standard.blend_map = self.map(extension, "blendTexture");
+        for (parameter, map) in self.patterns(fields) {
+            let parameter = standard.parameter_mut(&parameter);
+            if let Some(own) = parameter.and_then(<dyn Any>::downcast_mut::<Option<Map>>) {
+                *own = Some(map);
+            }
+        }
         standard
+    }
+
+    /// The patterns of a material, each with the parameter whose map it is.
+    fn patterns(&mut self, fields: ObjectFields<'_, '_>) -> Vec<(String, Map)> {
+        let span = self.report.json.span(fields.at);
+        add_patterns(fields, span, (&mut *self.scene, &mut *self.source_spans))
     }
 
     /// The Phong material in `extras.rtc`, if any.
     fn phong(&mut self, fields: ObjectFields<'_, '_>) -> Option<Phong> {
         let extension = fields.rtc_extras()?.object("phong")?;
+        let patterns = self.patterns(fields);
         let mut texture = |key| {
+            let is_own = |(parameter, _): &&(String, Map)| parameter == key;
+            if let Some((_, pattern)) = patterns.iter().find(is_own) {
+                return Some(pattern.texture);
+            }
             let index = extension.index(key)?;
             self.textures
                 .of_phong(self.doc, index, self.scene, self.source_spans, self.report)

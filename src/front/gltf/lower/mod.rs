@@ -15,6 +15,7 @@ mod deform;
 mod light;
 mod material;
 mod mesh;
+mod pattern;
 mod pose;
 mod settings;
 mod shape;

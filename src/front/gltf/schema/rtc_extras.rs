@@ -1,11 +1,12 @@
 //! The properties of `extras.rtc`: values that glTF can't express, as `emit/gltf` writes them.
 
-use super::Value::{Boolean, Index, Integer, Keyword, Number, Numbers, One, Text};
+use super::Value::{Boolean, Index, Integer, Keyword, Many, Number, Numbers, One, Text};
 use super::core::TEXTURE_INFO;
 use super::{
     FACTOR, FREE, IndexTarget, ObjectSchema, POSITIVE, PropertySchema, optional, required,
 };
 use rtc_ir::Settings;
+use rtc_math::GradientNoise;
 use serde_json::Value as Json;
 use std::sync::LazyLock;
 
@@ -159,9 +160,11 @@ static PHOTOMETRY: ObjectSchema = rtc_object(&[
 
 /// Phong's model, or of the standard material the index of a metal with its base colour, the
 /// distribution of facets, the kind of plastic, whether its back reflects nothing, the opacity, the
-/// heights, whether it is a pane of two faces, the other material of a blend, and media.
+/// heights, whether it is a pane of two faces, the other material of a blend, and media; of both the
+/// patterns, for which other programs see pictures.
 static MATERIAL: ObjectSchema = rtc_object(&[
     optional("phong", One(&PHONG)),
+    optional("patterns", Many(&PATTERN)),
     optional("conductor", One(&CONDUCTOR)),
     optional("microfacets", Keyword(&["separableGgx", "beckmann"])),
     optional("plastic", Keyword(&["linear", "nonlinear", "single"])),
@@ -175,6 +178,22 @@ static MATERIAL: ObjectSchema = rtc_object(&[
     optional("blendTexture", One(&TEXTURE_INFO)),
     optional("interior", One(&MEDIUM)),
     optional("exterior", One(&MEDIUM)),
+]);
+/// A pattern in closed form: the parameter whose map it is, its two colours, its cells per unit of
+/// coordinates, and the rows of the map to these from those of the surface.
+static PATTERN: ObjectSchema = rtc_object(&[
+    required("parameter", Text),
+    required(
+        "pattern",
+        Keyword(&["uv", "checker", "stripes", "noise", "worley"]),
+    ),
+    optional("seed", Integer(0, MAX_COUNT)),
+    optional("octaves", Integer(1, GradientNoise::MAX_OCTAVES as u64)),
+    optional("colors", Numbers(&[6], FACTOR)),
+    optional("scale", Number(POSITIVE)),
+    optional("mapping", Keyword(&["world"])),
+    optional("set", Integer(0, 1)),
+    optional("textureFromSurface", Numbers(&[6], FREE)),
 ]);
 /// A participating medium: its coefficients per unit of length and its mean cosine.
 static MEDIUM: ObjectSchema = rtc_object(&[
@@ -195,6 +214,7 @@ static PHONG: ObjectSchema = rtc_object(&[
     optional("kr", Number(FACTOR)),
     optional("n", Number(FACTOR)),
     optional("kt", Number(FACTOR)),
+    optional("fresnel", Boolean),
     optional("eta", Number(POSITIVE)),
     optional("glossySamples", Integer(1, MAX_COUNT)),
     optional("colorMap", Index(IndexTarget::Textures)),
