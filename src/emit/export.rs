@@ -4,7 +4,7 @@ use super::reporter::ExportReporter;
 use rtc_diag::{clip, codes};
 use rtc_ir::{
     EntityField, EntityKind, Environment, Image, Material, Punctual, PunctualKind, Scene, Shape,
-    ShapeKind, Surface, ValuePath,
+    ShapeKind, Standard, Surface, ValuePath,
 };
 use rtc_math::{Vec3, shortest};
 use rtc_source::{Budget, Resource};
@@ -178,6 +178,34 @@ pub(super) fn part_of(parts: &[Surface], operand: usize) -> Option<&Surface> {
         .find(|part| matches!(&part.shape, Shape::Csg(csg) if csg.faces.iter().any(shows)))
 }
 
+/// The width of the distribution of microfacets of a roughness, its square: the shortest decimal
+/// whose root is the roughness again.
+pub(super) fn facet_width(roughness: f64) -> f64 {
+    shortest_preimage(roughness * roughness, roughness, f64::sqrt)
+}
+
+/// The widths across and along the direction of the anisotropy a, α and α + (1 − α)·a²
+/// (`KHR_materials_anisotropy`), which read back as they are.
+pub(super) fn facet_widths(material: &Standard) -> [f64; 2] {
+    let across = facet_width(material.roughness);
+    let anisotropy = material.anisotropy;
+    if anisotropy == 0.0 || across >= 1.0 {
+        return [across; 2];
+    }
+    let along = across + (1.0 - across) * anisotropy * anisotropy;
+    let strength = |along: f64| ((along - across) / (1.0 - across)).sqrt();
+    [across, shortest_preimage(along, anisotropy, strength)]
+}
+
+/// The decimal of the fewest digits near a number that a function maps to a value; the number
+/// itself if there is none.
+fn shortest_preimage(number: f64, value: f64, function: impl Fn(f64) -> f64) -> f64 {
+    let rounded = |digits: usize| format!("{number:.digits$e}").parse::<f64>().ok();
+    let mut rounded = (0..17).filter_map(rounded);
+    let found = rounded.find(|rounded| function(*rounded).to_bits() == value.to_bits());
+    found.unwrap_or(number)
+}
+
 /// The shortest decimals of numbers that read back exactly, with a separator; −0 as 0.
 pub(super) fn joined(numbers: impl IntoIterator<Item = f64>, separator: &str) -> String {
     let displayed: Vec<_> = numbers
@@ -212,5 +240,27 @@ pub(super) fn enumeration(parts: &[&str]) -> String {
         [] => String::new(),
         [only] => (*only).to_owned(),
         [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_width_is_the_decimal_that_was_read() {
+        for thousandths in 1..1000_u32 {
+            let width = f64::from(thousandths) / 1000.0;
+            assert_eq!(facet_width(width.sqrt()).to_bits(), width.to_bits());
+            let along = (width + 1.0) / 2.0;
+            let material = Standard {
+                roughness: width.sqrt(),
+                anisotropy: ((along - width) / (1.0 - width)).sqrt(),
+                ..Standard::default()
+            };
+            assert_eq!(facet_widths(&material)[0].to_bits(), width.to_bits());
+            assert!((facet_widths(&material)[1] - along).abs() < 1e-15);
+        }
+        assert_eq!([0.0, 1.0].map(facet_width), [0.0, 1.0]);
     }
 }

@@ -3,7 +3,7 @@
 
 use super::MitsubaWriter;
 use crate::approximation::without_index;
-use crate::export::{called, enumeration};
+use crate::export::{called, enumeration, facet_widths};
 use crate::path_tracer::{
     SurfaceMaterial, TextureChannel, TexturedFactor, blend_weight, is_glass, is_null, media,
     missing_features, opacity, other_material,
@@ -272,8 +272,7 @@ impl MitsubaWriter<'_> {
 
     /// The widths along u and v (`KHR_materials_anisotropy`) and the distribution.
     fn roughness(&mut self, depth: usize, material: &Standard) {
-        let least = material.roughness * material.roughness;
-        let most = least + (1.0 - least) * material.anisotropy * material.anisotropy;
+        let [least, most] = facet_widths(material);
         if most == 0.0 {
             return;
         }

@@ -5,7 +5,7 @@
 
 use super::{PbrtWriter, numbers, string};
 use crate::approximation::without_index;
-use crate::export::{called, enumeration};
+use crate::export::{called, enumeration, facet_width, facet_widths};
 use crate::path_tracer::{
     SurfaceMaterial, TextureChannel, TexturedFactor, blend_weight, is_glass, is_null, media,
     missing_features, other_material, radiance,
@@ -202,7 +202,7 @@ impl PbrtWriter<'_> {
             return Some(());
         }
         let roughness = self.roughness("conductor.", material, path)?;
-        let coat = material.clearcoat_roughness * material.clearcoat_roughness;
+        let coat = facet_width(material.clearcoat_roughness);
         let coat = numbers("float", "interface.roughness", [coat]);
         self.named(
             id,
@@ -245,12 +245,13 @@ impl PbrtWriter<'_> {
             map: material.metallic_roughness_map.as_ref(),
             channel: TextureChannel::GreenSquared,
         };
-        if material.anisotropy == 0.0 || slot.map.is_some() {
+        if slot.map.is_some() {
             return Some(self.slot(&format!("{of}roughness"), slot, path)? + exact);
         }
-        // Along the tangent the width is α + (1 − α)·a² (`KHR_materials_anisotropy`).
-        let across = slot.number();
-        let along = across + (1.0 - across) * material.anisotropy * material.anisotropy;
+        let [across, along] = facet_widths(material);
+        if material.anisotropy == 0.0 {
+            return Some(numbers("float", &format!("{of}roughness"), [across]) + exact);
+        }
         let [u, v] = match material.anisotropy_rotation == 0.0 {
             true => [along, across],
             false => [across, along],
