@@ -5,12 +5,13 @@
 //!
 //! - [`Tessellator`] converts shape by shape and charges vertices to the budget.
 //! - [`TessellationTolerance`] computes the numbers of steps from the tolerance.
-//! - `csg` clips the meshes of the operands of a CSG solid.
+//! - `csg` contours CSG solids by the faces of their operands (`face`).
 //! - [`UnitRoundShape`] is a round shape of radius 1; `round` and `flat` build the meshes with
 //!   `MeshBuilder`.
 
 mod builder;
 mod csg;
+mod face;
 mod flat;
 mod round;
 mod tolerance;
@@ -18,6 +19,7 @@ mod tolerance;
 use crate::export::shape_name;
 use crate::flat::{around, finite, side};
 use crate::reporter::ExportReporter;
+use csg::CsgMesh;
 use glam::DAffine3;
 use round::UnitRoundShape;
 use rtc_diag::{Code, codes};
@@ -108,7 +110,16 @@ impl Tessellator<'_> {
     ) -> Option<Instance> {
         let shape_mesh = match shape {
             Shape::Instance(instance) => return Some(instance.clone()),
-            Shape::Csg(csg) => self.csg(csg, path, reporter)?,
+            Shape::Csg(csg) => {
+                let CsgMesh { mesh, exactness } = self.csg(csg, path, reporter)?;
+                let message = format!(
+                    "{} has no union, intersection or difference: a closed mesh {exactness} \
+                     replaces it",
+                    self.format.name
+                );
+                reporter.report(self.format.approximated, &message, path);
+                mesh
+            }
             Shape::Sphere(_)
             | Shape::Plane(_)
             | Shape::Triangle(_)
@@ -213,12 +224,7 @@ impl Tessellator<'_> {
         let format = self.format.name;
         let side = || shortest(2.0 * side(self.around));
         let message = match shape.kind() {
-            ShapeKind::Triangle | ShapeKind::Instance => return,
-            ShapeKind::Csg => format!(
-                "{format} has no union, intersection or difference: a mesh with edges \
-                 within {} of its size replaces it",
-                shortest(csg::FINEST)
-            ),
+            ShapeKind::Triangle | ShapeKind::Instance | ShapeKind::Csg => return,
             ShapeKind::Plane => {
                 format!(
                     "{format} has no plane: a square {} wide replaces it",

@@ -18,6 +18,11 @@ impl TessellationTolerance {
         Self(tolerance)
     }
 
+    /// The tolerance as a length in scene units, if it is one.
+    pub(super) fn length(&self) -> Option<f64> {
+        self.0
+    }
+
     /// The tolerance, for messages.
     pub(super) fn describe(&self) -> String {
         match self.0 {
