@@ -7,6 +7,7 @@
 )]
 
 mod cases;
+mod compiled;
 mod hashed;
 mod obj_oracle;
 mod ray_counts;
@@ -22,6 +23,11 @@ mod to_gltf;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let suites = [cases::trials(), shared::trials(), to_gltf::trials()];
+    let suites = [
+        cases::trials(),
+        compiled::trials(),
+        shared::trials(),
+        to_gltf::trials(),
+    ];
     suite::run(suites.into_iter().flatten().collect())
 }

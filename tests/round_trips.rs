@@ -1,5 +1,5 @@
-//! What is written for Mitsuba and pbrt is read back to the same picture: within a thousandth of
-//! its mean where the writer gave no warning, within a twentieth otherwise.
+//! What is written for Mitsuba and pbrt, as glTF and as a text is read back to the same picture:
+//! within a thousandth of its mean where the writer told nothing, within a twentieth otherwise.
 
 use rtc::internals::image::{FileFormat, Image, Picture};
 use rtc::{Options, Scene};
@@ -38,6 +38,7 @@ struct Case {
 
 const MITSUBA: &str = "scene.xml";
 const PBRT: &str = "scene.pbrt";
+const ALL: &[&str] = &[MITSUBA, PBRT, "scene.glb", "scene.gltf", "scene.yaml"];
 
 const fn objects(name: &'static str, objects: &'static str) -> Case {
     Case {
@@ -45,7 +46,7 @@ const fn objects(name: &'static str, objects: &'static str) -> Case {
         camera: CAMERA,
         light: LIGHT,
         objects,
-        targets: &[MITSUBA, PBRT],
+        targets: ALL,
     }
 }
 
@@ -71,6 +72,18 @@ macro_rules! ball {
         concat!(
             "- {type: sphere, position: [0, 1, 0], radius: 1, material: {type: standard, ",
             $material,
+            "}}\n"
+        )
+    };
+}
+
+/// The colour of a pyramid with texture coordinates.
+macro_rules! pyramid {
+    ($map:literal) => {
+        concat!(
+            "- {type: mesh, file: m.obj, position: [0, 0, 0], material: {type: standard, metallic: 0, specular: 0, \
+             doubleSided: true, baseColor: [1, 0.5, 1, 1], baseColorMap: ",
+            $map,
             "}}\n"
         )
     };
@@ -106,6 +119,33 @@ const CASES: &[Case] = &[
         "a textured mesh",
         "- {type: mesh, file: m.obj, position: [0, 0, 0], material: {type: standard, metallic: 0, specular: 0, \
 doubleSided: true, baseColor: [1, 0.5, 1, 1], baseColorMap: p.png}}\n",
+    ),
+    objects("checks of any size", pyramid!("{pattern: checker, scale: 3, colors: [[1, 0, 0], [0, 0, 1]]}")),
+    objects("checks that are cells", pyramid!("{pattern: checker, scale: 1, colors: [[1, 0, 0], [0, 0, 1]]}")),
+    objects("stripes", pyramid!("{pattern: stripes, scale: 2.5, colors: [[0.1, 0.2, 0.3], [0.9, 0.8, 0.1]]}")),
+    objects("noise", pyramid!("{pattern: noise, scale: 5, octaves: 2, seed: 3}")),
+    objects("distances", pyramid!("{pattern: worley, scale: 4}")),
+    objects(
+        "noise in space",
+        pyramid!("{pattern: noise, mapping: world, scale: 2, octaves: 2}"),
+    ),
+    objects("the coordinates as colours", pyramid!("UV")),
+    objects("a texture of floats", pyramid!("e.exr")),
+    objects(
+        "checks for a roughness",
+        "- {type: mesh, file: m.obj, position: [0, 0, 0], material: {type: standard, \
+doubleSided: true, baseColor: [0.9, 0.7, 0.4, 1], metallicRoughnessMap: {pattern: checker, scale: 3, \
+colors: [[1, 0.2, 1], [1, 0.6, 1]]}}}\n",
+    ),
+    objects(
+        "a mesh that checks cut out",
+        "- {type: mesh, file: m.obj, position: [0, 0, 0], material: {type: standard, metallic: 0, specular: 0, \
+doubleSided: true, baseColor: [0.5, 0.2, 0.5, 1], alpha: mask, opacityMap: {pattern: checker, scale: 3}}}\n",
+    ),
+    objects(
+        "a ball of which a box is left",
+        "- {type: intersection, a: {type: sphere, position: [0, 1, 0], radius: 1}, \
+b: {type: box, min: [-0.7, 0.3, -0.7], max: [0.7, 1.7, 0.7]}, material: *matte}\n",
     ),
     objects(
         "a mesh that a texture covers",
@@ -214,14 +254,10 @@ metallic: 0, specular: 0, baseColor: [0, 0, 0, 1], doubleSided: true, emissive: 
         "a point",
         "Lights: [{type: point, position: [1, 4, 3], intensity: [20, 30, 25]}]\n",
     ),
-    // For Mitsuba the profile of a spot is a picture, which its reader leaves out with a warning.
-    Case {
-        targets: &[PBRT],
-        ..light(
-            "a spot",
-            "Lights: [{type: spot, position: [0, 6, 2], direction: [0, -3, -1], innerAngle: 0.2, outerAngle: 0.5, intensity: [40, 40, 30]}]\n",
-        )
-    },
+    light(
+        "a spot",
+        "Lights: [{type: spot, position: [0, 6, 2], direction: [0, -3, -1], innerAngle: 0.2, outerAngle: 0.5, intensity: [40, 40, 30]}]\n",
+    ),
     light(
         "a light without falloff",
         "Lights: [{position: [3, 8, 6], color: [1, 1, 1]}]\n",
@@ -353,4 +389,77 @@ fn what_is_written_for_pbrt_again_has_the_spot_of_pbrt() {
     assert_eq!(warnings, [""; 0]);
     let [a, b] = [&first, &second].map(mean);
     assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
+}
+
+/// A scene of this light and this material of a ball.
+fn ball(light: &str, material: &str) -> Scene {
+    let text = format!(
+        "{CAMERA}{HEAD}{light}Objects:\n\
+        - {{type: sphere, position: [0, 1, 0], radius: 1, material: {{type: standard, {material}}}}}\n"
+    );
+    let files = [("scene.yaml".to_owned(), text.into_bytes())];
+    Scene::from_files("scene.yaml", files).unwrap()
+}
+
+fn text_of(scene: &Scene, target: &str) -> String {
+    let export = scene.export(target).unwrap();
+    String::from_utf8(export.bytes().to_vec()).unwrap()
+}
+
+#[test]
+fn widths_of_facets_are_written_as_they_were_read() {
+    for width in ["0.1", "0.3", "0.7"] {
+        let pbrt = format!(
+            "Camera \"perspective\"\nFilm \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\n\
+            WorldBegin\nLightSource \"infinite\"\nMaterial \"conductor\" \"float roughness\" {width} \
+            \"bool remaproughness\" false\nTranslate 0 0 5\nShape \"sphere\"\n"
+        );
+        let files = [(PBRT.to_owned(), pbrt.into_bytes())];
+        let scene = Scene::from_files(PBRT, files).unwrap();
+        let again = text_of(&scene, PBRT);
+        assert!(
+            again.contains(&format!("roughness\" [ {width} ]")),
+            "{again}"
+        );
+        let again = text_of(&scene, MITSUBA);
+        let expected = format!(r#"name="alpha" value="{width}""#);
+        assert!(again.contains(&expected), "{again}");
+    }
+}
+
+#[test]
+fn an_emitter_of_pov_ray_reflects_its_own_colour() {
+    for color in ["[0, 0, 0, 1]", "[0.5, 0, 0, 1]"] {
+        let material = format!(
+            "metallic: 0, specular: 0, baseColor: {color}, emissive: [4, 3, 2], doubleSided: true"
+        );
+        let text = text_of(&ball("", &material), "scene.pov");
+        let pigment = text.split("pigment { rgb <").nth(1).unwrap();
+        let pigment = pigment.split('>').next().unwrap();
+        let reflected: Vec<f64> = pigment
+            .split(", ")
+            .map(|channel| channel.parse().unwrap())
+            .collect();
+        assert!(
+            reflected[1..].iter().all(|channel| *channel < 1e-3),
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn a_cut_out_of_pov_ray_has_the_opacity_of_its_texture() {
+    let text = format!(
+        "{CAMERA}{HEAD}{LIGHT}Objects:\n- {{type: mesh, file: m.obj, position: [0, 0, 0], material: \
+        {{type: standard, metallic: 0, specular: 0, doubleSided: true, alpha: mask, opacityMap: p.png}}}}\n"
+    );
+    let files = files().into_iter();
+    let files = files.chain([("scene.yaml".to_owned(), text.into_bytes())]);
+    let export = Scene::from_files("scene.yaml", files).unwrap();
+    let export = export.export("scene.pov").unwrap();
+    let text = String::from_utf8(export.bytes().to_vec()).unwrap();
+    assert!(text.contains("image_map { png"), "{text}");
+    let (_, png) = export.files().next().unwrap();
+    // Colour type 6 of a PNG has an opacity.
+    assert_eq!(png[25], 6);
 }

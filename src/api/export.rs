@@ -56,16 +56,15 @@ impl SceneRun<'_> {
         };
         let mut setup = options.setup()?;
         let mut subject = self.validate(&options, &mut setup)?;
-        // What is rendered is in the light of its picture, and a scene text in its settings.
-        if format == ExportFormat::Text || format.is_of_renderer() {
-            let observer = RenderObserver {
-                on_step: &|_| (),
-                is_stopped: &|| false,
-            };
-            let lit = setup.light(&mut subject, &mut self.input, &observer);
-            lit.map_err(|error| self.error(error))?;
-        }
-        if format == ExportFormat::Text {
+        // What is written has the light of its picture, and where rtc reads them its display
+        // settings.
+        let observer = RenderObserver {
+            on_step: &|_| (),
+            is_stopped: &|| false,
+        };
+        let lit = setup.light(&mut subject, &mut self.input, &observer);
+        lit.map_err(|error| self.error(error))?;
+        if !format.is_of_renderer() {
             subject.validated.lowered.scene.display = setup.look.as_display();
         }
         let written = self.input.write_scene(&subject.validated, format, &folder);

@@ -59,7 +59,8 @@ fn carry_out_ir(
     mut input: Input,
     reporter: &mut Reporter,
 ) -> Result<(), Failure> {
-    let mut validated = input::require(&mut input, reporter, input::fill)?;
+    let interrupt = Interrupt::listen()?;
+    let mut validated = displayed(&mut input, &interrupt, reporter)?;
     explain(args, &validated, &input)?;
     let Some(target) = target(args) else {
         return Ok(());
@@ -74,7 +75,6 @@ fn carry_out_ir(
     };
     let encoded =
         encoded.map_err(|codec::NonFiniteNumber| cannot(&input, "a number is not finite"))?;
-    let interrupt = Interrupt::listen()?;
     Output::open(target, &input)?.commit_by(&|out| encoded.write(out), &interrupt)
 }
 
@@ -85,7 +85,8 @@ fn carry_out_gltf(
     mut input: Input,
     reporter: &mut Reporter,
 ) -> Result<(), Failure> {
-    let validated = input::require(&mut input, reporter, input::fill)?;
+    let interrupt = Interrupt::listen()?;
+    let validated = displayed(&mut input, &interrupt, reporter)?;
     explain(args, &validated, &input)?;
     let Some(target) = target(args) else {
         return Ok(());
@@ -94,7 +95,6 @@ fn carry_out_gltf(
     let folder = folder_of((emit == Emit::Gltf).then_some(target), &output, &input)?;
     let asset = input.gltf(&validated.lowered, args.tolerance, folder.as_deref());
     let asset = input::unless_refused(asset, &mut input, reporter)?;
-    let interrupt = Interrupt::listen()?;
     let companions = write_sidecar(target, asset.files(), &interrupt)?;
     output.commit_by(&|out| asset.write(out), &interrupt)?;
     companions.keep();
@@ -152,6 +152,18 @@ fn lit(
     Ok((setup.look, subject.validated))
 }
 
+/// The scene in the light of its picture and with its display settings: what is compiled is rendered
+/// to the same picture, which an asset does not determine alone.
+fn displayed(
+    input: &mut Input,
+    interrupt: &Interrupt,
+    reporter: &mut Reporter,
+) -> Result<ValidatedScene, Failure> {
+    let (look, mut validated) = lit(None, input, interrupt, reporter)?;
+    validated.lowered.scene.display = look.as_display();
+    Ok(validated)
+}
+
 /// The name of the folder of files beside a target, if it has one.
 fn folder_of(
     target: Option<&Path>,
@@ -178,15 +190,14 @@ fn write_sidecar<'f>(
     Ok(companions)
 }
 
-/// The same for the canonical spelling, which includes the output settings.
+/// Writes the scene in its canonical spelling.
 fn carry_out_text(
     args: &CompileArgs,
     mut input: Input,
     reporter: &mut Reporter,
 ) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()?;
-    let (look, mut validated) = lit(None, &mut input, &interrupt, reporter)?;
-    validated.lowered.scene.display = look.as_display();
+    let validated = displayed(&mut input, &interrupt, reporter)?;
     explain(args, &validated, &input)?;
     match target(args) {
         Some(target) => write_text(target, &validated, &input, &interrupt),

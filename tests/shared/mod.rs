@@ -11,6 +11,7 @@
 
 mod assets;
 mod corpus;
+mod exports;
 mod fates;
 mod figures;
 mod gltf;
@@ -34,6 +35,7 @@ pub(crate) fn trials() -> Vec<Trial> {
     [
         assets::trials(),
         corpus::trials(),
+        exports::trials(),
         fates::trials(),
         figures::trials(),
         gltf::trials(),

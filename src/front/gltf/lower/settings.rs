@@ -21,7 +21,7 @@ impl Lowering<'_, '_, '_> {
         let Some(extras) = root.rtc_extras() else {
             return;
         };
-        if extras.has("mode") {
+        if extras.has("mode") || extras.has("display") {
             let place = ValuePath::new(EntityKind::Settings, 0, EntityField::Whole);
             self.source_spans
                 .record(place, self.report.json.span(extras.at));
