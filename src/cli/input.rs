@@ -11,7 +11,8 @@ use rtc_passes::{
     self as passes, EnvironmentOverride, FillLight, StudioChoice, View, ViewAndLight,
 };
 use rtc_pipeline::{
-    Input, Options, PictureSetup, Provenance, RenderObserver, RenderSubject, ValidatedScene,
+    Input, Options, PictureSetup, Provenance, RenderError, RenderObserver, RenderSubject,
+    ValidatedScene,
 };
 use rtc_source::EditedFiles;
 use rtc_valid as valid;
@@ -184,8 +185,25 @@ pub(super) fn light(
         on_step: &|_| (),
         is_stopped: &|| interrupt.is_raised(),
     };
-    setup.light(subject, input, &observer)?;
-    report_diagnostics(input, reporter)
+    match setup.light(subject, input, &observer) {
+        Ok(()) => report_diagnostics(input, reporter),
+        Err(error) => halted(error, input, reporter),
+    }
+}
+
+/// Ends a command with an unfinished render: exceeding the ray limit is a diagnostic of the scene.
+pub(super) fn halted(
+    error: RenderError,
+    input: &mut Input,
+    reporter: &mut Reporter,
+) -> Result<(), Failure> {
+    match error {
+        RenderError::RanOut(diagnostic) => {
+            input.push(*diagnostic);
+            report_diagnostics(input, reporter)
+        }
+        error @ (RenderError::Stopped | RenderError::Refused(_)) => Err(error.into()),
+    }
 }
 
 /// Validates a scene, and reports the diagnostics.

@@ -8,10 +8,18 @@ use rtc_color::luminance;
 use rtc_ir::{Camera, Mode, Scene};
 use rtc_math::{exp, ln, pow};
 use rtc_passes::emissive_surfaces;
-use rtc_render::{Aov, Background, Film, PixelObserver, RenderSelection, Values};
+use rtc_render::{Aov, Background, Crop, Film, PixelObserver, RenderSelection, Values};
 use rtc_valid::{ValidScene, revalidate};
 
-/// The side of the small render in pixels, and its paths per pixel.
+/// The pixels of the small render, each of which [`Renderer::measure_light`] renders so often, and
+/// its paths per pixel.
+pub(super) const WINDOW: Crop = Crop {
+    x: 0,
+    y: 0,
+    width: SIDE,
+    height: SIDE,
+};
+pub(super) const RENDERS: usize = 2;
 const SIDE: u32 = 64;
 const PATHS: u32 = 16;
 /// The geometric mean of the luminance of illuminated pixels is exposed to a grey card.
@@ -53,7 +61,10 @@ impl Renderer {
             ..RenderSelection::default()
         };
         let film = self.render(&job, on_pixel);
-        let numbers = self.layers(&[Aov::Instance], &job, &|| true);
+        let numbers = film.as_ref().and_then(|_| {
+            let Self { world, threads } = self;
+            threads.install(|| world.layers(&[Aov::Instance], &job, on_pixel))
+        });
         self.change(scene_before);
         let (film, numbers) = (film?, numbers?);
         let stops = if exposes { stops(&film) } else { 0.0 };

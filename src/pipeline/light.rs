@@ -1,7 +1,7 @@
 //! Finds the exposure of a picture, and decides whether the studio adds light to the scene.
 
 use super::setup::{PictureSetup, RenderError, RenderObserver, RenderSubject};
-use super::{Input, LightMeasurement, picture_diagnostics};
+use super::{Input, LightMeasurement, RayCounter, exposure, picture_diagnostics};
 use rtc_ir::Camera;
 use rtc_passes::{self as passes, FillLight};
 use rtc_valid::revalidate;
@@ -24,7 +24,7 @@ impl PictureSetup {
     /// and adds the studio if too little is visible.
     ///
     /// # Errors
-    /// If it was stopped, or the threads can't be started.
+    /// If it was stopped, takes more rays than the limit, or the threads can't be started.
     pub fn light(
         &mut self,
         subject: &mut RenderSubject,
@@ -49,11 +49,15 @@ impl PictureSetup {
             first,
             ..
         } = subject;
-        let on_pixel = |_| !(observer.is_stopped)();
+        let counter = RayCounter::of_each(input.rays(), exposure::WINDOW, exposure::RENDERS);
+        let on_pixel = |step| !(observer.is_stopped)() && counter.step(step);
         let exposes = finds_exposure || is_lit_asset;
         let light = renderer.as_mut().and_then(|renderer| {
             renderer.measure_light(&validated.lowered.scene, &first.camera, exposes, &on_pixel)
         });
+        if let Some(diagnostic) = subject.ran_out(&counter, observer) {
+            return Err(RenderError::RanOut(diagnostic));
+        }
         let LightMeasurement { stops, visible } = light.ok_or(RenderError::Stopped)?;
         // Add the studio if too little is visible.
         let least = if is_lit_asset {
@@ -62,6 +66,7 @@ impl PictureSetup {
             MIN_VISIBLE_EMISSIVE
         };
         if fill == FillLight::Always || (fill == FillLight::IfDim && visible < least) {
+            let validated = &mut subject.validated;
             passes::fill(&mut validated.lowered.scene, stops);
             validated.scene = revalidate(&validated.lowered.scene);
             subject.renderer = None;

@@ -220,3 +220,51 @@ fn the_choice_of_points_on_lights_has_the_limit() {
         stderr(&output)
     );
 }
+
+/// A lamp and what it shines on: the exposure is found by a small picture of its own.
+fn render_stage(folder: &TempDir, body: &str, limit: u32) -> Output {
+    let text = format!(
+        "#usda 1.0\n(\n metersPerUnit = 1\n)\n{body}\
+         def DistantLight \"lamp\" {{}}\n"
+    );
+    fs::write(folder.path().join("lit.usda"), text).unwrap();
+    let limit = format!("rays={limit}");
+    let words = [
+        "render", "lit.usda", "-o", "out.png", "--size", "4x4", "--spp", "1", "--limit", &limit,
+    ];
+    command(folder.path(), &words).output().unwrap()
+}
+
+#[test]
+fn the_search_for_an_exposure_has_the_limit() {
+    let folder = TempDir::new().unwrap();
+    let render = |limit| render_stage(&folder, "def Sphere \"ball\" {}\n", limit);
+    let (few, many) = (render(20_000), render(4_000_000));
+    assert_eq!(code(&many), 0, "{}", stderr(&many));
+    assert_eq!(code(&few), 1, "{}", stderr(&few));
+    assert!(stderr(&few).contains("error[RD006]"), "{}", stderr(&few));
+}
+
+/// A ray that goes on behind a clear surface is one more.
+#[test]
+fn rays_through_clear_surfaces_are_counted() {
+    let folder = TempDir::new().unwrap();
+    let render = |panes: usize| {
+        let pane = |n: usize| {
+            format!(
+                "def Plane \"p{n}\" {{ rel material:binding = </clear>\n\
+                 double3 xformOp:translate = (0, 0, 0.{n:02})\n\
+                 uniform token[] xformOpOrder = [\"xformOp:translate\"]\n}}\n"
+            )
+        };
+        let body = (0..panes).map(pane).collect::<String>()
+            + "def Material \"clear\" { token outputs:surface.connect = </clear/s.outputs:surface>\n\
+               def Shader \"s\" { uniform token info:id = \"UsdPreviewSurface\"\n\
+               float inputs:opacity = 0\nfloat inputs:opacityThreshold = 0.5\n} }\n";
+        render_stage(&folder, &body, 400_000)
+    };
+    let (one, many) = (render(1), render(60));
+    assert_eq!(code(&one), 0, "{}", stderr(&one));
+    assert_eq!(code(&many), 1, "{}", stderr(&many));
+    assert!(stderr(&many).contains("error[RD006]"), "{}", stderr(&many));
+}

@@ -131,7 +131,8 @@ impl ComparedScene {
             on_step: &|_| (),
             is_stopped: &|| interrupt.is_raised(),
         };
-        setup.light(subject, input, &observer)?;
+        let lit = setup.light(subject, input, &observer);
+        lit.map_err(|error| ended(error, input, reporter))?;
         let window = setup.window(&subject.validated.lowered.scene)?;
         setup.check_memory(subject, window)?;
         let rays = input.rays();

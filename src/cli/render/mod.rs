@@ -22,7 +22,7 @@ mod show;
 
 use super::Failure;
 use super::args::{self, BackgroundArg};
-use super::input;
+use super::input::{self, halted};
 use super::interrupt::Interrupt;
 use super::output::{self, Output};
 use super::project;
@@ -40,7 +40,7 @@ pub(super) use made::{FinishedPicture, effects};
 use part::PartSetup;
 use rtc_image::{BackgroundFill, Picture};
 use rtc_passes::Overrides;
-use rtc_pipeline::{Input, PictureSetup, RenderError, RenderObserver, RenderSubject};
+use rtc_pipeline::{Input, PictureSetup, RenderError, RenderSubject};
 use rtc_plan::{Rule, RuleSet};
 use rtc_render::Crop;
 use rtc_study::RenderGoal;
@@ -209,12 +209,7 @@ impl RenderSetup {
         self.picture.window(scene)?;
         // Measure exposure and light.
         let interrupt = Interrupt::listen()?;
-        let observer = RenderObserver {
-            on_step: &|_| (),
-            is_stopped: &|| interrupt.is_raised(),
-        };
-        self.picture.light(&mut subject, input, &observer)?;
-        input::report_diagnostics(input, reporter)?;
+        input::light(&mut self.picture, &mut subject, input, &interrupt, reporter)?;
         // Render with a checkpoint, as an animation, a turntable, a part or a picture.
         if let Some(checkpoint) = &self.checkpoint {
             let mut saving = CheckpointedRender::begin(checkpoint, &self.output, input)?;
@@ -353,17 +348,6 @@ impl RenderSetup {
             .for_each(|diagnostic| input.push(diagnostic));
         input::report_diagnostics(input, reporter)?;
         Ok((picture, made))
-    }
-}
-
-/// Ends a command with an unfinished render: exceeding the ray limit is a diagnostic of the scene.
-fn halted(error: RenderError, input: &mut Input, reporter: &mut Reporter) -> Result<(), Failure> {
-    match error {
-        RenderError::RanOut(diagnostic) => {
-            input.push(*diagnostic);
-            input::report_diagnostics(input, reporter)
-        }
-        error @ (RenderError::Stopped | RenderError::Refused(_)) => Err(error.into()),
     }
 }
 

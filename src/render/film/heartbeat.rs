@@ -31,6 +31,8 @@ pub(crate) struct Heartbeat<'run> {
     pixel: [u32; 2],
     /// The rays of this thread reported so far.
     reported: u64,
+    /// The rays since then that went on behind a surface, which no other count has.
+    passed: u64,
     /// Steps until the next call.
     left: u32,
     should_continue: bool,
@@ -44,6 +46,7 @@ impl<'run> Heartbeat<'run> {
             on_pixel,
             pixel: [0; 2],
             reported: 0,
+            passed: 0,
             left: EVERY,
             should_continue: true,
             open: 0,
@@ -74,6 +77,13 @@ impl<'run> Heartbeat<'run> {
         self.left > 0 || self.ask(counts.rays(), false)
     }
 
+    /// As [`Self::should_continue`], for a ray that goes on behind a surface.
+    #[inline]
+    pub(crate) fn passes(&mut self, counts: &RayCounts) -> bool {
+        self.passed += 1;
+        self.should_continue(counts)
+    }
+
     /// Reports the end of the pixel, given the rays traced so far. Returns whether to continue.
     pub(crate) fn done(&mut self, rays: u64) -> bool {
         self.ask(rays, true)
@@ -81,7 +91,7 @@ impl<'run> Heartbeat<'run> {
 
     fn ask(&mut self, rays: u64, is_done: bool) -> bool {
         let step = RenderStep {
-            rays: rays - self.reported,
+            rays: rays - self.reported + std::mem::take(&mut self.passed),
             pixel: self.pixel,
             is_done,
             open: self.open,
@@ -110,7 +120,10 @@ mod tests {
         counts.camera = 3;
         assert!(heartbeat.should_continue(&counts) && heartbeat.done(counts.rays()));
         heartbeat.begin([1, 0]);
-        assert!((1..EVERY).all(|_| heartbeat.should_continue(&counts)));
+        assert!((1..EVERY).all(|step| match step % 2 {
+            0 => heartbeat.passes(&counts),
+            _ => heartbeat.should_continue(&counts),
+        }));
         counts.shadow = 9;
         assert!(
             !heartbeat.should_continue(&counts)
@@ -125,7 +138,7 @@ mod tests {
                 open: 0,
             },
             RenderStep {
-                rays: 9,
+                rays: 9 + u64::from(EVERY / 2 - 1),
                 pixel: [1, 0],
                 is_done: false,
                 open: 0,

@@ -120,8 +120,10 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             return light;
         }
         // Estimate the reciprocal of the probability of the solution.
-        let is_found = |_: &u32| trial(self).is_some_and(|other| other.is_same(&solution));
-        let trials = (1..MAX_TRIALS).find(is_found);
+        let trials = (1..MAX_TRIALS).find(|_| {
+            !self.heartbeat.passes(&self.counts)
+                || trial(self).is_some_and(|other| other.is_same(&solution))
+        });
         light * (f64::from(trials.unwrap_or(MAX_TRIALS)) / share)
     }
 

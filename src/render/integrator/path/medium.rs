@@ -208,6 +208,9 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             let Some(at) = at.filter(|_| transmittance != Vec3::ZERO) else {
                 return Vec3::ZERO;
             };
+            if !self.heartbeat.passes(&self.counts) {
+                return Vec3::ZERO;
+            }
             medium = self.medium_beyond(hit.surface, wi.dot(at.normal), medium);
             (ray, from) = (at.ray(wi), (hit.surface, hit.prim_id));
         }

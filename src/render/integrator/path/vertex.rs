@@ -98,6 +98,9 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
                 if Self::can(PathFeatures::MEDIA) {
                     self.cross(state, hit.surface, at.normal);
                 }
+                if !self.heartbeat.passes(&self.counts) {
+                    break;
+                }
                 continue;
             }
             // Shade the vertex.

@@ -90,6 +90,9 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             let Some(at) = at.filter(|_| transmittance > 0.0) else {
                 return 0.0;
             };
+            if !self.heartbeat.passes(&self.counts) {
+                return 0.0;
+            }
             (ray, from) = (at.ray(wi), (hit.surface, hit.prim_id));
         }
         0.0
