@@ -4,6 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 mod agreement;
+mod bodies;
 mod caustics;
 mod closed;
 mod coverage;

@@ -202,10 +202,7 @@ impl<'world> MaterialPoint<'world> {
             } => {
                 let [_, g, b, _] = map.as_ref().map_or([1.0; 4], |map| shown(map, &self.uvs));
                 (standard.metallic, standard.roughness) = (metallic * b, roughness * g);
-                standard.ior = match (channel, m.dispersed) {
-                    (Some(channel), Some(dispersed)) => dispersed[channel],
-                    (Some(_), None) | (None, _) => m.ior,
-                };
+                standard.ior = m.ior_at(channel);
                 standard.specular = specular.at(&self.uvs);
                 standard.specular_color = specular_color.at(&self.uvs);
             }

@@ -27,6 +27,8 @@ pub(crate) struct StandardMaterial {
     pub(crate) emission: MappedColor,
     pub(crate) reflection: BaseReflectance,
     pub(crate) transmission: MappedNumber,
+    /// Whether the factor of the transmission is not 0.
+    pub(crate) refracts: bool,
     /// The index of the metal, if it has one.
     pub(crate) conductor: Option<ComplexIndex>,
     /// The distribution of the facets.
@@ -53,6 +55,24 @@ pub(crate) struct StandardMaterial {
     pub(crate) clearcoat: Option<ClearcoatLayer>,
     pub(crate) anisotropy: Option<AnisotropyLayer>,
     pub(crate) iridescence: Option<IridescenceLayer>,
+}
+
+impl StandardMaterial {
+    /// The index of refraction, at a wavelength that a dispersed path picked; 0 for an infinite
+    /// one.
+    pub(crate) fn ior_at(&self, channel: Option<usize>) -> f64 {
+        match (&self.reflection, channel, self.dispersed) {
+            (BaseReflectance::Specular(_), ..) => 0.0,
+            (_, Some(channel), Some(dispersed)) => dispersed[channel],
+            (_, Some(_), None) | (_, None, _) => self.ior,
+        }
+    }
+
+    /// The index by which light that crosses the surface is refracted; 1 if it is not.
+    pub(crate) fn refractive_index(&self, channel: Option<usize>) -> f64 {
+        let ior = self.ior_at(channel);
+        if self.refracts && ior > 0.0 { ior } else { 1.0 }
+    }
 }
 
 /// The other material of a blend.

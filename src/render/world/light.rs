@@ -1,14 +1,14 @@
 //! The lights of a world, in the form that its integrator needs.
 
-use super::World;
 use super::texture::Textures;
+use super::{Surface, World};
 use crate::integrator::anaglyph;
 use crate::light::course::CourseLight;
 use crate::light::environment::Environment;
 use crate::light::punctual::{DirectionalLight, Falloff, PointLight, ProjectedTexture, Punctual};
 use crate::shape::geometry::Intersect;
 use crate::texture::sampled::ColorSpace;
-use rtc_math::IdTable;
+use rtc_math::{Bounds, IdTable};
 use rtc_plan::{PathPlan, Plan, RemainingEnvironment, facts};
 use rtc_valid::{self as valid, ValidScene};
 
@@ -34,11 +34,30 @@ impl<S: Intersect> World<S> {
             return f64::INFINITY;
         }
         let environment = self.lights.environment.brightest();
-        let seen = paths.map_or(environment, |_| environment.max(self.brightest_surface()));
+        let seen = paths.map_or(environment, |_| {
+            environment.max(self.brightest_surface()) * self.gain_of_bodies()
+        });
         match self.camera.is_anaglyph() {
             true => seen * anaglyph::gain(),
             false => seen,
         }
+    }
+
+    /// How much brighter the outside may look to a camera in a body: n² of its index, of nested
+    /// ones all together. One may be behind a surface without an inside, too.
+    fn gain_of_bodies(&self) -> f64 {
+        let eye = self.camera.eye;
+        let gain = |surface: &Surface<S>| {
+            let material = &self.standards[surface.material];
+            let index = material.refractive_index(None);
+            let holds = |bounds: Bounds| {
+                let is_flat = (bounds.max - bounds.min).min_element() <= 0.0;
+                is_flat || bounds.distance(eye) == 0.0
+            };
+            let may_hold = material.bounds_a_volume && surface.shape.bounds().is_none_or(holds);
+            may_hold.then_some(index * index)
+        };
+        self.surfaces.iter().filter_map(gain).product()
     }
 }
 

@@ -194,6 +194,7 @@ pub(super) fn standard(
         emission,
         reflection: slots.reflection(m),
         transmission: slots.number(m.transmission, m.transmission_map.as_ref(), 0),
+        refracts: m.transmission > UnitInterval::ZERO,
         conductor: m.conductor,
         facets: m.microfacets,
         plastic: plastic(m),

@@ -23,7 +23,7 @@ use crate::light::IncidentLight;
 use crate::light::caustic::{CausticLights, CausticTarget};
 use crate::shape::geometry::Intersect;
 use crate::world::segment;
-use rtc_math::{OrthonormalBasis, Vec3, exp};
+use rtc_math::{OrthonormalBasis, Vec3};
 use rtc_plan::{Effect, PathFeatures};
 
 /// The maximum number of trials until a solution is found again: the part (1 − p)ⁿ of its light is
@@ -205,7 +205,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         }
         let mut end = PathState::new(at.ray(wi), state.sobol);
         (end.from, end.channel) = ((vertex.hit.surface, vertex.hit.prim_id), state.channel);
-        (end.bounces, end.absorption) = (state.bounces + 1, state.absorption);
+        (end.bounces, end.body) = (state.bounces + 1, state.body);
         if through && vertex.point.material.bounds_a_volume {
             end.enter(vertex.point.material, wi.dot(at.normal) < 0.0);
         }
@@ -274,13 +274,10 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         if !is_visible || wi.dot(end.ray.direction) < 1.0 - NEAR {
             return Vec3::ZERO;
         }
-        if end.absorption == Vec3::ZERO {
-            radiance
-        } else if distance.is_finite() {
-            radiance * (end.absorption * -distance).map(exp)
-        } else {
-            Vec3::ZERO
+        if end.body.absorption != Vec3::ZERO && !distance.is_finite() {
+            return Vec3::ZERO;
         }
+        radiance * end.body.carried(place.map(|_| distance))
     }
 
     /// Whether a vertex of a path continues a chain that [`Self::caustic`] covers: its surface is a

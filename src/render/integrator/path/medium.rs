@@ -91,7 +91,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             return false;
         }
         // Attenuate by the glass along the ray.
-        if Self::can(PathFeatures::TRANSMISSION) && state.absorption != Vec3::ZERO {
+        if Self::can(PathFeatures::TRANSMISSION) && state.body.absorption != Vec3::ZERO {
             self.counts.add(Effect::Volume);
             state.attenuate();
         }
@@ -143,9 +143,12 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             }
             _ => 1.0,
         };
-        let light = radiance * (value * weight);
+        let mut light = radiance * (value * weight);
         if light == Vec3::ZERO {
             return light;
+        }
+        if Self::can(PathFeatures::TRANSMISSION) {
+            light *= (state.body).carried(place.map(|place| place.distance(point)));
         }
         let ray = Ray {
             origin: point,

@@ -32,7 +32,17 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         if radiance != Vec3::ZERO {
             self.counts.add(Effect::Environment);
             let weight = self.weight_of_scattering(state.pdf, light_pdf);
-            state.radiance += state.beta * radiance * weight;
+            state.radiance += state.beta * radiance * (weight * Self::scale(state));
+        }
+    }
+
+    /// What light of the radiance 1 along the ray counts.
+    #[inline]
+    fn scale(state: &PathState) -> f64 {
+        if Self::can(PathFeatures::TRANSMISSION) {
+            state.body.scale
+        } else {
+            1.0
         }
     }
 
@@ -50,7 +60,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         vertex: &PathVertex<'_, 'world>,
     ) -> bool {
         // Attenuate by the medium along the ray.
-        if Self::can(PathFeatures::TRANSMISSION) && state.absorption != Vec3::ZERO {
+        if Self::can(PathFeatures::TRANSMISSION) && state.body.absorption != Vec3::ZERO {
             self.counts.add(Effect::Volume);
             state.attenuate();
         }
@@ -118,7 +128,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         let place = (vertex.at.point, vertex.at.normal);
         let light_pdf = || lights.pdf_of_surface(part, place, -wo, state.travelled);
         let weight = self.weight_of_scattering(state.pdf, light_pdf);
-        state.radiance += state.beta * emission * weight;
+        state.radiance += state.beta * emission * (weight * Self::scale(state));
     }
 
     /// Samples the BSDF for the next direction; false if the path ends.
@@ -255,12 +265,19 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             }
             _ => (bsdf.f(local), 1.0),
         };
-        let light = f * radiance * (local.z.abs() * weight);
+        let mut light = f * radiance * (local.z.abs() * weight);
         if light == Vec3::ZERO {
-            light
-        } else {
-            light * self.light_transmittance(state, vertex, wi, place)
+            return light;
         }
+        if Self::can(PathFeatures::TRANSMISSION) {
+            let material = vertex.point.material;
+            let body = match through && material.bounds_a_volume {
+                true => (state.body).beyond(material, state.channel, wi.dot(at.normal) < 0.0),
+                false => state.body,
+            };
+            light *= body.carried(place.map(|place| place.distance(at.point)));
+        }
+        light * self.light_transmittance(state, vertex, wi, place)
     }
 
     /// The MIS weight of light found by BSDF sampling, given both densities.

@@ -13,6 +13,57 @@ const RR_MIN_DEPTH: u32 = 3;
 /// The probability that a path survives, over its throughput.
 const RR_SURVIVAL: f64 = 2.0;
 
+/// The inside of a body that light is in, or the space outside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Body {
+    /// The coefficient of absorption, per unit of length.
+    pub(super) absorption: Vec3,
+    /// 1/n² of its index n over that where the path began. Paths carry basic radiance L/n², which
+    /// refraction does not change; this is what light of the radiance 1 counts that a body emits,
+    /// or that lies in it.
+    pub(super) scale: f64,
+}
+
+impl Body {
+    const OUTSIDE: Self = Self {
+        absorption: Vec3::ZERO,
+        scale: 1.0,
+    };
+
+    /// What lies beyond the surface of a body, for light that enters or leaves it there. Leaving
+    /// takes back exactly what entering did.
+    pub(super) fn beyond(
+        self,
+        material: &StandardMaterial,
+        channel: Option<usize>,
+        enters: bool,
+    ) -> Self {
+        let index = material.refractive_index(channel);
+        let inside = 1.0 / (index * index);
+        if enters {
+            Self {
+                absorption: material.absorption,
+                scale: self.scale * inside,
+            }
+        } else {
+            Self {
+                absorption: Vec3::ZERO,
+                scale: self.scale / inside,
+            }
+        }
+    }
+
+    /// What light of the radiance 1 counts after a distance in the body; from infinity, it is not
+    /// absorbed.
+    pub(super) fn carried(&self, distance: Option<f64>) -> Vec3 {
+        let passed = match distance.filter(|_| self.absorption != Vec3::ZERO) {
+            None => Vec3::ONE,
+            Some(distance) => (self.absorption * -distance).map(exp),
+        };
+        passed * self.scale
+    }
+}
+
 /// The state of a path.
 pub(super) struct PathState {
     pub(super) ray: Ray,
@@ -32,8 +83,8 @@ pub(super) struct PathState {
     /// The density of the ray's direction in BSDF sampling; `None` if light sampling could not have
     /// found it.
     pub(super) pdf: Option<f64>,
-    /// The coefficient of absorption along the ray, per unit of length.
-    pub(super) absorption: Vec3,
+    /// The body that the ray is in.
+    pub(super) body: Body,
     /// The participating medium along the ray.
     pub(super) medium: Option<MediumId>,
     /// The wavelength channel that dispersion picked.
@@ -58,7 +109,7 @@ impl PathState {
             bounces: 0,
             free: 0,
             pdf: None,
-            absorption: Vec3::ZERO,
+            body: Body::OUTSIDE,
             medium: None,
             channel: None,
             caustic: None,
@@ -78,16 +129,12 @@ impl PathState {
 
     /// Attenuates by the medium along the ray (Beer-Lambert).
     pub(super) fn attenuate(&mut self) {
-        self.beta *= (self.absorption * -self.travelled).map(exp);
+        self.beta *= (self.body.absorption * -self.travelled).map(exp);
     }
 
-    /// Enters the medium that a surface of a material bounds, or leaves it.
+    /// Enters the body that a surface of a material bounds, or leaves it.
     pub(super) fn enter(&mut self, material: &StandardMaterial, enters: bool) {
-        self.absorption = if enters {
-            material.absorption
-        } else {
-            Vec3::ZERO
-        };
+        self.body = self.body.beyond(material, self.channel, enters);
     }
 
     /// Whether the path came from a vertex whose caustics were estimated, through a chain of smooth
