@@ -1,11 +1,13 @@
 //! Scenes of pbrt: what they lower to, and what they look like where that is known.
 
 use crate::small::{WHOLE, film};
+use flate2::{Compression, write::GzEncoder};
 use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::{Material, Medium, Mode, Scene, Shape};
 use rtc::internals::pipeline::{Options, load};
-use rtc::internals::source::{Loader, SourceMap};
+use rtc::internals::source::{Limits, Loader, Resource, SourceMap};
 use std::fs;
+use std::io::Write as _;
 use std::path::Path;
 
 /// The scene of a file, which has no error, and the codes of its diagnostics.
@@ -333,4 +335,23 @@ fn media_of_shapes_and_of_the_camera_are_read() {
     };
     assert_eq!(interface.exterior, Some(fog));
     assert!(interface.interior.is_some_and(|smoke| smoke.scatters()));
+}
+
+#[test]
+fn what_a_compressed_file_becomes_raises_no_limit() {
+    let mut packed = GzEncoder::new(Vec::new(), Compression::best());
+    packed.write_all(&b"#\n".repeat(1 << 20)).unwrap();
+    let packed = packed.finish().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let scene = head(90.0) + "Include \"a.pbrt.gz\"\nInclude \"a.pbrt.gz\"\nShape \"sphere\"\n";
+    fs::write(folder.path().join("a.pbrt"), &scene).unwrap();
+    fs::write(folder.path().join("a.pbrt.gz"), &packed).unwrap();
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
+    let file = Loader
+        .file(&folder.path().join("a.pbrt"), &mut map)
+        .unwrap();
+    assert!(load(file, &mut map, &Options::default(), &mut sink).is_some());
+    let read = (scene.len() + packed.len()) as u64;
+    let limit = map.budget().limit(Resource::Memory);
+    assert_eq!(limit, Limits::default().of(Resource::Memory, read));
 }

@@ -11,9 +11,7 @@ const MAX_BYTES: u64 = 1 << 30;
 /// The bytes of a picture file; by them the budget of the run grows.
 pub(super) fn read(path: &Path, map: &SourceMap) -> Result<Vec<u8>, Failure> {
     let bytes = Loader.bytes(path, MAX_BYTES, map);
-    let bytes = bytes.map_err(|error| Failure::Failed(format!("`{}`: {error}", path.display())))?;
-    map.budget().read(bytes.len());
-    Ok(bytes)
+    bytes.map_err(|error| Failure::Failed(format!("`{}`: {error}", path.display())))
 }
 
 /// A picture file whose header was read.

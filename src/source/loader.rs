@@ -90,15 +90,18 @@ impl Loader {
         map: &SourceMap,
     ) -> Result<Vec<u8>, LoadError> {
         let opened = found.opened();
-        if opened.memory().is_some() {
-            return opened.bytes(limit);
+        let is_on_disk = opened.memory().is_none();
+        if is_on_disk {
+            map.note(&found.path);
         }
-        map.note(&found.path);
-        let bytes = match map.edited(opened.path()) {
+        let bytes = match map.edited(opened.path()).filter(|_| is_on_disk) {
             Some(text) => read_to_limit(text, text.len(), limit),
             None => opened.bytes(limit),
         }?;
-        map.note_content(&found.path, &bytes);
+        map.count(&found.path, bytes.len());
+        if is_on_disk {
+            map.note_content(&found.path, &bytes);
+        }
         Ok(bytes)
     }
 
@@ -115,6 +118,7 @@ impl Loader {
             return Err(LoadError::NotRegular);
         }
         let bytes = read_all(&nonblocking().open(path).map_err(LoadError::Io)?, limit)?;
+        map.count(path, bytes.len());
         map.note_content(path, &bytes);
         Ok(bytes)
     }

@@ -88,6 +88,8 @@ pub struct SourceMap {
     budget: Budget,
     /// The canonical paths of all files read, including those that are not in the map.
     read: Mutex<BTreeSet<PathBuf>>,
+    /// The paths of the files whose bytes count as read.
+    counted: Mutex<BTreeSet<PathBuf>>,
     /// Texts that replace files.
     edited: EditedFiles,
     /// A record of the lookups and files, if it is kept.
@@ -137,7 +139,9 @@ impl SourceMap {
         self.edited.get(path)
     }
 
-    /// The budget of the run. The bytes of the files of the map count as read.
+    /// The budget of the run. The limits grow with the bytes of the files that [`super::Loader`]
+    /// reads, of each file once, and with those given to [`Self::add`]; not with what files are
+    /// unpacked to.
     #[must_use]
     pub fn budget(&self) -> &Budget {
         &self.budget
@@ -150,6 +154,15 @@ impl SourceMap {
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
             .insert(path);
+    }
+
+    /// Counts the bytes of the file at a path as read, unless they are counted already: however
+    /// often a scene names a file, the limits grow by it once.
+    pub(super) fn count(&self, path: &Path, bytes: usize) {
+        let mut counted = self.counted.lock().unwrap_or_else(PoisonError::into_inner);
+        if counted.insert(path.to_owned()) {
+            self.budget.read(bytes);
+        }
     }
 
     /// Whether the file at a path was read, under any name.
@@ -166,11 +179,21 @@ impl SourceMap {
         read.iter().cloned().collect()
     }
 
-    /// Adds a file and returns its index.
+    /// Adds a file that the user gave as these bytes, and returns its index.
     ///
     /// # Panics
     /// If the file has 4 GiB or more; [`super::Loader`] rejects such files.
     pub fn add(&mut self, name: impl Into<String>, bytes: Vec<u8>) -> FileId {
+        self.budget.read(bytes.len());
+        self.push(name.into(), None, bytes)
+    }
+
+    /// Adds what a file of the map was unpacked to, or a part of one. The limits do not grow with
+    /// it.
+    ///
+    /// # Panics
+    /// As [`Self::add`].
+    pub fn add_unpacked(&mut self, name: impl Into<String>, bytes: Vec<u8>) -> FileId {
         self.push(name.into(), None, bytes)
     }
 
@@ -179,6 +202,7 @@ impl SourceMap {
     /// # Panics
     /// As [`Self::add`].
     pub fn add_from(&mut self, path: &Path, bytes: Vec<u8>) -> FileId {
+        self.count(path, bytes.len());
         let folder = Folder::new(path.parent().unwrap_or(Path::new("")));
         self.push(path.display().to_string(), folder, bytes)
     }
@@ -201,13 +225,15 @@ impl SourceMap {
     /// # Panics
     /// As [`Self::add`].
     pub fn add_memory(&mut self, path: &str, files: &Arc<MemoryFiles>, bytes: Vec<u8>) -> FileId {
+        self.count(Path::new(path), bytes.len());
         let parent = Path::new(path).parent().unwrap_or(Path::new(""));
         let shown = Some(parent.to_owned());
         let folder = Folder::in_memory(files, &resolved(parent), shown);
         self.push(path.to_owned(), Some(folder), bytes)
     }
 
-    /// Adds a file that was found; its name is the path as the user would write it.
+    /// Adds a file that was found and read; its name is the path as the user would write it. Its
+    /// bytes may have been unpacked.
     ///
     /// # Panics
     /// As [`Self::add`].
@@ -220,7 +246,6 @@ impl SourceMap {
             u32::try_from(bytes.len()).is_ok(),
             "the loader refuses files of 4 GiB and more"
         );
-        self.budget.read(bytes.len());
         let folder = folder.map(|folder| folder.recorded(self.record.clone()));
         let id = FileId(to_u32(self.files.len()));
         self.files.push(SourceFile {
@@ -377,6 +402,23 @@ fn marks(bytes: &[u8]) -> Vec<ColumnMark> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Resource;
+
+    #[test]
+    fn limits_grow_by_what_is_given_and_by_each_file_once() {
+        let mut map = SourceMap::default();
+        let limit = |map: &SourceMap| map.budget().limit(Resource::Surfaces);
+        let before = limit(&map);
+        map.add("given", vec![0; 1024]);
+        let grown = limit(&map) - before;
+        assert!(grown > 0);
+        map.add_from(Path::new("a"), vec![0; 1024]);
+        for name in ["a", "a", "b", "b"] {
+            map.count(Path::new(name), 1024);
+        }
+        map.add_unpacked("made", vec![0; 1 << 20]);
+        assert_eq!(limit(&map), before + 3 * grown);
+    }
 
     #[test]
     fn columns_count_characters_and_lines_start_after_the_newline() {

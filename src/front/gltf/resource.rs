@@ -239,7 +239,6 @@ impl<'m> ResourceReader<'m> {
         // Load the file within the budget.
         match Loader.found(&found, MAX_BYTES, self.map) {
             Ok(bytes) => {
-                report.budget.read(bytes.len());
                 let bytes: Bytes<'static> = Rc::new(Cow::Owned(bytes));
                 if let Some(identity) = identity {
                     self.files.insert(identity, Rc::clone(&bytes));

@@ -524,10 +524,7 @@ impl<'run> Lowering<'run> {
                     let message = format!("can't read `{name}`: {error}");
                     Diagnostic::new(&codes::CANNOT_READ, message)
                 }
-                Ok(bytes) => {
-                    self.map.budget().read(bytes.len());
-                    return Some(bytes);
-                }
+                Ok(bytes) => return Some(bytes),
             },
         };
         self.sink.push(diagnostic.at(path.span, "named here"));

@@ -87,7 +87,7 @@ impl Lowering<'_> {
             let unpacked = unpacked.map_err(|diagnostic| {
                 self.sink.push(diagnostic.severity(Severity::Error));
             });
-            text = self.map.add(name, unpacked.ok()?);
+            text = self.map.add_unpacked(name, unpacked.ok()?);
         }
         let bytes = self.map.bytes(text);
         self.is_version_3 = memchr::memmem::find(bytes, b"WorldEnd").is_some();
@@ -189,12 +189,9 @@ impl Lowering<'_> {
             let message = format!("can't read `{name}`: {error}");
             Box::new(Diagnostic::new(&codes::CANNOT_READ, message))
         });
-        let unpacked = read.and_then(|bytes| {
-            self.map.budget().read(bytes.len());
-            match is_gzip(&bytes) {
-                true => self.unpack(&bytes, &name),
-                false => Ok(bytes),
-            }
+        let unpacked = read.and_then(|bytes| match is_gzip(&bytes) {
+            true => self.unpack(&bytes, &name),
+            false => Ok(bytes),
         });
         let report = |diagnostic: Box<Diagnostic>| self.without(*diagnostic, path.span, instead);
         unpacked.map_err(report).ok()
