@@ -4,6 +4,7 @@
 use super::over_limit;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use rtc_color::srgb_decoded;
 use rtc_diag::{Diagnostic, codes};
 use rtc_image::{
     DecodeCost, DecodeError, OpacityUse, PixelFile, Pixels, Radiance, RadianceFile, is_picture,
@@ -146,7 +147,6 @@ pub fn picture(
     opacity: OpacityUse,
     budget: &Budget,
 ) -> Result<ir::Image, PixelDecodeError> {
-    budget.read(bytes.len());
     let Pixels {
         width,
         height,
@@ -165,7 +165,33 @@ pub fn picture(
     })
 }
 
-/// Decodes the image of an environment: a Radiance HDR or OpenEXR file.
+/// The radiance of a picture whose colours are coded as sRGB.
+fn displayed_radiance(bytes: &[u8], budget: &Budget) -> Result<Radiance, PixelDecodeError> {
+    let Pixels {
+        width,
+        height,
+        bytes,
+        ..
+    } = decode(bytes, OpacityUse::Dropped, budget)?;
+    let memory = 12 * u64::from(width) * u64::from(height);
+    let charged = budget.charge(Resource::Memory, memory);
+    charged.map_err(PixelDecodeError::Limit)?;
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "rounds to the nearest float"
+    )]
+    let decoded: [[u8; 4]; 256] =
+        std::array::from_fn(|byte| (srgb_decoded(byte as f64 / 255.0) as f32).to_le_bytes());
+    let bytes = bytes.iter().flat_map(|byte| decoded[usize::from(*byte)]);
+    Ok(Radiance {
+        width,
+        height,
+        bytes: bytes.collect(),
+    })
+}
+
+/// Decodes the image of an environment: a Radiance HDR or OpenEXR file, or a picture of a display,
+/// whose white is a radiance of 1.
 ///
 /// # Errors
 /// As [`decode`].
@@ -174,12 +200,14 @@ pub fn environment(
     bytes: &[u8],
     budget: &Budget,
 ) -> Result<ir::Image, PixelDecodeError> {
-    budget.read(bytes.len());
     let Radiance {
         width,
         height,
         bytes,
-    } = decode_radiance(bytes, budget)?;
+    } = match is_picture(bytes) && !is_radiance(bytes) {
+        true => displayed_radiance(bytes, budget)?,
+        false => decode_radiance(bytes, budget)?,
+    };
     Ok(ir::Image {
         name: name.to_owned(),
         width,
@@ -192,7 +220,7 @@ pub fn environment(
 /// The diagnostic for an environment file that can't be decoded.
 #[must_use]
 pub fn environment_rejection(fault: &PixelDecodeError, name: &str) -> Diagnostic {
-    let formats = "environments are Radiance HDR or OpenEXR";
+    let formats = "environments are Radiance HDR, OpenEXR, PNG, JPEG or WebP";
     rejection(fault, &format!("the environment `{name}`"), formats)
 }
 
