@@ -5,7 +5,7 @@ use crate::small::{WHOLE, film};
 use rtc::internals::diag::DiagnosticSink;
 use rtc::internals::ir::{Alpha, Material, Scene, Shape, Standard};
 use rtc::internals::pipeline::{Options, load};
-use rtc::internals::source::{Loader, SourceMap};
+use rtc::internals::source::{Loader, Resource, SourceMap};
 use std::fs;
 use std::path::Path;
 
@@ -389,4 +389,333 @@ fn a_binary_package_has_the_scene_of_its_text() {
         .zip(look(&text).into_iter().flatten());
     assert!(rows.into_iter().all(|(a, b)| (a - b).abs() < 1e-6));
     assert_eq!(packed.images.len(), 3);
+}
+
+/// A material `m` of one colour, and one more.
+const MATERIALS: &str = "def Material \"m\" { token outputs:surface.connect = </m/s.outputs:surface>\n\
+    def Shader \"s\" { uniform token info:id = \"UsdPreviewSurface\"\n\
+    color3f inputs:diffuseColor = (1, 0, 0) } }\n\
+    def Material \"k\" { token outputs:surface.connect = </k/s.outputs:surface>\n\
+    def Shader \"s\" { uniform token info:id = \"UsdPreviewSurface\"\n\
+    color3f inputs:diffuseColor = (0, 0, 1) } }\n";
+
+fn color(scene: &Scene, surface: usize) -> [f64; 3] {
+    let [r, g, b, _] = standard(scene, surface).base_color;
+    [r, g, b]
+}
+
+#[test]
+fn a_binding_may_be_stronger_than_those_of_the_prims_and_faces_below() {
+    let bound = |strength: &str| {
+        let body = format!(
+            "{MATERIALS}def Xform \"x\" {{ rel material:binding = </m> {strength}\n\
+             def Sphere \"s\" {{ rel material:binding = </k> }}\n\
+             def Mesh \"f\" {{ int[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]\n\
+             uniform token subdivisionScheme = \"none\"\n\
+             point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n\
+             def GeomSubset \"g\" {{ int[] indices = [0]\nrel material:binding = </k> }} }} }}"
+        );
+        let scene = stage(&body);
+        [color(&scene, 0), color(&scene, 1)]
+    };
+    let (red, blue) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
+    let strong = "( bindMaterialAs = \"strongerThanDescendants\" )";
+    let weak = "( bindMaterialAs = \"weakerThanDescendants\" )";
+    assert_eq!(
+        [bound(strong), bound(weak), bound("")],
+        [[red; 2], [blue; 2], [blue; 2]]
+    );
+}
+
+#[test]
+fn a_shader_reads_the_constant_primvar_of_the_nearest_prim() {
+    let body = "def Material \"m\" { token outputs:surface.connect = </m/s.outputs:surface>\n\
+        def Shader \"s\" { uniform token info:id = \"UsdPreviewSurface\"\n\
+        color3f inputs:diffuseColor.connect = </m/r.outputs:result> }\n\
+        def Shader \"r\" { uniform token info:id = \"UsdPrimvarReader_float3\"\n\
+        string inputs:varname = \"tint\"\nfloat3 inputs:fallback = (0, 1, 0) } }\n\
+        def \"a\" { color3f primvars:tint = (1, 0, 0)\nrel material:binding = </m>\n\
+        def Sphere \"above\" {}\n\
+        def Sphere \"own\" { color3f primvars:tint = (0, 0, 1) }\n\
+        def \"b\" { color3f[] primvars:tint = [(1, 1, 1)] ( interpolation = \"vertex\" )\n\
+        def Sphere \"hidden\" {} }\n\
+        def Mesh \"mesh\" { int[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]\n\
+        uniform token subdivisionScheme = \"none\"\n\
+        point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n\
+        color3f[] primvars:tint = [(1, 0, 0), (0, 1, 0), (0, 0, 1)] ( interpolation = \"vertex\" )\n\
+        } }\ndef Sphere \"none\" { rel material:binding = </m> }";
+    let scene = stage(body);
+    let colors: Vec<_> = (0..5).map(|surface| color(&scene, surface)).collect();
+    let (red, green, blue) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+    // The colours of the mesh are those of its vertices.
+    assert_eq!(colors, [red, blue, green, [1.0; 3], green]);
+    assert_eq!(scene.meshes[0].colors.at(1), [0.0, 1.0, 0.0, 1.0]);
+}
+
+/// A square of 2 × 2 units of texture coordinates with a texture.
+fn textured(file: &str) -> String {
+    format!(
+        "def Mesh \"m\" {{\nuniform token subdivisionScheme = \"none\"\n\
+         int[] faceVertexCounts = [4]\nint[] faceVertexIndices = [0, 1, 2, 3]\n\
+         point3f[] points = [(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.5, 0), (-0.5, 0.5, 0)]\n\
+         texCoord2f[] primvars:st = [(0, 0), (2, 0), (2, 2), (0, 2)] ( interpolation = \"vertex\" )\n\
+         rel material:binding = </l> }}\n\
+         def Material \"l\" {{ token outputs:surface.connect = </l/s.outputs:surface>\n\
+         def Shader \"s\" {{ uniform token info:id = \"UsdPreviewSurface\"\n\
+         color3f inputs:diffuseColor.connect = </l/t.outputs:rgb> }}\n\
+         def Shader \"t\" {{ uniform token info:id = \"UsdUVTexture\"\nasset inputs:file = @{file}@\n\
+         float2 inputs:st.connect = </l/r.outputs:result> }}\n\
+         def Shader \"r\" {{ uniform token info:id = \"UsdPrimvarReader_float2\"\n\
+         string inputs:varname = \"st\" }} }}\n"
+    )
+}
+
+#[test]
+fn tiles_become_one_picture_from_the_lowest_row() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let body = textured("t.<UDIM>.png");
+    fs::write(at("a.usda"), format!("#usda 1.0\n{METRES}{body}")).unwrap();
+    for (number, byte) in [(1001, 10), (1002, 20), (1011, 30)] {
+        fs::write(at(&format!("t.{number}.png")), png([byte; 3])).unwrap();
+    }
+    let (scene, codes) = read_with(&at("a.usda"), &Options::default());
+    assert_eq!(codes, Vec::<&str>::new());
+    let image = &scene.images[0];
+    let tile = [image.width as usize / 2, image.height as usize / 2];
+    let shown = |column: usize, row: usize| {
+        let [x, y] = [column * tile[0], row * tile[1]];
+        image.pixels[3 * (y * image.width as usize + x)]
+    };
+    // The second row of tiles is above the first one; one tile is not there.
+    assert_eq!(
+        [shown(0, 0), shown(1, 0), shown(0, 1), shown(1, 1)],
+        [30, 0, 10, 20]
+    );
+    let map = standard(&scene, 0).base_color_map.as_ref().unwrap();
+    assert_eq!(
+        map.texture_from_surface,
+        Some([[0.5, 0.0, 0.0], [0.0, 0.5, 0.5]])
+    );
+    // Without any tile the file is missed as others are.
+    let missed = textured("u.<UDIM>.png");
+    fs::write(at("b.usda"), format!("#usda 1.0\n{METRES}{missed}")).unwrap();
+    assert_eq!(read_with(&at("b.usda"), &Options::default()).1, ["RE001"]);
+}
+
+#[test]
+fn a_dome_takes_a_picture_of_a_display() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = format!(
+        "#usda 1.0\n{METRES}def DomeLight \"d\" {{ asset inputs:texture:file = @sky.png@ }}"
+    );
+    fs::write(folder.path().join("a.usda"), text).unwrap();
+    fs::write(folder.path().join("sky.png"), png([188, 255, 0])).unwrap();
+    let (scene, codes) = read_with(&folder.path().join("a.usda"), &Options::default());
+    assert_eq!(codes, Vec::<&str>::new());
+    let image = scene.environment.unwrap().image.unwrap();
+    let floats = scene.images[image.0 as usize].pixels.as_chunks::<4>().0;
+    let [r, g, b] = [0, 1, 2].map(|at| f32::from_le_bytes(floats[at]));
+    assert!(
+        (r - 0.5).abs() < 0.01 && (g, b) == (1.0, 0.0),
+        "{r} {g} {b}"
+    );
+}
+
+/// A package: an archive of files as they are.
+fn package(files: &[(&str, Vec<u8>)]) -> Vec<u8> {
+    let header = |signature: &[u8], name: &str, size: usize| {
+        let size = u32::try_from(size).unwrap().to_le_bytes();
+        let length = u16::try_from(name.len()).unwrap().to_le_bytes();
+        [signature, &[0; 14], &size, &size, &length, &[0; 2]].concat()
+    };
+    let (mut archive, mut list) = (Vec::new(), Vec::new());
+    for (name, bytes) in files {
+        let start = u32::try_from(archive.len()).unwrap().to_le_bytes();
+        archive.extend(header(b"PK\x03\x04", name, bytes.len()));
+        archive.extend([name.as_bytes(), bytes].concat());
+        list.extend(header(b"PK\x01\x02\x00\x00", name, bytes.len()));
+        list.extend([[0; 10].as_slice(), &start, name.as_bytes()].concat());
+    }
+    let start = u32::try_from(archive.len()).unwrap().to_le_bytes();
+    [
+        archive,
+        list,
+        b"PK\x05\x06".to_vec(),
+        vec![0; 12],
+        start.to_vec(),
+        vec![0; 2],
+    ]
+    .concat()
+}
+
+#[test]
+fn packages_hold_packages_and_files_are_named_through_both() {
+    let layer = |body: &str| format!("#usda 1.0\n{METRES}{body}").into_bytes();
+    let inner = package(&[
+        ("ball.usda", layer("def Sphere \"s\" {}")),
+        (
+            "other.usda",
+            layer("def Sphere \"o\" { double radius = 3 }"),
+        ),
+        ("t.png", png([7; 3])),
+    ]);
+    let stage = format!(
+        "def \"a\" ( references = @in.usdz@</s> ) {{}}\n\
+         def \"b\" ( references = @in.usdz[other.usda]@</o> ) {{}}\n{}",
+        textured("in.usdz[t.png]")
+    );
+    let outer = package(&[("a.usda", layer(&stage)), ("in.usdz", inner.clone())]);
+    let first = package(&[("in.usdz", inner)]);
+    let folder = tempfile::tempdir().unwrap();
+    let read = |bytes: &[u8]| {
+        fs::write(folder.path().join("a.usdz"), bytes).unwrap();
+        let (scene, codes) = read_with(&folder.path().join("a.usdz"), &Options::default());
+        assert_eq!(codes, Vec::<&str>::new());
+        scene
+    };
+    let scene = read(&outer);
+    let radii = scene
+        .surfaces
+        .iter()
+        .filter_map(|surface| match &surface.shape {
+            Shape::Sphere(sphere) => Some(sphere.radius),
+            _ => None,
+        });
+    assert_eq!(radii.collect::<Vec<_>>(), [1.0, 3.0]);
+    assert_eq!(scene.images[0].pixels[..3], [7; 3]);
+    // The stage of a package may be that of one in it; and from outside each file has a name.
+    assert_eq!(spheres(&read(&first)).len(), 1);
+    let through = b"#usda 1.0\ndef \"c\" ( references = @a.usdz[in.usdz[other.usda]]@</o> ) {}";
+    fs::write(folder.path().join("c.usda"), through).unwrap();
+    let (scene, codes) = read_with(&folder.path().join("c.usda"), &Options::default());
+    assert_eq!((scene.surfaces.len(), codes), (1, Vec::new()));
+}
+
+#[test]
+fn a_file_outside_of_the_folder_is_told_apart_from_one_that_is_not_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let deep = folder.path().join("a/b/c");
+    fs::create_dir_all(&deep).unwrap();
+    fs::write(
+        folder.path().join("ball.usda"),
+        "#usda 1.0\ndef Sphere \"s\" {}",
+    )
+    .unwrap();
+    let text = "#usda 1.0\ndef \"x\" ( references = @../../../ball.usda@</s> ) {}";
+    fs::write(deep.join("a.usda"), text).unwrap();
+    assert_eq!(
+        read_with(&deep.join("a.usda"), &Options::default()).1,
+        ["RE002"]
+    );
+}
+
+/// What a stage takes of the nodes and the memory of a budget, and whether it is read.
+fn work(layers: &[(&str, String)]) -> ([u64; 2], bool) {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, body) in layers {
+        fs::write(folder.path().join(name), format!("#usda 1.0\n{body}")).unwrap();
+    }
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
+    let file = Loader
+        .file(&folder.path().join(layers[0].0), &mut map)
+        .unwrap();
+    let is_read = load(file, &mut map, &Options::default(), &mut sink).is_some();
+    let taken = [Resource::Nodes, Resource::Memory]
+        .map(|resource| map.budget().limit(resource) - map.budget().remaining(resource));
+    (taken, is_read)
+}
+
+fn numbered(count: usize, line: impl Fn(usize) -> String) -> String {
+    (0..count).map(line).collect()
+}
+
+/// What many prims inherit is read for each of them: it takes as much of the budget as it takes
+/// work, so that a small file ends at a limit.
+#[test]
+fn what_many_prims_inherit_is_charged_for_each() {
+    let heirs = |count| {
+        numbered(count, |n| {
+            format!("def Sphere \"s{n}\" ( inherits = </C> ) {{}}\n")
+        })
+    };
+    let families: [(&str, usize, fn(usize) -> String); 3] = [
+        ("variants", 0, |count| {
+            let chosen = numbered(count, |n| format!("string v{n} = \"a\"\n"));
+            let sets = numbered(count, |n| {
+                format!("variantSet \"v{n}\" = {{ \"a\" {{}} }}\n")
+            });
+            format!("class \"C\" ( variants = {{ {chosen} }} ) {{ {sets} }}\n")
+        }),
+        ("operations", 0, |count| {
+            let order = "\"xformOp:translate\", ".repeat(count);
+            format!(
+                "class \"C\" {{ double3 xformOp:translate = (1, 1, 1)\n\
+                 uniform token[] xformOpOrder = [{order}] }}\n"
+            )
+        }),
+        ("bindings", 1, |count| {
+            let targets = numbered(count, |n| format!("</M{n}>, "));
+            format!("class \"C\" {{ rel material:binding = [{targets}] }}\n")
+        }),
+    ];
+    for (name, resource, class) in families {
+        let taken = [50, 100, 200].map(|count| {
+            let layers = [("a.usda", class(count) + &heirs(count))];
+            let (taken, is_read) = work(&layers);
+            assert!(is_read, "{name}");
+            taken[resource]
+        });
+        assert!(
+            taken[2] - taken[1] > 3 * (taken[1] - taken[0]),
+            "{name}: {taken:?}"
+        );
+        let (_, is_read) = work(&[("a.usda", class(3000) + &heirs(3000))]);
+        assert!(!is_read, "{name}");
+    }
+}
+
+#[test]
+fn a_sublayer_that_is_named_again_takes_no_more() {
+    let taken = |count: usize, names: usize| {
+        let named = "@b.usda@, ".repeat(names);
+        let root = format!("(\n subLayers = [{named}]\n)\n");
+        let below = numbered(count, |n| format!("def Sphere \"s{n}\" {{}}\n"));
+        work(&[("a.usda", root), ("b.usda", below)]).0[0]
+    };
+    let all = [250, 500, 1000].map(|count| taken(count, count / 2));
+    assert!(all[2] - all[1] < 3 * (all[1] - all[0]), "{all:?}");
+}
+
+#[test]
+fn what_a_package_holds_raises_no_limit_and_its_files_do_not_overlap() {
+    let layer = [b"#usda 1.0\n".to_vec(), vec![b'#'; 1 << 20]].concat();
+    let references =
+        "def \"b\" ( references = @b.usda@ ) {}\ndef \"c\" ( references = @c.usda@ ) {}";
+    let stage = format!("#usda 1.0\n(\n defaultPrim = \"b\"\n)\n{references}");
+    let whole = package(&[
+        ("a.usda", stage.into_bytes()),
+        ("b.usda", layer.clone()),
+        ("c.usda", layer),
+    ]);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.usdz");
+    let read = |bytes: &[u8]| {
+        fs::write(&path, bytes).unwrap();
+        let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
+        let file = Loader.file(&path, &mut map).unwrap();
+        let before = map.budget().limit(Resource::Memory);
+        let lowered = load(file, &mut map, &Options::default(), &mut sink);
+        assert_eq!(map.budget().limit(Resource::Memory), before);
+        let codes: Vec<_> = sink.kept().iter().map(|found| found.code.id).collect();
+        (lowered.is_some(), codes.contains(&"US002"))
+    };
+    assert_eq!(read(&whole), (true, false));
+    // A file of the list that is also another one.
+    let mut twice = whole;
+    let end = twice.len() - 6;
+    let list = u32::from_le_bytes(twice[end..end + 4].try_into().unwrap()) as usize;
+    let second = list + 46 + "a.usda".len();
+    twice[second + 42..second + 46].copy_from_slice(&[0; 4]);
+    assert_eq!(read(&twice), (false, true));
 }

@@ -25,6 +25,7 @@ mod plain;
 mod plan;
 mod scenes;
 mod seen;
+mod stages;
 mod wild;
 mod written;
 
@@ -47,6 +48,7 @@ pub(crate) fn trials() -> Vec<Trial> {
         plain::trials(),
         plan::trials(),
         seen::trials(),
+        stages::trials(),
         wild::trials(),
         written::trials(),
     ]

@@ -1,10 +1,12 @@
 //! The values of attributes at the time of the picture: the strongest layer that has one counts.
 
-use super::Lowering;
 use super::layer::{PropertySpec, StoredValue, Value};
+use super::packed::TOKEN;
 use super::stage::{ComposedPrim, Opinion};
+use super::{Lowering, PrimState};
 use crate::exchange::SpannedText;
 use rtc_source::{Resource, Span};
+use std::ops::Bound;
 
 /// How values between two samples are found.
 #[derive(Clone, Copy, PartialEq)]
@@ -29,16 +31,26 @@ impl Lowering<'_> {
         match stored {
             StoredValue::Read(value) => {
                 // The copy is charged, as values of binary files are.
-                if let Value::Numbers(numbers) = value {
-                    let bytes = 8 * numbers.len() as u64;
-                    self.map.budget().charge(Resource::Memory, bytes).ok()?;
-                }
+                let bytes = match value {
+                    Value::Blocked => 0,
+                    Value::Numbers(numbers) => 8 * numbers.len() as u64,
+                    Value::Texts(texts) => TOKEN * texts.len() as u64,
+                };
+                self.charge(Resource::Memory, bytes, self.root_span)?;
                 Some(value.clone())
             }
             StoredValue::Packed(packed) => {
                 let layer = &self.layers[opinion.layer];
                 let tables = layer.tables.as_ref()?;
-                tables.value(self.map.bytes(layer.file), *packed, self.map.budget())
+                let value = tables.value(self.map.bytes(layer.file), *packed, self.map.budget());
+                match (&value, tables.exceeded.get()) {
+                    (_, Some(fault)) => self.exhaust(*fault, self.root_span),
+                    (None, None) => {
+                        self.unread.get_or_init(|| layer.file);
+                    }
+                    (Some(_), None) => {}
+                }
+                value
             }
         }
     }
@@ -212,6 +224,18 @@ impl Lowering<'_> {
             .any(|opinion| self.spec(opinion).properties.contains_key(name))
     }
 
+    /// Whether a layer says something of a property whose name begins so.
+    pub(super) fn has_some(&self, prim: &ComposedPrim, beginning: &str) -> bool {
+        prim.opinions.iter().any(|opinion| {
+            let properties = &self.spec(opinion).properties;
+            let mut later =
+                properties.range::<str, _>((Bound::Included(beginning), Bound::Unbounded));
+            later
+                .next()
+                .is_some_and(|(name, _)| name.starts_with(beginning))
+        })
+    }
+
     /// The prim and the output that an input is connected to.
     pub(super) fn connection(&self, prim: &ComposedPrim, name: &str) -> Option<(String, String)> {
         let target = self.targets(prim, name).into_iter().next()?;
@@ -253,6 +277,23 @@ impl Lowering<'_> {
             indices,
             span,
         })
+    }
+
+    /// The constant primvar that a prim has, from itself or the nearest one above.
+    pub(super) fn constant_primvar<const N: usize>(
+        &self,
+        state: &PrimState,
+        name: &str,
+    ) -> Option<[f64; N]> {
+        let mut scope = state.primvars.as_ref();
+        while let Some(at) = scope {
+            if let Some(primvar) = self.primvar(&at.prim, name, N) {
+                // One that varies hides those above.
+                return (primvar.interpolation == "constant").then(|| primvar.at(0));
+            }
+            scope = at.above.as_ref();
+        }
+        None
     }
 }
 

@@ -14,6 +14,7 @@ use super::packed::{
 use super::text::LayerParseError;
 use crate::exchange::SpannedText;
 use rtc_source::{Budget, FileId, Resource, Span};
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
 /// The memory that is charged for each field of a spec.
@@ -78,13 +79,15 @@ pub(super) fn read(file: FileId, bytes: &[u8], budget: &Budget) -> Result<Layer,
         tokens,
         strings,
         paths,
+        exceeded: OnceCell::new(),
     };
     // Read the fields and the sets of fields.
     let mut fields = section(b"FIELDS")?;
     let count = fields.count(0).ok_or(CUT)?;
     let names = fields.indices(count, budget)?;
     let packed = fields.count(1).ok_or(CUT)?;
-    let values = fields.unpack(packed, 8 * count, budget)?;
+    let size = count.checked_mul(8).ok_or(CUT)?;
+    let values = fields.unpack(packed, size..=size, budget)?;
     let values = values
         .as_chunks::<8>()
         .0
@@ -118,7 +121,7 @@ pub(super) fn read(file: FileId, bytes: &[u8], budget: &Budget) -> Result<Layer,
         let set = set.map(|field| fields.get(*field as usize).copied());
         assembly.spec(path, kind, set)?;
     }
-    let mut layer = assembly.ordered();
+    let mut layer = assembly.ordered()?;
     layer.tables = Some(tables);
     Ok(layer)
 }
@@ -127,7 +130,7 @@ fn tokens(mut cursor: ByteCursor<'_>, budget: &Budget) -> Result<Vec<String>, La
     let count = cursor.count(0).ok_or(CUT)?;
     let size = usize::try_from(cursor.u64().ok_or(CUT)?).map_err(|_| CUT)?;
     let packed = cursor.count(1).ok_or(CUT)?;
-    let text = cursor.unpack(packed, size, budget)?;
+    let text = cursor.unpack(packed, size..=size, budget)?;
     charge(
         budget,
         TOKEN * text.iter().filter(|byte| **byte == 0).count() as u64,
@@ -215,8 +218,11 @@ struct LayerAssembly<'a> {
 }
 
 impl LayerAssembly<'_> {
-    /// The layer, its prims in their order.
-    fn ordered(self) -> Layer {
+    /// The layer, its prims in their order, unless one of its values exceeded a limit.
+    fn ordered(self) -> Result<Layer, LayerParseError> {
+        if let Some(fault) = self.tables.exceeded.get() {
+            return Err(LayerParseError::Limit(*fault));
+        }
         let Self {
             mut layer, orders, ..
         } = self;
@@ -227,7 +233,7 @@ impl LayerAssembly<'_> {
                 }
             }
         }
-        layer
+        Ok(layer)
     }
 
     /// The prim of a path, made with those above it if it is not there.
@@ -404,7 +410,11 @@ impl LayerAssembly<'_> {
             "connectionPaths" | "targetPaths" => {
                 property.targets = self.list(value, |cursor| self.path_text(cursor));
             }
-            "interpolation" => property.interpolation = self.word(value),
+            key @ ("interpolation" | "bindMaterialAs") => {
+                if let Some(word) = self.word(value) {
+                    property.describe(key, word);
+                }
+            }
             _ => {}
         }
     }
@@ -535,3 +545,6 @@ impl LayerAssembly<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

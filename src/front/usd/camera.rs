@@ -43,6 +43,7 @@ impl Lowering<'_> {
         if let Some((_, camera)) = chosen {
             if let Some(view) = self.view(camera) {
                 self.report_clipping(camera);
+                self.report_exposure(&camera.prim);
                 let span = self.span_of(&camera.prim);
                 self.record(EntityKind::Camera, 0, span);
                 self.scene.camera = view;
@@ -59,6 +60,17 @@ impl Lowering<'_> {
             radius: 1.0,
         });
         self.scene.camera = crate::gltf::looking_at(ball);
+    }
+
+    /// Reports an exposure, which is chosen for the picture.
+    fn report_exposure(&mut self, prim: &ComposedPrim) {
+        let stops = self.number(prim, "exposure").unwrap_or(0.0);
+        if stops != 0.0 {
+            let message = format!(
+                "`exposure` of the camera is not applied: `--exposure {stops}` adds it to the picture"
+            );
+            self.approximate(prim, &message);
+        }
     }
 
     /// Reports planes that would clip the scene: paths see all of it. Whether a near plane clips is

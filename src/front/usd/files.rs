@@ -5,9 +5,10 @@ use super::package::{self, UsdzError, UsdzPackage};
 use super::text::LayerParseError;
 use super::{Lowering, binary, text};
 use crate::exchange::SpannedText;
-use crate::over_limit;
 use rtc_diag::{Code, Diagnostic, Severity, clip_path, codes};
-use rtc_source::{FileId, FileKind, FileSearch, Loader, Resource, Span};
+use rtc_source::{
+    FileId, FileKind, FileSearch, LimitExceeded, Loader, MissingFile, Resource, Span,
+};
 use std::rc::Rc;
 
 /// The most files that are looked for.
@@ -16,7 +17,7 @@ const MAX_FILES: usize = 1 << 14;
 const MAX_BYTES: u64 = 1 << 30;
 
 const LAYERS: FileKind = FileKind {
-    extensions: &["usd", "usda", "usdc", "usdz"],
+    extensions: &super::EXTENSIONS,
     begins: super::begins_layer,
 };
 
@@ -32,6 +33,16 @@ pub(super) struct LayerOrigin {
 enum LayerFile {
     Found(rtc_source::FoundFile),
     InPackage(FileId, String),
+}
+
+impl LayerFile {
+    /// What distinguishes a file from others.
+    fn key(&self) -> String {
+        match self {
+            Self::Found(found) => found.path.display().to_string(),
+            Self::InPackage(package, inside) => format!("{package:?}[{inside}]"),
+        }
+    }
 }
 
 impl Lowering<'_> {
@@ -51,9 +62,12 @@ impl Lowering<'_> {
         let path = folder
             .zip(name)
             .map(|(folder, name)| folder.path().join(name));
-        let root = self.open_file(file, origin, key, span, Severity::Error)?;
-        if let Some(path) = path {
-            let key = path.display().to_string();
+        let path = path.map(|path| path.display().to_string());
+        if let Some(key) = &path {
+            self.loaded.insert(key.clone(), Some(file));
+        }
+        let root = self.open_file(file, origin, span, Severity::Error)?;
+        if let Some(key) = path {
             self.layer_keys.insert(key, Some(root));
         }
         Some(root)
@@ -72,62 +86,43 @@ impl Lowering<'_> {
 
     fn find_layer(&mut self, path: &SpannedText, from: usize) -> Option<usize> {
         const INSTEAD: &str = "what it holds is left out";
-        // A file of a package is named by brackets: `a.usdz[b.usda]`.
-        let (outer, inner) = match path.text.strip_suffix(']').and_then(|t| t.split_once('[')) {
-            Some((outer, inner)) => (outer, Some(inner)),
-            None => (path.text.as_str(), None),
-        };
-        let text = SpannedText {
-            text: outer.to_owned(),
-            span: path.span,
-        };
         let origin = self.layer_origins[from].clone();
-        let place = self.locate(&text, &origin, &LAYERS, INSTEAD)?;
-        let mut key = match &place {
-            LayerFile::Found(found) => found.path.display().to_string(),
-            LayerFile::InPackage(file, path) => format!("{}[{path}]", self.map.name(*file)),
-        };
-        if let Some(inner) = inner {
-            key = format!("{key}[{inner}]");
-        }
+        let place = self.locate(path, &origin, &LAYERS, INSTEAD)?;
+        let key = place.key();
         if let Some(known) = self.layer_keys.get(&key) {
             return *known;
         }
-        let layer = self.open_place(place, &text, origin, inner, &key);
+        let file = self.loaded(&place, path, INSTEAD);
+        let layer = file.and_then(|file| {
+            let origin = match place {
+                LayerFile::Found(_) => self.origin_of(file),
+                LayerFile::InPackage(package, inside) => LayerOrigin {
+                    package: Some((package, inside)),
+                    ..origin
+                },
+            };
+            self.open_file(file, origin, path.span, Severity::Warning)
+        });
         self.layer_keys.insert(key, layer);
         layer
     }
 
-    fn open_place(
-        &mut self,
-        place: LayerFile,
-        text: &SpannedText,
-        mut origin: LayerOrigin,
-        inner: Option<&str>,
-        key: &str,
-    ) -> Option<usize> {
-        const INSTEAD: &str = "what it holds is left out";
-        let bytes = self.bytes_of(&place, text, INSTEAD)?;
-        let file = match &place {
-            LayerFile::Found(found) => {
-                let file = self.map.add_found(found, bytes);
-                origin = self.origin_of(file);
-                file
-            }
-            LayerFile::InPackage(package, path) => {
-                origin.package = Some((*package, path.clone()));
-                self.map.add(key.to_owned(), bytes)
-            }
-        };
-        if let Some(inner) = inner {
-            let package = self.package(file, text.span, Severity::Warning)?;
-            let range = package.file(inner)?;
-            let bytes = self.copied(file, range, text.span)?;
-            let layer = self.map.add(key.to_owned(), bytes);
-            origin.package = Some((file, inner.to_owned()));
-            return self.read_layer(layer, origin, text.span);
+    /// The file of the map with the bytes of a place, which are read once.
+    fn loaded(&mut self, place: &LayerFile, path: &SpannedText, instead: &str) -> Option<FileId> {
+        let key = place.key();
+        if let Some(known) = self.loaded.get(&key) {
+            return *known;
         }
-        self.open_file(file, origin, key.to_owned(), text.span, Severity::Warning)
+        let bytes = self.bytes_of(place, path, instead);
+        let file = bytes.map(|bytes| match place {
+            LayerFile::Found(found) => self.map.add_found(found, bytes),
+            LayerFile::InPackage(package, inside) => {
+                let name = format!("{}[{inside}]", self.map.name(*package));
+                self.map.add_unpacked(name, bytes)
+            }
+        });
+        self.loaded.insert(key, file);
+        file
     }
 
     /// The folders of a layer that was found: its own, and those of the stage.
@@ -144,32 +139,34 @@ impl Lowering<'_> {
         }
     }
 
-    /// A file as a layer; of a package its first file.
+    /// A file as a layer; of a package its first file, which may be a package itself.
     fn open_file(
         &mut self,
-        file: FileId,
+        mut file: FileId,
         mut origin: LayerOrigin,
-        key: String,
         span: Span,
         severity: Severity,
     ) -> Option<usize> {
-        let bytes = self.map.bytes(file);
-        if !super::begins_layer(bytes) {
-            let name = clip_path(self.map.name(file)).into_owned();
-            let message = format!("`{name}` is no layer of USD: what it holds is left out");
-            self.report(&codes::USD_UNSUPPORTED, span, message);
+        while package::is_package(self.map.bytes(file)) {
+            let first = self.package(file, span, severity)?.first.clone();
+            let path = SpannedText {
+                text: first.clone(),
+                span,
+            };
+            let place = LayerFile::InPackage(file, first.clone());
+            origin.package = Some((file, first));
+            file = self.loaded(&place, &path, "")?;
+        }
+        if !super::begins_layer(self.map.bytes(file)) {
+            let name = self.map.name(file);
+            let name = clip_path(name.rsplit('/').next().unwrap_or(name));
+            let message = format!("`{name}` does not begin as a layer of USD does");
+            let diagnostic = Diagnostic::new(&codes::USD_SYNTAX, message)
+                .hint("the first line of a text is `#usda 1.0`");
+            self.sink.push(diagnostic.severity(severity).at(span, ""));
             return None;
         }
-        if !package::is_package(bytes) {
-            return self.read_layer(file, origin, span);
-        }
-        let package = self.package(file, span, severity)?;
-        let first = package.first.clone();
-        let range = package.file(&first)?;
-        let bytes = self.copied(file, range, span)?;
-        origin.package = Some((file, first.clone()));
-        let layer = self.map.add(format!("{key}[{first}]"), bytes);
-        self.read_layer(layer, origin, span)
+        self.read_layer(file, origin, span)
     }
 
     fn package(&mut self, file: FileId, span: Span, severity: Severity) -> Option<Rc<UsdzPackage>> {
@@ -187,7 +184,7 @@ impl Lowering<'_> {
                 None
             }
             Err(UsdzError::Limit(fault)) => {
-                self.exhaust(&fault, span);
+                self.exhaust(fault, span);
                 None
             }
         };
@@ -227,7 +224,7 @@ impl Lowering<'_> {
                 None
             }
             Err(LayerParseError::Limit(fault)) => {
-                self.exhaust(&fault, span);
+                self.exhaust(fault, span);
                 None
             }
         }
@@ -247,32 +244,87 @@ impl Lowering<'_> {
         kind: &FileKind,
         instead: &str,
     ) -> Option<LayerFile> {
+        // A file of a package is named by brackets: `a.usdz[b.usda]`.
+        let mut origin = origin.clone();
+        let mut text = path.text.as_str();
+        while let Some((outer, inner)) = package::bracketed(text) {
+            let outer = SpannedText {
+                text: outer.to_owned(),
+                span: path.span,
+            };
+            let place = self.locate_in(&outer, &origin, &LAYERS, instead)?;
+            let file = self.loaded(&place, &outer, instead)?;
+            self.package(file, path.span, Severity::Warning)?;
+            origin.package = Some((file, String::new()));
+            text = inner;
+        }
+        let inner = SpannedText {
+            text: text.to_owned(),
+            span: path.span,
+        };
+        self.locate_in(&inner, &origin, kind, instead)
+    }
+
+    /// Finds a file in one folder or package.
+    fn locate_in(
+        &mut self,
+        path: &SpannedText,
+        origin: &LayerOrigin,
+        kind: &FileKind,
+        instead: &str,
+    ) -> Option<LayerFile> {
+        let name = clip_path(&path.text);
+        let diagnostic = match self.find(&path.text, origin, kind, path.span)? {
+            Ok(place) => return Some(place),
+            Err(MissingFile::Outside(_)) => {
+                let message = format!("`{name}` leaves the folder of the stage");
+                let hint = "permit the folder of its files with `--asset-root FOLDER`";
+                Diagnostic::new(&codes::FILE_OUTSIDE, message).hint(hint)
+            }
+            Err(MissingFile::NoFolder | MissingFile::Absent(_)) => {
+                Diagnostic::new(&codes::FILE_NOT_FOUND, format!("there is no file `{name}`"))
+            }
+        };
+        self.without(diagnostic, path.span, instead);
+        None
+    }
+
+    /// Looks for a file in one folder or package; `None` if too many were looked for, which is
+    /// reported.
+    fn find(
+        &mut self,
+        path: &str,
+        origin: &LayerOrigin,
+        kind: &FileKind,
+        span: Span,
+    ) -> Option<Result<LayerFile, MissingFile>> {
         if self.lookups >= MAX_FILES {
             if self.lookups == MAX_FILES {
                 let message =
                     format!("more than {MAX_FILES} files are named: the rest is left out");
-                self.report(&codes::USD_UNSUPPORTED, path.span, message);
+                self.report(&codes::USD_UNSUPPORTED, span, message);
             }
             self.lookups = MAX_FILES + 1;
             return None;
         }
         self.lookups += 1;
-        if let Some((file, from)) = &origin.package {
-            let inside = package::joined(from, &path.text);
-            let package = self.packages.get(file).cloned().flatten();
-            if package.is_some_and(|package| package.file(&inside).is_some()) {
-                return Some(LayerFile::InPackage(*file, inside));
-            }
-        } else if let Ok(found) = origin.search.find(&path.text, kind) {
-            return Some(LayerFile::Found(found));
-        }
-        let message = format!("there is no file `{}`", clip_path(&path.text));
-        self.without(
-            Diagnostic::new(&codes::FILE_NOT_FOUND, message),
-            path.span,
-            instead,
-        );
-        None
+        let Some((file, from)) = &origin.package else {
+            return Some(origin.search.find(path, kind).map(LayerFile::Found));
+        };
+        let inside = package::joined(from, path);
+        let package = self.packages.get(file).cloned().flatten();
+        let is_there = package.is_some_and(|package| package.file(&inside).is_some());
+        Some(match is_there {
+            true => Ok(LayerFile::InPackage(*file, inside)),
+            false => Err(MissingFile::Absent(Vec::new())),
+        })
+    }
+
+    /// Whether there is a file of a kind that a layer may name.
+    pub(super) fn exists(&mut self, path: &SpannedText, from: usize, kind: &FileKind) -> bool {
+        let origin = self.layer_origins[from].clone();
+        let found = self.find(&path.text, &origin, kind, path.span);
+        matches!(found, Some(Ok(_)))
     }
 
     fn bytes_of(
@@ -308,11 +360,7 @@ impl Lowering<'_> {
     ) -> Option<Vec<u8>> {
         let origin = self.layer_origins[from].clone();
         let place = self.locate(path, &origin, kind, instead)?;
-        let bytes = self.bytes_of(&place, path, instead)?;
-        if matches!(place, LayerFile::Found(_)) {
-            self.map.budget().read(bytes.len());
-        }
-        Some(bytes)
+        self.bytes_of(&place, path, instead)
     }
 
     /// Reports a file without which the picture is made: a warning that says how.
@@ -330,16 +378,13 @@ impl Lowering<'_> {
         self.sink.push(Diagnostic::new(code, message).at(span, ""));
     }
 
-    /// Charges the budget. If it is used up, that is reported once and nothing more is read.
-    pub(super) fn charge(&mut self, resource: Resource, amount: u64, span: Span) -> Option<()> {
+    /// Charges the budget. If it is used up, that is reported in the end and nothing more is read.
+    pub(super) fn charge(&self, resource: Resource, amount: u64, span: Span) -> Option<()> {
         let charged = self.map.budget().charge(resource, amount);
-        charged.map_err(|fault| self.exhaust(&fault, span)).ok()
+        charged.map_err(|fault| self.exhaust(fault, span)).ok()
     }
 
-    pub(super) fn exhaust(&mut self, fault: &rtc_source::LimitExceeded, span: Span) {
-        if !self.is_exhausted {
-            self.sink.push(over_limit("the stage", fault).at(span, ""));
-        }
-        self.is_exhausted = true;
+    pub(super) fn exhaust(&self, fault: LimitExceeded, span: Span) {
+        self.exceeded.get_or_init(|| (fault, span));
     }
 }

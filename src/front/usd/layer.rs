@@ -198,7 +198,22 @@ pub(super) struct PropertySpec {
     /// The targets of a relationship, or the connections of an attribute.
     pub(super) targets: Option<ListOp<SpannedText>>,
     pub(super) interpolation: Option<String>,
+    /// Whether a binding of a material comes before those of the prims below.
+    pub(super) is_stronger_than_descendants: Option<bool>,
     pub(super) span: Option<Span>,
+}
+
+impl PropertySpec {
+    /// Takes a word of the metadata.
+    pub(super) fn describe(&mut self, key: &str, word: String) {
+        match key {
+            "interpolation" => self.interpolation = Some(word),
+            "bindMaterialAs" => {
+                self.is_stronger_than_descendants = Some(word == "strongerThanDescendants");
+            }
+            _ => {}
+        }
+    }
 }
 
 /// What a layer says of a prim.

@@ -4,15 +4,14 @@
 use super::shape::{SolidGeometry, StageShape};
 use super::stage::ComposedPrim;
 use super::{Lowering, PrimState};
+use crate::exchange::SpannedText;
 use crate::exchange::color::{emitted, of_unit_luminance, planck};
 use crate::exchange::tessellate;
 use crate::exchange::transform::AffineTransform;
 use crate::pixels;
 use rtc_diag::codes;
-use rtc_image::is_radiance;
 use rtc_ir::{EntityKind, Environment, Light, Punctual, PunctualKind, Standard};
 use rtc_math::{Vec3, pow, sin, unit};
-use rtc_source::FileKind;
 use std::f64::consts::PI;
 
 pub(super) const KINDS: [&str; 7] = [
@@ -25,11 +24,30 @@ pub(super) const KINDS: [&str; 7] = [
     "DomeLight_1",
 ];
 
-/// The formats of environment maps.
-const MAPS: FileKind = FileKind {
-    extensions: &["exr", "hdr"],
-    begins: is_radiance,
-};
+/// Numbers of lights that are not read: the name, the number that says nothing, and what is shown.
+const UNREAD: [(&str, f64, &str); 7] = [
+    ("diffuse", 1.0, "matte surfaces get all of its light"),
+    ("specular", 1.0, "glossy surfaces get all of its light"),
+    (
+        "shaping:focus",
+        0.0,
+        "it shines to all sides of its cone alike",
+    ),
+    ("shadow:enable", 1.0, "it casts shadows"),
+    ("shadow:color", 0.0, "its shadows are without light"),
+    (
+        "shadow:distance",
+        -1.0,
+        "its shadows reach as far as they do",
+    ),
+    ("shadow:falloff", -1.0, "its shadows end where they do"),
+];
+
+/// Which prims a light shines on, and which cast its shadows.
+const LINKS: [(&str, &str); 2] = [
+    ("collection:lightLink", "it shines on all that it reaches"),
+    ("collection:shadowLink", "all that it reaches casts shadows"),
+];
 
 /// What is behind a flat light, over its extent.
 const BEHIND: f64 = 1e-5;
@@ -48,11 +66,42 @@ impl Lowering<'_> {
         if self.charge_surface(span).is_none() {
             return;
         }
+        self.report_unread(prim);
         let color = self.light_color(prim);
         match kind {
             "DistantLight" => self.distant(prim, color, state),
             "DomeLight" | "DomeLight_1" => self.dome(prim, kind, color, state),
             _ => self.area_light(prim, kind, color, state),
+        }
+    }
+
+    /// Warns of what a light asks for and is not shown.
+    fn report_unread(&mut self, prim: &ComposedPrim) {
+        for (name, neutral, instead) in UNREAD {
+            let full = format!("inputs:{name}");
+            let numbers = self
+                .numbers(prim, &full)
+                .or_else(|| self.numbers(prim, name));
+            if numbers.is_some_and(|numbers| numbers.iter().any(|number| *number != neutral)) {
+                self.unsupported(prim, &format!("`{full}`"), instead);
+            }
+        }
+        let profile = self.light_file(prim, "shaping:ies:file");
+        if profile.is_some_and(|(path, _)| !path.text.is_empty()) {
+            let instead = "it shines to all sides alike";
+            self.unsupported(prim, "the profile `inputs:shaping:ies:file`", instead);
+        }
+        for (name, instead) in LINKS {
+            let excludes = self.targets(prim, &format!("{name}:excludes"));
+            let has_root = self.flag(prim, &format!("{name}:includeRoot"));
+            let expression = self.text(prim, &format!("{name}:membershipExpression"));
+            let is_all = |expression: &String| matches!(expression.as_str(), "" | "//");
+            if !excludes.is_empty() || has_root == Some(false) || !expression.iter().all(is_all) {
+                self.unsupported(prim, &format!("`{name}`"), instead);
+            }
+        }
+        if !self.targets(prim, "light:filters").is_empty() {
+            self.unsupported(prim, "the filter", "the light is shown without it");
         }
     }
 
@@ -62,6 +111,11 @@ impl Lowering<'_> {
         number
             .or_else(|| self.number(prim, name))
             .unwrap_or(default)
+    }
+
+    fn light_file(&self, prim: &ComposedPrim, name: &str) -> Option<(SpannedText, usize)> {
+        let file = self.asset(prim, &format!("inputs:{name}"));
+        file.or_else(|| self.asset(prim, name))
     }
 
     fn light_flag(&self, prim: &ComposedPrim, name: &str) -> bool {
@@ -150,7 +204,7 @@ impl Lowering<'_> {
             };
             return self.point_light(prim, state, cone, color.map(|channel| channel * share));
         }
-        if self.asset(prim, "inputs:texture:file").is_some() {
+        if self.light_file(prim, "texture:file").is_some() {
             let message = "the picture of a light is left out: it has one colour";
             self.approximate(prim, message);
         }
@@ -248,9 +302,7 @@ impl Lowering<'_> {
     /// Light from all around, constant or by a picture of longitude and latitude.
     fn dome(&mut self, prim: &ComposedPrim, kind: &str, radiance: [f64; 3], state: &PrimState) {
         let span = self.span_of(prim);
-        let file = self
-            .asset(prim, "inputs:texture:file")
-            .or_else(|| self.asset(prim, "texture:file"));
+        let file = self.light_file(prim, "texture:file");
         let file = file.filter(|(path, _)| !path.text.is_empty());
         match (self.scene.environment.as_mut(), &file) {
             // The light of two constants is that of their sum.
@@ -280,15 +332,18 @@ impl Lowering<'_> {
         if format.is_some_and(|format| format != "latlong" && format != "automatic") {
             return self.unsupported(prim, "the format of the picture", INSTEAD);
         }
-        let Some(bytes) = self.file(&path, layer, &MAPS, INSTEAD) else {
+        let Some(bytes) = self.file(&path, layer, &pixels::TEXTURES, INSTEAD) else {
             return;
         };
         let image = match pixels::environment(&path.text, &bytes, self.map.budget()) {
             Ok(image) => image,
             Err(fault) => {
                 let what = format!("the picture `{}`", rtc_diag::clip_path(&path.text));
-                let diagnostic =
-                    pixels::rejection(&fault, &what, "domes are OpenEXR or Radiance HDR");
+                let diagnostic = pixels::rejection(
+                    &fault,
+                    &what,
+                    "domes are OpenEXR, Radiance HDR, PNG, JPEG or WebP",
+                );
                 return self.without(diagnostic, path.span, INSTEAD);
             }
         };

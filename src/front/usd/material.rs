@@ -27,8 +27,8 @@ pub(super) struct BoundMaterial {
     standard: Standard,
     /// The primvars of both sets of texture coordinates.
     pub(super) uv_names: [String; 2],
-    /// Whether it shows the colour of the prim.
-    pub(super) shows_color: bool,
+    /// The primvar whose colour it shows, and the colour of prims without it.
+    pub(super) shown_color: Option<(String, [f64; 3])>,
     span: Option<Span>,
 }
 
@@ -42,7 +42,7 @@ impl Lowering<'_> {
     /// The material that is bound to a prim, or that of all others.
     pub(super) fn bound_material(&mut self, state: &PrimState) -> Rc<BoundMaterial> {
         let (path, span) = match &state.material {
-            Some((path, span)) => (path.to_string(), *span),
+            Some(bound) => (bound.path.to_string(), bound.span),
             None => (String::new(), self.root_span),
         };
         if let Some(known) = self.materials.get(&path) {
@@ -65,14 +65,17 @@ impl Lowering<'_> {
     ) -> Option<MaterialId> {
         // The colour and opacity of the prim show if no shader replaces them.
         let shown = |color: [f64; 3]| color.map(|channel| channel.clamp(0.0, 1.0));
-        let color = lowered.shows_color.then(|| match is_constant {
-            true => shown(state.color.unwrap_or([GREY; 3])),
-            false => [1.0; 3],
+        let color = lowered
+            .shown_color
+            .as_ref()
+            .map(|(name, fallback)| match is_constant {
+                true => shown(self.constant_primvar(state, name).unwrap_or(*fallback)),
+                false => [1.0; 3],
+            });
+        let opacity = (color.is_some() && is_constant).then(|| {
+            let opacity = self.constant_primvar(state, "primvars:displayOpacity");
+            opacity.map_or(1.0, |[opacity]: [f64; 1]| opacity.clamp(0.0, 1.0))
         });
-        let opacity = lowered
-            .shows_color
-            .then(|| state.opacity.unwrap_or(1.0).clamp(0.0, 1.0));
-        let opacity = opacity.filter(|_| is_constant);
         // Prims with equal values share a material.
         let key = (
             lowered.path.clone(),
@@ -110,7 +113,7 @@ impl Lowering<'_> {
             path: path.to_owned(),
             standard: matte([GREY; 3]),
             uv_names: ["st".to_owned(), String::new()],
-            shows_color: true,
+            shown_color: Some(("primvars:displayColor".to_owned(), [GREY; 3])),
             span: None,
         };
         if path.is_empty() {
@@ -148,7 +151,7 @@ impl Lowering<'_> {
             self.unsupported(&prim, "the volume", "it is left out");
         }
         // Lower its inputs.
-        lowered.shows_color = false;
+        lowered.shown_color = None;
         self.preview(&shader, &mut lowered);
         lowered
     }
@@ -233,17 +236,18 @@ impl Lowering<'_> {
             "UsdPrimvarReader_float3" | "UsdPrimvarReader_color" => {
                 let source = self.value_source(&node, "inputs:varname");
                 let varname = source.and_then(|(prim, name)| self.text(&prim, &name));
-                if varname.as_deref() == Some("displayColor") && name == "inputs:diffuseColor" {
-                    lowered.shows_color = true;
+                let varname = varname.unwrap_or_default();
+                let fallback = self.vector::<3>(&node, "inputs:fallback");
+                if name == "inputs:diffuseColor" {
+                    let shown = fallback.unwrap_or([GREY; 3]);
+                    lowered.shown_color = Some((format!("primvars:{varname}"), shown));
                 } else {
-                    let name = varname.unwrap_or_default();
                     self.unsupported(
                         &node,
-                        &format!("the primvar `{}`", clip(&name)),
+                        &format!("the primvar `{}`", clip(&varname)),
                         "its fallback takes its place",
                     );
                 }
-                let fallback = self.vector::<3>(&node, "inputs:fallback");
                 ColorInput {
                     color: fallback.unwrap_or(default),
                     look: None,

@@ -14,9 +14,9 @@ use rtc_math::{Vec3, to_u32};
 use rtc_source::Resource;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What distinguishes meshes: their layers, the part, the texture coordinates, and whether the
-/// vertices have colours.
-pub(super) type PartMeshKey = (Vec<(usize, u32)>, usize, [String; 2], bool);
+/// What distinguishes meshes: their layers, the part, the texture coordinates, and the primvar of
+/// the colours of the vertices.
+pub(super) type PartMeshKey = (Vec<(usize, u32)>, usize, [String; 2], Option<String>);
 
 /// The faces of a mesh, and what belongs to its points.
 struct MeshFaces {
@@ -53,30 +53,28 @@ impl Lowering<'_> {
         let is_double_sided = self.flag(prim, "doubleSided").unwrap_or(false);
         let parts = self.parts(prim, state);
         // Colours that vary are stored in the mesh, constant ones in the material.
-        let color = self.primvar(prim, "primvars:displayColor", 3);
         let opacity = self.primvar(prim, "primvars:displayOpacity", 1);
-        let varies = |primvar: &Option<Primvar>| {
-            primvar
-                .as_ref()
-                .is_some_and(|primvar| primvar.interpolation != "constant")
+        let varies = |primvar: Option<&Primvar>| {
+            primvar.is_some_and(|primvar| primvar.interpolation != "constant")
         };
-        let (color, opacity) = match varies(&color) || varies(&opacity) {
-            true => (color, opacity),
-            false => (None, None),
-        };
-        let has_colors = color.is_some() || opacity.is_some();
+        let mut read_colors = BTreeMap::new();
         let mut faces: Option<Option<MeshFaces>> = None;
         for (index, part) in parts.into_iter().enumerate() {
             let lowered = self.bound_material(&part.state);
-            let shows_colors = has_colors && lowered.shows_color;
+            let color_name = lowered.shown_color.as_ref().map(|(name, _)| name.clone());
+            let color = color_name.as_ref().and_then(|name| {
+                let read = read_colors.entry(name.clone());
+                read.or_insert_with(|| self.primvar(prim, name, 3)).as_ref()
+            });
+            let color_name = color_name.filter(|_| varies(color) || varies(opacity.as_ref()));
+            let shows_colors = color_name.is_some();
             // Instances of a prim share the meshes.
-            let key = (prim.key(), index, lowered.uv_names.clone(), shows_colors);
+            let key = (prim.key(), index, lowered.uv_names.clone(), color_name);
             let mesh = match self.meshes.get(&key) {
                 Some(known) => *known,
                 None => {
                     let faces = faces.get_or_insert_with(|| self.faces(prim));
-                    let colors =
-                        [&color, &opacity].map(|one| one.as_ref().filter(|_| shows_colors));
+                    let colors = [color, opacity.as_ref()].map(|one| one.filter(|_| shows_colors));
                     let mesh = faces.as_ref().and_then(|faces| {
                         self.part_mesh(
                             prim,
@@ -123,17 +121,19 @@ impl Lowering<'_> {
             if self.type_name(&subset) != "GeomSubset" || !self.is_defined(&subset) {
                 continue;
             }
-            let bound = self.targets(&subset, "material:binding").into_iter().next();
+            let bound = self.binding(&subset, "material:binding");
+            // A binding of the mesh may be stronger than those of its subsets.
+            let is_open = state.material.as_ref().is_none_or(|above| !above.is_strong);
             let is_face = self
                 .text(&subset, "elementType")
                 .is_none_or(|kind| kind == "face");
-            let (Some(bound), true) = (bound, is_face) else {
+            let (Some(bound), true) = (bound, is_face && is_open) else {
                 continue;
             };
             let mut faces = self.indices(&subset, "indices").unwrap_or_default();
             faces.retain(|face| taken.insert(*face));
             let state = PrimState {
-                material: Some((bound.into(), self.span_of(&subset))),
+                material: Some(bound),
                 ..state.clone()
             };
             parts.push(MeshPart {

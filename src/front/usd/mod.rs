@@ -8,8 +8,8 @@
 //!   as one [`layer`].
 //! - [`stage`] composes prims of the layers: sublayers, inherits, variants, references, payloads
 //!   and specializes. [`attribute`] finds values at one time.
-//! - [`mesh`], [`shape`], [`light`], [`camera`] and [`material`] with [`texture`] lower one kind of
-//!   prim each, in the world of the scene: metres, y up.
+//! - [`mesh`], [`shape`], [`light`], [`camera`] and [`material`] with [`texture`] and [`udim`] lower
+//!   one kind of prim each, in the world of the scene: metres, y up.
 //! - [`files`] finds and reads the files that a layer names. Without one the picture is made, too,
 //!   and a warning says what it lacks.
 //!
@@ -29,20 +29,22 @@ mod shape;
 mod stage;
 mod text;
 mod texture;
+mod udim;
 mod xform;
 
 use crate::exchange::texture::SampledTextures;
 use crate::exchange::transform::AffineTransform;
-use crate::{FrontOptions, UpAxis};
+use crate::{FrontOptions, UpAxis, over_limit};
 use layer::Layer;
 use rtc_diag::{Diagnostic, DiagnosticSink, clip, clip_path, codes};
 use rtc_ir::{
     EntityField, EntityKind, ImageId, LoweredScene, MaterialId, MeshId, Scene, SourceSpans,
     ValuePath,
 };
-use rtc_source::{FileId, Resource, SourceMap, Span};
+use rtc_source::{FileId, LimitExceeded, Resource, SourceMap, Span};
 use shape::StageShape;
 use stage::ComposedPrim;
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
@@ -79,18 +81,27 @@ const HIDDEN: [&str; 20] = [
     "CoordSys",
 ];
 
+/// The ends of the names of layers and packages.
+const EXTENSIONS: [&str; 4] = ["usd", "usda", "usdc", "usdz"];
+
 /// Whether bytes begin a layer or a package.
 fn begins_layer(bytes: &[u8]) -> bool {
-    bytes.starts_with(b"#usda") || binary::is_binary(bytes) || package::is_package(bytes)
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    text.starts_with(b"#usda") || binary::is_binary(bytes) || package::is_package(bytes)
 }
 
-/// Whether a file is a stage or a layer of USD: by its first bytes; a package also by its name.
+/// Whether a file is a stage or a layer of USD: by its name, or by its first bytes. A layer without
+/// its first line is one, too, and then has a mistake.
 #[must_use]
 pub fn is_usd(name: &str, bytes: &[u8]) -> bool {
-    match package::is_package(bytes) {
-        true => name.to_ascii_lowercase().ends_with(".usdz") || crate::foreign::is_usdz(bytes),
-        false => begins_layer(bytes),
-    }
+    let extension = name
+        .rsplit_once('.')
+        .map(|(_, last)| last.to_ascii_lowercase());
+    extension.is_some_and(|extension| EXTENSIONS.contains(&extension.as_str()))
+        || match package::is_package(bytes) {
+            true => crate::foreign::is_usdz(bytes),
+            false => begins_layer(bytes),
+        }
 }
 
 /// Lowers a stage at one time. Layers come into the map; pictures are loaded.
@@ -103,14 +114,19 @@ pub fn lower(
     sink: &mut DiagnosticSink,
 ) -> Option<LoweredScene> {
     let mut lowering = Lowering::new(file, map, options, sink);
-    let root = lowering.open_root(file)?;
-    let root = Rc::new(lowering.pseudo_root(root));
-    lowering.root = Some(Rc::clone(&root));
-    lowering.stage(&root);
-    lowering.finish();
-    if lowering.is_exhausted {
+    if let Some(root) = lowering.open_root(file) {
+        let root = Rc::new(lowering.pseudo_root(root));
+        lowering.root = Some(Rc::clone(&root));
+        lowering.stage(&root);
+        lowering.finish();
+    }
+    if let Some((fault, span)) = lowering.exceeded.get() {
+        lowering
+            .sink
+            .push(over_limit("the stage", fault).at(*span, ""));
         return None;
     }
+    lowering.root.as_ref()?;
     let mut lowered = LoweredScene {
         scene: lowering.scene,
         source_spans: lowering.source_spans,
@@ -125,10 +141,25 @@ struct PrimState {
     to_world: AffineTransform,
     is_shown: bool,
     purpose: Rc<str>,
-    /// The path of the material, and where it is bound.
-    material: Option<(Rc<str>, Span)>,
-    color: Option<[f64; 3]>,
-    opacity: Option<f64>,
+    material: Option<MaterialBinding>,
+    /// The prims whose primvars it has.
+    primvars: Option<Rc<PrimvarScope>>,
+}
+
+/// The material that a prim and those below it have.
+#[derive(Clone)]
+struct MaterialBinding {
+    path: Rc<str>,
+    /// Where it is bound.
+    span: Span,
+    /// Whether it comes before the bindings of the prims below.
+    is_strong: bool,
+}
+
+/// A prim with primvars, and the next one above.
+struct PrimvarScope {
+    prim: Rc<ComposedPrim>,
+    above: Option<Rc<Self>>,
 }
 
 /// A camera of the stage.
@@ -151,6 +182,8 @@ struct Lowering<'run> {
     layers: Vec<Rc<Layer>>,
     layer_origins: Vec<files::LayerOrigin>,
     layer_keys: BTreeMap<String, Option<usize>>,
+    /// The files of the map by what distinguishes them.
+    loaded: BTreeMap<String, Option<FileId>>,
     /// The layers by the paths that other ones name.
     named_layers: BTreeMap<(usize, String), Option<usize>>,
     packages: BTreeMap<FileId, Option<Rc<package::UsdzPackage>>>,
@@ -173,6 +206,8 @@ struct Lowering<'run> {
     placed_materials: BTreeMap<material::ShownMaterialKey, MaterialId>,
     images: BTreeMap<texture::ChannelsKey, Option<ImageId>>,
     textures: SampledTextures,
+    /// The tiles of pictures, by the layer and the path that names them.
+    tile_grids: BTreeMap<(usize, String), Option<Rc<udim::TileGrid>>>,
     meshes: BTreeMap<mesh::PartMeshKey, Option<MeshId>>,
     built: BTreeMap<String, MeshId>,
     cameras: Vec<PlacedCamera>,
@@ -180,7 +215,10 @@ struct Lowering<'run> {
     prototype: Option<Vec<StageShape>>,
     /// The prototypes of instancers that are read.
     open_prototypes: Vec<String>,
-    is_exhausted: bool,
+    /// The limit that the stage exceeds, and where: nothing more is read.
+    exceeded: OnceCell<(LimitExceeded, Span)>,
+    /// The first binary layer with a value that is damaged.
+    unread: OnceCell<FileId>,
 }
 
 impl<'run> Lowering<'run> {
@@ -203,6 +241,7 @@ impl<'run> Lowering<'run> {
             layers: Vec::new(),
             layer_origins: Vec::new(),
             layer_keys: BTreeMap::new(),
+            loaded: BTreeMap::new(),
             named_layers: BTreeMap::new(),
             packages: BTreeMap::new(),
             stacks: Vec::new(),
@@ -224,8 +263,14 @@ impl<'run> Lowering<'run> {
             cameras: Vec::new(),
             prototype: None,
             open_prototypes: Vec::new(),
-            is_exhausted: false,
+            tile_grids: BTreeMap::new(),
+            exceeded: OnceCell::new(),
+            unread: OnceCell::new(),
         }
+    }
+
+    fn is_exhausted(&self) -> bool {
+        self.exceeded.get().is_some()
     }
 
     fn record(&mut self, entity: EntityKind, index: usize, span: Span) {
@@ -273,8 +318,7 @@ impl<'run> Lowering<'run> {
             is_shown: true,
             purpose: "default".into(),
             material: None,
-            color: None,
-            opacity: None,
+            primvars: None,
         };
         self.children(root, &state);
     }
@@ -290,7 +334,7 @@ impl<'run> Lowering<'run> {
         };
         pending.push((None, state.clone(), above(self, prim)));
         while let Some((parent, state, mut names)) = pending.pop() {
-            let Some(name) = names.pop().filter(|_| !self.is_exhausted) else {
+            let Some(name) = names.pop().filter(|_| !self.is_exhausted()) else {
                 continue;
             };
             let child = self
@@ -326,7 +370,12 @@ impl<'run> Lowering<'run> {
         match kind.as_str() {
             "" | "Xform" | "Scope" => {}
             "SkelRoot" => self.approximate(prim, "what a skeleton moves is shown at rest"),
-            "Mesh" => self.mesh(prim, &state),
+            "Mesh" => {
+                if self.has(prim, "inputs:intensity") {
+                    self.unsupported(prim, "the light", "the mesh gives none");
+                }
+                self.mesh(prim, &state);
+            }
             "PointInstancer" => {
                 self.instancer(prim, &state);
                 return None;
@@ -348,7 +397,7 @@ impl<'run> Lowering<'run> {
     }
 
     /// What holds for a prim and those below it; `None` if they are hidden.
-    fn state(&mut self, prim: &ComposedPrim, above: &PrimState) -> Option<PrimState> {
+    fn state(&mut self, prim: &Rc<ComposedPrim>, above: &PrimState) -> Option<PrimState> {
         let (local, resets) = self.local(prim);
         let mut state = above.clone();
         let base = self.base();
@@ -371,19 +420,10 @@ impl<'run> Lowering<'run> {
             "material:binding",
             "material:binding:full",
         ];
-        let bound = names.iter().find_map(|name| {
-            let path = self.targets(prim, name).into_iter().next()?;
-            Some((path.into(), self.property_span(prim, name)))
-        });
-        state.material = bound.or(state.material);
-        let has_collections = prim.opinions.iter().any(|opinion| {
-            let properties = &self.spec(opinion).properties;
-            let mut later = properties.range("material:binding:collection".to_owned()..);
-            later
-                .next()
-                .is_some_and(|(name, _)| name.starts_with("material:binding:collection"))
-        });
-        if has_collections {
+        let bound = names.iter().find_map(|name| self.binding(prim, name));
+        let is_open = state.material.as_ref().is_none_or(|above| !above.is_strong);
+        state.material = bound.filter(|_| is_open).or(state.material);
+        if self.has_some(prim, "material:binding:collection") {
             self.unsupported(
                 prim,
                 "the binding of a collection",
@@ -397,18 +437,27 @@ impl<'run> Lowering<'run> {
         {
             self.unsupported(prim, "the value clips", "they are left out");
         }
-        // Only values of the whole pass on to those below.
-        if let Some(color) = self.primvar(prim, "primvars:displayColor", 3)
-            && color.interpolation == "constant"
-        {
-            state.color = Some(color.at(0));
-        }
-        if let Some(opacity) = self.primvar(prim, "primvars:displayOpacity", 1)
-            && opacity.interpolation == "constant"
-        {
-            state.opacity = Some(opacity.at::<1>(0)[0]);
+        if self.has_some(prim, "primvars:") {
+            state.primvars = Some(Rc::new(PrimvarScope {
+                prim: Rc::clone(prim),
+                above: state.primvars,
+            }));
         }
         Some(state)
+    }
+
+    /// The material that a relationship of a prim binds.
+    fn binding(&self, prim: &ComposedPrim, name: &str) -> Option<MaterialBinding> {
+        let path = self.targets(prim, name).into_iter().next()?;
+        let mut strengths = prim.opinions.iter().filter_map(|opinion| {
+            let property = self.spec(opinion).properties.get(name)?;
+            property.is_stronger_than_descendants
+        });
+        Some(MaterialBinding {
+            path: path.into(),
+            span: self.property_span(prim, name),
+            is_strong: strengths.next().unwrap_or(false),
+        })
     }
 
     /// The map from the stage to the scene: y up, and metres.
@@ -426,6 +475,13 @@ impl<'run> Lowering<'run> {
     /// Chooses the camera, and reports what was asked for and is not there.
     fn finish(&mut self) {
         self.finish_camera();
+        if let Some(file) = self.unread.get().copied() {
+            let name = clip_path(self.map.name(file)).into_owned();
+            let message = format!("a value of the layer `{name}` is damaged: it is left out");
+            let diagnostic = Diagnostic::new(&codes::USD_DAMAGED, message);
+            let diagnostic = diagnostic.severity(rtc_diag::Severity::Warning);
+            self.sink.push(diagnostic.at(Span::new(file, 0, 0), ""));
+        }
         let animation = self.options.animation.as_deref();
         let variant = self
             .options

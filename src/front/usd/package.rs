@@ -43,6 +43,7 @@ impl UsdzPackage {
         let end = memchr::memmem::rfind(bytes, b"PK\x05\x06").ok_or(CUT)?;
         let mut at = number(end + 16, 4).ok_or(CUT)?;
         let mut package = Self::default();
+        let mut taken = Vec::new();
         while bytes
             .get(at..)
             .is_some_and(|rest| rest.starts_with(b"PK\x01\x02"))
@@ -63,13 +64,19 @@ impl UsdzPackage {
             let lengths = number(start + 26, 2)
                 .zip(number(start + 28, 2))
                 .ok_or(CUT)?;
-            let start = start + 30 + lengths.0 + lengths.1;
+            let (header, start) = (start, start + 30 + lengths.0 + lengths.1);
             bytes.get(start..start + size).ok_or(CUT)?;
+            taken.push(header..start + size);
             if package.first.is_empty() {
                 package.first.clone_from(&text);
             }
             package.files.insert(text, start..start + size);
             at += 46 + name + extra + comment;
+        }
+        // What is copied of an archive is never more than the archive.
+        taken.sort_by_key(|range| range.start);
+        if taken.windows(2).any(|pair| pair[1].start < pair[0].end) {
+            return Err(UsdzError::Damaged("its files overlap"));
         }
         match package.first.is_empty() {
             true => Err(UsdzError::Damaged("it holds no file")),
@@ -80,6 +87,11 @@ impl UsdzPackage {
     pub(super) fn file(&self, path: &str) -> Option<Range<usize>> {
         self.files.get(path).cloned()
     }
+}
+
+/// The package and the file in it of a path with brackets: `a.usdz[b.usda]`.
+pub(super) fn bracketed(path: &str) -> Option<(&str, &str)> {
+    path.strip_suffix(']')?.split_once('[')
 }
 
 /// A path relative to the folder of a file in the package, without `.` and `..`.

@@ -4,13 +4,15 @@
 
 use super::layer::{MAX_DEPTH, Value};
 use super::text::LayerParseError;
-use rtc_source::{Budget, Resource};
+use rtc_source::{Budget, LimitExceeded, Resource};
+use std::cell::OnceCell;
+use std::ops::RangeInclusive;
 
 /// The memory of a token, in bytes, rounded up.
 pub(super) const TOKEN: u64 = 64;
 /// Shorter arrays are not compressed.
 const MIN_COMPRESSED: usize = 16;
-/// LZ4 makes at most so many bytes of one.
+/// LZ4 makes fewer bytes of one.
 const MOST_UNPACKED: usize = 256;
 
 pub(super) const CUT: LayerParseError = LayerParseError::Damaged("it ends before its tables do");
@@ -22,6 +24,8 @@ pub(super) struct CrateTables {
     pub(super) tokens: Vec<String>,
     pub(super) strings: Vec<u32>,
     pub(super) paths: Vec<PathEntry>,
+    /// The limit that a value exceeded.
+    pub(super) exceeded: OnceCell<LimitExceeded>,
 }
 
 /// A path: that of its parent with one more name.
@@ -84,25 +88,22 @@ impl<'a> ByteCursor<'a> {
         ByteCursor::new(self.bytes, u64::try_from(at).ok()?)
     }
 
-    /// A block of LZ4, which becomes at most `most` bytes.
+    /// A block of LZ4, which becomes from `sizes.start()` to `sizes.end()` bytes.
     pub(super) fn unpack(
         &mut self,
         packed: usize,
-        most: usize,
+        sizes: RangeInclusive<usize>,
         budget: &Budget,
     ) -> Result<Vec<u8>, LayerParseError> {
-        // Check the declared size against the greatest ratio of LZ4.
+        const NOT_AS_LARGE: LayerParseError =
+            LayerParseError::Damaged("a block is not as large as it says");
+        // Memory is taken for no more than LZ4 can make of the block.
         let mut packed = self.take(packed).ok_or(CUT)?;
-        if most
-            > packed
-                .len()
-                .saturating_mul(MOST_UNPACKED)
-                .saturating_add(64)
-        {
-            return Err(LayerParseError::Damaged(
-                "a block is not as large as it says",
-            ));
+        let most = packed.len().saturating_mul(MOST_UNPACKED);
+        if *sizes.start() > most {
+            return Err(NOT_AS_LARGE);
         }
+        let most = most.min(*sizes.end());
         charge(budget, most as u64)?;
         let mut unpacked = vec![0; most];
         // The first byte is the number of chunks; 0 means one without a length.
@@ -128,7 +129,10 @@ impl<'a> ByteCursor<'a> {
             }
         }
         unpacked.truncate(length);
-        Ok(unpacked)
+        match sizes.contains(&length) {
+            true => Ok(unpacked),
+            false => Err(NOT_AS_LARGE),
+        }
     }
 
     /// Integers of `size` bytes, stored as differences: 0 the common one, else 1, 2 or 4 bytes of
@@ -143,9 +147,11 @@ impl<'a> ByteCursor<'a> {
             return Ok(Vec::new());
         }
         let packed = self.count(1).ok_or(CUT)?;
-        let most = count.saturating_mul(size + 1).saturating_add(size + 8);
+        // Of differences that all are the common one there is only the table of codes.
+        let least = size + count.div_ceil(4);
+        let most = count.saturating_mul(size).saturating_add(least);
+        let bytes = self.unpack(packed, least..=most, budget)?;
         charge(budget, (count as u64).saturating_mul(8))?;
-        let bytes = self.unpack(packed, most, budget)?;
         let mut codes = ByteCursor {
             bytes: &bytes,
             at: 0,
@@ -344,7 +350,7 @@ impl CrateTables {
             };
             let mut values = times.jump()?;
             let count = values.count(8)?.min(numbers.len());
-            charge(budget, 16 * count as u64).ok()?;
+            self.kept(charge(budget, 16 * count as u64))?;
             let pairs = numbers.into_iter().take(count);
             pairs
                 .map(|time| Some((time, values.u64()?)))
@@ -353,7 +359,17 @@ impl CrateTables {
         read().unwrap_or_default()
     }
 
-    /// A value of the file; `None` if it is damaged, of a kind without use, or too large.
+    /// What was read, unless a limit is exceeded or the file is damaged.
+    fn kept<T>(&self, read: Result<T, LayerParseError>) -> Option<T> {
+        let keep = |fault| {
+            if let LayerParseError::Limit(fault) = fault {
+                self.exceeded.get_or_init(|| fault);
+            }
+        };
+        read.map_err(keep).ok()
+    }
+
+    /// A value of the file, none of a kind without use; `None` if it is damaged, or too large.
     pub(super) fn value(&self, bytes: &[u8], packed: u64, budget: &Budget) -> Option<Value> {
         let (kind, payload) = (kind(packed)?, packed & PAYLOAD);
         let (is_array, is_inlined) = (packed & ARRAY != 0, packed & INLINED != 0);
@@ -362,7 +378,9 @@ impl CrateTables {
             10..=12 | 41 | 50 => return self.texts(bytes, packed, budget),
             _ => {}
         }
-        let (number, width, is_matrix) = numbers_of(kind)?;
+        let Some((number, width, is_matrix)) = numbers_of(kind) else {
+            return Some(Value::Blocked);
+        };
         let inline = payload.to_le_bytes();
         let mut numbers = match (is_array || kind == 48, is_inlined) {
             (true, _) => self.array(bytes, packed, number, width, budget)?,
@@ -432,32 +450,39 @@ impl CrateTables {
             let total = count.checked_mul(width)?;
             let raw = cursor.take(total.checked_mul(size)?)?;
             // Compressed integers are deltas; compressed floats are integers or indices of a table.
-            charge(budget, 8 * total as u64).ok()?;
+            self.kept(charge(budget, 8 * total as u64))?;
             return Some(
                 raw.chunks_exact(size)
                     .map(|bytes| number.of(bytes))
                     .collect(),
             );
         }
-        charge(budget, (count as u64).checked_mul(8)?).ok()?;
+        self.kept(charge(budget, (count as u64).checked_mul(8)?))?;
         #[expect(clippy::cast_precision_loss, reason = "numbers are doubles from here")]
         let doubles = |all: Vec<i64>| all.into_iter().map(|number| number as f64).collect();
         match number {
-            NumberFormat::Int(size) => Some(doubles(cursor.integers(count, size, budget).ok()?)),
+            NumberFormat::Int(size) => {
+                Some(doubles(self.kept(cursor.integers(count, size, budget))?))
+            }
             NumberFormat::Unsigned(4) => {
-                let all = cursor.indices(count, budget).ok()?;
+                let all = self.kept(cursor.indices(count, budget))?;
                 Some(all.into_iter().map(f64::from).collect())
             }
             NumberFormat::Unsigned(size) => {
-                Some(doubles(cursor.integers(count, size, budget).ok()?))
+                let all = self.kept(cursor.integers(count, size, budget))?;
+                Some(
+                    all.into_iter()
+                        .map(|bits| bits.cast_unsigned() as f64)
+                        .collect(),
+                )
             }
             NumberFormat::Byte => None,
             NumberFormat::Half | NumberFormat::Float | NumberFormat::Double => match cursor.u8()? {
-                b'i' => Some(doubles(cursor.integers(count, 4, budget).ok()?)),
+                b'i' => Some(doubles(self.kept(cursor.integers(count, 4, budget))?)),
                 b't' => {
                     let entries = cursor.u32()? as usize;
                     let raw = cursor.take(entries.checked_mul(size)?)?;
-                    let indices = cursor.indices(count, budget).ok()?;
+                    let indices = self.kept(cursor.indices(count, budget))?;
                     let entry = |index: u32| {
                         let start = (index as usize).checked_mul(size)?;
                         Some(number.of(raw.get(start..start + size)?))
@@ -510,7 +535,7 @@ impl CrateTables {
         }
         let read = |_| {
             let text = text(cursor.u32()?)?;
-            charge(budget, TOKEN + text.len() as u64).ok()?;
+            self.kept(charge(budget, TOKEN + text.len() as u64))?;
             Some(text.to_owned())
         };
         (0..count)

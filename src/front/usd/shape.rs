@@ -69,12 +69,12 @@ impl Lowering<'_> {
                 to_world,
                 ..placed.clone()
             });
-            return (!self.is_exhausted).then_some(());
+            return (!self.is_exhausted()).then_some(());
         }
         self.charge_surface(placed.span)?;
         // A shape without an extent is not seen.
         let Some(shape) = self.shape(&placed.geometry, &to_world, placed.span) else {
-            return (!self.is_exhausted).then_some(());
+            return (!self.is_exhausted()).then_some(());
         };
         self.record(EntityKind::Surface, self.scene.surfaces.len(), placed.span);
         self.scene

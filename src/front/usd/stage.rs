@@ -10,6 +10,7 @@ use super::Lowering;
 use super::layer::{
     ArcKind, ArcTarget, LayerOffset, ListKey, ListOp, MAX_DEPTH, PrimSpec, Specifier,
 };
+use super::packed::TOKEN;
 use crate::exchange::SpannedText;
 use rtc_diag::{clip_path, codes};
 use rtc_source::{LimitExceeded, Resource, Span};
@@ -20,8 +21,12 @@ use std::rc::Rc;
 const MAX_ARCS: usize = 48;
 /// The most layers of a stack.
 const MAX_LAYERS: usize = 1 << 10;
-/// The nodes of the budget that a node of composition counts as.
-const NODE: u64 = 4;
+/// The nodes of the budget that a node of composition counts as, beside one for each of its specs.
+const NODE: u64 = 3;
+/// The nodes that following an arc, or choosing a variant, counts as.
+const ARC: u64 = 8;
+/// So many specs that choose variants count as a node of the budget.
+const SELECTIONS: u64 = 16;
 /// The most nodes that speak of one prim.
 const MAX_NODES: u64 = 1 << 15;
 
@@ -75,8 +80,8 @@ pub(super) struct ComposedPrim {
 /// The arcs of one kind of a prim.
 type ArcList = fn(&PrimSpec) -> &ListOp<ArcTarget>;
 
-/// The variants that are chosen, by sets; the first choice of a set counts.
-type VariantSelections = Vec<(String, String)>;
+/// The layers and their prims that choose variants, the strongest first.
+type VariantSelections = Vec<(usize, u32)>;
 
 impl Opinion {
     /// A path of the layer as one of the stage.
@@ -141,6 +146,9 @@ impl Lowering<'_> {
             };
             let reason = if open.contains(&below) {
                 "the sublayer includes itself".to_owned()
+            } else if found.iter().any(|(known, _)| *known == below) {
+                // Further down it says nothing new.
+                continue;
             } else if open.len() >= MAX_ARCS {
                 format!("sublayers are nested more than {MAX_ARCS} deep")
             } else if found.len() >= MAX_LAYERS {
@@ -248,7 +256,7 @@ impl Lowering<'_> {
         if specs.is_empty() && children.is_empty() {
             return None;
         }
-        self.charge_node()?;
+        self.charge_node(specs.len())?;
         Some(PrimNode {
             stack: node.stack,
             path: format!("{}/{name}", node.path).into(),
@@ -262,8 +270,8 @@ impl Lowering<'_> {
         })
     }
 
-    /// Charges a node. `None` if the budget is used up, or a prim has too many.
-    fn charge_node(&mut self) -> Option<()> {
+    /// Charges a node of some specs. `None` if the budget is used up, or a prim has too many.
+    fn charge_node(&mut self, specs: usize) -> Option<()> {
         self.nodes += 1;
         if self.nodes > MAX_NODES {
             let fault = LimitExceeded {
@@ -271,10 +279,16 @@ impl Lowering<'_> {
                 total: self.nodes,
                 limit: MAX_NODES,
             };
-            self.exhaust(&fault, self.root_span);
+            self.exhaust(fault, self.root_span);
             return None;
         }
-        self.charge(Resource::Nodes, NODE, self.root_span)
+        self.charge(Resource::Nodes, NODE + specs as u64, self.root_span)
+    }
+
+    /// Charges a walk through selections.
+    fn charge_selections(&self, known: &[(usize, u32)]) -> Option<()> {
+        let nodes = known.len() as u64 / SELECTIONS;
+        self.charge(Resource::Nodes, nodes, self.root_span)
     }
 
     /// The prim at a path of a layer stack; `selections` are those of stronger layers.
@@ -282,7 +296,7 @@ impl Lowering<'_> {
         &mut self,
         stack: usize,
         path: &str,
-        selections: &[(String, String)],
+        selections: &[(usize, u32)],
         arcs: usize,
     ) -> Option<PrimNode> {
         let mut node = self.root_node(stack);
@@ -299,8 +313,8 @@ impl Lowering<'_> {
     }
 
     /// Adds the arcs that the places of a node have.
-    fn expand(&mut self, node: &mut PrimNode, selections: &[(String, String)], arcs: usize) {
-        if self.is_exhausted {
+    fn expand(&mut self, node: &mut PrimNode, selections: &[(usize, u32)], arcs: usize) {
+        if self.is_exhausted() || self.charge_selections(selections).is_none() {
             return;
         }
         let mut known: VariantSelections = selections.to_vec();
@@ -357,7 +371,7 @@ impl Lowering<'_> {
         kind: ArcKind,
         target: &ArcTarget,
         (from, arcs): (usize, usize),
-        known: &[(String, String)],
+        known: &[(usize, u32)],
     ) -> Option<PrimNode> {
         let (stack, layer) = match target.asset.as_str() {
             "" => (node.stack, None),
@@ -398,13 +412,14 @@ impl Lowering<'_> {
             let why = format!("more than {MAX_ARCS} arcs lead from one to the next");
             return self.nowhere((node, kind), target.span, &why);
         }
+        self.charge(Resource::Nodes, ARC, self.root_span)?;
         self.open_arcs.push(place);
         let found = self.prim_index(stack, &path, known, arcs + 1);
         self.open_arcs.pop();
         let Some(mut found) = found else {
             // A class that no layer defines may be inherited; it adds nothing.
             let may_be_missing = matches!(kind, ArcKind::Inherit | ArcKind::Specialize);
-            if self.is_exhausted || may_be_missing {
+            if self.is_exhausted() || may_be_missing {
                 return None;
             }
             let message = format!("there is no prim `{}`", clip_path(&path));
@@ -454,22 +469,30 @@ impl Lowering<'_> {
             let wanted = wanted.filter(|(wanted, _)| *wanted == set);
             let wanted = wanted.map(|(_, variant)| variant.to_owned());
             self.used_variant |= wanted.is_some();
-            let choice = || {
-                known
+            let chosen = || {
+                let mut specs = known
                     .iter()
-                    .find(|(of, _)| *of == set)
-                    .map(|(_, variant)| variant.clone())
+                    .map(|(layer, prim)| self.layers[*layer].prim(*prim));
+                specs.find_map(|spec| spec.selections.get(&set).cloned())
             };
-            let Some(choice) = wanted.or_else(choice) else {
+            let Some(choice) = wanted.or_else(chosen) else {
                 continue;
             };
+            if self.charge_selections(known).is_none() {
+                return;
+            }
             // Collect the specs of the chosen variant.
             let specs = node.specs.iter().filter_map(|(layer, prim, time)| {
                 let variants = self.layers[*layer].prim(*prim).variants.get(&set)?;
                 Some((*layer, *variants.get(&choice)?, *time))
             });
             let specs: Vec<_> = specs.collect();
-            if specs.is_empty() || self.charge_node().is_none() {
+            let charged = self.charge(Resource::Nodes, ARC, self.root_span);
+            if specs.is_empty()
+                || charged
+                    .and_then(|()| self.charge_node(specs.len()))
+                    .is_none()
+            {
                 continue;
             }
             // Compose them as a child with its own arcs.
@@ -492,13 +515,10 @@ impl Lowering<'_> {
 
     /// The selections of the layers of a node.
     fn selections(&self, node: &PrimNode, known: &mut VariantSelections) {
-        for (layer, prim, _) in &node.specs {
-            for (set, variant) in &self.layers[*layer].prim(*prim).selections {
-                if !known.iter().any(|(of, _)| of == set) {
-                    known.push((set.clone(), variant.clone()));
-                }
-            }
-        }
+        let specs = node.specs.iter().map(|(layer, prim, _)| (*layer, *prim));
+        known.extend(
+            specs.filter(|(layer, prim)| !self.layers[*layer].prim(*prim).selections.is_empty()),
+        );
     }
 
     fn all_selections(&self, node: &PrimNode, known: &mut VariantSelections) {
@@ -544,6 +564,15 @@ impl Lowering<'_> {
             let Some(list) = property.and_then(|property| property.targets.as_ref()) else {
                 continue;
             };
+            // Every prim that inherits a list of targets maps it anew.
+            let all = [&list.prepended, &list.appended, &list.deleted];
+            let count = all.iter().map(|items| items.len() as u64).sum::<u64>();
+            if self
+                .charge(Resource::Memory, TOKEN * count, self.root_span)
+                .is_none()
+            {
+                return Vec::new();
+            }
             let map = |items: &Vec<SpannedText>| {
                 let map = |item: &SpannedText| SpannedText {
                     text: opinion.path(&item.text),

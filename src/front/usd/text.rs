@@ -9,7 +9,7 @@ use super::layer::{
 };
 use crate::exchange::SpannedText;
 use rtc_source::{Budget, FileId, LimitExceeded, Span};
-use token::is_name;
+use token::{ValueType, is_name};
 
 /// After so many mistakes a text is not read further.
 const MAX_MISTAKES: usize = 16;
@@ -125,14 +125,14 @@ impl<'a> TextReader<'a> {
             MetadataOwner::Root => self.stage_entry(key),
             MetadataOwner::Prim(index) => self.prim_entry(index, keyword, key, start),
             MetadataOwner::Property(index, name) => {
-                if key == "interpolation" {
-                    let interpolation = self.string()?;
-                    if let Some(property) = self.layer.prim_mut(index).properties.get_mut(name) {
-                        property.interpolation = Some(interpolation);
-                    }
-                    return Some(());
+                if !matches!(key, "interpolation" | "bindMaterialAs") {
+                    return self.skip_value();
                 }
-                self.skip_value()
+                let word = self.string()?;
+                if let Some(property) = self.layer.prim_mut(index).properties.get_mut(name) {
+                    property.describe(key, word);
+                }
+                Some(())
             }
         }
     }
@@ -397,8 +397,10 @@ impl<'a> TextReader<'a> {
             word = self.word();
         }
         let is_relationship = word == "rel";
+        let mut kind = ValueType::of(word);
         if self.eat(b'[') {
             self.expect(b']')?;
+            kind.is_array = true;
         }
         let full = self.word();
         if full.is_empty() {
@@ -413,11 +415,11 @@ impl<'a> TextReader<'a> {
         property.span.get_or_insert(span);
         if self.eat(b'=') {
             match suffix {
-                "timeSamples" => self.samples(index, name)?,
+                "timeSamples" => self.samples(index, name, kind)?,
                 "connect" => self.targets(index, name, keyword)?,
                 "" if is_relationship => self.targets(index, name, keyword)?,
                 "" => {
-                    let value = self.value()?;
+                    let value = self.value_of(kind)?;
                     let properties = &mut self.layer.prim_mut(index).properties;
                     if let Some(property) = properties.get_mut(name) {
                         property.value = Some(StoredValue::Read(value));
@@ -441,22 +443,20 @@ impl<'a> TextReader<'a> {
         Some(())
     }
 
-    fn samples(&mut self, index: u32, name: &str) -> Option<()> {
+    fn samples(&mut self, index: u32, name: &str, kind: ValueType<'_>) -> Option<()> {
         self.expect(b'{')?;
         let mut samples: Vec<(f64, StoredValue)> = Vec::new();
         while !self.eat(b'}') {
             let start = self.at;
             // The colon is one of the bytes of a name.
-            let word = self.word();
-            let Ok(time) = word.trim_end_matches(':').parse::<f64>() else {
+            let word = self.word_of(|byte| is_name(byte) && byte != b':');
+            let Ok(time) = word.parse::<f64>() else {
                 self.at = start;
                 return self.mistake("the time of a sample is expected here");
             };
-            if !word.ends_with(':') {
-                self.expect(b':')?;
-            }
+            self.expect(b':')?;
             self.spend(WORD);
-            samples.push((time, StoredValue::Read(self.value()?)));
+            samples.push((time, StoredValue::Read(self.value_of(kind)?)));
             if !self.eat(b',') {
                 self.expect(b'}')?;
                 break;

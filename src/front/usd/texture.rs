@@ -8,16 +8,16 @@ use crate::exchange::color::encoded;
 use crate::pixels;
 use rtc_color::{nearest8, srgb_decoded};
 use rtc_diag::codes;
-use rtc_image::{OpacityUse, is_radiance};
-use rtc_ir::{EntityKind, Filter, Image, ImageId, Map, Pixels, Sampled, TextureId, Wrap};
+use rtc_image::{OpacityUse, Pixels, is_radiance};
+use rtc_ir::{self as ir, EntityKind, Filter, Image, ImageId, Map, Sampled, TextureId, Wrap};
 use rtc_source::{FileKind, Resource, Span};
 use std::collections::BTreeMap;
 
 /// What takes the place of a picture.
-const INSTEAD: &str = "its fallback takes its place";
+pub(super) const INSTEAD: &str = "its fallback takes its place";
 
 /// The formats of textures; those that are not read are told.
-const TEXTURES: FileKind = FileKind {
+pub(super) const TEXTURES: FileKind = FileKind {
     extensions: &[
         "png", "jpg", "jpeg", "webp", "ktx2", "exr", "hdr", "tga", "tif", "tiff", "bmp", "avif",
     ],
@@ -141,21 +141,15 @@ impl Lowering<'_> {
                 text: path.clone(),
                 span,
             };
+            if let Some(grid) = self.tile_grid(&text, *layer) {
+                files.insert(key, self.tiled(&grid, *layer, span)?);
+                continue;
+            }
             let bytes = self.file(&text, *layer, &TEXTURES, INSTEAD)?;
             if is_radiance(&bytes) {
                 return self.float_image(&text, &bytes);
             }
-            let decoded = pixels::decode(&bytes, OpacityUse::Kept, self.map.budget());
-            match decoded {
-                Ok(decoded) => drop(files.insert(key, decoded)),
-                Err(fault) => {
-                    let what = format!("the image `{}`", rtc_diag::clip_path(path));
-                    let formats = "textures are PNG, JPEG, WebP, EXR or HDR";
-                    let diagnostic = pixels::rejection(&fault, &what, formats);
-                    self.without(diagnostic, span, INSTEAD);
-                    return None;
-                }
-            }
+            files.insert(key, self.decoded(&text, &bytes)?);
         }
         let width = files.values().map(|file| file.width).max()?;
         let height = files.values().map(|file| file.height).max()?;
@@ -193,13 +187,25 @@ impl Lowering<'_> {
             width,
             height,
             kind: if channels.len() == 4 {
-                Pixels::Rgba8
+                ir::Pixels::Rgba8
             } else {
-                Pixels::Rgb8
+                ir::Pixels::Rgb8
             },
             pixels: made.into(),
         };
         Some(self.add_picture(image, span))
+    }
+
+    /// The pixels of a file; `None` if it cannot be read, which is reported.
+    pub(super) fn decoded(&mut self, path: &SpannedText, bytes: &[u8]) -> Option<Pixels> {
+        let decoded = pixels::decode(bytes, OpacityUse::Kept, self.map.budget());
+        let reject = |fault| {
+            let what = format!("the image `{}`", rtc_diag::clip_path(&path.text));
+            let formats = "textures are PNG, JPEG, WebP, EXR or HDR";
+            let diagnostic = pixels::rejection(&fault, &what, formats);
+            self.without(diagnostic, path.span, INSTEAD);
+        };
+        decoded.map_err(reject).ok()
     }
 
     /// A picture of radiance as it is.
@@ -275,7 +281,12 @@ impl Lowering<'_> {
             }
         });
         // Read the texture coordinates and the output channel.
-        let (primvar, rows) = self.texture_coordinates(texture);
+        let (primvar, mut rows) = self.texture_coordinates(texture);
+        let mut wrap = wrap;
+        if let Some(grid) = self.tile_grid(&path, layer) {
+            rows = after(grid.rows(), rows);
+            wrap = [Wrap::Clamp; 2];
+        }
         let channel = "rgba"
             .find(output.strip_prefix("outputs:").unwrap_or(output))
             .filter(|_| {

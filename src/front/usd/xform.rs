@@ -5,12 +5,20 @@ use super::stage::ComposedPrim;
 use crate::exchange::transform::AffineTransform;
 use rtc_diag::{clip_path, codes};
 use rtc_math::Vec3;
+use rtc_source::Resource;
+
+/// The nodes of the budget that an operation counts as.
+const OPERATION: u64 = 2;
 
 impl Lowering<'_> {
     /// The map from a prim to its parent, and whether it forgets those above.
     pub(super) fn local(&mut self, prim: &ComposedPrim) -> (AffineTransform, bool) {
         let (mut all, mut resets) = (AffineTransform::IDENTITY, false);
-        for name in self.texts(prim, "xformOpOrder").unwrap_or_default() {
+        let order = self.texts(prim, "xformOpOrder").unwrap_or_default();
+        // Every prim that inherits a stack computes it anew.
+        let nodes = OPERATION * order.len() as u64;
+        let charged = self.charge(Resource::Nodes, nodes, self.root_span);
+        for name in order.into_iter().filter(|_| charged.is_some()) {
             if name == "!resetXformStack!" {
                 (all, resets) = (AffineTransform::IDENTITY, true);
                 continue;

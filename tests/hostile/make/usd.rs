@@ -4,10 +4,18 @@ use super::Repro;
 
 /// All of them.
 pub(crate) fn all() -> Vec<Repro> {
-    [texts(), paths(), arcs(), geometry(), binary(), packages()]
-        .into_iter()
-        .flatten()
-        .collect()
+    [
+        texts(),
+        paths(),
+        arcs(),
+        heirs(),
+        geometry(),
+        binary(),
+        packages(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 /// Texts that are no layers, or hardly.
@@ -188,6 +196,103 @@ fn arcs() -> Vec<Repro> {
             None,
         ),
     ]
+}
+
+/// What many prims inherit: the names at n, 2n and 4n, how many of each are too many, and the class.
+struct Family {
+    names: [&'static str; 3],
+    too_many: usize,
+    class: fn(usize) -> String,
+}
+
+const FAMILIES: [Family; 4] = [
+    Family {
+        names: [
+            "500 prims that inherit 500 variants",
+            "1 000 prims that inherit 1 000 variants",
+            "2 000 prims that inherit 2 000 variants",
+        ],
+        too_many: 500,
+        class: |count| {
+            let chosen = numbered(count, |n| format!("string v{n} = \"a\"\n"));
+            let sets = numbered(count, |n| {
+                format!("variantSet \"v{n}\" = {{ \"a\" {{}} }}\n")
+            });
+            format!("class \"C\" ( variants = {{ {chosen} }} ) {{ {sets} }}\n")
+        },
+    },
+    Family {
+        names: [
+            "500 prims that inherit 500 selections",
+            "1 000 prims that inherit 1 000 selections",
+            "2 000 prims that inherit 2 000 selections",
+        ],
+        too_many: usize::MAX,
+        class: |count| {
+            let chosen = numbered(count, |n| format!("string v{n} = \"a\"\n"));
+            format!("class \"C\" ( variants = {{ {chosen} }} ) {{}}\n")
+        },
+    },
+    Family {
+        names: [
+            "500 prims that inherit 500 operations",
+            "1 000 prims that inherit 1 000 operations",
+            "2 000 prims that inherit 2 000 operations",
+        ],
+        too_many: 2000,
+        class: |count| {
+            let order = "\"xformOp:translate\", ".repeat(count);
+            format!(
+                "class \"C\" {{ double3 xformOp:translate = (1, 1, 1)\n\
+                 uniform token[] xformOpOrder = [{order}] }}\n"
+            )
+        },
+    },
+    Family {
+        names: [
+            "500 prims that inherit 500 bindings",
+            "1 000 prims that inherit 1 000 bindings",
+            "2 000 prims that inherit 2 000 bindings",
+        ],
+        too_many: 2000,
+        class: |count| {
+            let targets = numbered(count, |n| format!("</M{n}>, "));
+            format!("class \"C\" {{ rel material:binding = [{targets}] }}\n")
+        },
+    },
+];
+
+/// The families, and a layer that is named again.
+fn heirs() -> Vec<Repro> {
+    let mut repros = Vec::new();
+    for family in FAMILIES {
+        for (name, count) in family.names.into_iter().zip([500, 1000, 2000]) {
+            let heirs = numbered(count, |n| {
+                format!("def Sphere \"s{n}\" ( inherits = </C> ) {{}}\n")
+            });
+            let expected = (count >= family.too_many).then_some("IO003");
+            repros.push(stage(name, (family.class)(count) + &heirs, expected));
+        }
+    }
+    let again = [
+        (500, "a layer of 1 000 prims that is named 500 times"),
+        (1000, "a layer of 2 000 prims that is named 1 000 times"),
+        (2000, "a layer of 4 000 prims that is named 2 000 times"),
+    ];
+    repros.extend(again.into_iter().map(|(names, name)| {
+        let root = format!("(\n subLayers = [{}]\n)\n", "@b.usda@, ".repeat(names));
+        let below = numbered(2 * names, |n| format!("def Sphere \"s{n}\" {{}}\n"));
+        Repro {
+            name,
+            files: vec![
+                ("a.usda".to_owned(), text(&root)),
+                ("b.usda".to_owned(), text(&below)),
+            ],
+            arguments: check(),
+            expected: None,
+        }
+    }));
+    repros
 }
 
 /// Shapes that become many.
@@ -415,7 +520,7 @@ fn packages() -> Vec<Repro> {
             (0..60_000)
                 .map(|n| entry(&format!("{n}.usda"), 0, size))
                 .collect(),
-            None,
+            Some("US002"),
         ),
     ]
 }

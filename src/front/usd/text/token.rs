@@ -10,6 +10,56 @@ pub(super) fn is_name(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b':' | b'.' | b'!' | b'-' | b'+' | 128..)
 }
 
+/// The type of an attribute, of which values are one or a list.
+#[derive(Clone, Copy)]
+pub(super) struct ValueType<'a> {
+    name: &'a str,
+    pub(super) is_array: bool,
+    item: ItemType,
+}
+
+#[derive(Clone, Copy)]
+enum ItemType {
+    /// So many numbers.
+    Numbers(usize),
+    Text,
+    /// A type without a name here.
+    Any,
+}
+
+impl<'a> ValueType<'a> {
+    /// The type of a name (`SdfValueTypeNames`), of single values.
+    pub(super) fn of(name: &'a str) -> Self {
+        /// Types of one number.
+        const SINGLE: [&str; 10] = [
+            "bool", "uchar", "int", "uint", "int64", "uint64", "half", "float", "double",
+            "timecode",
+        ];
+        /// What stands before the count of numbers, and the letter of their precision.
+        const VECTORS: [&str; 10] = [
+            "int", "half", "float", "double", "point", "normal", "vector", "color", "texCoord",
+            "quat",
+        ];
+        let stem = name.trim_end_matches(['h', 'f', 'd']);
+        let (stem, count) = match stem.strip_suffix(['2', '3', '4']) {
+            Some(before) => (before, usize::from(stem.as_bytes()[stem.len() - 1] - b'0')),
+            None => (stem, 4),
+        };
+        let item = match name {
+            "string" | "token" | "asset" | "pathExpression" => ItemType::Text,
+            name if SINGLE.contains(&name) => ItemType::Numbers(1),
+            _ if matches!(stem, "matrix" | "frame") => ItemType::Numbers(count * count),
+            _ if VECTORS.contains(&stem) => ItemType::Numbers(count),
+            _ => ItemType::Any,
+        };
+        Self {
+            name,
+            is_array: false,
+            item,
+        }
+    }
+}
+
 impl<'a> TextReader<'a> {
     pub(super) fn span(&self, start: usize) -> Span {
         let at = |offset: usize| u32::try_from(offset).unwrap_or(u32::MAX);
@@ -92,9 +142,14 @@ impl<'a> TextReader<'a> {
 
     /// A name, a keyword or a number; empty if there is none.
     pub(super) fn word(&mut self) -> &'a str {
+        self.word_of(is_name)
+    }
+
+    /// A word of some bytes; empty if there is none.
+    pub(super) fn word_of(&mut self, is_part: impl Fn(u8) -> bool) -> &'a str {
         self.peek();
         let rest = self.rest();
-        let length = rest.iter().position(|byte| !is_name(*byte));
+        let length = rest.iter().position(|byte| !is_part(*byte));
         let length = length.unwrap_or(rest.len());
         self.at += length;
         std::str::from_utf8(&rest[..length]).unwrap_or("")
@@ -313,6 +368,42 @@ impl<'a> TextReader<'a> {
             true => Value::Numbers(numbers),
             false => Value::Texts(texts),
         })
+    }
+
+    /// The value of an attribute of a type. As in OpenUSD, one of another type is a mistake.
+    pub(super) fn value_of(&mut self, kind: ValueType<'_>) -> Option<Value> {
+        self.peek();
+        let start = self.at;
+        let is_list = self.rest().starts_with(b"[");
+        let mut value = self.value()?;
+        // Flags may be in quotes.
+        if let (Value::Texts(texts), "bool") = (&value, kind.name)
+            && let [text] = texts.as_slice()
+            && matches!(text.as_str(), "true" | "yes" | "false" | "no")
+        {
+            let is_set = matches!(text.as_str(), "true" | "yes");
+            value = Value::Numbers(vec![f64::from(u8::from(is_set))]);
+        }
+        let fits = match (&value, kind.item) {
+            (Value::Blocked, _) | (_, ItemType::Any) => true,
+            _ if kind.is_array != is_list => false,
+            (Value::Numbers(numbers), ItemType::Numbers(width)) => {
+                numbers.len() % width == 0 && (is_list || numbers.len() == width)
+            }
+            (Value::Texts(texts), ItemType::Text) => is_list || texts.len() == 1,
+            // A list without items could be one of numbers.
+            (Value::Numbers(numbers), ItemType::Text) => numbers.is_empty(),
+            (Value::Texts(_), ItemType::Numbers(_)) => false,
+        };
+        if !fits {
+            let brackets = if kind.is_array { "[]" } else { "" };
+            let message = format!(
+                "a value of the type `{}{brackets}` is expected here",
+                kind.name
+            );
+            self.mistake_at(start, message);
+        }
+        Some(value)
     }
 
     /// Skips a value of any kind.
