@@ -8,6 +8,7 @@
 
 mod density;
 mod energy;
+mod furnace;
 mod known;
 
 use rtc::internals::math::{Microfacets, Plastic, Vec3};

@@ -9,6 +9,7 @@ mod caustics;
 mod closed;
 mod coverage;
 mod emitters;
+mod furnace;
 mod hierarchy;
 mod layers;
 mod leaves;

@@ -11,6 +11,7 @@
 
 mod assets;
 mod corpus;
+mod energy;
 mod exports;
 mod fates;
 mod figures;
@@ -36,6 +37,7 @@ pub(crate) fn trials() -> Vec<Trial> {
     [
         assets::trials(),
         corpus::trials(),
+        energy::trials(),
         exports::trials(),
         fates::trials(),
         figures::trials(),

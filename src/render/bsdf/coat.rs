@@ -35,15 +35,17 @@ impl CoatLayer {
         self.ggx.is_smooth()
     }
 
-    /// The BRDF without its reflectance, and the density of [`CoatLayer::sample`].
+    /// The BRDF without its reflectance, times the cosine to the normal of the coat over that to
+    /// the surface, which is positive; and the density of [`CoatLayer::sample`].
     pub(super) fn evaluate(&self, wi: Vec3) -> (f64, f64) {
+        let above = wi.z;
         let wi = self.basis.to_local(wi);
         if self.ggx.is_smooth() || wi.z <= 0.0 {
             return (0.0, 0.0);
         }
         let h = (self.wo + wi).normalize();
         let f = self.ggx.density(h) * self.ggx.visibility(self.wo, wi);
-        (f, self.ggx.vndf_pdf(self.wo, h) / 4.0)
+        (f * (wi.z / above), self.ggx.vndf_pdf(self.wo, h) / 4.0)
     }
 
     /// Samples a direction that the coat reflects to the viewer.

@@ -6,8 +6,8 @@
 
 use super::albedo::{SchlickAlbedo, anisotropic, half_way, tables};
 use super::distribution::FacetDistribution;
-use super::fresnel::Fresnel;
-use rtc_math::Vec3;
+use super::fresnel::{Curve, Fresnel};
+use rtc_math::{Microfacets, Vec3};
 use std::f64::consts::PI;
 
 /// The compensation at one point for one direction to the viewer.
@@ -33,9 +33,11 @@ struct DiffuseBase {
 }
 
 impl DiffuseBase {
-    /// The albedo of the reflection above the base.
-    fn covered(&self, e: SchlickAlbedo) -> f64 {
-        self.f0 * e.e0 + self.f90 * e.e90 + self.returned * (1.0 - e.whole())
+    /// The albedo of the reflection above the base: at least that of Schlick's curve, and of facets
+    /// that all reflect the fraction `uneven`.
+    fn covered(&self, e: SchlickAlbedo, uneven: f64) -> f64 {
+        let single = e.at(self.f0, self.f90).max(e.whole() * uneven);
+        single + self.returned * (1.0 - e.whole())
     }
 }
 
@@ -74,13 +76,15 @@ fn mean_albedo(surface: FacetDistribution) -> SchlickAlbedo {
 }
 
 impl Compensation {
-    /// For a surface with this `metallic` fraction.
+    /// For a surface with this `metallic` fraction. Where the reflectance of the dielectric does
+    /// not follow Schlick's curve, it is `uneven` towards the viewer; else that is 0.
     #[must_use]
     pub(super) fn new(
         surface: FacetDistribution,
         wo: Vec3,
         [dielectric, metal]: [&Fresnel; 2],
         metallic: f64,
+        uneven: f64,
     ) -> Self {
         // Look up the directional and the mean albedo.
         let (e, mean) = (albedo(surface, wo), mean_albedo(surface));
@@ -103,8 +107,8 @@ impl Compensation {
             left: 0.0,
             left_mean: 0.0,
         };
-        base.left = 1.0 - base.covered(e);
-        base.left_mean = 1.0 - base.covered(mean);
+        base.left = 1.0 - base.covered(e, uneven);
+        base.left_mean = 1.0 - base.covered(mean, 0.0);
         Self {
             surface,
             missing: 1.0 - e.whole(),
@@ -131,12 +135,13 @@ impl Compensation {
         albedo(self.surface, wi)
     }
 
-    /// The BSDF of a white base, by the albedo [`Self::towards`] the light.
+    /// The BSDF of a white base, by the albedo [`Self::towards`] the light and an uneven reflectance
+    /// there.
     #[must_use]
-    pub(super) fn base_f(&self, e: SchlickAlbedo) -> f64 {
+    pub(super) fn base_f(&self, e: SchlickAlbedo, uneven: f64) -> f64 {
         product(
             self.base.left,
-            1.0 - self.base.covered(e),
+            1.0 - self.base.covered(e, uneven),
             self.base.left_mean,
         )
     }
@@ -148,20 +153,53 @@ impl Compensation {
     }
 }
 
+/// The facets of a dielectric above a base.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Covering {
+    pub(super) facets: FacetDistribution,
+    pub(super) dielectric: Fresnel,
+    /// Whether it is a smooth pane, which reflects inside it again and again.
+    pub(super) is_pane: bool,
+}
+
+impl Covering {
+    /// The reflectance of a facet at a cosine.
+    fn at(&self, cosine: f64) -> f64 {
+        let face = self.dielectric.at(cosine).max_element();
+        if self.is_pane {
+            face * 2.0 / (1.0 + face)
+        } else {
+            face
+        }
+    }
+
+    /// The light that it reflects from a direction at least. Where the reflectance does not follow
+    /// Schlick's curve, that towards the direction counts; and other facets than those of the
+    /// tables are no darker at grazing angles than a mirror.
+    pub(super) fn albedo(&self, w: Vec3) -> f64 {
+        let e = albedo(self.facets, w);
+        let Fresnel {
+            f90, curve, film, ..
+        } = &self.dielectric;
+        let bare = e.at(self.dielectric.at(1.0).max_element(), f90.max_element());
+        let is_tabulated = self.facets.model() == Microfacets::Ggx;
+        let is_even = *curve == Curve::Schlick && film.is_none() && !self.is_pane;
+        match is_tabulated {
+            true if is_even => bare,
+            true => bare.max(e.whole() * self.at(w.z)),
+            false => bare.max(self.at(w.z)),
+        }
+    }
+}
+
 /// The factor of the diffuse base without further bounces: appendix B of glTF lets the base scatter
 /// 1 − F of the half-way vector, and at grazing angles a surface would emit up to 1.7 times the
 /// light it receives. It is 1 where the surface emits no more than that.
 #[must_use]
-pub(super) fn grazing_share(surface: FacetDistribution, dielectric: &Fresnel, wo: Vec3) -> f64 {
-    let f0 = dielectric.at(1.0).max_element();
-    let f90 = dielectric.f90.max_element();
-    let e = albedo(surface, wo);
-    let reflected = match dielectric.film {
-        None => e.at(f0, f90),
-        Some(_) => e
-            .at(f0, f90)
-            .max(e.whole() * dielectric.at(wo.z).max_element()),
-    };
+pub(super) fn grazing_share(covering: &Covering, wo: Vec3) -> f64 {
+    let f0 = covering.at(1.0);
+    let f90 = covering.dielectric.f90.max_element();
+    let reflected = covering.albedo(wo);
     let base = 1.0 - f0 - (f90 - f0) * half_way(wo.z);
     if base > 0.0 {
         ((1.0 - reflected) / base).clamp(0.0, 1.0)

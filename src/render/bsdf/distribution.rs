@@ -63,6 +63,12 @@ impl FacetDistribution {
         self.x == self.y
     }
 
+    /// How the facets are distributed and hide each other.
+    #[must_use]
+    pub(super) fn model(self) -> Microfacets {
+        self.model
+    }
+
     /// The widths along x and y.
     #[must_use]
     pub(super) fn widths(self) -> [f64; 2] {
@@ -139,6 +145,13 @@ impl FacetDistribution {
             }
             Microfacets::Beckmann => beckmann::masking(sloped),
         }
+    }
+
+    /// `G₂/G₁`: the share of the light that a visible facet sends from `wo` to `wi` which no other
+    /// facet catches.
+    #[must_use]
+    pub(super) fn unhidden(self, wo: Vec3, wi: Vec3) -> f64 {
+        2.0 * self.visibility(wo, wi) * wi.z.abs() * (wo.z + self.lambda_root(wo))
     }
 
     /// The density of the normals visible from `wo`, divided by `wo·h`: `G₁·D/cos θ_o`.

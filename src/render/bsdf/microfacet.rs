@@ -1,7 +1,7 @@
 //! The microfacet lobes of a rough interface: reflection, and transmission for dielectrics.
 
 use super::albedo::dielectric;
-use super::compensation::{Compensation, grazing_share};
+use super::compensation::{Compensation, Covering, grazing_share};
 use super::distribution::FacetDistribution;
 use super::fresnel::{Curve, Fresnel, normal_reflectance, refracted_cosine};
 use super::plastic::PlasticBase;
@@ -38,7 +38,8 @@ pub(super) struct Microfacet<const F: u32> {
     eta: f64,
     /// The index inside, if the material transmits: its reflectance is that of a dielectric.
     ior: Option<f64>,
-    /// The factors of reflection and of transmission that make up for the light of further bounces.
+    /// The factors of the reflection of the dielectric and of the transmission: they make up for the
+    /// light of further bounces, and from inside only the part that transmits reflects.
     gain: [f64; 2],
 }
 
@@ -141,7 +142,7 @@ impl<const F: u32> Microfacet<F> {
         };
         let plastic = standard
             .plastic
-            .map(|_| standard.specular_color * standard.specular);
+            .map(|_| (standard.specular_color * standard.specular).min(Vec3::ONE));
         let dark = standard.specular == 0.0
             && standard.metallic == 0.0
             && film.is_none()
@@ -171,7 +172,7 @@ impl<const F: u32> Microfacet<F> {
                 && facets.is_smooth(),
             eta: if inside { 1.0 / ior } else { ior },
             ior: transmits.then_some(ior),
-            gain: [1.0; 2],
+            gain: [if inside { standard.transmission } else { 1.0 }, 1.0],
         }
     }
 
@@ -223,25 +224,52 @@ impl<const F: u32> Microfacet<F> {
 
     /// The factor of the base, where that light is left out.
     pub(super) fn grazing_share(&self, wo: Vec3) -> f64 {
-        grazing_share(self.facets, &self.dielectric(), wo)
+        grazing_share(&self.covering(), wo)
+    }
+
+    fn covering(&self) -> Covering {
+        Covering {
+            facets: self.facets,
+            dielectric: self.dielectric(),
+            is_pane: self.is_pane,
+        }
     }
 
     /// The light of multiple bounces between the microfacets.
     pub(super) fn compensation(&self, wo: Vec3) -> Compensation {
-        let fresnel = [&self.dielectric(), &self.metal()];
-        Compensation::new(self.facets, wo, fresnel, self.metallic)
+        let (fresnel, uneven) = ([&self.dielectric(), &self.metal()], self.uneven(wo));
+        Compensation::new(self.facets, wo, fresnel, self.metallic, uneven)
     }
 
-    /// The base below the boundary of a plastic, for the cosine of the viewer.
+    /// The reflectance of the dielectric towards a direction, where it does not follow Schlick's
+    /// curve: of a film, and of a pane; else 0.
+    #[inline]
+    pub(super) fn uneven(&self, w: Vec3) -> f64 {
+        if self.film().is_some() || self.is_pane {
+            self.dielectric_at(w.z).max_element()
+        } else {
+            0.0
+        }
+    }
+
+    /// The base below the boundary of a plastic.
     pub(super) fn plastic<'world>(
         &self,
         standard: &StandardParameters<'world>,
-        cosine: f64,
+        wo: Vec3,
     ) -> Option<PlasticBase<'world>> {
         let boundary = standard.plastic.filter(|_| can::<F>(MICROFACETS))?;
-        let scattered = (1.0 - standard.metallic) * (1.0 - standard.transmission);
-        let base = PlasticBase::new(boundary, standard.base_color, scattered, cosine);
-        Some(base)
+        let through = standard.diffuse_transmission.filter(|_| can::<F>(LAYERS));
+        let scattered = (1.0 - standard.metallic)
+            * (1.0 - standard.transmission)
+            * (1.0 - through.map_or(0.0, |through| through.factor));
+        let is_prepared = self.film().is_none()
+            && self.facets.is_isotropic()
+            && !self.is_pane
+            && boundary.is_of(standard.roughness);
+        let covering = (!is_prepared).then(|| self.covering());
+        let color = standard.base_color;
+        Some(PlasticBase::new(boundary, color, scattered, covering, wo))
     }
 
     /// Whether its lobes are delta lobes.
@@ -265,12 +293,12 @@ impl<const F: u32> Microfacet<F> {
         }
         let dielectric = self.dielectric_at(cosine);
         let entering = 1.0 - dielectric.max_element();
-        let reflected = match self.metallic {
-            0.0 => dielectric,
-            metallic => dielectric.lerp(self.metal().at(cosine), metallic),
-        };
+        let dielectric = dielectric * self.gain[0];
         LobeWeights {
-            reflected: reflected * self.gain[0],
+            reflected: match self.metallic {
+                0.0 => dielectric,
+                metallic => dielectric.lerp(self.metal().at(cosine), metallic),
+            },
             entering,
             through: self.tint * (entering * self.gain[1]),
         }
@@ -280,34 +308,71 @@ impl<const F: u32> Microfacet<F> {
     /// in the transmission, which is the rest after single and further (`bounces`) reflections;
     /// from inside in both. After Turquin, "Practical multiple scattering compensation for
     /// microfacet models" (2019).
-    pub(super) fn compensate(
-        &mut self,
-        standard: &StandardParameters<'_>,
-        cosine: f64,
-        bounces: f64,
-    ) {
-        let Some(ior) = self.ior.filter(|_| can::<F>(TRANSMISSION) && !self.smooth) else {
+    pub(super) fn compensate(&mut self, wo: Vec3, bounces: f64) {
+        let is_rough = can::<F>(TRANSMISSION) && !self.smooth;
+        let is_straight = self.intersection == BoundaryCrossing::Straight;
+        let Some(ior) = self.ior.filter(|_| is_rough && !is_straight) else {
             return;
         };
+        let [reflected, through] = match self.facets.is_isotropic() && self.film().is_none() {
+            true => self.tabulated(ior, wo.z),
+            false => self.integrated(wo),
+        };
+        if self.eta < 1.0 {
+            let whole = reflected + through;
+            self.gain = self.gain.map(|gain| gain / whole);
+        } else if through > 0.0 {
+            self.gain[1] = ((1.0 - reflected - bounces) / through).max(0.0);
+        }
+    }
+
+    /// The light that the facets of the dielectric reflect and transmit once, by the tables; from
+    /// inside, both together.
+    fn tabulated(&self, ior: f64, cosine: f64) -> [f64; 2] {
         let roughness = self.facets.mean_roughness();
         let [f0, f90] = [self.f0.max_element(), self.f90];
         if self.eta < 1.0 {
-            let whole = dielectric::inside(ior, roughness, cosine).at(f0, f90);
-            // Metal and a diffuse base have their own share of the light.
-            self.gain = [1.0 + (1.0 / whole - 1.0) * standard.transmitting(); 2];
-            return;
+            return [dielectric::inside(ior, roughness, cosine).at(f0, f90), 0.0];
         }
         let [reflected, refracted] = dielectric::outside(ior, roughness, cosine);
         let through = match self.intersection {
-            BoundaryCrossing::Wall => reflected,
             BoundaryCrossing::Refracted => refracted,
-            BoundaryCrossing::Straight => return,
+            BoundaryCrossing::Wall | BoundaryCrossing::Straight => reflected,
         };
-        let left = 1.0 - reflected.at(f0, f90) - bounces;
         let single = through.whole() - through.at(f0, f90);
-        if single > 0.0 {
-            self.gain[1] = (left / single).max(0.0);
+        [reflected.at(f0, f90), single]
+    }
+
+    /// The same for facets without tables, over a lattice of visible normals.
+    #[inline(never)]
+    fn integrated(&self, wo: Vec3) -> [f64; 2] {
+        /// The error is about one per cent.
+        const NORMALS: u32 = 64;
+        /// The inverse of the golden ratio.
+        const GOLDEN: f64 = 0.618_033_988_749_894_9;
+        let mut sum = [0.0; 2];
+        for k in 0..NORMALS {
+            let k = f64::from(k) + 0.5;
+            // Take more samples in the long tail of the slopes, with smaller weights.
+            let rest = 1.0 - k / f64::from(NORMALS);
+            let u = [1.0 - rest * rest, (k * GOLDEN).fract()];
+            let h = self.facets.visible_normal(wo, u);
+            let cosine = wo.dot(h);
+            let reflectance = self.dielectric_at(cosine).max_element();
+            let reflected = h * (2.0 * cosine) - wo;
+            if reflected.z > 0.0 {
+                sum[0] += rest * reflectance * self.facets.unhidden(wo, reflected);
+            }
+            let through = self.transmitted(wo, h, cosine);
+            if let Some(wi) = through.filter(|wi| wi.z < 0.0) {
+                let towards = match self.intersection {
+                    BoundaryCrossing::Refracted => wi,
+                    BoundaryCrossing::Wall | BoundaryCrossing::Straight => reflected,
+                };
+                sum[1] += rest * (1.0 - reflectance) * self.facets.unhidden(wo, towards);
+            }
         }
+        sum.map(|sum| 2.0 * sum / f64::from(NORMALS))
     }
 
     /// The Fresnel reflectance of the dielectric. Schlick's formula takes the angle in the medium

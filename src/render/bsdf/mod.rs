@@ -40,7 +40,7 @@ use crate::sampler::remapped;
 use coat::CoatLayer;
 use compensation::Compensation;
 use lobe_pdf::LobePdf;
-use microfacet::{Microfacet, ScatteredDirection};
+use microfacet::{LobeWeights, Microfacet, ScatteredDirection};
 use plastic::PlasticBase;
 use rtc_math::{Microfacets, Vec3};
 use rtc_plan::{FeatureSet, PathFeatures};
@@ -65,7 +65,9 @@ fn mirrored(w: Vec3) -> Vec3 {
     Vec3::new(w.x, w.y, -w.z)
 }
 
-/// The albedo of the base where no microfacet reflects, and its diffuse transmittance.
+/// The albedo of the base where no microfacet reflects, and its diffuse transmittance. Of the parts
+/// of a material by `metallic`, `transmission` and diffuse transmission each has its own fraction
+/// of the light, so that all together keep what they get.
 fn base<const F: u32>(standard: &StandardParameters<'_>) -> (Vec3, Option<Vec3>) {
     let scattered = (1.0 - standard.metallic) * (1.0 - standard.transmission);
     let diffuse = standard.base_color * scattered;
@@ -120,6 +122,9 @@ pub struct BsdfLobes<'world, const F: u32> {
     diffuse: Vec3,
     /// Its diffuse transmittance.
     through: Option<Vec3>,
+    /// Whether no boundary covers the base: seen from inside of the body, the boundary is that of
+    /// the part that transmits.
+    is_bare: bool,
     compensation: Option<Compensation>,
     /// The base below the boundary of a plastic, instead of `diffuse`.
     plastic: Option<PlasticBase<'world>>,
@@ -157,7 +162,7 @@ impl<'world, const F: u32> BsdfLobes<'world, F> {
         let (mut diffuse, mut through) = base::<F>(standard);
         // The tables of further bounces are those of glTF's facets.
         let multiple = standard.multiple_scattering && standard.facets == Microfacets::Ggx;
-        let plastic = microfacet.plastic(standard, wo.z).filter(|_| !inside);
+        let plastic = microfacet.plastic(standard, wo).filter(|_| !inside);
         let covers = !inside && !microfacet.is_dark() && plastic.is_none();
         let compensation = (covers && multiple).then(|| microfacet.compensation(wo));
         if covers && !multiple {
@@ -166,13 +171,14 @@ impl<'world, const F: u32> BsdfLobes<'world, F> {
             through = through.map(|through| through * share);
         }
         // The half-way vector is seldom as grazing as the view.
-        let bare = || microfacet.weights(1.0).entering;
+        let entering = || microfacet.weights(1.0).entering;
         let (entering, bounces) = match &compensation {
-            None => (bare(), Vec3::ZERO),
+            None if inside => (1.0, Vec3::ZERO),
+            None => (entering(), Vec3::ZERO),
             Some(compensation) => (compensation.base_albedo(), compensation.albedo()),
         };
         if multiple {
-            microfacet.compensate(standard, wo.z, bounces.max_element());
+            microfacet.compensate(wo, bounces.max_element());
         }
         let sheen = sheen.and_then(|sheen| SheenFibres::new(&sheen, wo));
         let base = match &plastic {
@@ -192,6 +198,7 @@ impl<'world, const F: u32> BsdfLobes<'world, F> {
             microfacet,
             diffuse,
             through,
+            is_bare: inside,
             compensation,
             plastic,
             sheen,
@@ -297,12 +304,24 @@ impl<'world, const F: u32> BsdfLobes<'world, F> {
     /// The BSDF of a white base, which transmits like it reflects: by the direction reflected to
     /// the side of the viewer.
     fn base_f(&self, wi: Vec3) -> f64 {
-        match self.compensation() {
-            Some(compensation) => compensation.base_f(compensation.towards(wi)),
-            None => {
-                let h = (self.wo + wi).normalize();
-                self.microfacet.weights(self.wo.dot(h)).entering * FRAC_1_PI
+        match (self.compensation(), self.plastic()) {
+            (Some(compensation), _) => {
+                compensation.base_f(compensation.towards(wi), self.microfacet.uneven(wi))
             }
+            (None, Some(plastic)) => plastic.through_f(wi),
+            (None, None) => {
+                let h = (self.wo + wi).normalize();
+                self.entering_f(&self.microfacet.weights(self.wo.dot(h)))
+            }
+        }
+    }
+
+    /// The BSDF of a white base below a boundary that lets so much light in.
+    fn entering_f(&self, weights: &LobeWeights) -> f64 {
+        if self.is_bare {
+            FRAC_1_PI
+        } else {
+            weights.entering * FRAC_1_PI
         }
     }
 
@@ -322,14 +341,15 @@ impl<'world, const F: u32> BsdfLobes<'world, F> {
         let mut sum = self.microfacet.reflected(self.wo, wi, h, &weights);
         // Add the diffuse base, and the multiple bounces.
         if let Some(plastic) = self.plastic() {
-            sum.f += plastic.f(wi.z);
+            sum.f += plastic.f(wi);
             return sum;
         }
         sum.f += match self.compensation() {
-            None => self.diffuse * (weights.entering * FRAC_1_PI),
+            None => self.diffuse * self.entering_f(&weights),
             Some(compensation) => {
                 let e = compensation.towards(wi);
-                self.diffuse * compensation.base_f(e) + compensation.bounces_f(e)
+                let uneven = self.microfacet.uneven(wi);
+                self.diffuse * compensation.base_f(e, uneven) + compensation.bounces_f(e)
             }
         };
         sum
@@ -392,7 +412,8 @@ impl<'world, const F: u32> BsdfLobes<'world, F> {
 
     fn glossy_sample(&self, wi: Vec3) -> Option<BsdfSample> {
         let BsdfEvaluation { f, pdf } = self.evaluate_entered(wi);
-        (pdf > 0.0).then(|| BsdfSample {
+        // A denormal density has no reciprocal.
+        (pdf >= f64::MIN_POSITIVE).then(|| BsdfSample {
             wi: self.side.leave(wi),
             f,
             pdf,

@@ -6,6 +6,7 @@
 //! inside takes the colour of the base again, ρ' is its albedo ρ, else 1 (Mitsuba's `plastic` and
 //! `roughplastic`, whose tables of 64 cosines these are).
 
+use super::compensation::Covering;
 use super::distribution::FacetDistribution;
 use super::fresnel::{dielectric_curve, normal_reflectance, refracted_cosine};
 use rtc_math::{Microfacets, Plastic, Vec3};
@@ -17,8 +18,12 @@ pub struct PlasticBoundary {
     plastic: Plastic,
     /// η of the inside over that of the outside.
     ior: f64,
+    /// The roughness that the table is of.
+    roughness: f64,
     /// R, the mean reflectance from inside.
     reflectance: f64,
+    /// The mean of T over the hemisphere, weighted by the cosine.
+    mean: f64,
     /// T at the cosines k/63; empty for a smooth boundary.
     transmittance: Vec<f64>,
 }
@@ -33,20 +38,34 @@ impl PlasticBoundary {
         let facets = FacetDistribution::isotropic(roughness).of_model(model);
         let cosine = |k: usize| (k as f64 / (COSINES - 1) as f64).max(1e-6);
         let is_smooth = facets.is_smooth() || plastic == Plastic::Single;
-        let (reflectance, transmittance) = if is_smooth {
-            (smooth_reflectance_inside(ior), Vec::new())
+        let weighted = |of: &dyn Fn(usize) -> f64| {
+            let sum: f64 = (0..COSINES).map(|k| cosine(k) * of(k)).sum();
+            2.0 * sum / COSINES as f64
+        };
+        let (reflectance, mean, transmittance) = if is_smooth {
+            let mean = smooth_transmittance(ior);
+            (1.0 - mean / (ior * ior), mean, Vec::new())
         } else {
-            let inside = |k: usize| cosine(k) * mean_inside(facets, cosine(k), ior);
-            let sum: f64 = (0..COSINES).map(inside).sum();
+            let inside = weighted(&|k| mean_inside(facets, cosine(k), ior));
             let table = (0..COSINES).map(|k| mean_transmitted(facets, cosine(k), ior));
-            (2.0 * sum / COSINES as f64, table.collect())
+            let table: Vec<f64> = table.collect();
+            let mean = weighted(&|k| table[k]);
+            // What is let in cannot leave more often than it comes.
+            (inside.min(1.0 - mean / (ior * ior)), mean, table)
         };
         Self {
             plastic,
             ior,
+            roughness,
             reflectance,
+            mean,
             transmittance,
         }
+    }
+
+    /// Whether it is that of a surface of the roughness given.
+    pub(super) fn is_of(&self, roughness: f64) -> bool {
+        self.roughness == roughness
     }
 
     /// T for the cosine outside.
@@ -77,6 +96,11 @@ pub(super) struct PlasticBase<'world> {
     boundary: &'world PlasticBoundary,
     /// The BRDF but for the transmittance towards the light.
     f: Vec3,
+    /// The transmittance towards the viewer.
+    towards_viewer: f64,
+    /// What covers it where that is not the boundary that it is prepared for alone: facets with a
+    /// film, drawn out, or of another roughness by a map.
+    covering: Option<Covering>,
 }
 
 impl<'world> PlasticBase<'world> {
@@ -85,23 +109,46 @@ impl<'world> PlasticBase<'world> {
         boundary: &'world PlasticBoundary,
         albedo: Vec3,
         scattered: f64,
-        cosine: f64,
+        covering: Option<Covering>,
+        wo: Vec3,
     ) -> Self {
-        let f = boundary.scattered(albedo) * (scattered * FRAC_1_PI * boundary.transmitted(cosine));
-        Self { boundary, f }
+        let towards_viewer = transmitted(boundary, covering.as_ref(), wo);
+        Self {
+            boundary,
+            f: boundary.scattered(albedo) * (scattered * FRAC_1_PI * towards_viewer),
+            towards_viewer,
+            covering,
+        }
     }
 
-    /// The BRDF for light at a cosine.
-    pub(super) fn f(&self, cosine: f64) -> Vec3 {
-        self.f * self.boundary.transmitted(cosine)
+    /// The transmittance towards the light.
+    fn transmitted(&self, wi: Vec3) -> f64 {
+        transmitted(self.boundary, self.covering.as_ref(), wi)
+    }
+
+    /// The BSDF of a white base that lets all light through that enters: it sends
+    /// `T(θ_o)` of a uniform sky.
+    pub(super) fn through_f(&self, wi: Vec3) -> f64 {
+        self.towards_viewer * self.transmitted(wi) * (FRAC_1_PI / self.boundary.mean)
+    }
+
+    /// The BRDF for light from a direction.
+    pub(super) fn f(&self, wi: Vec3) -> Vec3 {
+        self.f * self.transmitted(wi)
     }
 
     /// About the fraction of a uniform sky's light that it shows, to choose lobes by.
     pub(super) fn albedo(&self) -> Vec3 {
         /// The transmittance at this cosine is about the mean.
         const MEAN: f64 = 0.6;
-        self.f(MEAN) / FRAC_1_PI
+        self.f * (self.boundary.transmitted(MEAN) / FRAC_1_PI)
     }
+}
+
+/// The transmittance of a boundary from outside: no more than what its covering leaves.
+fn transmitted(boundary: &PlasticBoundary, covering: Option<&Covering>, w: Vec3) -> f64 {
+    let own = boundary.transmitted(w.z);
+    covering.map_or(own, |covering| own.min((1.0 - covering.albedo(w)).max(0.0)))
 }
 
 /// The reflectance by Fresnel's equations from outside.
@@ -110,17 +157,16 @@ fn reflectance(cosine: f64, ior: f64) -> f64 {
     normal + (1.0 - normal) * dielectric_curve(cosine, ior)
 }
 
-/// The mean over all directions inside of the reflectance of a smooth boundary, by the midpoint
-/// rule over the sine squared outside: what comes in is `η²` times what leaves.
-fn smooth_reflectance_inside(ior: f64) -> f64 {
+/// The mean over all directions outside of the transmittance of a smooth boundary, by the midpoint
+/// rule. Of the light inside, which is `η²` times as wide, it is the fraction that leaves.
+fn smooth_transmittance(ior: f64) -> f64 {
     const STEPS: u32 = 512;
     let passed = |k: u32| {
         // Sample the cosine evenly: its square root at grazing angles is smooth then.
         let cosine = (f64::from(k) + 0.5) / f64::from(STEPS);
         2.0 * cosine * (1.0 - reflectance(cosine, ior))
     };
-    let outside: f64 = (0..STEPS).map(passed).sum::<f64>() / f64::from(STEPS);
-    1.0 - outside / (ior * ior)
+    (0..STEPS).map(passed).sum::<f64>() / f64::from(STEPS)
 }
 
 /// Normals over which a mean is taken.
@@ -215,6 +261,7 @@ mod tests {
     #[test]
     fn a_smooth_boundary_of_glass_reflects_three_fifths_inside() {
         // 0.5963: Egan, Hilgeman, "Optical properties of inhomogeneous materials" (1979).
-        assert!((smooth_reflectance_inside(1.5) - 0.5963).abs() < 1e-3);
+        let inside = 1.0 - smooth_transmittance(1.5) / 2.25;
+        assert!((inside - 0.5963).abs() < 1e-3);
     }
 }

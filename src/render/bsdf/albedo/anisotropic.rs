@@ -11,7 +11,8 @@ pub(super) const WIDTHS: usize = 12;
 /// Entries along the cosine, denser towards grazing as in the other tables.
 pub(super) const COSINES: usize = 16;
 
-/// Entries along cos²φ, from across the axis x to along it.
+/// Entries along √|cos φ|, from across the wider axis to along it: across it, at grazing angles, the
+/// albedo is steep.
 pub(super) const TURNS: usize = 5;
 
 /// The axes of the table.
@@ -68,11 +69,16 @@ fn means() -> Vec<[f32; 2]> {
 fn look_up(surface: FacetDistribution, cosine: f64, turn: f64) -> SchlickAlbedo {
     static TABLE: LazyLock<Vec<[f32; 2]>> = LazyLock::new(|| stored(&STORED, &AXES));
     let [x, y] = surface.widths();
+    // The wider axis is the first one.
+    let ([x, y], turn) = match x < y {
+        true => ([y, x], 1.0 - turn),
+        false => ([x, y], turn),
+    };
     let axes = [
         (x.sqrt(), WIDTHS),
         (y.sqrt(), WIDTHS),
         (cosine.max(0.0).sqrt(), COSINES),
-        (turn, TURNS),
+        (turn.max(0.0).sqrt().sqrt(), TURNS),
     ];
     let [e0, e90] = interpolate(&TABLE, axes);
     SchlickAlbedo { e0, e90 }

@@ -125,7 +125,8 @@ fn anisotropic_table() -> Vec<f64> {
             let ggx = FacetDistribution::of_widths([width(x), width(y)]);
             for k in 0..COSINES {
                 for turn in 0..TURNS {
-                    let (across, along) = (view(cosine_of(k, COSINES)), fraction(turn, TURNS));
+                    let across = view(cosine_of(k, COSINES));
+                    let along = squared_fraction(turn, TURNS) * squared_fraction(turn, TURNS);
                     let [x, y] = [along.sqrt(), (1.0 - along).sqrt()];
                     let wo = Vec3::new(across.x * x, across.x * y, across.z);
                     numbers.extend(integrated_specular(ggx, wo));
