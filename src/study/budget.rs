@@ -228,6 +228,7 @@ impl TimedRender<'_, '_> {
         // Without an estimate, the error is unbounded.
         let nothing = ErrorBound {
             error: f64::INFINITY,
+            estimate: f64::INFINITY,
             undersampled: None,
         };
         let undersampled = order.undersampled(self.world);

@@ -69,8 +69,11 @@ impl FilmNoise {
             } else {
                 0.0
             };
+        // Display values differ by no more than white from black.
+        let levels = |square: f64| square.sqrt().min(1.0) * LEVELS;
         ErrorBound {
-            error: all.sqrt() * LEVELS,
+            error: levels(all),
+            estimate: levels(self.square),
             undersampled: (!is_whole).then_some(self.undersampled.source.brightest),
         }
     }
@@ -90,6 +93,8 @@ impl FilmNoise {
 pub(super) struct ErrorBound {
     /// The root mean square error in grey levels.
     pub(super) error: f64,
+    /// The likely error of the sampled part, in grey levels.
+    pub(super) estimate: f64,
     /// If there is no bound: the possible brightness, in multiples of white, of light that no
     /// sample has hit. The error then covers only what samples hit.
     pub(super) undersampled: Option<f64>,

@@ -95,7 +95,7 @@ pub fn probe(
     // Add what no sample met.
     let undersampled = order.undersampled(world).within(samples / 2);
     let is_whole = undersampled.is_included(most, None);
-    let all = |most: f64| most + if is_whole { undersampled.square } else { 0.0 };
+    let all = |most: f64| (most + if is_whole { undersampled.square } else { 0.0 }).min(1.0);
     let probed = ProbedError {
         estimate: square.max(0.0).sqrt() * LEVELS,
         error: all(most).sqrt() * LEVELS,

@@ -128,6 +128,7 @@ impl ProgressiveRender {
             quality: self.film.map(|pixel| undersampled.quality(pixel)),
             counts: self.film.counts,
             error: bound.error,
+            estimate: bound.estimate,
             undersampled: bound.undersampled,
             coarse: None,
             samples: samples_of(&self.film),

@@ -19,6 +19,11 @@ const MIN_UNBOUNDED: u32 = 64;
 /// undersampled light. Where that many would not do, [`MIN_UNBOUNDED`] are taken.
 const MAX_UNBOUNDED: u32 = 1 << 14;
 
+/// Of those, so many are taken in any case, and by then rare light shows in the noise. More are
+/// taken only where a valid bound on the noise needs them as well: a bound on what may be
+/// undersampled is not worth many times the picture.
+const CHEAP_UNBOUNDED: u32 = 1 << 10;
+
 /// Where all pixels get samples, a replicate has at least this many for each one of its pilot.
 const PILOT_SHARE: u32 = 8;
 
@@ -38,10 +43,14 @@ impl MissingSamples {
         let bound = noise.bound(tail, Some(error));
         let is_open = bound.undersampled.is_some_and(|white| white > 1.0);
         let source = noise.undersampled.source;
-        let most = source
-            .closing(error, MAX_UNBOUNDED)
-            .unwrap_or(MIN_UNBOUNDED);
         let shown = film.pixels().map(|pixel| pixel.counts()[0]).min();
+        let share = noise.square * MAX_SAFETY * LEVELS * LEVELS / (error * error);
+        let needed = shown.map_or(0.0, |count| f64::from(count) * share);
+        let closing = source.closing(error, MAX_UNBOUNDED);
+        let most = closing.map_or(MIN_UNBOUNDED, |most| match f64::from(most) <= needed {
+            true => most,
+            false => most.min(CHEAP_UNBOUNDED),
+        });
         if is_open && shown.is_some_and(|count| count < most) {
             return Self::RareLight(most);
         }

@@ -98,6 +98,8 @@ pub struct TargetResult {
     /// The bound on the root mean square error in grey levels, which holds in 90 % of all renders,
     /// as `benches/honest.sh` counts; if there is no bound, that of the sampled part.
     pub error: f64,
+    /// The likely error of the sampled part, in grey levels.
+    pub estimate: f64,
     /// If there is no bound: the possible brightness, in multiples of white, of light that no
     /// sample has hit.
     pub undersampled: Option<f64>,
@@ -294,6 +296,7 @@ fn render_unsampled(
         coverage,
         counts,
         error: 0.0,
+        estimate: 0.0,
         undersampled: None,
         coarse: None,
         samples,

@@ -105,3 +105,48 @@ fn lamps_that_a_bound_can_count_are_not_given_up() {
     assert!(reached.undersampled.is_none(), "{samples:?}");
     assert!(samples.min >= 2048 && samples.mean <= 4096.0, "{samples:?}");
 }
+
+/// A bright lamp that moves before mirrors which show it now and then.
+fn passing_lamp() -> Scene {
+    let wall = "material: {type: standard, baseColor: [0.7, 0.7, 0.7, 1], metallic: 0, \
+                roughness: 1, specular: 0, doubleSided: true}}";
+    let text = format!(
+        "Camera: {{eye: [0, 0, 8], center: [0, 0, 0], up: [0, 0.55, 0], viewSize: [8, 8]}}\n\
+         RenderMode: path\nMaxRecursionDepth: 3\nObjects:\n\
+         - {{type: quad, position: [-2, -2, -2], up: [0, 0, 4], side: [4, 0, 0], {wall}\n\
+         - {{type: quad, position: [-2, -2, -2], up: [0, 4, 0], side: [4, 0, 0], {wall}\n\
+         - {{type: quad, position: [2, -2, -2], up: [0, 4, 0], side: [0, 0, 4], {wall}\n\
+         - {{type: sphere, position: [-1.2, 1, 0], radius: 0.08, velocity: [2.5, 0, 0], material: \
+         {{type: standard, baseColor: [0, 0, 0, 1], emissive: [350, 350, 350]}}}}\n\
+         - {{type: sphere, position: [0, -1, 0], radius: 0.8, material: {{type: standard, \
+         metallic: 1, roughness: 0.2}}}}\n"
+    );
+    lowered("passing lamp", text)
+}
+
+/// A bound on what may be undersampled is not worth many times the samples of the picture; that
+/// there is none is told.
+#[test]
+fn a_bright_lamp_that_may_be_unmet_takes_no_more_than_a_few_times_what_noise_needs() {
+    let scene = passing_lamp();
+    let references = references(&scene, 2.0);
+    for target in [9.0, 5.0] {
+        let needed = needed(&scene, target, &references).max(128.0);
+        let reached = render(&scene, target, 1);
+        let taken = reached.samples.mean;
+        assert!(
+            taken <= 6.0 * needed,
+            "needed {needed:.0}, taken {taken:.0}"
+        );
+        assert!(reached.undersampled.is_some_and(|white| white > 100.0));
+    }
+}
+
+/// No error is larger than white against black, however few pixels have the noise.
+#[test]
+fn no_bound_exceeds_what_eight_bits_can_differ() {
+    for seed in 1..=8 {
+        let reached = render(&lamps([16, 16]), 60.0, seed);
+        assert!(reached.error <= 255.0 && reached.estimate <= reached.error);
+    }
+}

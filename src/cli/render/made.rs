@@ -27,6 +27,9 @@ pub(crate) struct FinishedPicture {
     quality: Option<PictureQuality>,
 }
 
+/// A bound that is so many times the estimate is told beside it.
+const FAR_ABOVE: f64 = 10.0;
+
 /// How good a picture is, if that is known.
 pub(super) struct PictureQuality {
     /// The bound on its error in grey levels.
@@ -40,6 +43,8 @@ pub(super) struct PictureQuality {
 pub(super) enum EstimateSource {
     /// The picture grew until it was good enough.
     Growing {
+        /// The likely error, in grey levels.
+        estimate: f64,
         /// If the time was too short for it.
         coarse: Option<CoarsePicture>,
         samples: SampleStatistics,
@@ -201,11 +206,17 @@ impl PictureQuality {
         // Tell how it was estimated.
         match &self.known {
             EstimateSource::Growing {
+                estimate,
                 samples: SampleStatistics { min, mean, most },
                 has_run_out,
                 ends_above,
                 ..
             } => {
+                // A bound far above the estimate says nothing of the picture.
+                let likely = match self.error >= FAR_ABOVE * estimate && *estimate > 0.0 {
+                    true => format!(", likely about {estimate:.2}"),
+                    false => String::new(),
+                };
                 let end = match (has_run_out, ends_above) {
                     (true, _) => ", ended by `--limit rays`".to_owned(),
                     (_, Some(target)) => format!(
@@ -214,7 +225,9 @@ impl PictureQuality {
                     ),
                     _ => String::new(),
                 };
-                format!("{bound}, {mean:.0} samples per pixel on average, {min} … {most}{end}")
+                format!(
+                    "{bound}{likely}, {mean:.0} samples per pixel on average, {min} … {most}{end}"
+                )
             }
             EstimateSource::Probing {
                 estimate,
@@ -253,11 +266,13 @@ impl PictureQuality {
         });
         match &self.known {
             EstimateSource::Growing {
+                estimate,
                 samples: SampleStatistics { min, mean, most },
                 has_run_out,
                 ends_above,
                 ..
             } => {
+                object["toldError"] = json!(coarse.is_none().then_some(estimate));
                 object["crudeBlock"] = json!(coarse.map(|coarse| coarse.block));
                 object["samples"] = json!({ "min": min, "mean": mean, "most": most });
                 object["ranOut"] = json!(has_run_out);

@@ -47,6 +47,7 @@ impl RenderResult {
             counts,
             samples,
             error,
+            estimate,
             undersampled,
             coarse,
             light_samples: _,
@@ -65,6 +66,7 @@ impl RenderResult {
                 error,
                 undersampled,
                 known: EstimateSource::Growing {
+                    estimate,
                     coarse,
                     samples,
                     has_run_out,
