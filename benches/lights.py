@@ -28,6 +28,9 @@ BALL = "{type: sphere, position: [-0.8, 0.7, 0.5], radius: 0.7, material: {type:
 MASK = "{type: quad, v0: [-2, 1.6, -2], v1: [-2, 1.6, 2], v2: [2, 1.6, 2], v3: [2, 1.6, -2], material: {type: standard, baseColor: [0.5, 0.5, 0.5, 0.4], metallic: 0, roughness: 1, specular: 0, alpha: blend, doubleSided: true}}"
 PANE = "{type: box, min: [-2, 1.5, -2], max: [2, 1.6, 2], material: {type: standard, transmission: 1, thickness: 1, roughness: 0, metallic: 0, ior: 1.5}}"
 
+# Smooth, thin, and the light that it sends back between its faces counted.
+WINDOW = "{type: quad, v0: [-2, 1.6, -2], v1: [-2, 1.6, 2], v2: [2, 1.6, 2], v3: [2, 1.6, -2], material: {type: standard, transmission: 1, roughness: 0, metallic: 0, thinDielectric: true, doubleSided: true}}"
+
 
 def lamp(shape, radiance, more=""):
     emissive = json.dumps([radiance, radiance * 0.8, radiance * 0.5])
@@ -42,8 +45,13 @@ def sphere(radius, at=(0.6, 3, 0)):
 QUAD = "type: quad, v0: [0, 2.5, -0.5], v1: [1, 2.5, -0.5], v2: [1, 2.5, 0.5], v3: [0, 2.5, 0.5]"
 UPRIGHT = "type: quad, v0: [0.5, 0.5, -0.5], v1: [0.5, 1.5, -0.5], v2: [0.5, 1.5, 0.5], v3: [0.5, 0.5, 0.5]"
 BOTH = ", doubleSided: true"
-# Mitsuba's emitters have one side: it gets two of them, back to back.
-TWINS = {"two-sided quad": [lamp(UPRIGHT, 8), lamp("type: quad, v0: [0.499, 0.5, 0.5], v1: [0.499, 1.5, 0.5], v2: [0.499, 1.5, -0.5], v3: [0.499, 0.5, -0.5]", 8)]}
+HOLLOW = "type: difference, a: {type: sphere, position: [0.5, 2.5, 0], radius: 0.3}, b: {type: sphere, position: [0.5, 2.65, 0], radius: 0.22}"
+ROD = "position: [0, 2.5, 0], direction: [1, 0.1, 0.2], radius: 0.05"
+PATCH = "type: quad, v0: [0, 2.3, -0.5], v1: [1, 2.7, -0.5], v2: [1, 2.3, 0.5], v3: [0, 2.7, 0.5]"
+# Mitsuba's emitters have one side: it gets two of them, back to back. Its cylinders have ends.
+TWINS = {
+    "infinite cylinder": [lamp("type: cylinder, position: [-200, -17.5, -40], direction: [1, 0.1, 0.2], height: 409.9, radius: 0.05", 12)],
+    "two-sided quad": [lamp(UPRIGHT, 8), lamp("type: quad, v0: [0.499, 0.5, 0.5], v1: [0.499, 1.5, 0.5], v2: [0.499, 1.5, -0.5], v3: [0.499, 0.5, -0.5]", 8)]}
 FAMILIES = {
     **{f"sphere of radius {radius}": [sphere(radius)] for radius in (1, 0.1, 0.01, 0.001, 0.0001)},
     "quad": [lamp(QUAD, 8, BOTH)],
@@ -58,6 +66,10 @@ FAMILIES = {
     "inside a sphere": [lamp("type: sphere, position: [0, 0, 0], radius: 12", 0.3, BOTH)],
     "sphere behind glass": [PANE, sphere(0.5)],
     "quad behind a mask": [MASK, lamp(QUAD, 8, BOTH)],
+    "hollow ball": [lamp(HOLLOW, 12)],
+    "infinite cylinder": [lamp("type: infiniteCylinder, " + ROD, 12)],
+    "curved quad": [lamp(PATCH, 8, BOTH)],
+    "sphere behind a window": [WINDOW, sphere(0.1)],
     # Each of its triangles shines both ways, so Mitsuba gets one more at its back.
     "street of 1000": None,
     "street of 100000": None,

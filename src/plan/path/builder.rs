@@ -346,14 +346,15 @@ impl PathPlanBuilder<'_> {
     }
 }
 
-/// Whether light sampling supports an emissive shape: it is bounded, no curved patch, and no CSG
-/// solid.
+/// Whether light sampling supports an emissive shape: all but a plane, which paths find best.
 fn is_sampled(shape: &Shape) -> bool {
     match shape {
-        Shape::Plane(_) | Shape::InfiniteCylinder(_) | Shape::Csg(_) => false,
-        Shape::Quad(quad) => rtc_math::is_flat(quad.vertices),
+        Shape::Plane(_) => false,
         Shape::Sphere(_)
         | Shape::Triangle(_)
+        | Shape::Quad(_)
+        | Shape::InfiniteCylinder(_)
+        | Shape::Csg(_)
         | Shape::Disc(_)
         | Shape::Cylinder(_)
         | Shape::Cone(_)

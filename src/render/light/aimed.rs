@@ -82,18 +82,24 @@ impl<S: Intersect> Lights<'_, S> {
         let Light::Shape(shape) = &self.lights[light] else {
             return None;
         };
+        // The faces of a solid may see each other.
+        if shape.face.is_some() {
+            return None;
+        }
         let probability = self.probabilities[light];
         let distance = self.distance(shape)?;
         let filter = self.world.settings.filter.as_ref();
         let reach = filter.map_or(0.0, |filter| filter.reach());
         let is_aimed = probability > 0.0
             && distance > 0.0
-            && is_out_of_view(&self.world.camera, reach, &shape.bounds);
+            && is_out_of_view(&self.world.camera, reach, &shape.bounds?);
         // A sphere is aimed at by its cone, others by their area.
         let area = match shape.emitter {
             Emitter::Sphere { .. } => shape.emitter.area() / 4.0,
-            // It sees itself.
-            Emitter::Torus { .. } => return None,
+            // It sees itself, or a point of it has no distance.
+            Emitter::Torus { .. } | Emitter::Patch(_) | Emitter::InfiniteCylinder { .. } => {
+                return None;
+            }
             Emitter::Frustum {
                 height, is_capped, ..
             } if height > 0.0 && !is_capped => return None,
@@ -108,11 +114,12 @@ impl<S: Intersect> Lights<'_, S> {
     /// The least distance of the box of a light from those of the other surfaces; `None` if one has
     /// no box.
     fn distance(&self, light: &ShapeLight) -> Option<f64> {
+        let own = light.bounds?;
         let entries = self.world.surfaces.entries();
         let mut others = entries.filter(|(index, _)| *index != light.surface);
         others.try_fold(f64::INFINITY, |least, (_, surface)| {
             let bounds = surface.shape.bounds()?;
-            let gap = (bounds.min - light.bounds.max).max(light.bounds.min - bounds.max);
+            let gap = (bounds.min - own.max).max(own.min - bounds.max);
             Some(least.min(gap.max(Vec3::ZERO).length()))
         })
     }

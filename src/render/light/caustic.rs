@@ -79,7 +79,9 @@ impl CausticLights {
         let power = |light: LightId| match &lights.lights[light] {
             Light::Punctual(..) => powers[light],
             Light::Triangle(triangle) if is_target[triangle.surface] => powers[light],
-            Light::Shape(shape) if is_target[shape.surface] => powers[light],
+            Light::Shape(shape) if is_target[shape.surface] && shape.face.is_none() => {
+                powers[light]
+            }
             Light::Triangle(_) | Light::Shape(_) | Light::Environment => 0.0,
         };
         let targets: Vec<_> = (lights.lights.ids())
@@ -194,8 +196,8 @@ impl CausticLights {
             }
             Light::Shape(light) => {
                 // From its centre no part of a closed shape is hidden.
-                let at = light.emitter.sample(light.bounds.center(), u);
-                let is_closed = light.emitter.flat_normal().is_none();
+                let at = light.emitter.sample(light.middle(), u);
+                let is_closed = !light.emitter.is_open();
                 let density = light.emitter.density(&at);
                 Some(surface(light.surface, at, density, is_closed))
             }

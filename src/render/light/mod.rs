@@ -31,7 +31,7 @@ use crate::material::point::MaterialPoint;
 use crate::material::standard::{Alpha, StandardMaterial};
 use crate::ray::{Interaction, Ray};
 use crate::sampler::discrete::DiscreteDistribution;
-use crate::shape::emitter::{Emitter, EmitterPoint};
+use crate::shape::emitter::EmitterPoint;
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
 use crate::world::{PunctualId, Surface, SurfaceId, SurfacePrimitive, World};
 use rtc_math::{Bounds, Id, IdTable, Vec3, to_u32};
@@ -58,6 +58,8 @@ pub(crate) struct Lights<'world, S> {
     probabilities: IdTable<Light, f64>,
     /// The index of the first light of each surface that has some.
     first_light_of_surface: IdTable<Surface, Option<LightId>>,
+    /// The numbers of the faces of each surface that has such lights, in order.
+    faces_of_surface: IdTable<Surface, Vec<u32>>,
     /// What caustics are estimated for, if they are.
     pub(crate) caustics: Option<CausticLights>,
     /// Those at the moments of the shutter, as the worlds have them.
@@ -121,14 +123,18 @@ impl<'world, S: Intersect> Lights<'world, S> {
             .collect::<IdTable<Light>>();
         // List the emissive surfaces: shapes as one light, meshes by triangle.
         let mut first_light_of_surface = IdTable::from(vec![None; world.surfaces.len()]);
+        let mut faces_of_surface = IdTable::from(vec![Vec::new(); world.surfaces.len()]);
         for (index, surface) in world.surfaces.entries() {
             let material = &world.standards[surface.material];
             let shines = !material.is_unlit && material.emission.factor != Vec3::ZERO;
             if !shines {
                 continue;
             }
-            if let Some(light) = ShapeLight::new(index, &surface.shape) {
-                first_light_of_surface[index] = Some(lights.push(Light::Shape(Box::new(light))));
+            for light in ShapeLight::of(index, &surface.shape) {
+                let face = light.face;
+                let id = lights.push(Light::Shape(Box::new(light)));
+                first_light_of_surface[index].get_or_insert(id);
+                faces_of_surface[index].extend(face);
             }
             let triangles = surface.shape.triangles();
             if triangles > 0 && is_room_for(triangles, lights.len()) {
@@ -151,6 +157,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
             only: None,
             probabilities: IdTable::default(),
             first_light_of_surface,
+            faces_of_surface,
             caustics: None,
             moments: Vec::new(),
         };
@@ -200,7 +207,7 @@ impl<'world, S: Intersect> Lights<'world, S> {
         let (bounds, normal) = match &self.lights[light] {
             Light::Punctual(light, _) => (Bounds::around(light.place_of_falloff()?, 0.0), None),
             Light::Triangle(triangle) => (Bounds::of(triangle.corners), Some(triangle.normal())),
-            Light::Shape(shape) => (shape.bounds, shape.emitter.flat_normal()),
+            Light::Shape(shape) => (shape.bounds?, shape.emitter.flat_normal()),
             Light::Environment => return None,
         };
         (power > 0.0).then_some(TreeLight {
@@ -271,7 +278,9 @@ impl<'world, S: Intersect> Lights<'world, S> {
             Light::Triangle(triangle) => {
                 2.0 * PI * triangle.area() * self.mean_emission(triangle).max_element()
             }
-            Light::Shape(shape) => shape.power(self.mean_emission_of_shape(shape)),
+            Light::Shape(shape) => {
+                shape.power(self.mean_emission_of_shape(shape), (disc / PI).sqrt())
+            }
             // BSDF sampling is best for a uniform environment.
             Light::Environment
                 if self.world.lights.environment.is_uniform()
@@ -312,7 +321,8 @@ impl<'world, S: Intersect> Lights<'world, S> {
         let middle = |cell: u32| (f64::from(cell) + 0.5) / f64::from(CELLS);
         let at = |cell: u32| {
             let u = [middle(cell % CELLS), middle(cell / CELLS)];
-            let at = light.emitter.sample(light.bounds.center(), u);
+            let mut at = light.emitter.sample(light.middle(), u);
+            at.prim_id = light.face.unwrap_or(at.prim_id);
             self.point(light.surface, &at).0.emission()
         };
         mean(&(0..CELLS * CELLS).map(at).collect::<Vec<_>>())
@@ -407,12 +417,14 @@ impl<'world, S: Intersect> Lights<'world, S> {
         let wi = (at.point - from).try_normalize()?;
         let square = at.point.distance_squared(from);
         let pdf = probability * light.emitter.pdf(from, wi, &at, square);
+        let shape = &self.world.surfaces[light.surface].shape;
+        let (at, end) = light.seen(shape, from, wi, at)?;
         let radiance = self.emission(light.surface, &at) / pdf;
         (pdf > 0.0 && pdf.is_finite()).then_some(IncidentLight {
             wi,
             radiance,
             pdf: Some(pdf),
-            place: Some(Emitter::end(&at, &light.bounds, from)),
+            place: Some(end),
         })
     }
 
@@ -429,13 +441,25 @@ impl<'world, S: Intersect> Lights<'world, S> {
             return 0.0;
         };
         let (from, square) = (place - wi * distance, distance * distance);
-        if let Light::Shape(light) = &self.lights[first] {
+        if let Light::Shape(_) = &self.lights[first] {
+            let (face, normal) = self.world.surfaces[surface].shape.face(prim_id, normal);
+            let faces = &self.faces_of_surface[surface];
             let at = EmitterPoint {
                 point: place,
                 normal,
                 prim_id,
             };
-            return self.probability(first, from) * light.emitter.pdf(from, wi, &at, square);
+            let place = match faces.is_empty() {
+                true => Some(0),
+                false => faces.binary_search(&face).ok(),
+            };
+            return place.map_or(0.0, |place| {
+                let index = LightId::new(first.index() + place);
+                let Light::Shape(light) = &self.lights[index] else {
+                    return 0.0;
+                };
+                self.probability(index, from) * light.emitter.pdf(from, wi, &at, square)
+            });
         }
         let index = LightId::new(first.index() + prim_id as usize);
         match &self.lights[index] {

@@ -3,7 +3,7 @@
 use super::kinds::{Plane, Sphere, Triangle};
 use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
-use crate::shape::emitter::Emitter;
+use crate::shape::emitter::{Emitter, FaceEmitter};
 use crate::shape::four::Shape4;
 use crate::shape::geometry::{AttributeRequest, Intersect, LocalRay, ShadingAttributes};
 use crate::shape::normal_field::NormalField;

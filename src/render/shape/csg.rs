@@ -10,7 +10,7 @@ use crate::ray::{Interaction, Ray};
 use crate::shape::baseline::ray::BaselineRay;
 use crate::shape::baseline::real::{Real, RealVector};
 use crate::shape::baseline::{Baseline, HasBaseline};
-use crate::shape::emitter::Emitter;
+use crate::shape::emitter::{Emitter, FaceEmitter};
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes, SolidCrossing};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::tie;
@@ -65,6 +65,17 @@ impl OperandFace {
     fn prim_id(self) -> u32 {
         let operand = u32::try_from(self.operand).unwrap_or(u32::MAX);
         self.part << 7 | (operand & 63) << 1 | u32::from(self.is_turned)
+    }
+
+    /// The number of all of the surface of an operand.
+    fn whole(operand: usize) -> u32 {
+        let (part, is_turned) = (0, false);
+        Self {
+            part,
+            operand,
+            is_turned,
+        }
+        .prim_id()
     }
 
     fn of(prim_id: u32) -> Self {
@@ -133,6 +144,16 @@ impl Csg {
             count += 1;
         }
         count
+    }
+
+    /// The surface of an operand as light sampling samples it.
+    fn face_emitter(&self, shape: &Shape) -> Option<Emitter> {
+        match (shape, self.bounds) {
+            (Shape::Plane(plane), Some(bounds)) => {
+                Some(Emitter::of_plane(plane.anchor(), plane.normal(), bounds))
+            }
+            _ => shape.emitter()?.by_area(self.bounds),
+        }
     }
 
     /// Whether points with these operands around them are inside.
@@ -255,6 +276,22 @@ impl Intersect for Csg {
 
     fn emitter(&self) -> Option<Emitter> {
         None
+    }
+
+    fn face_emitters(&self) -> Vec<FaceEmitter> {
+        let operands = self.expression.operands.iter().enumerate();
+        let own = operands.filter(|(operand, _)| self.faces >> operand & 1 != 0);
+        let faces = own.filter_map(|(operand, shape)| {
+            let emitter = self.face_emitter(shape)?;
+            let face = OperandFace::whole(operand);
+            Some(FaceEmitter { face, emitter })
+        });
+        faces.collect()
+    }
+
+    fn face(&self, prim_id: u32, normal: Vec3) -> (u32, Vec3) {
+        let face = OperandFace::of(prim_id);
+        (OperandFace::whole(face.operand), face.turned(normal))
     }
 
     fn bounds(&self) -> Option<Bounds> {

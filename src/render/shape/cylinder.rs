@@ -226,7 +226,10 @@ impl Intersect for InfiniteCylinder {
     }
 
     fn emitter(&self) -> Option<Emitter> {
-        None
+        let Cylinder {
+            base, axis, radius, ..
+        } = self.0;
+        Some(Emitter::InfiniteCylinder { base, axis, radius }).filter(|_| radius > 0.0)
     }
 
     fn bounds(&self) -> Option<Bounds> {

@@ -2,19 +2,25 @@
 //! density of each sample.
 //!
 //! A shape declares its [`Emitter`] in [`Intersect::emitter`](super::geometry::Intersect::emitter),
-//! which has no default. From outside, a sphere is sampled by the cone of directions to it; others
-//! are sampled by area. The density is a function of the point that a ray hits, so that BSDF
+//! which has no default. From outside, a sphere is sampled by the cone of directions to it, and an
+//! infinite cylinder by the directions that meet it; others are sampled by area. A solid is sampled
+//! by the surfaces of its operands, of which a point counts where it lies on the boundary. The
+//! density is a function of the point that a ray hits, so that BSDF
 //! sampling can evaluate it.
 
 use crate::bsdf::warp::direction_at_angle;
 use crate::ray::OFFSET;
 use crate::sampler::remapped;
+use crate::shape::quad::BilinearPatch;
 use rtc_math::{Bounds, OrthonormalBasis, U, Vec3, cross};
 use std::f64::consts::PI;
 
 /// A sphere is seen from outside if the square of the distance exceeds that of the radius by this
 /// factor: on its surface there is no cone of directions to it.
 const OUTSIDE: f64 = 1.0 + 1.0 / (1 << 20) as f64;
+
+/// A point is on an infinite cylinder if it leaves it after so small a part of its radius.
+const NEAR: f64 = 1e-6;
 
 /// A surface that can be sampled.
 #[derive(Clone, Copy, Debug)]
@@ -72,6 +78,26 @@ pub enum Emitter {
         /// The radius of the tube.
         minor: f64,
     },
+    /// A bilinear patch.
+    Patch(BilinearPatch),
+    /// A cylinder without ends.
+    InfiniteCylinder {
+        /// A point of its axis.
+        base: Vec3,
+        /// The unit vector along it.
+        axis: Vec3,
+        /// Its radius.
+        radius: f64,
+    },
+}
+
+/// A face of a solid that is sampled for itself: the part of a surface on the boundary.
+#[derive(Clone, Copy, Debug)]
+pub struct FaceEmitter {
+    /// The number of the face, as [`Intersect::face`](super::geometry::Intersect::face) has it.
+    pub face: u32,
+    /// The whole surface.
+    pub emitter: Emitter,
 }
 
 /// A point of a surface.
@@ -162,6 +188,10 @@ impl Emitter {
                 let normal = outward * turn.x + axis * turn.y;
                 on(center + outward * major + normal * minor, normal)
             }
+            Self::Patch(patch) => patch.sample(u),
+            Self::InfiniteCylinder { base, axis, radius } => {
+                CylinderView::new(from, base, axis).point(radius, u)
+            }
         }
     }
 
@@ -177,6 +207,9 @@ impl Emitter {
             } else {
                 0.0
             };
+        }
+        if let Self::InfiniteCylinder { base, axis, radius } = *self {
+            return CylinderView::new(from, base, axis).density(radius, wi, at.normal);
         }
         // Convert from area to solid angle.
         let cosine = wi.dot(at.normal).abs();
@@ -221,11 +254,15 @@ impl Emitter {
                 let rho = cross(at.point - center, axis).length();
                 1.0 / (4.0 * PI * PI * minor * rho)
             }
-            Self::Sphere { .. } | Self::Triangles(_) | Self::Frustum { .. } => 1.0 / self.area(),
+            Self::Patch(patch) => 1.0 / patch.stretch_at(at.point, at.normal),
+            Self::Sphere { .. }
+            | Self::Triangles(_)
+            | Self::Frustum { .. }
+            | Self::InfiniteCylinder { .. } => 1.0 / self.area(),
         }
     }
 
-    /// The area; that of an ellipsoid and of a paraboloid is approximate.
+    /// The area; that of an ellipsoid, of a paraboloid and of a patch is approximate.
     pub(crate) fn area(&self) -> f64 {
         match *self {
             Self::Sphere { radius, .. } => 4.0 * PI * radius * radius,
@@ -246,7 +283,14 @@ impl Emitter {
                 paraboloid_areas(height, radius).iter().sum()
             }
             Self::Torus { major, minor, .. } => 4.0 * PI * PI * major * minor,
+            Self::Patch(patch) => patch.area(),
+            Self::InfiniteCylinder { .. } => f64::INFINITY,
         }
+    }
+
+    /// Whether both sides of it are seen: it encloses nothing.
+    pub(crate) fn is_open(&self) -> bool {
+        self.flat_normal().is_some() || matches!(self, Self::Patch(_))
     }
 
     /// The normal of a flat shape, which shines from both of its sides.
@@ -259,8 +303,59 @@ impl Emitter {
             Self::Sphere { .. }
             | Self::Ellipsoid { .. }
             | Self::Paraboloid { .. }
-            | Self::Torus { .. } => None,
+            | Self::Torus { .. }
+            | Self::Patch(_)
+            | Self::InfiniteCylinder { .. } => None,
         }
+    }
+
+    /// The same surface, sampled alike from everywhere: where a solid has cut it, its back may be
+    /// seen. One without ends is sampled within a box.
+    pub(crate) fn by_area(self, within: Option<Bounds>) -> Option<Self> {
+        match self {
+            Self::Sphere { center, radius } => Some(Self::Ellipsoid {
+                center,
+                axes: Vec3::AXES.map(|axis| axis * radius),
+                inverse: Vec3::AXES.map(|axis| axis / radius),
+            }),
+            Self::InfiniteCylinder { base, axis, radius } => {
+                let Bounds { min, max } = within?;
+                let half = 0.5 * (max - min).length();
+                let middle = base + axis * axis.dot((min + max) * 0.5 - base);
+                Some(Self::Frustum {
+                    base: middle - axis * half,
+                    axis,
+                    height: 2.0 * half,
+                    radii: [radius; 2],
+                    is_capped: false,
+                })
+            }
+            Self::Ellipsoid { .. }
+            | Self::Triangles(_)
+            | Self::Frustum { .. }
+            | Self::Paraboloid { .. }
+            | Self::Torus { .. }
+            | Self::Patch(_) => Some(self),
+        }
+    }
+
+    /// A square of a plane that covers what a box cuts out of it.
+    pub(crate) fn of_plane(anchor: Vec3, normal: Vec3, within: Bounds) -> Self {
+        let Bounds { min, max } = within;
+        let middle = (min + max) * 0.5;
+        let center = middle - normal * normal.dot(middle - anchor);
+        let OrthonormalBasis {
+            tangent, bitangent, ..
+        } = OrthonormalBasis::around(normal);
+        let half = 0.5 * (max - min).length();
+        let corner = |x: f64, y: f64| center + (tangent * x + bitangent * y) * half;
+        let [a, b, c, d] = [
+            corner(-1.0, -1.0),
+            corner(1.0, -1.0),
+            corner(1.0, 1.0),
+            corner(-1.0, 1.0),
+        ];
+        Self::Triangles([[a, b, c], [a, c, d]])
     }
 
     /// The end of a shadow ray to a sampled point: off the surface by its rounding error, on the
@@ -294,6 +389,94 @@ fn sphere_normal(to: Vec3, radius: f64, [u, v]: [f64; 2]) -> Vec3 {
     let across = (1.0 - sine_squared / (most * most)).max(0.0).sqrt();
     let at_center = (sine_squared / most + cosine * across).min(1.0);
     OrthonormalBasis::around(to.normalize()).to_world(direction_at_angle(at_center, v))
+}
+
+/// An infinite cylinder as seen from a point, in the plane across its axis.
+#[derive(Clone, Copy)]
+struct CylinderView {
+    from: Vec3,
+    axis: Vec3,
+    /// The unit vector to the axis, and across it.
+    towards: Vec3,
+    across: Vec3,
+    /// The distance to the axis.
+    distance: f64,
+}
+
+impl CylinderView {
+    fn new(from: Vec3, base: Vec3, axis: Vec3) -> Self {
+        let to = base - from;
+        let to = to - axis * axis.dot(to);
+        let distance = to.length();
+        let basis = OrthonormalBasis::around(axis);
+        let towards = to.normalize_or(basis.tangent);
+        Self {
+            from,
+            axis,
+            towards,
+            across: axis.cross(towards),
+            distance,
+        }
+    }
+
+    /// Whether the point is outside of a cylinder of this radius.
+    fn is_outside(&self, radius: f64) -> bool {
+        self.distance * self.distance > radius * radius * OUTSIDE
+    }
+
+    /// The point of a cylinder of a radius that a direction meets first, by two numbers.
+    ///
+    /// The sine of the elevation over the plane across is uniform, so dω = dψ d(sin θ) has the
+    /// density of the angle ψ in that plane over 2. From outside sin ψ is uniform between ±r/d;
+    /// from inside ψ is, all around.
+    fn point(&self, radius: f64, [u, v]: [f64; 2]) -> EmitterPoint {
+        let is_outside = self.is_outside(radius);
+        // The angle ψ in the plane across.
+        let (cosine, sine) = if is_outside {
+            let sine = (2.0 * u - 1.0) * (radius / self.distance);
+            ((1.0 - sine * sine).sqrt(), sine)
+        } else {
+            let turn = direction_at_angle(0.0, u);
+            (turn.x, turn.y)
+        };
+        let (nearest, off) = (self.distance * cosine, self.distance * sine);
+        let half = ((radius - off) * (radius + off)).max(0.0).sqrt();
+        let flat = if is_outside {
+            nearest - half
+        } else {
+            nearest + half
+        };
+        let step = self.towards * (flat * cosine) + self.across * (flat * sine);
+        let normal = (step - self.towards * self.distance).normalize_or(-self.towards);
+        // The elevation over that plane. From the surface itself, half of the directions lead away
+        // from it.
+        let rise = 2.0 * v - 1.0;
+        let slope = rise / ((1.0 - rise) * (1.0 + rise)).sqrt();
+        let point = match flat > NEAR * radius {
+            true => self.from + step + self.axis * (flat * slope),
+            false => self.from,
+        };
+        EmitterPoint {
+            point,
+            normal,
+            prim_id: 0,
+        }
+    }
+
+    /// The density per solid angle of [`Self::point`] in a direction to a point with an outward
+    /// normal.
+    fn density(&self, radius: f64, wi: Vec3, normal: Vec3) -> f64 {
+        if !self.is_outside(radius) {
+            return 1.0 / (4.0 * PI);
+        }
+        // The sides that face away are hidden by the others.
+        if wi.dot(normal) >= 0.0 {
+            return 0.0;
+        }
+        let flat = wi - self.axis * self.axis.dot(wi);
+        let cosine = flat.normalize_or(self.towards).dot(self.towards);
+        0.25 * cosine * self.distance / radius
+    }
 }
 
 /// The areas of the side, of the base and of the top.

@@ -2,7 +2,7 @@
 
 use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
-use crate::shape::emitter::Emitter;
+use crate::shape::emitter::{Emitter, FaceEmitter};
 use crate::shape::four::Shape4;
 use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::WatertightRay;
@@ -122,10 +122,24 @@ pub trait Intersect: Sized + Send + Sync {
         None
     }
 
-    /// How light sampling samples it; `None` for triangles, which are sampled one by one, and for
-    /// shapes that only BSDF sampling finds.
+    /// How light sampling samples it; `None` for triangles, which are sampled one by one, for
+    /// solids, whose faces are, and for shapes that only BSDF sampling finds.
     #[must_use]
     fn emitter(&self) -> Option<Emitter>;
+
+    /// How light sampling samples each of its faces, in the order of their numbers; none for a
+    /// shape that is sampled as a whole.
+    #[must_use]
+    fn face_emitters(&self) -> Vec<FaceEmitter> {
+        Vec::new()
+    }
+
+    /// The face that a `prim_id` lies on, and the normal there of the whole surface that the face
+    /// is a part of, for one of this shape.
+    #[must_use]
+    fn face(&self, prim_id: u32, normal: Vec3) -> (u32, Vec3) {
+        (prim_id, normal)
+    }
 
     /// How its unit normals change along it; `None` where that is not known: ray differentials
     /// then do not continue from it.

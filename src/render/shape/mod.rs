@@ -141,6 +141,18 @@ macro_rules! dispatch {
                 }
             }
 
+            fn face_emitters(&self) -> Vec<FaceEmitter> {
+                match self {
+                    $(Self::$Name(shape) => <$Name as Intersect>::face_emitters(shape),)*
+                }
+            }
+
+            fn face(&self, prim_id: u32, normal: Vec3) -> (u32, Vec3) {
+                match self {
+                    $(Self::$Name(shape) => <$Name as Intersect>::face(shape, prim_id, normal),)*
+                }
+            }
+
             fn normal_field(&self) -> Option<NormalField<'_>> {
                 match self {
                     $(Self::$Name(shape) => <$Name as Intersect>::normal_field(shape),)*
@@ -270,7 +282,7 @@ use crate::ray::{Interaction, Ray};
 use crate::shape::baseline::ray::BaselineRay;
 use crate::shape::baseline::real::Real;
 use crate::shape::baseline::{Baseline, HasBaseline, baselines};
-use crate::shape::emitter::Emitter;
+use crate::shape::emitter::{Emitter, FaceEmitter};
 use crate::shape::four::Shape4;
 use crate::shape::geometry::{AttributeRequest, Intersect, LocalRay, ShadingAttributes};
 use crate::shape::mesh::BaselineMesh;

@@ -9,7 +9,7 @@ use crate::shape::baseline::ray::BaselineRay;
 use crate::shape::baseline::real::{Real, RealVector};
 use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
-use crate::shape::emitter::Emitter;
+use crate::shape::emitter::{Emitter, EmitterPoint};
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::normal_field::NormalField;
@@ -147,6 +147,53 @@ pub struct BilinearPatch {
 impl BilinearPatch {
     /// The first crossing in front, with its u and v.
     fn intersection(&self, ray: &Ray) -> Option<(f64, [f64; 2])> {
+        let ahead = self.crossings(ray).into_iter().flatten();
+        ahead
+            .filter(|(t, _)| *t > 0.0)
+            .min_by(|first, second| first.0.total_cmp(&second.0))
+    }
+
+    /// The u and v of a point of the patch, where the normal is given.
+    fn uv_at(&self, point: Vec3, normal: Vec3) -> [f64; 2] {
+        let line = Ray {
+            origin: point,
+            direction: normal,
+        };
+        let crossings = self.crossings(&line).into_iter().flatten();
+        let nearest = crossings.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+        nearest.map_or([0.5; 2], |(_, uv)| self.nearest(point, uv))
+    }
+
+    /// The point at u and v, as a light's.
+    pub(crate) fn sample(&self, uv: [f64; 2]) -> EmitterPoint {
+        let [across, upward] = self.tangents(uv);
+        EmitterPoint {
+            point: self.at(uv),
+            normal: cross(across, upward).normalize_or(Vec3::Z),
+            prim_id: 0,
+        }
+    }
+
+    /// The area of the patch over that of u and v at a point with a normal.
+    pub(crate) fn stretch_at(&self, point: Vec3, normal: Vec3) -> f64 {
+        self.stretch(self.uv_at(point, normal))
+    }
+
+    fn stretch(&self, uv: [f64; 2]) -> f64 {
+        let [across, upward] = self.tangents(uv);
+        cross(across, upward).length()
+    }
+
+    /// The area, by the midpoint rule.
+    pub(crate) fn area(&self) -> f64 {
+        const CELLS: u32 = 8;
+        let middle = |cell: u32| (f64::from(cell) + 0.5) / f64::from(CELLS);
+        let cells = (0..CELLS * CELLS).map(|k| [middle(k % CELLS), middle(k / CELLS)]);
+        cells.map(|uv| self.stretch(uv)).sum::<f64>() / f64::from(CELLS * CELLS)
+    }
+
+    /// The crossings of the whole line within the patch, each with its u and v.
+    fn crossings(&self, ray: &Ray) -> [Option<(f64, [f64; 2])>; 2] {
         let [q00, q10, q11, q01] = self.vertices.map(|vertex| vertex - ray.origin);
         let d = ray.direction;
         let (left, right) = (q01 - q00, q11 - q10);
@@ -156,7 +203,7 @@ impl BilinearPatch {
         let b = cross(q10, d).dot(right) - a - c;
         let discriminant = b * b - 4.0 * a * c;
         if discriminant < 0.0 || discriminant.is_nan() {
-            return None;
+            return [None; 2];
         }
         let q = -0.5 * (b + discriminant.sqrt().copysign(b));
         let candidates = [if c == 0.0 { f64::NAN } else { q / c }, a / q];
@@ -172,12 +219,9 @@ impl BilinearPatch {
             // even if the ray is parallel to the line.
             let tangent_plane = cross(across(self.vertices, v), line);
             let t = tangent_plane.dot(from + line * v) / tangent_plane.dot(d);
-            (t > 0.0 && (0.0..=1.0).contains(&v)).then_some((t, [u, v]))
+            (0.0..=1.0).contains(&v).then_some((t, [u, v]))
         };
-        candidates
-            .into_iter()
-            .filter_map(along)
-            .min_by(|first, second| first.0.total_cmp(&second.0))
+        candidates.map(along)
     }
 
     fn at(&self, [u, v]: [f64; 2]) -> Vec3 {
@@ -248,7 +292,14 @@ impl Intersect for Quad {
         prim_id: u32,
         _: AttributeRequest,
     ) -> ShadingAttributes {
-        let [u, v] = self.uv(ray, at.point, prim_id);
+        let [u, v] = match self {
+            Self::Flat { .. } => self.uv(ray, at.point, prim_id),
+            Self::Patch(patch) => match patch.intersection(ray) {
+                Some((_, uv)) => uv,
+                // The ray starts on the patch: a sampled point of a light.
+                None => patch.uv_at(at.point, at.normal),
+            },
+        };
         ShadingAttributes {
             uv: Some([u, v]),
             tangent: self.tangent(v),
@@ -276,8 +327,11 @@ impl Intersect for Quad {
     }
 
     fn emitter(&self) -> Option<Emitter> {
-        let Self::Flat { vertices, halves } = self else {
-            return None;
+        let (vertices, halves) = match self {
+            Self::Flat { vertices, halves } => (vertices, halves),
+            Self::Patch(patch) => {
+                return Some(Emitter::Patch(*patch)).filter(|emitter| emitter.area() > 0.0);
+            }
         };
         let corners = |half: &Option<(Triangle, [usize; 3])>| {
             half.as_ref()

@@ -16,6 +16,7 @@ pub(crate) mod any;
 mod flattened;
 mod light;
 mod material;
+mod panes;
 mod prepare;
 mod search;
 pub(crate) mod settings;
@@ -105,6 +106,9 @@ pub struct World<S = Shape> {
     pub(crate) camera_medium: Option<MediumId>,
     /// Whether the scene names media, so that panes cost no bounce.
     pub(crate) has_free_panes: bool,
+    /// Which materials of the path tracer may be panes, and whether a surface has one.
+    pub(crate) panes: IdTable<Material, bool>,
+    pub(crate) has_panes: bool,
     /// The lights.
     pub(crate) lights: LightList,
     /// The surfaces that the plan keeps, in the order of the scene.

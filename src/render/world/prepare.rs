@@ -5,6 +5,7 @@ use super::alpha::AlphaTested;
 use super::flattened::{FlattenedInstances, flattened_surfaces};
 use super::light::LightList;
 use super::material::{PhongList, standard, unchanged, with_requests};
+use super::panes::panes;
 use super::settings::{camera, settings};
 use super::shape::Prepare;
 use super::small_scene::SmallScene;
@@ -97,6 +98,10 @@ impl<S: Prepare> World<S> {
             flattened,
             small_scene,
         } = SurfaceLookup::of(scene, plan, &surfaces, simd);
+        let (panes, has_panes) = match plan.paths {
+            Some(_) => panes(scene),
+            None => (IdTable::default(), false),
+        };
         let camera_medium = plan.paths.as_ref().and_then(|paths| paths.medium);
         let camera_medium = camera_medium.map(|medium| media.push(medium.into()));
         Self {
@@ -109,6 +114,8 @@ impl<S: Prepare> World<S> {
             media,
             camera_medium,
             has_free_panes: material::has_media(scene),
+            panes: panes.into_iter().collect(),
+            has_panes,
             lights: lights.clone(),
             surfaces,
             verify: None,

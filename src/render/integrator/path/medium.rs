@@ -7,6 +7,7 @@
 use super::scatter::balance_heuristic;
 use super::state::PathState;
 use super::vertex::{MAX_SKIPPED, PathVertex};
+use super::visibility::StraightPath;
 use super::{PathTracer, SamplingStrategy};
 use crate::light::IncidentLight;
 use crate::material::standard::{MediumInterface, StandardMaterial};
@@ -110,7 +111,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         // Sample the phase function; its value over its density is 1.
         let wo = -state.ray.direction;
         let (wi, pdf) = phase.sample_phase(wo, state.pair(SobolPair::direction));
-        state.pdf = Some(pdf);
+        (state.pdf, state.passed) = (Some(pdf), 0.0);
         state.caustic = None;
         state.ray.direction = wi;
         state.from = NO_PRIMITIVE;
@@ -154,7 +155,8 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             origin: point,
             direction: wi,
         };
-        light * self.media_transmittance(ray, NO_PRIMITIVE, state.medium, place)
+        let left = self.straight_path(state);
+        light * self.media_transmittance(left, ray, NO_PRIMITIVE, state.medium, place)
     }
 
     /// The transmittance from a vertex to a point, or to infinity.
@@ -166,11 +168,12 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         place: Option<Vec3>,
     ) -> Vec3 {
         if !self.has_media() {
-            return Vec3::splat(self.visibility(vertex, wi, place));
+            return self.visibility(state, vertex, wi, place);
         }
         let (hit, at) = (vertex.hit, vertex.at);
         let medium = self.medium_beyond(hit.surface, wi.dot(at.normal), state.medium);
-        self.media_transmittance(at.ray(wi), (hit.surface, hit.prim_id), medium, place)
+        let left = self.straight_path(state);
+        self.media_transmittance(left, at.ray(wi), (hit.surface, hit.prim_id), medium, place)
     }
 
     /// The transmittance of media and surfaces from the origin of a ray in a medium to a point in
@@ -178,6 +181,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     #[inline(never)]
     fn media_transmittance(
         &mut self,
+        mut left: StraightPath,
         mut ray: Ray,
         mut from: SurfacePrimitive,
         mut medium: Option<MediumId>,
@@ -206,7 +210,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             let Some(hit) = world.closest_hit_from(&ray, from) else {
                 return Vec3::ZERO;
             };
-            let (at, fraction) = self.transmittance(&ray, &hit);
+            let (at, fraction) = self.transmittance(&mut left, &ray, &hit);
             transmittance *= passed(medium, hit.t) * fraction;
             let Some(at) = at.filter(|_| transmittance != Vec3::ZERO) else {
                 return Vec3::ZERO;

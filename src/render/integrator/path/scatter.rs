@@ -126,7 +126,8 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         }
         let (lights, part) = (self.lights, (hit.surface, hit.prim_id));
         let place = (vertex.at.point, vertex.at.normal);
-        let light_pdf = || lights.pdf_of_surface(part, place, -wo, state.travelled);
+        let distance = state.passed + state.travelled;
+        let light_pdf = || lights.pdf_of_surface(part, place, -wo, distance);
         let weight = self.weight_of_scattering(state.pdf, light_pdf);
         state.radiance += state.beta * emission * (weight * Self::scale(state));
     }
@@ -163,7 +164,12 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             return false;
         }
         state.beta *= sample.f * (sample.wi.z.abs() / sample.pdf);
-        state.pdf = (!sample.delta).then_some(sample.pdf);
+        // Light sampling at the vertex before has aimed through a pane.
+        if through && sample.delta && self.is_aimed_through(hit) {
+            state.passed += state.travelled;
+        } else {
+            (state.pdf, state.passed) = ((!sample.delta).then_some(sample.pdf), 0.0);
+        }
         if through && point.material.bounds_a_volume {
             state.enter(point.material, wi.dot(at.normal) < 0.0);
         }
@@ -200,7 +206,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
 
     /// Counts the evaluations of a material.
     #[inline]
-    fn count_shading(
+    pub(super) fn count_shading(
         &mut self,
         vertex: &PathVertex<'_, '_>,
         standard: &StandardParameters<'_>,

@@ -81,8 +81,10 @@ pub(super) struct PathState {
     /// Those of them that do not count: straight through panes, in a scene with media.
     pub(super) free: u32,
     /// The density of the ray's direction in BSDF sampling; `None` if light sampling could not have
-    /// found it.
+    /// found it. Panes do not change it.
     pub(super) pdf: Option<f64>,
+    /// The distance from where the direction was sampled to the start of the ray: through panes.
+    pub(super) passed: f64,
     /// The body that the ray is in.
     pub(super) body: Body,
     /// The participating medium along the ray.
@@ -109,6 +111,7 @@ impl PathState {
             bounces: 0,
             free: 0,
             pdf: None,
+            passed: 0.0,
             body: Body::OUTSIDE,
             medium: None,
             channel: None,

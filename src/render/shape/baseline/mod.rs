@@ -11,7 +11,7 @@ pub(crate) mod roots;
 
 use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
-use crate::shape::emitter::Emitter;
+use crate::shape::emitter::{Emitter, FaceEmitter};
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::normal_field::NormalField;
@@ -179,6 +179,14 @@ impl<R: Real> Intersect for BaselineShape<R> {
 
     fn emitter(&self) -> Option<Emitter> {
         self.robust.emitter()
+    }
+
+    fn face_emitters(&self) -> Vec<FaceEmitter> {
+        self.robust.face_emitters()
+    }
+
+    fn face(&self, prim_id: u32, normal: Vec3) -> (u32, Vec3) {
+        self.robust.face(prim_id, normal)
     }
 
     fn bounds(&self) -> Option<Bounds> {
