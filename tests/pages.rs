@@ -15,7 +15,7 @@ use std::{env, fs};
 const WITHOUT: &[&str] = &[
     "IO002", "SY001", "SY004", "SY010", "SY011", "RE003", "RE005", "RE008", "VA014", "VA017",
     "VA018", "IR004", "IR005", "IR006", "IR007", "GL001", "GL002", "GL003", "GL042", "GL043",
-    "GL044", "GL047", "GL052", "RD004", "RD005", "RD007", "RD009",
+    "GL044", "GL047", "GL052", "RD004", "RD005", "RD007", "RD009", "RD015",
 ];
 
 /// Codes for which the page shows no way to be rid of them: a newer file, a damaged file, what every

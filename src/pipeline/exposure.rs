@@ -20,7 +20,7 @@ pub(super) const WINDOW: Crop = Crop {
     height: SIDE,
 };
 pub(super) const RENDERS: usize = 2;
-const SIDE: u32 = 64;
+pub(super) const SIDE: u32 = 64;
 const PATHS: u32 = 16;
 /// The geometric mean of the luminance of illuminated pixels is exposed to a grey card.
 const GREY: f64 = 0.18;
@@ -33,13 +33,15 @@ const DARKEST: f64 = 1e-3;
 const VISIBLE: f64 = 0.01;
 
 /// The result of measuring the light of a scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct LightMeasurement {
     /// The automatic exposure, in whole thirds of a stop; 0 if all surfaces are dark.
     pub stops: f64,
     /// The fraction of the non-emissive surface pixels that are visible at this exposure, in [0,
     /// 1].
     pub visible: f64,
+    /// For each pixel of the small render, whether it shows a surface that is not visible.
+    pub is_dark: Vec<bool>,
 }
 
 impl Renderer {
@@ -78,7 +80,15 @@ impl Renderer {
             |number: &f32| glowing.get((*number as usize).wrapping_sub(1)) == Some(&true);
         let is_emissive: Vec<bool> = numbers.values.iter().map(is_emissive).collect();
         let visible = visible(&film, &is_emissive, stops);
-        Some(LightMeasurement { stops, visible })
+        let mut is_dark = vec![false; film.coverage.len()];
+        for (index, pixel) in surfaces(&film) {
+            is_dark[index] = luminance(pixel) < least_visible(stops);
+        }
+        Some(LightMeasurement {
+            stops,
+            visible,
+            is_dark,
+        })
     }
 }
 
@@ -127,10 +137,15 @@ fn stops(film: &Film) -> f64 {
     (3.0 * stops).round() / 3.0
 }
 
+/// The least luminance that is visible at an exposure.
+fn least_visible(stops: f64) -> f64 {
+    VISIBLE * pow(2.0, -stops)
+}
+
 /// The fraction of non-emissive surface pixels that are visible at an exposure; 1 if there are
 /// none.
 fn visible(film: &Film, is_emissive: &[bool], stops: f64) -> f64 {
-    let least = VISIBLE * pow(2.0, -stops);
+    let least = least_visible(stops);
     let illuminated = surfaces(film).filter(|(index, _)| is_emissive.get(*index) != Some(&true));
     let (all, visible) = illuminated.fold((0_u32, 0_u32), |(all, visible), (_, pixel)| {
         (all + 1, visible + u32::from(luminance(pixel) >= least))

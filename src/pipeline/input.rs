@@ -5,7 +5,7 @@ use rtc_diag::{Diagnostic, DiagnosticSink, codes};
 use rtc_emit::{self as emit, ExportedScene, gltf::GltfAsset};
 use rtc_front::{gltf, pixels};
 use rtc_ir::{EntityField, EntityKind, Light, LoweredScene, Scene, SourceSpans, ValuePath};
-use rtc_passes::{EnvironmentOverride, FillLight, Framing, SceneKind, ViewAndLight};
+use rtc_passes::{EnvironmentOverride, FillLight, Framing, SceneKind, StudioChoice, ViewAndLight};
 use rtc_source::tree::DetachedTree;
 use rtc_source::{FileId, LoadError, Loader, MemoryFiles, Resource, SourceMap, Span};
 use rtc_valid::ValidScene;
@@ -84,6 +84,8 @@ pub struct Provenance {
     pub is_unlit: bool,
     /// Whether the studio may still add light to its own.
     pub fill: FillLight,
+    /// Whether lamps may be added in closed rooms.
+    pub adds_lamps: bool,
     /// The choice of its view, if it has none.
     pub framing: Option<Framing>,
 }
@@ -287,11 +289,14 @@ impl Input {
             is_lit_asset: is_asset && lowered.scene.lights.iter().any(Light::emits),
             is_unlit: is_asset && lowered.scene.is_unlit(),
             fill: FillLight::Never,
+            adds_lamps: false,
             framing: None,
         };
         let Some(overrides) = &self.stage else {
             return provenance;
         };
+        let is_darkened = overrides.environment == Some(EnvironmentOverride::Color([0.0; 3]));
+        provenance.adds_lamps = overrides.studio != StudioChoice::Off && !is_darkened;
         provenance.is_lit_asset &= !overrides.without_lights;
         if let Some(staged) = stage(lowered, overrides, kind, &mut self.sink) {
             // A scene text that has its own light keeps it.

@@ -34,6 +34,7 @@ mod exposure;
 mod file;
 mod fix;
 mod input;
+mod lamps;
 mod layout;
 mod light;
 mod measured;

@@ -1,10 +1,12 @@
-//! Finds the exposure of a picture, and decides whether the studio adds light to the scene.
+//! Finds the exposure of a picture, and decides whether the studio adds light to the scene, and
+//! lamps to closed rooms.
 
 use super::setup::{PictureSetup, RenderError, RenderObserver, RenderSubject};
 use super::{Input, LightMeasurement, RayCounter, exposure, picture_diagnostics};
-use rtc_ir::Camera;
+use rtc_ir::{Camera, Scene};
 use rtc_passes::{self as passes, FillLight};
-use rtc_valid::revalidate;
+use rtc_render::SeenBehind;
+use rtc_valid::{Material, ValidScene, revalidate};
 
 /// The visible fraction of the surfaces below which the lights of a scene need the studio.
 const MIN_VISIBLE_LIT: f64 = 0.5;
@@ -14,14 +16,35 @@ const MIN_VISIBLE_EMISSIVE: f64 = 0.95;
 /// The view from which exposure and light are measured, for all pictures.
 pub(super) struct FirstView {
     pub(super) camera: Camera,
+    /// Whether paths are traced.
+    pub(super) is_traced: bool,
     /// Whether it is a glTF asset with lights.
     pub(super) is_lit_asset: bool,
     pub(super) fill: FillLight,
+    /// Whether lamps may be added in closed rooms.
+    pub(super) adds_lamps: bool,
+}
+
+impl RenderSubject {
+    /// Adds light to the scene.
+    fn add_light(&mut self, add: impl FnOnce(&mut Scene)) {
+        add(&mut self.validated.lowered.scene);
+        self.validated.scene = revalidate(&self.validated.lowered.scene);
+        self.renderer = None;
+    }
+}
+
+/// Whether camera rays may pass surfaces of a scene from behind.
+fn has_single_sided(scene: &ValidScene) -> bool {
+    scene.materials().iter().any(|material| match material {
+        Material::Standard(standard) => standard.is_seen_from_one_side(),
+        Material::Phong(_) => false,
+    })
 }
 
 impl PictureSetup {
-    /// Measures the light from the first view, independent of the picture size; sets the exposure
-    /// and adds the studio if too little is visible.
+    /// Measures the light from the first view, independent of the picture size; sets the exposure,
+    /// adds the studio if too little is visible, and lamps to closed rooms.
     ///
     /// # Errors
     /// If it was stopped, takes more rays than the limit, or the threads can't be started.
@@ -38,10 +61,12 @@ impl PictureSetup {
             is_lit_asset, fill, ..
         } = subject.first;
         let finds_exposure = self.look.finds_exposure(is_lit_asset);
-        if !finds_exposure && fill == FillLight::Never {
+        let measures = finds_exposure || fill != FillLight::Never;
+        let may_pass_walls = subject.first.is_traced && has_single_sided(&subject.validated.scene);
+        if !measures && !may_pass_walls {
             return Ok(());
         }
-        // Measure the light.
+        // See what is behind walls that camera rays pass.
         self.renderer(subject)?;
         let RenderSubject {
             validated,
@@ -49,6 +74,14 @@ impl PictureSetup {
             first,
             ..
         } = subject;
+        let behind = match (may_pass_walls, renderer.as_ref()) {
+            (true, Some(renderer)) => renderer.seen_behind(&first.camera),
+            _ => Vec::new(),
+        };
+        if !measures && behind.is_empty() {
+            return Ok(());
+        }
+        // Measure the light.
         let counter = RayCounter::of_each(input.rays(), exposure::WINDOW, exposure::RENDERS);
         let on_pixel = |step| !(observer.is_stopped)() && counter.step(step);
         let exposes = finds_exposure || is_lit_asset;
@@ -58,7 +91,20 @@ impl PictureSetup {
         if let Some(diagnostic) = subject.ran_out(&counter, observer) {
             return Err(RenderError::RanOut(diagnostic));
         }
-        let LightMeasurement { stops, visible } = light.ok_or(RenderError::Stopped)?;
+        let LightMeasurement {
+            stops,
+            visible,
+            is_dark,
+        } = light.ok_or(RenderError::Stopped)?;
+        // Add lamps to closed rooms.
+        let dark = behind.into_iter().filter(|(pixel, _)| is_dark[*pixel]);
+        let dark: Vec<SeenBehind> = dark.map(|(_, seen)| seen).collect();
+        let lamps = subject.renderer.as_ref();
+        if let Some(mut lamps) = lamps.and_then(|renderer| renderer.lamps(&dark, stops)) {
+            lamps.truncate(if subject.first.adds_lamps { lamps.len() } else { 0 });
+            input.push(picture_diagnostics::closed_room(lamps.len()));
+            subject.add_light(|scene| scene.lights.extend(lamps));
+        }
         // Add the studio if too little is visible.
         let least = if is_lit_asset {
             MIN_VISIBLE_LIT
@@ -66,10 +112,7 @@ impl PictureSetup {
             MIN_VISIBLE_EMISSIVE
         };
         if fill == FillLight::Always || (fill == FillLight::IfDim && visible < least) {
-            let validated = &mut subject.validated;
-            passes::fill(&mut validated.lowered.scene, stops);
-            validated.scene = revalidate(&validated.lowered.scene);
-            subject.renderer = None;
+            subject.add_light(|scene| passes::fill(scene, stops));
             input.push(picture_diagnostics::filled(visible));
             self.is_filled = true;
         }

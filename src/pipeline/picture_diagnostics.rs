@@ -2,7 +2,7 @@
 //! file can't hold, a failed verification.
 
 use super::ValidatedScene;
-use rtc_diag::{Diagnostic, codes};
+use rtc_diag::{Diagnostic, Severity, codes};
 use rtc_image::{FileFormat, RangeClipping};
 use rtc_ir::{EntityField, EntityKind, ValuePath};
 use rtc_plan::{self as plan, PrecisionArtifact, Rule};
@@ -59,6 +59,30 @@ pub(super) fn filled(seen: f64) -> Diagnostic {
         "`--studio off` shows its own light alone, `--studio dark` puts it into the studio \
         undimmed",
     )
+}
+
+/// A note that lamps are placed in a closed room; without any, a warning that it is dark.
+pub(super) fn closed_room(lamps: usize) -> Diagnostic {
+    let room = "the camera sees through the walls of a closed room, and no light gets in";
+    let (message, severity, hint) = match lamps {
+        0 => (
+            format!("{room}: it is dark"),
+            Severity::Warning,
+            "put a light into the room; without `--studio off`, lamps are placed in it",
+        ),
+        1 => (
+            format!("{room}: a lamp is placed in it"),
+            Severity::Note,
+            "`--studio off` leaves it dark; a light in the room replaces the lamp",
+        ),
+        _ => (
+            format!("{room}: {lamps} lamps are placed in it"),
+            Severity::Note,
+            "`--studio off` leaves it dark; lights in the room replace the lamps",
+        ),
+    };
+    let diagnostic = Diagnostic::new(&codes::CLOSED_ROOM, message);
+    diagnostic.severity(severity).hint(hint)
 }
 
 /// A warning about the errors of the chosen arithmetic; `None` for the robust one.

@@ -143,8 +143,10 @@ impl PictureSetup {
             let is_traced = matches!(lowered.scene.settings.mode, Mode::Path(_));
             first = Some(FirstView {
                 camera: lowered.scene.camera.clone(),
+                is_traced,
                 is_lit_asset: provenance.is_lit_asset && is_traced,
                 fill: provenance.fill,
+                adds_lamps: provenance.adds_lamps,
             });
             if provenance.is_asset && is_traced && !provenance.is_unlit {
                 self.look.show_asset();

@@ -92,6 +92,7 @@ pub use shape::sphere::{Sphere, TexturedSphere};
 pub use shape::torus::Torus;
 pub use shape::triangle::{TexturedTriangle, Triangle, WatertightRay};
 pub use world::any::{AnyWorld, render};
+pub use world::behind::SeenBehind;
 pub use world::shape::Prepare;
 pub use world::verify::verify;
 pub use world::{Hit, Surface, World};

@@ -181,3 +181,106 @@ fn the_studio_lights_what_a_glowing_part_of_an_asset_does_not() {
         .filter(|pixel| pixel.0.iter().all(|value| *value <= 8));
     assert_eq!(dark.count(), 0);
 }
+
+/// Closed rooms side by side, four wide, whose walls face inwards or are seen from both sides; with
+/// more objects in them.
+fn rooms(count: u32, is_double_sided: bool, more: &str) -> String {
+    let mut text = format!(
+        "Camera: {{eye: [{x}, 5, 14], center: [{x}, 0, 0], up: [0, 0.4, 0], viewSize: [32, 32]}}\n\
+         RenderMode: path\nMaxRecursionDepth: 4\n{more}Objects:\n",
+        x = 2 * (count - 1)
+    );
+    let material = format!(
+        "{{type: standard, baseColor: [.7, .7, .7, 1], metallic: 0, doubleSided: {is_double_sided}}}"
+    );
+    for room in 0..count {
+        for (axis, side) in [0, 1, 2]
+            .into_iter()
+            .flat_map(|axis| [(axis, -2), (axis, 2)])
+        {
+            // Counterclockwise as seen from inside.
+            let mut around = [[-2, -2], [2, -2], [2, 2], [-2, 2]];
+            if side > 0 {
+                around.reverse();
+            }
+            let corner = |[u, v]: [i32; 2]| {
+                let mut corner = [0, 0, 0];
+                corner[axis] = side;
+                (corner[(axis + 1) % 3], corner[(axis + 2) % 3]) = (u, v);
+                let [x, y, z] = corner;
+                format!("[{}, {y}, {z}]", x + 4 * i32::try_from(room).unwrap())
+            };
+            let [a, b, c, d] = around.map(corner);
+            text += &format!(
+                "- {{type: quad, v0: {a}, v1: {b}, v2: {c}, v3: {d}, material: {material}}}\n"
+            );
+        }
+    }
+    text
+}
+
+/// What is told of rooms, and the fraction of their picture that is nearly black.
+fn inside(text: &str, args: &[&str]) -> (String, f64) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("scene.yaml"), text).unwrap();
+    let few = ["render", "scene.yaml", "-v", "-o", "x.png", "--spp", "16"];
+    let output = rtc(&folder, &[&few, args].concat());
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let picture = image::open(folder.path().join("x.png")).unwrap().to_rgb8();
+    let dark = picture
+        .pixels()
+        .filter(|pixel| pixel.0.iter().all(|value| *value <= 8));
+    (
+        stderr(&output),
+        dark.count() as f64 / picture.pixels().len() as f64,
+    )
+}
+
+#[test]
+fn lamps_light_closed_rooms_that_the_camera_looks_into() {
+    for (count, lamps) in [(1, "a lamp is placed"), (2, "2 lamps are placed")] {
+        let text = rooms(count, false, "");
+        let (told, dark) = inside(&text, &[]);
+        assert!(told.contains(lamps) && dark < 0.02, "{dark}: {told}");
+        // What is asked for stays dark, and is told.
+        for args in [["--studio", "off"], ["--env-color", "0,0,0"]] {
+            let (told, dark) = inside(&text, &args);
+            let is_told = told.contains("warning[RD015]") && told.contains("it is dark");
+            assert!(is_told && dark > 0.3, "{args:?} {dark}: {told}");
+        }
+    }
+    // Rays of the light pass no wall that the camera does not, and a light inside is enough.
+    let own = "Lights:\n- {type: point, position: [0, 1, 0], intensity: [9, 9, 9]}\n";
+    for text in [rooms(1, true, ""), rooms(1, false, own)] {
+        let (told, _) = inside(&text, &[]);
+        assert!(!told.contains("RD015"), "{told}");
+    }
+}
+
+#[test]
+fn a_lamp_does_not_depend_on_the_picture() {
+    let text = rooms(1, false, "Environment: {color: [1, 1, 1]}\n");
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("scene.yaml"), text).unwrap();
+    let scene = |args: &[&str]| {
+        let few = [
+            "render",
+            "scene.yaml",
+            "-o",
+            "x.png",
+            "--size",
+            "24x24",
+            "--spp",
+            "2",
+        ];
+        assert_eq!(code(&rtc(&folder, &[&few, args].concat())), 0);
+        image::open(folder.path().join("x.png")).unwrap().to_rgb8()
+    };
+    let whole = scene(&["--threads", "1"]);
+    assert_eq!(whole, scene(&["--threads", "2"]));
+    let part = scene(&["--crop", "8,4,6,9"]);
+    assert!(
+        part.enumerate_pixels()
+            .all(|(x, y, pixel)| pixel == whole.get_pixel(x + 8, y + 4))
+    );
+}

@@ -15,4 +15,5 @@ super::codes! { RD:
     UNTEXTURED = "RD012", Warning, "a surface has no texture coordinates for its texture";
     Z_UP = "RD013", Warning, "a mesh stands as if z pointed up";
     CAUSTICS = "RD014", Note, "caustics of a small light are found by chance, or not at all";
+    CLOSED_ROOM = "RD015", Note, "no light gets into a closed room that the camera looks into";
 }

@@ -7,11 +7,13 @@ use crate::film::progressive::ProgressiveFilm;
 use crate::film::{Film, RayCounts, RenderSelection};
 use crate::frame::halves::GuidedFilm;
 use crate::integrator::aov::Aov;
+use crate::ray::Ray;
 use crate::shape::basic::BasicShape;
 use crate::shape::{PlainShape, PlainShapeF32, Shape};
 use crate::world::World;
+use crate::world::behind::SeenBehind;
 use rtc_image::{DenoisingGuide, PixelLayers};
-use rtc_math::StoredTree;
+use rtc_math::{StoredTree, Vec3};
 use rtc_plan::{Arithmetic, Plan, RuleSet, ShapeSet};
 use rtc_valid::ValidScene;
 use std::ops::Range;
@@ -98,6 +100,20 @@ impl AnyWorld {
     #[must_use]
     pub fn brightest(&self) -> f64 {
         each!(self, world => world.brightest())
+    }
+
+    /// The point that a camera ray sees behind back faces of single-sided materials, if it passes
+    /// any; of a world of path tracing.
+    #[must_use]
+    pub fn seen_behind(&self, ray: Ray) -> Option<SeenBehind> {
+        each!(self, world => world.seen_behind(ray))
+    }
+
+    /// Whether anything that casts shadows is strictly between two points. `from` should be a start
+    /// of rays, off its own surface.
+    #[must_use]
+    pub fn occluded(&self, from: Vec3, to: Vec3) -> bool {
+        each!(self, world => world.occluded(from, to))
     }
 
     /// Renders a picture; `None` if `on_pixel` returned false.

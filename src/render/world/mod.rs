@@ -7,12 +7,14 @@
 //!   surfaces are in the `ObjectBvh`. A scene with few surfaces has a [`SmallScene`] as well, which
 //!   tests the candidates of the ray-cone cache only.
 //! - `search` has the BVH visitors, `alpha` the alpha test.
+//! - `behind` finds what camera rays see behind back faces.
 //! - `any` chooses the shape set and the arithmetic; `verify` renders without pruning.
 //!
 //! Queries accept directions of any length. `t` is in units of the direction's length.
 
 pub(crate) mod alpha;
 pub(crate) mod any;
+pub(crate) mod behind;
 mod flattened;
 mod light;
 mod material;
