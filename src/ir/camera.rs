@@ -109,7 +109,8 @@ impl Camera {
     }
 
     /// The matrix from world to camera coordinates (the camera looks along −z, y is up), row-major
-    /// and for row vectors; `None` if `right` or `up` has no direction.
+    /// and for row vectors; `None` if `right` or `up` has no direction, or if the eye is too far away
+    /// for 32 bits to hold its position.
     #[must_use]
     pub fn world_to_camera(&self) -> Option<[f32; 16]> {
         let [eye, center, right, up] =
@@ -133,7 +134,11 @@ impl Camera {
             clippy::cast_possible_truncation,
             reason = "EXR holds these as 32-bit floats"
         )]
-        Some(std::array::from_fn(|at| entry(at) as f32))
+        let matrix: [f32; 16] = std::array::from_fn(|at| entry(at) as f32);
+        matrix
+            .iter()
+            .all(|number| number.is_finite())
+            .then_some(matrix)
     }
 
     /// The vertical field of view in radians, in (0, π); `None` for an orthographic camera.

@@ -249,3 +249,31 @@ fn a_part_that_was_changed_is_refused() {
         "it is damaged: its shares can't be those of a picture"
     );
 }
+
+/// 32-bit floats, which the file of a picture has in places, end at 3.4·10³⁸.
+#[test]
+fn parts_of_a_huge_scene_merge() {
+    let folder = scenes();
+    for exponent in ["37", "39", "41", "58"] {
+        let scene = format!(
+            "Camera: {{eye: [0, 0, 6e{exponent}], center: [0, 0, 0], up: [0, 3e{exponent}, 0], viewSize: [12, 12]}}\n\
+             Lights:\n- {{position: [3e{exponent}, -1e{exponent}, 8e{exponent}], color: [1, 1, 1]}}\n\
+             Objects:\n- {{type: sphere, position: [0, 0, 0], radius: 1.6e{exponent}, \
+             material: {{color: [1, 0, 0], ka: 0.3, kd: 0.4, ks: 0.5, n: 2}}}}\n"
+        );
+        fs::write(folder.path().join("huge.yaml"), scene).unwrap();
+        let words = ["huge.yaml"];
+        for picture in ["whole.png", "whole.exr"] {
+            reported(&folder, &["render", "huge.yaml", "-o", picture]);
+            let parts = render(&folder, &words, picture, ("tiles", 2), [1, 2]);
+            let merged = format!("merged-{picture}");
+            let output = merge(&folder, &parts, &merged);
+            assert_eq!(code(&output), 0, "{exponent}: {}", stderr(&output));
+            assert_eq!(
+                bytes(&folder, &merged),
+                bytes(&folder, picture),
+                "{exponent}"
+            );
+        }
+    }
+}
