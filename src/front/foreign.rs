@@ -13,6 +13,9 @@ const CONVERT: &str =
 const TESSELLATE: &str =
     "open it in a program for CAD, and export triangles as glTF 2.0, STL or OBJ";
 const UNPACK: &str = "unpack it, and give the scene in it";
+const POINTS: &str = "convert it to PLY or XYZ, whose points are drawn";
+const SPLATS: &str = "convert it to a PLY of splats, which are drawn";
+const VOLUME: &str = "convert a surface of it to a mesh; grids of volumes are not rendered";
 
 /// The formats with magic bytes.
 const FOREIGN: &[ForeignFile] = &[
@@ -128,6 +131,32 @@ const FOREIGN: &[ForeignFile] = &[
         EXPORT,
     ),
     ("a file of POV-Ray", is_pov, EXPORT),
+    (
+        "an OpenVDB volume",
+        |b| b.starts_with(b" BDV\0\0\0\0"),
+        VOLUME,
+    ),
+    ("a NanoVDB volume", |b| b.starts_with(b"NanoVDB"), VOLUME),
+    ("a LAS point cloud", |b| b.starts_with(b"LASF"), POINTS),
+    ("an E57 point cloud", |b| b.starts_with(b"ASTM-E57"), POINTS),
+    (
+        "a PCD point cloud",
+        |b| b.starts_with(b"# .PCD v") || b.starts_with(b"VERSION .7\nFIELDS"),
+        POINTS,
+    ),
+    (
+        "a file of compressed Gaussian splats",
+        |b| b.starts_with(b"NGSP") || is_compressed_ply(b),
+        SPLATS,
+    ),
+];
+
+/// The extensions of binary files that have no magic bytes, or those of a common container.
+const NAMED: &[(&str, &str, &str)] = &[
+    ("spz", "a file of compressed Gaussian splats", SPLATS),
+    ("splat", "a file of Gaussian splats", SPLATS),
+    ("ksplat", "a file of compressed Gaussian splats", SPLATS),
+    ("sog", "a file of compressed Gaussian splats", SPLATS),
 ];
 
 /// The XML formats: the name of the root element, the name of the format, and the hint.
@@ -149,11 +178,31 @@ pub fn foreign(name: &str, bytes: &[u8]) -> Option<Diagnostic> {
         return None;
     }
     let head = &bytes[..bytes.len().min(HEAD)];
-    let found = FOREIGN.iter().find(|(_, begins, _)| begins(head));
-    let known = found.map(|(format, _, hint)| (*format, *hint));
+    let found = || FOREIGN.iter().find(|(_, begins, _)| begins(head));
+    let known = named(name, head).or_else(|| found().map(|(format, _, hint)| (*format, *hint)));
     let (format, hint) = known.or_else(|| xml(head))?;
     let message = format!("`{}` is {format}, not a scene", clip_path(name));
     Some(Diagnostic::new(&codes::NOT_A_SCENE, message).hint(hint))
+}
+
+/// The format and the hint of a binary file by its extension.
+fn named(name: &str, head: &[u8]) -> Option<(&'static str, &'static str)> {
+    let (_, extension) = name.rsplit_once('.')?;
+    let is_text = || {
+        head.iter()
+            .all(|byte| !byte.is_ascii_control() || byte.is_ascii_whitespace())
+    };
+    let found = NAMED
+        .iter()
+        .find(|(known, ..)| extension.eq_ignore_ascii_case(known));
+    found
+        .filter(|_| !is_text())
+        .map(|(_, format, hint)| (*format, *hint))
+}
+
+/// Whether a PLY holds splats in chunks of packed numbers, as PlayCanvas writes them.
+fn is_compressed_ply(head: &[u8]) -> bool {
+    head.starts_with(b"ply") && contains(head, b" packed_position")
 }
 
 /// The text without a byte order mark and leading white space.
@@ -328,9 +377,34 @@ mod tests {
             (b"  0\r\nSECTION\r\n", "a DXF drawing"),
             (&zip("3D/3dmodel.model"), "a 3MF model"),
             (&zip("scene.yaml"), "an archive"),
+            (b" BDV\0\0\0\0\xe0\0\0\0", "an OpenVDB volume"),
+            (b"LASF\0\0\0\0", "a LAS point cloud"),
+            (b"ASTM-E57\x01\0\0\0", "an E57 point cloud"),
+            (
+                b"# .PCD v0.7 - Point Cloud Data\nVERSION 0.7\n",
+                "a PCD point cloud",
+            ),
+            (b"NGSP\x04\0\0\0", "a file of compressed Gaussian splats"),
+            (
+                b"ply\nelement chunk 1\nelement vertex 2\nproperty uint packed_position\n",
+                "a file of compressed Gaussian splats",
+            ),
         ] {
             assert_eq!(message(bytes), format!("`x` is {format}, not a scene"));
         }
+    }
+
+    #[test]
+    fn binary_files_without_magic_bytes_are_known_by_their_names() {
+        let is_splats = |name: &str, bytes: &[u8]| {
+            let message = foreign(name, bytes).map(|diagnostic| diagnostic.message);
+            message.is_some_and(|message| message.contains("Gaussian splats"))
+        };
+        assert!(is_splats("a.spz", b"\x1f\x8b\x08\0"));
+        assert!(is_splats("a.SPLAT", b"\0\0\x80\x3f"));
+        assert!(is_splats("a.sog", b"PK\x03\x04"));
+        assert!(!is_splats("a.spz", b"Camera: {eye: [0, 0, 1]}\n"));
+        assert!(!is_splats("a.gz", b"\x1f\x8b\x08\0"));
     }
 
     #[test]
