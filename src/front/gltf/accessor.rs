@@ -360,13 +360,9 @@ fn check_sparse(
             .get(view)
             .is_some_and(|view| view.stride.is_some())
         {
-            let message = "only a buffer view of vertices may have a `byteStride`".to_owned();
-            report.add(
-                &codes::GLTF_VIEW,
-                "BUFFER_VIEW_INVALID_BYTE_STRIDE",
-                at,
-                message,
-            );
+            let message = "only a buffer view of vertices may have a `byteStride`";
+            let (alias, repair) = ("BUFFER_VIEW_INVALID_BYTE_STRIDE", "the stride is ignored");
+            report.repair(&codes::GLTF_VIEW, alias, at, message, repair);
         }
     }
     // The indices and the values lie within their views.

@@ -158,13 +158,12 @@ fn check_sampler(
             .and_then(|view| doc.views.get(view))
             .is_some_and(|view| view.stride.is_some())
         {
-            let message = "the buffer view of keyframes must not have a `byteStride`".to_owned();
-            report.add(
-                &codes::GLTF_VIEW,
+            let message = "the buffer view of keyframes must not have a `byteStride`";
+            let (alias, repair) = (
                 "ANIMATION_SAMPLER_ACCESSOR_WITH_BYTESTRIDE",
-                at,
-                message,
+                "the stride is used",
             );
+            report.repair(&codes::GLTF_VIEW, alias, at, message, repair);
         }
         // The input holds times, which must increase.
         if usage == AccessorUsage::Times {

@@ -153,13 +153,9 @@ pub(super) fn check(
             .and_then(|view| doc.views.get(view))
             .is_some_and(|view| view.stride.is_some())
         {
-            let message = "the buffer view of an image must not have a `byteStride`".to_owned();
-            report.add(
-                &codes::GLTF_VIEW,
-                "IMAGE_BUFFER_VIEW_WITH_BYTESTRIDE",
-                at,
-                message,
-            );
+            let message = "the buffer view of an image must not have a `byteStride`";
+            let (alias, repair) = ("IMAGE_BUFFER_VIEW_WITH_BYTESTRIDE", "the stride is ignored");
+            report.repair(&codes::GLTF_VIEW, alias, at, message, repair);
         }
     }
 }

@@ -151,13 +151,12 @@ fn check_indices(
             .and_then(|view| doc.views.get(view))
             .is_some_and(|view| view.stride.is_some())
         {
-            let message = "the buffer view of indices must not have a `byteStride`".to_owned();
-            report.add(
-                &codes::GLTF_VIEW,
+            let message = "the buffer view of indices must not have a `byteStride`";
+            let (alias, repair) = (
                 "MESH_PRIMITIVE_INDICES_ACCESSOR_WITH_BYTESTRIDE",
-                at,
-                message,
+                "the stride is used",
             );
+            report.repair(&codes::GLTF_VIEW, alias, at, message, repair);
         }
         // Indices are unsigned integers below the number of vertices.
         let is_index = |layout: ElementLayout| {

@@ -248,14 +248,9 @@ fn check_matrices(
         .and_then(|view| doc.views.get(view))
         .is_some_and(|view| view.stride.is_some())
     {
-        let message =
-            "the buffer view of inverse bind matrices must not have a `byteStride`".to_owned();
-        report.add(
-            &codes::GLTF_VIEW,
-            "SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE",
-            at,
-            message,
-        );
+        let message = "the buffer view of inverse bind matrices must not have a `byteStride`";
+        let (alias, repair) = ("SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE", "the stride is used");
+        report.repair(&codes::GLTF_VIEW, alias, at, message, repair);
     }
     // The elements are affine matrices in f32.
     let is_matrix = |layout: ElementLayout| {
