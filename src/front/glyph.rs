@@ -4,7 +4,7 @@
 use crate::gltf;
 use glam::{DAffine3, DMat3};
 use rtc_ir::{BoundingSphere, Mesh, VertexColumn};
-use rtc_math::{Vec3, unit};
+use rtc_math::{Vec3, mix, unit};
 
 /// The number of points or lines from which on they have the simplest glyph.
 const SIMPLIFIED_FROM: u64 = 1 << 15;
@@ -126,9 +126,50 @@ static TRIANGLE: StrokeShape = StrokeShape {
 /// The radius in pixels of the default view of an asset without cameras.
 const RADIUS: f64 = 1.0;
 
-/// The radius of the points and lines of a scene with this bounding sphere.
+/// The radius of points, as a fraction of the distance of neighbours, so that those of a surface
+/// hide what is behind it, and its limit as a fraction of the radius of the scene.
+const CLOSED: f64 = 0.6;
+const LARGEST: f64 = 1.0 / 64.0;
+/// The largest diameter of points that is obeyed, in pixels.
+const MOST_PIXELS: f64 = 4096.0;
+
+/// The most points whose neighbours are looked for.
+const SAMPLE: usize = 512;
+
+/// The radius of the lines of a scene with this bounding sphere.
 pub(crate) fn radius(ball: BoundingSphere) -> f64 {
     RADIUS * gltf::pixel(ball)
+}
+
+/// The radius of the points of a scene with this bounding sphere: of half a diameter of so many
+/// pixels, or by their density, but at least that of lines.
+pub(crate) fn point_radius(ball: BoundingSphere, size: Option<f64>, spacing: f64) -> f64 {
+    match size {
+        Some(size) => size.min(MOST_PIXELS) / 2.0 * gltf::pixel(ball),
+        None => radius(ball).max((CLOSED * spacing).min(LARGEST * ball.radius)),
+    }
+}
+
+/// The typical distance of neighbours among points on a surface, found from a sample: among n times
+/// as many points it is √n times as small. 0 for fewer than two points.
+pub(crate) fn spacing(count: usize, at: impl Fn(usize) -> Vec3) -> f64 {
+    let pick = |k: usize| match count <= SAMPLE {
+        true => at(k),
+        false => at(usize::try_from(mix(k as u64) % count as u64).unwrap_or(0)),
+    };
+    let sample: Vec<Vec3> = (0..count.min(SAMPLE)).map(pick).collect();
+    let nearest = |point: &Vec3| {
+        let squares = sample.iter().map(|other| point.distance_squared(*other));
+        let squares = squares.filter(|square| *square > 0.0);
+        squares.fold(f64::INFINITY, f64::min)
+    };
+    let mut nearest: Vec<f64> = sample.iter().map(nearest).collect();
+    nearest.retain(|square| square.is_finite());
+    nearest.sort_unstable_by(f64::total_cmp);
+    let middle = nearest.get(nearest.len() / 2);
+    middle.map_or(0.0, |square| {
+        (square * sample.len() as f64 / count as f64).sqrt()
+    })
 }
 
 impl StrokeShape {
@@ -235,6 +276,33 @@ pub(crate) fn pick(mesh: &mut Mesh, vertices: &[u32]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn neighbours_of_a_surface_are_as_far_apart_as_a_sample_says() {
+        for side in [10, 30, 100] {
+            let at = |k: usize| Vec3::new((k % side) as f64, (k / side) as f64, 0.0);
+            let found = spacing(side * side, at);
+            // Of a sample the nearest neighbour is half as far as in a grid.
+            assert!((0.4..=1.0).contains(&found), "{side}: {found}");
+        }
+        assert_eq!(
+            [spacing(0, |_| Vec3::ONE), spacing(9, |_| Vec3::ONE)],
+            [0.0; 2]
+        );
+    }
+
+    #[test]
+    fn points_are_as_large_as_their_density_needs_within_limits() {
+        let ball = BoundingSphere {
+            center: Vec3::ZERO,
+            radius: 2.0,
+        };
+        let pixel = radius(ball);
+        let of = |spacing| point_radius(ball, None, spacing);
+        assert_eq!([of(0.0), of(pixel), of(9.0)], [pixel, pixel, 2.0 / 64.0]);
+        assert_eq!(of(2.0 * pixel), CLOSED * 2.0 * pixel);
+        assert_eq!(point_radius(ball, Some(6.0), 9.0), 3.0 * pixel);
+    }
 
     #[test]
     fn discs_and_ribbons_face_their_normals() {

@@ -27,11 +27,13 @@ mod exchange;
 mod foreign;
 pub mod gltf;
 mod glyph;
+mod hull;
 pub mod mesh;
 pub mod mitsuba;
 pub mod pbrt;
 pub mod pixels;
 mod plugin;
+mod splat;
 mod support;
 pub mod usd;
 mod words;
@@ -86,6 +88,9 @@ pub struct FrontOptions {
     /// The camera of glTF or USD, by its name, the name of its node or its path, or its index. The
     /// default is the first camera that sees a surface, of USD the first one.
     pub camera: Option<String>,
+    /// The diameter of points in pixels of a picture of 512 rows that shows all, above 0; by the
+    /// density of the points by default.
+    pub point_size: Option<f64>,
     /// The axis that points up in a mesh file or a glTF asset that is read as the scene.
     pub up_axis: Option<UpAxis>,
     /// Values of the parameters (`$name`) of a Mitsuba scene, by name; they come before the scene's
@@ -93,6 +98,16 @@ pub struct FrontOptions {
     pub define: BTreeMap<String, String>,
     /// The number of threads that decode images of a glTF asset; 0 for one per core.
     pub threads: usize,
+}
+
+impl FrontOptions {
+    /// Those of mesh files.
+    pub(crate) fn mesh(&self) -> mesh::MeshOptions {
+        mesh::MeshOptions {
+            is_lenient: self.lenient,
+            point_size: self.point_size,
+        }
+    }
 }
 
 /// Whether a file with this extension is a scene, when folders are searched for scenes.

@@ -1,6 +1,6 @@
 //! Source spans of the values of a scene. They are stored beside the scene and never serialised.
 
-use super::{ShapeKind, Standard};
+use super::{Scene, ShapeKind, Standard};
 use rtc_math::to_u32;
 use rtc_source::Span;
 use std::fmt;
@@ -225,6 +225,9 @@ fn pointer_tail(entity: EntityKind, field: EntityField) -> &'static str {
 #[derive(Clone, Debug, Default)]
 pub struct SourceSpans {
     lists: [List; EntityKind::ALL.len()],
+    /// A scene that stands for what the source shows at all times of its animation, where it has no
+    /// camera of its own: the vertices of its surfaces are on hulls of that.
+    pub swept: Option<Box<Scene>>,
 }
 
 #[derive(Clone, Debug, Default)]

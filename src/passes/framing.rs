@@ -1,7 +1,7 @@
 //! Framing: a camera that shows the whole scene as large as possible.
 
 use glam::DAffine3;
-use rtc_ir::{Alpha, Camera, Lens, Material, Mesh, Projection, Scene, Shape, Surface};
+use rtc_ir::{Alpha, Camera, Lens, Material, Mesh, Projection, Scene, Shape, SourceSpans, Surface};
 use rtc_math::{Vec3, acos, atan2, cos, sin};
 use std::f64::consts::FRAC_PI_2;
 
@@ -55,12 +55,23 @@ pub struct Framing {
 
 impl Framing {
     /// Sets the camera of a scene so that its subject, without a ground under it, is centred and
-    /// spans 85 % of the picture in one direction. A scene without bounded surfaces keeps its
-    /// camera.
-    pub fn apply(&self, scene: &mut Scene) {
-        let Some(sphere) = scene.bounding_sphere() else {
-            return;
+    /// spans 85 % of the picture in one direction. The subject of an animation is what it shows at
+    /// all times. A scene without bounded surfaces keeps its camera.
+    pub fn apply(&self, scene: &mut Scene, source_spans: &SourceSpans) {
+        let camera = match &source_spans.swept {
+            Some(swept) => Self {
+                ground: None,
+                ..*self
+            }
+            .camera(swept),
+            None => self.camera(scene),
         };
+        scene.camera = camera.unwrap_or_else(|| scene.camera.clone());
+    }
+
+    /// The camera that shows a scene so; `None` without bounded surfaces.
+    fn camera(&self, scene: &Scene) -> Option<Camera> {
+        let sphere = scene.bounding_sphere()?;
         let axes = self.orbit.axes();
         let size = self.size.unwrap_or(SIZE);
         let half = self.yfov.unwrap_or(DEFAULT_YFOV_DEGREES.to_radians()) / 2.0;
@@ -70,16 +81,14 @@ impl Framing {
         let mut fit = CameraFit::new(axes, tangents.map(|tangent| tangent * SUBJECT_FRACTION));
         FramingSubject::of(scene, self.ground)
             .corners(&mut |corner| fit.add(corner - sphere.center));
-        let Some((eye, depth)) = fit.eye() else {
-            return;
-        };
+        let (eye, depth) = fit.eye()?;
         let [x, y, z] = axes;
         // Place the image plane in the middle of the subject's depth.
         let distance = eye.dot(z) - depth;
         let step = |axis: Vec3, tangent: f64, count: u32| {
             (axis * (2.0 * tangent * distance / f64::from(count))).to_array()
         };
-        scene.camera = Camera {
+        Some(Camera {
             eye: (sphere.center + eye).to_array(),
             center: (sphere.center + eye - z * distance).to_array(),
             right: step(x, tangents[0], size[0]),
@@ -87,7 +96,7 @@ impl Framing {
             size,
             lens: Lens::PINHOLE,
             projection: Projection::Perspective,
-        };
+        })
     }
 }
 
@@ -390,7 +399,7 @@ mod tests {
 
     fn framed(boxes: &[[[f64; 3]; 2]], framing: Framing) -> Scene {
         let mut scene = scene(boxes);
-        framing.apply(&mut scene);
+        framing.apply(&mut scene, &SourceSpans::default());
         scene
     }
 
@@ -474,6 +483,23 @@ mod tests {
     }
 
     #[test]
+    fn what_an_animation_shows_at_all_times_is_framed_in_place_of_the_scene() {
+        let [left, right] = [-9.0, 5.0].map(|x| [[x, 0.0, 0.0], [x + 1.0, 2.0, 1.0]]);
+        let mut swept = SourceSpans::default();
+        swept.swept = Some(Box::new(scene(&[left, right])));
+        let cameras = [left, right].map(|now| {
+            let mut scene = scene(&[now]);
+            Framing::default().apply(&mut scene, &swept);
+            scene.camera
+        });
+        assert_eq!(cameras[0], cameras[1]);
+        assert_eq!(
+            cameras[0],
+            framed(&[left, right], Framing::default()).camera
+        );
+    }
+
+    #[test]
     fn a_scene_without_extent_keeps_its_camera() {
         let mut point = scene(&[]);
         point.surfaces.push(Surface::new(
@@ -485,7 +511,7 @@ mod tests {
         ));
         for mut scene in [scene(&[]), point] {
             let before = scene.camera.clone();
-            Framing::default().apply(&mut scene);
+            Framing::default().apply(&mut scene, &SourceSpans::default());
             assert_eq!(scene.camera, before);
         }
     }
@@ -501,7 +527,7 @@ mod tests {
             ground,
             ..Framing::default()
         };
-        framing.apply(&mut scene);
+        framing.apply(&mut scene, &SourceSpans::default());
         let spans = shown(&scene, &flat).map(|[least, most]| (most - least) / 2.0);
         assert!(
             (spans[0].max(spans[1]) - SUBJECT_FRACTION).abs() < 1e-9,

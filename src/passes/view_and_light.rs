@@ -145,7 +145,7 @@ impl ViewAndLight {
             .view
             .framing(&scene.camera, !is_bare || self.all_around);
         if let Some(framing) = &framing {
-            framing.apply(scene);
+            framing.apply(scene, source_spans);
             source_spans.forget(EntityKind::Camera);
         } else if self.view != View::default() {
             self.view.apply(scene)?;
@@ -174,7 +174,8 @@ impl ViewAndLight {
         let (lacks_light, set, fill) = self.apply_studio(scene, kind);
         let gets_ground = set.is_some() && is_bare && !scene.is_unlit();
         if self.ground.unwrap_or(gets_ground)
-            && let Some(bounds) = framing::standing_bounds(scene)
+            && let Some(bounds) =
+                framing::standing_bounds(source_spans.swept.as_deref().unwrap_or(scene))
         {
             let ground =
                 ground::add_ground(scene, bounds, set.unwrap_or_default().ground_reflectance());

@@ -10,7 +10,7 @@ use super::{
 use rayon::ThreadPoolBuildError;
 use rtc_diag::Diagnostic;
 use rtc_image::{Image, Picture, PictureHeader, PictureMetadata, PixelLayers};
-use rtc_ir::{EntityField, EntityKind, Lens, Mode, Scene, Settings, ValuePath};
+use rtc_ir::{EntityField, EntityKind, Lens, LoweredScene, Mode, Scene, Settings, ValuePath};
 use rtc_passes::{self as passes, Framing, Overrides};
 use rtc_plan::{self as plan, Plan, Rule, RuleSet};
 use rtc_render::{Aov, Crop, FilmMonitor, RayCounts, RenderSelection, RenderStep, SimdLevel};
@@ -153,7 +153,7 @@ impl PictureSetup {
             }
             self.look.show_as(&lowered.scene);
             let before = self.unasked(&lowered.scene);
-            fitted = resize(&mut lowered.scene, self.overrides.size, provenance.framing);
+            fitted = resize(lowered, self.overrides.size, provenance.framing);
             self.overrides.apply(&mut lowered.scene);
             if let Some((lens, settings)) = &self.settings {
                 lowered.scene.camera.lens = lens.clone();
@@ -529,13 +529,16 @@ fn difference(path: &str, new: &Value, old: &Value, found: &mut Vec<[String; 3]>
 /// Changes the picture size. A view that was framed is framed again; any other shows at least its
 /// former contents, which may give a diagnostic.
 fn resize(
-    scene: &mut Scene,
+    LoweredScene {
+        scene,
+        source_spans,
+    }: &mut LoweredScene,
     size: Option<[u32; 2]>,
     framing: Option<Framing>,
 ) -> Option<Diagnostic> {
     let requested = size?;
     if let Some(framing) = framing {
-        Framing { size, ..framing }.apply(scene);
+        Framing { size, ..framing }.apply(scene, source_spans);
         return None;
     }
     let before = scene.camera.size;

@@ -9,7 +9,7 @@ use rtc::internals::ir::{
     Environment, Light, LoweredScene, Material, PunctualKind, Scene, Shape, SourceSpans,
 };
 use rtc::internals::math::Vec3;
-use rtc::internals::passes::Overrides;
+use rtc::internals::passes::{Framing, Overrides};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::plan::{Plan, RuleSet};
 use rtc::internals::render::RenderSelection;
@@ -239,10 +239,12 @@ fn pointers_move_materials_lights_cameras_and_nodes() {
 }
 
 #[test]
-fn points_have_the_radius_of_a_pixel_whatever_their_node_does() {
+fn points_have_the_radius_of_their_density_whatever_their_node_does() {
     // Half the opening of the camera that is chosen where an asset has none.
     let half = 17.5_f64.to_radians();
-    for (count, corners) in [(4, 6), (u16::MAX, 4)] {
+    // From the ball about -3 to 3, at 512 pixels.
+    let pixel = 2.0 * 3.0 / (512.0 * half.cos());
+    for (count, corners, radius) in [(4, 6, 3.0 / 64.0), (u16::MAX, 4, pixel)] {
         let scene = lower(make::cloud(count), front::FrontOptions::default());
         let ([mesh], [surface]) = (&scene.meshes[..], &scene.surfaces[..]) else {
             panic!("one mesh, and not {}", scene.meshes.len());
@@ -252,11 +254,47 @@ fn points_have_the_radius_of_a_pixel_whatever_their_node_does() {
             panic!("an instance");
         };
         assert_eq!(instance.world_from_object[3], [-3.0, 0.0, 0.0]);
-        // From the ball about -3 to 3, at 512 pixels.
-        let pixel = 2.0 * 3.0 / (512.0 * half.cos());
         let first = Vec3::from_array(mesh.positions.at(0));
-        assert!((first.length() - pixel).abs() < 1e-6 * pixel, "{first}");
+        assert!((first.length() - radius).abs() < 1e-6 * radius, "{first}");
     }
+    // By request.
+    let front = front::FrontOptions {
+        point_size: Some(9.0),
+        ..front::FrontOptions::default()
+    };
+    let first = Vec3::from_array(lower(make::cloud(4), front).meshes[0].positions.at(0));
+    assert!(
+        (first.length() - 4.5 * pixel).abs() < 1e-6 * pixel,
+        "{first}"
+    );
+}
+
+#[test]
+fn splats_are_ellipsoids_and_their_loss_is_told() {
+    let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
+    let file = map.add("made.gltf", make::splats());
+    let lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink);
+    let told: Vec<_> = sink
+        .kept()
+        .iter()
+        .map(|finding| &*finding.message)
+        .collect();
+    assert!(
+        told.len() == 1 && told[0].contains("opaque ellipsoids"),
+        "{told:?}"
+    );
+    let scene = lowered.unwrap().scene;
+    let [mesh] = &scene.meshes[..] else {
+        panic!("one mesh, and not {}", scene.meshes.len());
+    };
+    let Material::Standard(material) = &scene.materials[0] else {
+        panic!("a material of glTF");
+    };
+    // Two nodes show it; of three splats one is too faint.
+    assert_eq!((scene.surfaces.len(), mesh.triangles.len()), (2, 2 * 20));
+    assert!(material.unlit);
+    let [red, green] = [0, 12].map(|at| mesh.colors.at(at));
+    assert!(red[0] > 0.9 && red[1] < 0.01 && green[1] > 0.9 && green[0] < 0.01);
 }
 
 #[test]
@@ -395,4 +433,95 @@ fn points_that_differ_in_where_they_are_alone_are_made_once() {
     };
     let shown: Vec<_> = scene.surfaces.iter().map(of).collect();
     assert_eq!(shown, [(0, [0.0; 3]), (0, [5.0, 0.0, 0.0]), (1, [0.0; 3])]);
+}
+
+#[test]
+fn pictures_of_all_times_of_an_animation_have_one_view() {
+    // The camera of a picture at a time, and where its vertices are in it, −1 to 1.
+    let framed = |time: Option<f64>| {
+        let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
+        let file = map.add("made.gltf", make::motion());
+        let mut options = Options::default();
+        options.front.time = time;
+        let mut lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
+        Framing::default().apply(&mut lowered.scene, &lowered.source_spans);
+        let camera = lowered.scene.camera.clone();
+        let [eye, center, right, up] =
+            [camera.eye, camera.center, camera.right, camera.up].map(Vec3::from_array);
+        let ahead = (center - eye).normalize();
+        let mut reach = 0.0_f64;
+        for surface in &lowered.scene.surfaces {
+            let Shape::Instance(instance) = &surface.shape else {
+                panic!("an instance");
+            };
+            let world = glam::DAffine3::from_cols_array_2d(&instance.world_from_object);
+            for position in lowered.scene.meshes[instance.mesh.0 as usize]
+                .positions
+                .iter()
+            {
+                let at = world.transform_point3(Vec3::from_array(position)) - eye;
+                let scale = (center - eye).length() / at.dot(ahead);
+                for (step, size) in [right, up].into_iter().zip(camera.size) {
+                    let along = at.dot(step) * scale / step.length_squared();
+                    reach = reach.max(along.abs() / (f64::from(size) / 2.0));
+                }
+            }
+        }
+        (camera, reach)
+    };
+    let pictures = [0.0, 0.3, 0.5, 1.0, 7.0].map(|time| framed(Some(time)));
+    for (camera, reach) in &pictures {
+        assert_eq!(*camera, pictures[0].0);
+        assert!(*reach < 0.9, "{reach}");
+    }
+    let widest = pictures.iter().map(|(_, reach)| *reach);
+    assert!(widest.fold(0.0, f64::max) > 0.6);
+    assert_ne!(
+        framed(None).0,
+        pictures[0].0,
+        "at rest it is framed as it is"
+    );
+}
+
+#[test]
+fn a_stride_where_none_may_be_is_used_leniently() {
+    let mut asset: serde_json::Value = serde_json::from_slice(&make::motion()).unwrap();
+    let keyframes = asset["animations"][0]["samplers"].clone();
+    for (sampler, key) in [(0, "input"), (0, "output"), (1, "output")] {
+        let accessor = &asset["accessors"][keyframes[sampler][key].as_u64().unwrap() as usize];
+        let stride = if accessor["type"] == "VEC4" { 16 } else { 4 };
+        let view = accessor["bufferView"].as_u64().unwrap() as usize;
+        asset["bufferViews"][view]["byteStride"] = stride.into();
+    }
+    let load = |bytes: Vec<u8>, lenient| {
+        let (mut map, mut sink) = (SourceMap::default(), DiagnosticSink::default());
+        let file = map.add("made.gltf", bytes);
+        let front = front::FrontOptions {
+            lenient,
+            time: Some(1.0),
+            ..front::FrontOptions::default()
+        };
+        let options = Options {
+            front,
+            ..Options::default()
+        };
+        let lowered = pipeline::load(file, &mut map, &options, &mut sink);
+        let told = sink
+            .kept()
+            .iter()
+            .map(|finding| (finding.code.id, finding.severity));
+        (
+            lowered.map(|lowered| text(&lowered.scene)),
+            told.collect::<Vec<_>>(),
+        )
+    };
+    let bytes = serde_json::to_vec(&asset).unwrap();
+    let (refused, told) = load(bytes.clone(), false);
+    assert!(
+        refused.is_none() && told.contains(&("GL025", Severity::Error)),
+        "{told:?}"
+    );
+    let (read, told) = load(bytes, true);
+    assert!(told.contains(&("GL025", Severity::Warning)), "{told:?}");
+    assert_eq!(read, load(make::motion(), false).0);
 }

@@ -290,6 +290,28 @@ pub(super) fn cloud(count: u16) -> Vec<u8> {
     }))
 }
 
+/// A red and a green splat, and a faint one, shown by two nodes.
+pub(super) fn splats() -> Vec<u8> {
+    let mut maker = Maker::default();
+    let points = maker.floats("VEC3", 3, &TRIANGLE);
+    let turns = maker.floats("VEC4", 4, &[0.0, 0.0, 0.0, 1.0].repeat(3));
+    let scales = maker.floats("VEC3", 3, &[-2.0; 9]);
+    let opacities = maker.floats("SCALAR", 1, &[1.0, 0.9, 0.1]);
+    let colors = [1.75, -1.75, -1.75, -1.75, 1.75, -1.75, 0.0, 0.0, 0.0];
+    let colors = maker.floats("VEC3", 3, &colors);
+    maker.finish(json!({
+        "extensionsUsed": ["KHR_gaussian_splatting"],
+        "scenes": [{"nodes": [0, 1]}], "nodes": [{"mesh": 0}, {"mesh": 0, "translation": [3, 0, 0]}],
+        "meshes": [{"primitives": [{"mode": 0, "attributes": {
+            "POSITION": points,
+            "KHR_gaussian_splatting:ROTATION": turns,
+            "KHR_gaussian_splatting:SCALE": scales,
+            "KHR_gaussian_splatting:OPACITY": opacities,
+            "KHR_gaussian_splatting:SH_DEGREE_0_COEF_0": colors,
+        }, "extensions": {"KHR_gaussian_splatting": {"kernel": "ellipse", "colorSpace": "srgb_rec709_display"}}}]}],
+    }))
+}
+
 /// A triangle in three levels of detail, each a root, the coarsest with a child; without scenes all
 /// nodes show.
 pub(super) fn levels(has_scene: bool) -> Vec<u8> {

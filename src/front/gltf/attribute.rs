@@ -42,7 +42,7 @@ pub(super) enum AttributeSemantic {
     Color(u64),
     Joints(u64),
     Weights(u64),
-    /// It starts with an underscore, and we don't know.
+    /// It starts with an underscore, and we don't know, or with the name of an extension.
     Custom,
     /// It is no attribute semantic.
     None,
@@ -56,6 +56,10 @@ impl AttributeSemantic {
             "TANGENT" => return Self::Tangent,
             name if name.starts_with('_') => return Self::Custom,
             _ => {}
+        }
+        let extension = name.split_once(':').map(|(extension, _)| extension);
+        if extension.is_some_and(|extension| super::schema::find(extension).is_some()) {
+            return Self::Custom;
         }
         let Some((kind, set)) = name.split_once('_') else {
             return Self::None;

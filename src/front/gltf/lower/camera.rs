@@ -27,8 +27,8 @@ pub(super) struct CameraUse {
 
 impl Lowering<'_, '_, '_> {
     /// Adds the camera to the scene: the requested one, by its name, that of its node, or its
-    /// index.
-    pub(super) fn camera(&mut self, wanted: Option<&str>) {
+    /// index. False if it is our own.
+    pub(super) fn camera(&mut self, wanted: Option<&str>) -> bool {
         // Find the requested camera, or the first one that shows anything.
         let chosen = match wanted {
             Some(name) => self.find_camera(name).and_then(|seen| self.camera_of(seen)),
@@ -42,6 +42,7 @@ impl Lowering<'_, '_, '_> {
                     self.report.json.span(at),
                 );
                 self.scene.camera = camera;
+                true
             }
             None => {
                 if let Some(name) = wanted {
@@ -62,6 +63,7 @@ impl Lowering<'_, '_, '_> {
                     radius: 1.0,
                 });
                 self.scene.camera = looking_at(ball);
+                false
             }
         }
     }

@@ -6,6 +6,7 @@ use super::super::pointer::AnimatedValues;
 use super::super::primitive::Primitive;
 use super::super::report::AssetReport;
 use super::pattern::add_patterns;
+use super::tangent::TangentCoords;
 use super::texture::LoweredTextures;
 use super::uv::TexCoordSets;
 use rtc_diag::codes;
@@ -109,16 +110,16 @@ impl ImportedMaterials {
         self.textures.image(doc, index, scene, source_spans, report)
     }
 
-    /// True if the material uses tangents.
+    /// What the tangents of the material follow, if it uses them.
     #[expect(clippy::unused_self, reason = "materials answer for what they need")]
-    pub(super) fn needs_tangents(&self, material: MaterialId, scene: &Scene) -> bool {
-        match scene.materials.get(material.0 as usize) {
-            Some(ir::Material::Standard(standard)) => {
-                standard.normal_map.is_some()
-                    || standard.clearcoat_normal_map.is_some()
-                    || standard.anisotropy > 0.0
-            }
-            Some(ir::Material::Phong(_)) | None => false,
+    pub(super) fn tangent_coords(
+        &self,
+        material: MaterialId,
+        scene: &Scene,
+    ) -> Option<TangentCoords> {
+        match scene.materials.get(material.0 as usize)? {
+            ir::Material::Standard(standard) => TangentCoords::of(standard),
+            ir::Material::Phong(_) => None,
         }
     }
 

@@ -6,14 +6,15 @@ use super::super::document::Document;
 use super::super::primitive::{Primitive, TRIANGLES};
 use super::super::report::AssetReport;
 use super::shape::{Deformation, ShapeId};
+use super::tangent::{self, TangentCoords};
 use super::uv::TexCoordSets;
-use super::{deform, tangent, topology};
+use super::{deform, topology};
 use crate::glyph::pick;
 use rtc_ir::{
     self as ir, EntityField, EntityKind, Mesh, MeshId, Scene, SharedList, SourceSpans, ValuePath,
     VertexColumn,
 };
-use rtc_math::to_u32;
+use rtc_math::{Vec3, to_u32};
 use rtc_source::Resource;
 use rtc_source::tree::NodeId;
 use std::cmp::Ordering;
@@ -38,7 +39,7 @@ pub(super) struct ImportedMeshes<'d> {
 }
 
 /// The key by which two requested meshes are the same.
-pub(super) type MeshKey = (usize, ShapeId, bool, TexCoordSets);
+pub(super) type MeshKey = (usize, ShapeId, Option<TangentCoords>, TexCoordSets);
 
 /// Names and accessors.
 type AttributeAccessors<'d> = Vec<(&'d str, usize)>;
@@ -57,7 +58,8 @@ pub(super) struct RequestedMesh<'d, 'w> {
     pub(super) primitive: &'d Primitive,
     pub(super) name: &'d str,
     pub(super) shape: (ShapeId, Deformation<'w>),
-    pub(super) needs_tangents: bool,
+    /// What its tangents follow, if its material needs them.
+    pub(super) tangents: Option<TangentCoords>,
     pub(super) uv_sets: TexCoordSets,
 }
 
@@ -103,7 +105,7 @@ impl<'d> ImportedMeshes<'d> {
 
     /// The key of a requested mesh.
     pub(super) fn key(&mut self, wanted: &RequestedMesh<'d, '_>) -> MeshKey {
-        let (tangents, uv_sets) = (wanted.needs_tangents, wanted.uv_sets);
+        let (tangents, uv_sets) = (wanted.tangents, wanted.uv_sets);
         let parts = self.parts(wanted.primitive);
         (parts, wanted.shape.0, tangents, uv_sets)
     }
@@ -153,7 +155,7 @@ fn count(doc: &Document<'_>, accessor: usize) -> u64 {
 }
 
 /// The number of vertices of a primitive.
-fn vertices_of(doc: &Document<'_>, primitive: &Primitive) -> u64 {
+pub(super) fn vertices_of(doc: &Document<'_>, primitive: &Primitive) -> u64 {
     primitive
         .find("POSITION")
         .map_or(0, |accessor| count(doc, accessor))
@@ -176,7 +178,7 @@ pub(super) fn charge(
         primitive,
         name,
         shape: (_, shape),
-        needs_tangents,
+        tangents,
         uv_sets,
     } = wanted;
     let (vertices, corners) = (vertices_of(doc, primitive), corners(doc, primitive));
@@ -187,7 +189,7 @@ pub(super) fn charge(
         Ordering::Greater => corners,
     };
     // Missing tangents are generated for each corner.
-    let tangents = if *needs_tangents && primitive.find("TANGENT").is_none() {
+    let tangents = if tangents.is_some() && primitive.find("TANGENT").is_none() {
         3 * triangles
     } else {
         0
@@ -247,10 +249,25 @@ fn read(doc: &Document<'_>, wanted: &RequestedMesh<'_, '_>, is_lenient: bool) ->
         pick(&mut mesh, &kept);
     }
     mesh.triangles = triangles.into();
-    if wanted.needs_tangents && mesh.tangents.is_empty() {
-        tangent::generate(&mut mesh);
+    if let Some(coords) = wanted.tangents
+        && mesh.tangents.is_empty()
+    {
+        tangent::generate(&mut mesh, coords);
     }
     Some(mesh)
+}
+
+/// The positions of the vertices of a primitive that it shows, moved.
+pub(super) fn used_points(
+    doc: &Document<'_>,
+    wanted: &RequestedMesh<'_, '_>,
+    is_lenient: bool,
+) -> Option<Vec<Vec3>> {
+    let mesh = match wanted.primitive.mode.cmp(&TRIANGLES) {
+        Ordering::Less => vertices(doc, wanted)?,
+        Ordering::Equal | Ordering::Greater => read(doc, wanted, is_lenient)?,
+    };
+    Some(mesh.positions.iter().map(Vec3::from_array).collect())
 }
 
 /// Reads the vertices of a primitive, and moves them.
@@ -259,7 +276,7 @@ pub(super) fn vertices(doc: &Document<'_>, wanted: &RequestedMesh<'_, '_>) -> Op
         primitive,
         name,
         shape: (_, shape),
-        needs_tangents: _,
+        tangents: _,
         uv_sets,
     } = wanted;
     let elements = |name: &str| AccessorReader::of(doc, doc.accessors.get(primitive.find(name)?)?);

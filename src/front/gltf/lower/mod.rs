@@ -6,7 +6,9 @@
 //! transforms, and lists the nodes of the scene and their instances. For each node with a mesh,
 //! `shape` finds its morph weights and joint matrices, `deform` applies them, and `mesh` builds
 //! the IR mesh with `topology` (strips and fans to triangles), `uv` (two of the texture
-//! coordinate sets) and `tangent` (MikkTSpace). `stroke` turns points and lines into meshes.
+//! coordinate sets) and `tangent` (MikkTSpace). `stroke` turns points and lines into meshes,
+//! `splat` Gaussian splats.
+//! `sweep` finds what an animation shows at all its times, for the view of an asset without a camera.
 //! `material` and `texture` lower materials once each. `light` and `camera` follow, and
 //! `settings` reads the render settings that `rtc` writes into `extras.rtc`.
 
@@ -19,7 +21,9 @@ mod pattern;
 mod pose;
 mod settings;
 mod shape;
+mod splat;
 mod stroke;
+mod sweep;
 mod tangent;
 mod texture;
 mod topology;
@@ -45,6 +49,7 @@ use rtc_math::Vec3;
 use rtc_source::Resource;
 use rtc_source::tree::NodeId;
 use shape::Deformations;
+use splat::{SplatMeshes, is_splatted};
 use std::collections::BTreeMap;
 use stroke::{StrokeMeshes, is_stroked};
 use transform::InstanceTransforms;
@@ -62,6 +67,7 @@ struct Lowering<'l, 'r, 's> {
     materials: ImportedMaterials,
     meshes: ImportedMeshes<'l>,
     strokes: StrokeMeshes,
+    splats: SplatMeshes,
     shapes: Deformations,
     /// The material of each lowered primitive, in the variant.
     chosen: BTreeMap<NodeId, MaterialId>,
@@ -81,7 +87,8 @@ pub(super) fn lower<'s>(
         .variant
         .as_deref()
         .and_then(|name| find_variant(name, report));
-    let mut pose = pose::pose(doc, options, report);
+    let animation = pose::chosen(doc, options, report);
+    let mut pose = pose::pose(doc, (animation, options.time.unwrap_or(0.0)), report);
     let mut lowering = Lowering {
         doc,
         report,
@@ -90,19 +97,28 @@ pub(super) fn lower<'s>(
         materials: ImportedMaterials::new(doc, std::mem::take(&mut pose.animated)),
         meshes: ImportedMeshes::new(),
         strokes: StrokeMeshes::default(),
+        splats: SplatMeshes::default(),
         shapes: Deformations::default(),
         chosen: BTreeMap::new(),
         variant,
         cameras: Vec::new(),
     };
-    let worlds = transform::worlds(doc, &pose, options.up_axis.map(UpAxis::scene_from_file));
+    let axes = options.up_axis.map(UpAxis::scene_from_file);
+    let worlds = transform::worlds(doc, &pose, axes);
     let shown = transform::shown(doc);
     if shown.iter().all(|node| lowering.charge(*node)) {
         shown
             .into_iter()
             .for_each(|node| lowering.node(node, &pose, &worlds));
     }
-    lowering.finish(options.camera.as_deref())
+    let strokes = &lowering.strokes;
+    strokes.set_radius(&mut lowering.scene, options.point_size);
+    let has_camera = lowering.camera(options.camera.as_deref());
+    // Pictures of different times have one view.
+    let animation = animation.filter(|_| options.time.is_some() && !has_camera);
+    let swept = animation.and_then(|animation| lowering.swept(animation, axes));
+    lowering.source_spans.swept = swept.map(Box::new);
+    lowering.finish()
 }
 
 /// A scene without anything, that is rendered as glTF means it.
@@ -199,24 +215,26 @@ impl Lowering<'_, '_, '_> {
         else {
             return;
         };
-        let places = match (skin, &node.instances) {
-            (Some(_), _) => InstanceTransforms::one(DAffine3::IDENTITY),
-            (None, Some(instances)) => InstanceTransforms::many(doc, world, instances),
-            (None, None) => InstanceTransforms::one(world),
-        };
+        let places = InstanceTransforms::of_node(doc, node, skin, world);
         // Lower each primitive, and place it at each instance.
         for primitive in &mesh.primitives {
+            if is_splatted(primitive) {
+                self.splats(primitive, &places, (&node.name, node.at));
+                continue;
+            }
             let material = self.material(primitive);
             let is_stroked = is_stroked(primitive);
-            let needs_tangents =
-                !is_stroked && self.materials.needs_tangents(material, &self.scene);
+            let tangents = self
+                .materials
+                .tangent_coords(material, &self.scene)
+                .filter(|_| !is_stroked);
             let uv_sets = self.materials.uv_sets(material);
             let shape = (shape, self.shapes.get(shape));
             let made = mesh::RequestedMesh {
                 primitive,
                 name: &mesh.name,
                 shape,
-                needs_tangents,
+                tangents,
                 uv_sets,
             };
             if is_stroked {
@@ -321,9 +339,7 @@ impl Lowering<'_, '_, '_> {
         id
     }
 
-    fn finish(mut self, camera: Option<&str>) -> LoweredScene {
-        self.strokes.set_radius(&mut self.scene);
-        self.camera(camera);
+    fn finish(mut self) -> LoweredScene {
         self.settings_extras();
         if self.scene.names.iter().all(String::is_empty) {
             self.scene.names.clear();

@@ -3,7 +3,7 @@
 
 use super::super::accessor_reader::AccessorReader;
 use super::super::animation::{Animation, Interpolation, Keyframes};
-use super::super::channel::AnimatedPath;
+use super::super::channel::{AnimatedPath, AnimationChannel};
 use super::super::document::Document;
 use super::super::node::NodeTransform;
 use super::super::pointer::{self, AnimatedProperty, AnimatedValues};
@@ -48,59 +48,79 @@ impl ScenePose {
     }
 }
 
-/// The pose at the requested time.
-pub(super) fn pose(
-    doc: &Document<'_>,
-    options: &FrontOptions,
-    report: &mut AssetReport<'_, '_>,
-) -> ScenePose {
-    // Start with the transforms and weights at rest.
+/// The pose at rest.
+fn rest(doc: &Document<'_>) -> ScenePose {
     let nodes = doc.nodes.iter().enumerate();
     let weights = nodes
         .filter(|(_, node)| !node.weights.is_empty())
         .map(|(index, node)| (index, node.weights.clone()));
-    let mut pose = ScenePose {
+    ScenePose {
         transforms: doc.nodes.iter().map(|node| node.transform).collect(),
         weights: weights.collect(),
         animated: AnimatedValues::new(),
+    }
+}
+
+/// The pose at a time of an animation; at rest without one.
+pub(super) fn pose(
+    doc: &Document<'_>,
+    (animation, time): (Option<&Animation>, f64),
+    report: &mut AssetReport<'_, '_>,
+) -> ScenePose {
+    let mut pose = rest(doc);
+    let Some(animation) = animation else {
+        return pose;
     };
-    // Evaluate each channel of the chosen animation at the time.
-    if let Some(animation) = chosen(doc, options, report) {
-        let time = options.time.unwrap_or(0.0);
-        for channel in &animation.channels {
-            let sampler = channel
-                .sampler
-                .and_then(|sampler| animation.samplers.get(sampler));
-            let Some(keys) = sampler.and_then(|sampler| SamplerKeyframes::of(doc, sampler)) else {
-                continue;
-            };
-            // A pointer animates any property.
-            let pointer = channel.pointer.as_deref();
-            if let Some(property) =
-                pointer.and_then(|pointer| pointer::resolve(doc, report.json, pointer))
-            {
-                pose.animate_property(&property, (&keys, time), channel.at, report);
-            }
-            // Any other channel animates a node.
-            let (Some(node), Some(path)) = (channel.node, channel.path) else {
-                continue;
-            };
-            let memory = keys.width() as u64 * WEIGHT;
-            if path == AnimatedPath::Weights
-                && !report.charge(Resource::Memory, memory, channel.at, "the channel")
-            {
-                break;
-            }
-            if let Some(value) = keys.sample(path == AnimatedPath::Rotation, time) {
-                pose.set(node, path, value);
-            }
+    for (channel, keys) in channels(doc, animation) {
+        // A pointer animates any property.
+        let pointer = channel.pointer.as_deref();
+        if let Some(property) =
+            pointer.and_then(|pointer| pointer::resolve(doc, report.json, pointer))
+        {
+            pose.animate_property(&property, (&keys, time), channel.at, report);
         }
+        // Any other channel animates a node.
+        let memory = keys.width() as u64 * WEIGHT;
+        if channel.node.is_some()
+            && channel.path == Some(AnimatedPath::Weights)
+            && !report.charge(Resource::Memory, memory, channel.at, "the channel")
+        {
+            break;
+        }
+        pose.animate_node(channel, &keys, time);
     }
     pose
 }
 
+/// The pose of the nodes alone at a time of an animation.
+pub(super) fn moved(doc: &Document<'_>, animation: &Animation, time: f64) -> ScenePose {
+    let mut pose = rest(doc);
+    for (channel, keys) in channels(doc, animation) {
+        pose.animate_node(channel, &keys, time);
+    }
+    pose
+}
+
+/// The first and the last time of the keyframes of an animation; `None` if it has none.
+pub(super) fn span(doc: &Document<'_>, animation: &Animation) -> Option<[f64; 2]> {
+    let spans =
+        channels(doc, animation).map(|(_, keys)| [keys.time(0), keys.time(keys.times.count - 1)]);
+    spans.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
+}
+
+/// The channels of an animation that have keyframes.
+fn channels<'d>(
+    doc: &'d Document<'_>,
+    animation: &'d Animation,
+) -> impl Iterator<Item = (&'d AnimationChannel, SamplerKeyframes<'d>)> {
+    animation.channels.iter().filter_map(|channel| {
+        let sampler = animation.samplers.get(channel.sampler?)?;
+        Some((channel, SamplerKeyframes::of(doc, sampler)?))
+    })
+}
+
 /// The requested animation: by name, or else the first if there is a time.
-fn chosen<'d>(
+pub(super) fn chosen<'d>(
     doc: &'d Document<'_>,
     options: &FrontOptions,
     report: &mut AssetReport<'_, '_>,
@@ -152,6 +172,15 @@ impl ScenePose {
         let numbers = keys.sample(false, time);
         if let Some(numbers) = numbers.and_then(|numbers| property.kept(&numbers)) {
             self.animated.insert((of, key), numbers);
+        }
+    }
+
+    /// Moves the node of a channel to where it is at a time.
+    fn animate_node(&mut self, channel: &AnimationChannel, keys: &SamplerKeyframes<'_>, time: f64) {
+        if let Some((node, path)) = channel.node.zip(channel.path)
+            && let Some(value) = keys.sample(path == AnimatedPath::Rotation, time)
+        {
+            self.set(node, path, value);
         }
     }
 

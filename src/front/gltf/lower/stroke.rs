@@ -9,7 +9,7 @@ use super::super::report::AssetReport;
 use super::mesh::{self, MeshKey, RequestedMesh};
 use super::topology;
 use super::transform::InstanceTransforms;
-use crate::glyph::{StrokeShape, radius, thin_glyphs};
+use crate::glyph::{StrokeShape, point_radius, radius, spacing, thin_glyphs};
 use glam::DAffine3;
 use rtc_ir::{
     BoundingSphere, EntityField, EntityKind, Mesh, MeshId, Scene, SourceSpans, ValuePath,
@@ -26,8 +26,8 @@ const TRIANGLE: u64 = 108;
 /// The meshes of points and lines that were made.
 #[derive(Default)]
 pub(super) struct StrokeMeshes {
-    /// Each with the offsets of its corners at radius 1.
-    made: Vec<(MeshId, VertexColumn<3>)>,
+    /// Each with the offsets of its corners at radius 1, and the number of points; 0 of lines.
+    made: Vec<(MeshId, VertexColumn<3>, usize)>,
     /// For each request, by the linear part of its transform, the mesh and the position of its
     /// first vertex; `None` where it is invisible.
     known: BTreeMap<(MeshKey, LinearPartBits), Option<(MeshId, Vec3)>>,
@@ -79,7 +79,11 @@ impl StrokeMeshes {
                         source_spans.record(place, report.json.span(wanted.primitive.at));
                         let id = MeshId(to_u32(scene.meshes.len()));
                         scene.meshes.push(mesh);
-                        self.made.push((id, offsets));
+                        let points = match wanted.primitive.mode {
+                            0 => source.ends.len(),
+                            _ => 0,
+                        };
+                        self.made.push((id, offsets, points));
                         Some((id, source.first()?))
                     });
                     self.known.insert((key, turn), made);
@@ -96,7 +100,7 @@ impl StrokeMeshes {
     }
 
     /// Gives all points and lines their radius, once the scene is known.
-    pub(super) fn set_radius(&self, scene: &mut Scene) {
+    pub(super) fn set_radius(&self, scene: &mut Scene, point_size: Option<f64>) {
         if self.made.is_empty() {
             return;
         }
@@ -104,10 +108,17 @@ impl StrokeMeshes {
             center: Vec3::ZERO,
             radius: 1.0,
         };
-        let radius = radius(scene.bounding_sphere().unwrap_or(one));
-        for (id, offsets) in &self.made {
+        let ball = scene.bounding_sphere().unwrap_or(one);
+        for (id, offsets, points) in &self.made {
             let Some(mesh) = scene.meshes.get_mut(id.0 as usize) else {
                 continue;
+            };
+            let radius = match mesh.positions.len().checked_div(*points) {
+                Some(corners) => {
+                    let point = |at: usize| Vec3::from_array(mesh.positions.at(at * corners));
+                    point_radius(ball, point_size, spacing(*points, point))
+                }
+                None => radius(ball),
             };
             let corners = mesh.positions.iter().zip(offsets.iter());
             let animated = corners.map(|(p, offset)| {

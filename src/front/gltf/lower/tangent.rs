@@ -1,4 +1,5 @@
-//! Tangents where an asset has none: those of MikkTSpace, as glTF prescribes.
+//! Tangents where an asset has none: those of MikkTSpace, as glTF prescribes, along the texture
+//! coordinates by which the material looks up its normal map.
 //!
 //! Corners of one vertex may get different tangents, so vertices are split where they do.
 //!
@@ -7,12 +8,23 @@
 
 use crate::glyph::pick;
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
-use rtc_ir::{Mesh, VertexColumn};
+use rtc_ir::{Map, Mesh, Standard, VertexColumn};
 use rtc_math::{Vec3, to_u32};
+
+/// The texture coordinates that tangents follow: those of the vertices, or how a map transforms
+/// them, without the offset.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct TangentCoords {
+    /// The set of the mesh, 0 or 1.
+    set: u32,
+    /// The bits of the linear part of the transform, by rows.
+    linear: [[u64; 2]; 2],
+}
 
 /// A mesh with tangents per corner.
 struct MeshCorners<'m> {
     mesh: &'m Mesh,
+    coords: TangentCoords,
     tangents: Vec<[f64; 4]>,
     /// For each corner, the part of its position; empty if no position is split.
     parts: Vec<u16>,
@@ -31,6 +43,55 @@ impl Ops for LibmMath {
 
     fn acos(x: f32) -> f32 {
         libm::acosf(x)
+    }
+}
+
+impl TangentCoords {
+    /// The coordinates of the first map of a material that follows tangents; `None` if the material
+    /// does not use tangents.
+    pub(super) fn of(material: &Standard) -> Option<Self> {
+        let maps = [&material.normal_map, &material.clearcoat_normal_map];
+        let is_anisotropic = material.anisotropy > 0.0;
+        let stretch = material.anisotropy_map.as_ref().filter(|_| is_anisotropic);
+        let map = maps.into_iter().flatten().chain(stretch).next();
+        map.map(Self::of_map)
+            .or(is_anisotropic.then(|| Self::new(0, [[1.0, 0.0], [0.0, 1.0]])))
+    }
+
+    /// The coordinates of a map.
+    fn of_map(map: &Map) -> Self {
+        let [[a, b, _], [c, d, _]] = map
+            .texture_from_surface
+            .unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+        // Tangents do not depend on lengths: of a transform along the axes only the signs count.
+        let linear = match [b, c] {
+            [0.0, 0.0] => [[a.signum(), 0.0], [0.0, d.signum()]],
+            _ => [[a, b], [c, d]],
+        };
+        Self::new(map.set, linear)
+    }
+
+    fn new(set: u32, linear: [[f64; 2]; 2]) -> Self {
+        Self {
+            set,
+            linear: linear.map(|row| row.map(f64::to_bits)),
+        }
+    }
+
+    /// The column of a mesh.
+    fn column(self, mesh: &Mesh) -> &VertexColumn<2> {
+        match self.set {
+            0 => &mesh.uvs,
+            _ => &mesh.second_uvs,
+        }
+    }
+
+    fn at(self, mesh: &Mesh, vertex: usize) -> [f64; 2] {
+        let [u, v] = self.column(mesh).at(vertex);
+        self.linear.map(|row| {
+            let [a, b] = row.map(f64::from_bits);
+            a * u + b * v
+        })
     }
 }
 
@@ -69,10 +130,8 @@ impl Geometry<LibmMath> for MeshCorners<'_> {
     }
 
     fn tex_coord(&self, face: usize, vert: usize) -> [f32; 2] {
-        self.mesh
-            .uvs
-            .at(self.vertex(face, vert))
-            .map(|number| number as f32)
+        let coords = self.coords.at(self.mesh, self.vertex(face, vert));
+        coords.map(|number| number as f32)
     }
 
     fn set_tangent(&mut self, tangent: Option<TangentSpace>, face: usize, vert: usize) {
@@ -91,8 +150,8 @@ impl Geometry<LibmMath> for MeshCorners<'_> {
 
 /// Gives a mesh tangents, and normals if it has none. Without texture coordinates there are none to
 /// give.
-pub(super) fn generate(mesh: &mut Mesh) {
-    if mesh.uvs.is_empty() || mesh.triangles.is_empty() {
+pub(super) fn generate(mesh: &mut Mesh, coords: TangentCoords) {
+    if coords.column(mesh).is_empty() || mesh.triangles.is_empty() {
         return;
     }
     if mesh.normals.is_empty() {
@@ -100,7 +159,8 @@ pub(super) fn generate(mesh: &mut Mesh) {
     }
     let mut corners = MeshCorners {
         mesh,
-        parts: parts(mesh),
+        coords,
+        parts: parts(mesh, coords),
         tangents: vec![[1.0, 0.0, 0.0, 1.0]; 3 * mesh.triangles.len()],
     };
     if generate_tangents(&mut corners).is_err() {
@@ -112,7 +172,7 @@ pub(super) fn generate(mesh: &mut Mesh) {
 
 /// For each corner, the part of its position; empty if no position is split. Equal corners stay in
 /// one part as far as possible.
-fn parts(mesh: &Mesh) -> Vec<u16> {
+fn parts(mesh: &Mesh, coords: TangentCoords) -> Vec<u16> {
     if mesh.triangles.len() <= MOST as usize {
         return Vec::new();
     }
@@ -120,10 +180,11 @@ fn parts(mesh: &Mesh) -> Vec<u16> {
     let mut counts = vec![0_u32; mesh.positions.len()];
     corners().for_each(|corner| counts[*corner as usize] += 1);
     let mut order: Vec<u32> = (0..to_u32(counts.len())).collect();
-    order.sort_by_cached_key(|vertex| key(mesh, *vertex));
+    let key = |vertex: u32| key(mesh, coords, vertex);
+    order.sort_by_cached_key(|vertex| key(*vertex));
     // The first of its corners among those at its position; `None` if there are few.
     let mut next: Vec<Option<u32>> = vec![None; counts.len()];
-    let is_at_one_place = |a: &u32, b: &u32| key(mesh, *a)[..3] == key(mesh, *b)[..3];
+    let is_at_one_place = |a: &u32, b: &u32| key(*a)[..3] == key(*b)[..3];
     for place in order.chunk_by(is_at_one_place) {
         let all: u32 = place.iter().map(|vertex| counts[*vertex as usize]).sum();
         let mut first = 0;
@@ -148,10 +209,10 @@ fn parts(mesh: &Mesh) -> Vec<u16> {
     clippy::cast_possible_truncation,
     reason = "MikkTSpace computes in 32-bit floats"
 )]
-fn key(mesh: &Mesh, vertex: u32) -> [u32; 8] {
+fn key(mesh: &Mesh, coords: TangentCoords, vertex: u32) -> [u32; 8] {
     let at = vertex as usize;
     let [[x, y, z], [nx, ny, nz]] = [mesh.positions.at(at), mesh.normals.at(at)];
-    let [u, v] = mesh.uvs.at(at);
+    let [u, v] = coords.at(mesh, at);
     // Zeros of both signs are one number.
     [x, y, z, nx, ny, nz, u, v].map(|number| (number as f32 + 0.0).to_bits())
 }
@@ -214,6 +275,13 @@ fn split_vertices(mesh: &mut Mesh, tangents: &[[f64; 4]]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rtc_ir::TextureId;
+
+    /// The first coordinates as they are.
+    const PLAIN: TangentCoords = TangentCoords {
+        set: 0,
+        linear: [[1.0_f64.to_bits(), 0], [0, 1.0_f64.to_bits()]],
+    };
 
     /// Triangles about a point: with one vertex for it, one each that are alike, or that differ.
     fn fan(count: u32, hub: usize) -> Mesh {
@@ -239,7 +307,7 @@ mod tests {
 
     /// The number of pairs of corners at one position.
     fn pairs(mesh: &Mesh) -> usize {
-        let parts = parts(mesh);
+        let parts = parts(mesh, PLAIN);
         let mut counts = std::collections::BTreeMap::new();
         for (at, corner) in mesh.triangles.iter().flatten().enumerate() {
             let part = parts.get(at).copied().unwrap_or(0);
@@ -254,9 +322,13 @@ mod tests {
         for hub in 0..3 {
             let [once, twice, four] = [4096, 8192, 16_384].map(|n| pairs(&fan(n, hub)));
             assert!(twice <= 2 * once + 4096 && four <= 2 * twice + 4096);
-            assert_eq!(parts(&fan(512, hub)), Vec::<u16>::new(), "few are whole");
+            assert_eq!(
+                parts(&fan(512, hub), PLAIN),
+                Vec::<u16>::new(),
+                "few are whole"
+            );
             let mut mesh = fan(5000, hub);
-            generate(&mut mesh);
+            generate(&mut mesh, PLAIN);
             let near = |tangent: [f64; 4]| (tangent[0] - 1.0).abs() < 1e-3 && tangent[3] == -1.0;
             assert!((0..mesh.tangents.len()).all(|at| near(mesh.tangents.at(at))));
         }
@@ -278,7 +350,7 @@ mod tests {
             triangles: vec![[0, 1, 2], [0, 2, 3]].into(),
             ..Mesh::default()
         };
-        generate(&mut mesh);
+        generate(&mut mesh, PLAIN);
         assert_eq!(
             (mesh.positions.len(), mesh.tangents.len()),
             (6, 6),
@@ -288,5 +360,44 @@ mod tests {
         assert_eq!([tangent(0)[0], tangent(1)[0]], [1.0, -1.0]);
         // Green is up in the picture, against v: w·(n × t) points there.
         assert_eq!([tangent(0)[3], tangent(1)[3]], [1.0, -1.0]);
+    }
+
+    #[test]
+    fn tangents_follow_the_coordinates_of_the_map() {
+        let map = |set, [u, v]: [f64; 2], angle: f64| {
+            let (c, s) = (libm::cos(angle), libm::sin(angle));
+            TangentCoords::of_map(&Map {
+                texture: TextureId(0),
+                set,
+                texture_from_surface: Some([[c * u, s * v, 0.3], [-s * u, c * v, 0.7]]),
+            })
+        };
+        assert_eq!(map(0, [3.0, 0.5], 0.0), PLAIN, "lengths do not count");
+        // The first set along x and y, the second one along y and x.
+        let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0_f32, 0.0]];
+        let tangent = |coords| {
+            let mut mesh = Mesh {
+                positions: square.to_vec().into(),
+                uvs: square.map(|[x, y, _]| [x, y]).to_vec().into(),
+                second_uvs: square.map(|[x, y, _]| [y, x]).to_vec().into(),
+                normals: vec![[0.0_f32, 0.0, 1.0]; 3].into(),
+                triangles: vec![[0, 1, 2]].into(),
+                ..Mesh::default()
+            };
+            generate(&mut mesh, coords);
+            let [x, y, _, side] = mesh.tangents.at(0);
+            [x, y, side].map(libm::round)
+        };
+        let quarter = std::f64::consts::FRAC_PI_2;
+        for (coords, expected) in [
+            (PLAIN, [1.0, 0.0, -1.0]),
+            (map(0, [-1.0, 1.0], 0.0), [-1.0, 0.0, 1.0]),
+            (map(0, [1.0, -1.0], 0.0), [1.0, 0.0, 1.0]),
+            // u of the picture is v of the surface, v of the picture is −u.
+            (map(0, [1.0, 1.0], quarter), [0.0, 1.0, -1.0]),
+            (map(1, [1.0, 1.0], 0.0), [0.0, 1.0, 1.0]),
+        ] {
+            assert_eq!(tangent(coords), expected, "{coords:?}");
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::super::accessor_reader::AccessorReader;
 use super::super::document::Document;
-use super::super::node::GpuInstancing;
+use super::super::node::{GpuInstancing, Node};
 use super::pose::ScenePose;
 use glam::{DAffine3, DQuat};
 use rtc_math::{Vec3, unit};
@@ -109,6 +109,20 @@ impl<'d> InstanceTransforms<'d> {
             world,
             instances: None,
             count: 1,
+        }
+    }
+
+    /// The transforms of the mesh of a node: of a skinned one its joints move it.
+    pub(super) fn of_node(
+        doc: &'d Document<'_>,
+        node: &Node,
+        skin: Option<usize>,
+        world: DAffine3,
+    ) -> Self {
+        match (skin, &node.instances) {
+            (Some(_), _) => Self::one(DAffine3::IDENTITY),
+            (None, Some(instances)) => Self::many(doc, world, instances),
+            (None, None) => Self::one(world),
         }
     }
 

@@ -84,6 +84,7 @@ static EXTENSIONS: &[Extension] = &[
         &[("channel target", &ANIMATION_POINTER)],
     ),
     extension("KHR_draco_mesh_compression", &[("primitive", &DRACO)]),
+    extension("KHR_gaussian_splatting", &[("primitive", &SPLATTING)]),
     extension(
         "KHR_lights_punctual",
         &[("asset", &LIGHTS), ("node", &LIGHT_REFERENCE)],
@@ -225,6 +226,12 @@ static MAPPING: ObjectSchema = ObjectSchema {
 };
 static NODE_LEVELS: ObjectSchema = object(&[required("ids", Indices(IndexTarget::Nodes))]);
 static MATERIAL_LEVELS: ObjectSchema = object(&[required("ids", Indices(IndexTarget::Materials))]);
+static SPLATTING: ObjectSchema = object(&[
+    optional("kernel", Text),
+    optional("colorSpace", Text),
+    optional("projection", Text),
+    optional("sortingMethod", Text),
+]);
 static VISIBILITY: ObjectSchema = object(&[optional("visible", Boolean)]);
 static TEXTURE_TRANSFORM: ObjectSchema = object(&[
     optional("offset", Numbers(&[2], FREE)),
