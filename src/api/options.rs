@@ -55,6 +55,13 @@ impl Reading {
         self
     }
 
+    /// The diameter of the points of a mesh file or a glTF asset, in pixels of a picture of 512
+    /// rows that shows all; by default by their density.
+    pub fn point_size(mut self, pixels: f64) -> Self {
+        self.0.front.point_size = Some(pixels);
+        self
+    }
+
     /// For a glTF asset with animations: the time in seconds. By default the asset is at rest.
     pub fn time(mut self, seconds: f64) -> Self {
         self.0.front.time = Some(seconds);

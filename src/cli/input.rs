@@ -56,6 +56,7 @@ pub(super) fn options(reading: &ReadArgs, project: Option<&Project>) -> Result<O
         lenient,
         asset_root,
         up_axis,
+        point_size,
         time,
         animation,
         variant,
@@ -82,6 +83,7 @@ pub(super) fn options(reading: &ReadArgs, project: Option<&Project>) -> Result<O
             animation: animation.clone(),
             variant: variant.clone(),
             camera: camera.clone(),
+            point_size: *point_size,
             define: define.iter().cloned().collect(),
             up_axis: up_axis
                 .map(Into::into)

@@ -27,6 +27,8 @@ pub struct WordError {
     pub message: String,
     /// The label.
     pub label: String,
+    /// What other readers do about it, and we with `--lenient`.
+    pub repair: Option<&'static str>,
 }
 
 /// Why such a file could not be parsed.
@@ -66,6 +68,15 @@ impl WordError {
             at: WordSpan { start, end },
             message: message.into(),
             label: label.into(),
+            repair: None,
+        }
+    }
+
+    /// An error that `--lenient` repairs.
+    pub(super) fn repaired(self, repair: &'static str) -> Self {
+        Self {
+            repair: Some(repair),
+            ..self
         }
     }
 
@@ -179,6 +190,7 @@ pub(super) fn numbers<const N: usize>(
 }
 
 /// The lines of a file that have words.
+#[derive(Clone)]
 pub(super) struct WordLines<'a> {
     file: &'a [u8],
     at: usize,

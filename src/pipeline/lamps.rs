@@ -29,6 +29,11 @@ const NEARLY: f64 = 0.9;
 /// A pixel of the small picture, and what it sees behind back faces.
 pub(super) type PixelBehind = (usize, SeenBehind);
 
+/// Whether so many pixels of the small picture are more than chance.
+fn matters(pixels: usize) -> bool {
+    pixels as f64 >= MIN_DARK * f64::from(SIDE * SIDE)
+}
+
 /// A place for a lamp, and what it lights.
 struct LampPlace {
     position: Vec3,
@@ -39,20 +44,26 @@ struct LampPlace {
 }
 
 impl Renderer {
-    /// What the middles of the pixels of the small picture see behind back faces.
+    /// What the middles of the pixels of the small picture see behind back faces; nothing if there
+    /// is too little of it to matter.
     pub(super) fn seen_behind(&self, camera: &Camera) -> Vec<PixelBehind> {
         let pixels = (0..SIDE * SIDE).map(|pixel| (pixel, [pixel % SIDE, pixel / SIDE]));
         let seen = pixels.filter_map(|(index, pixel)| {
             let seen = self.world.seen_behind(view_ray(camera, pixel))?;
             Some((index as usize, seen))
         });
-        seen.collect()
+        let seen: Vec<PixelBehind> = seen.collect();
+        if matters(seen.len()) {
+            seen
+        } else {
+            Vec::new()
+        }
     }
 
     /// The lamps for points that no light reaches, of a picture with an exposure of `stops`; `None`
     /// if the points are too few to matter.
     pub(super) fn lamps(&self, dark: &[SeenBehind], stops: f64) -> Option<Vec<Light>> {
-        if (dark.len() as f64) < MIN_DARK * f64::from(SIDE * SIDE) {
+        if !matters(dark.len()) {
             return None;
         }
         let points: Vec<SeenBehind> = thinned(dark, POINTS).collect();

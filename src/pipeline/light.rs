@@ -101,9 +101,15 @@ impl PictureSetup {
         let dark: Vec<SeenBehind> = dark.map(|(_, seen)| seen).collect();
         let lamps = subject.renderer.as_ref();
         if let Some(mut lamps) = lamps.and_then(|renderer| renderer.lamps(&dark, stops)) {
-            lamps.truncate(if subject.first.adds_lamps { lamps.len() } else { 0 });
+            lamps.truncate(if subject.first.adds_lamps {
+                lamps.len()
+            } else {
+                0
+            });
             input.push(picture_diagnostics::closed_room(lamps.len()));
-            subject.add_light(|scene| scene.lights.extend(lamps));
+            if !lamps.is_empty() {
+                subject.add_light(|scene| scene.lights.extend(lamps));
+            }
         }
         // Add the studio if too little is visible.
         let least = if is_lit_asset {

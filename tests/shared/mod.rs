@@ -18,6 +18,7 @@ mod figures;
 mod gltf;
 mod laws;
 mod looks;
+mod models;
 mod objs;
 mod oracle;
 mod paths;
@@ -44,6 +45,7 @@ pub(crate) fn trials() -> Vec<Trial> {
         gltf::trials(),
         laws::trials(),
         looks::trials(),
+        models::trials(),
         objs::trials(),
         paths::trials(),
         pictures::trials(),

@@ -1,7 +1,7 @@
 //! Arguments shared by all commands that read a scene: how to read it, and how to report
 //! diagnostics.
 
-use super::super::parse::{folder, limit, moment};
+use super::super::parse::{folder, length, limit, moment};
 use clap::{ArgAction, Args, ValueEnum, ValueHint};
 use rtc_diag::{self as diag, DiagnosticLevel, DiagnosticLevels, LevelSubject};
 use rtc_front::UpAxis;
@@ -48,6 +48,11 @@ pub(crate) struct ReadArgs {
     /// [default: y, or as the stage says]
     #[arg(long, value_enum, value_name = "AXIS", help_heading = "Input")]
     pub(crate) up_axis: Option<UpAxisArg>,
+    /// Set the diameter of points, in pixels of a picture of 512 rows that shows all of them
+    ///
+    /// [default: by their density]
+    #[arg(long, value_name = "PIXELS", value_parser = length, help_heading = "Input")]
+    pub(crate) point_size: Option<f64>,
     /// Set a parameter of a Mitsuba scene, before its own `<default>`
     #[arg(
         short = 'D',

@@ -43,6 +43,15 @@ use stroke::{Segments, StrokeMesher, join};
 /// The maximum number of errors reported for one file.
 pub const MAX_FAULTS: usize = 10;
 
+/// The options of reading a mesh file.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MeshOptions {
+    /// Whether mistakes that other readers repair are repaired.
+    pub is_lenient: bool,
+    /// The diameter of points in pixels of the default view; by their density by default.
+    pub point_size: Option<f64>,
+}
+
 /// A mesh file as read.
 #[derive(Debug, Default)]
 pub struct ParsedMesh {
@@ -51,6 +60,12 @@ pub struct ParsedMesh {
     pub mesh: Mesh,
     /// Elements that don't show: the first, and how many.
     pub not_drawn: Option<(WordError, usize)>,
+    /// What else of the file the picture does not show.
+    pub remarks: Vec<WordError>,
+    /// Whether the colours of its vertices are the radiance that they show.
+    pub is_unlit: bool,
+    /// What was repaired: the first, and how many.
+    pub repaired: Option<(WordError, usize)>,
     /// Its materials.
     pub material_use: MaterialUse,
     /// The picture of all its faces, where it names one itself.
@@ -68,6 +83,22 @@ impl ParsedMesh {
         Some(format!("{elements}: {}", first.message))
     }
 
+    /// What of the file was repaired, in words.
+    pub(crate) fn repair(&self) -> Option<String> {
+        let (first, count) = self.repaired.as_ref()?;
+        let more = match count {
+            1 => String::new(),
+            count => format!(", {count} times"),
+        };
+        let repair = first.repair.unwrap_or_default();
+        Some(format!("{}{more}: {repair}", first.message))
+    }
+
+    /// Notes a repair; only the first error is kept.
+    fn note_repair(&mut self, fault: WordError) {
+        self.repaired.get_or_insert((fault, 0)).1 += 1;
+    }
+
     /// Reports an element that is not rendered; only the first error is kept.
     fn skip(&mut self, fault: impl FnOnce() -> WordError) {
         self.not_drawn.get_or_insert_with(|| (fault(), 0)).1 += 1;
@@ -77,11 +108,16 @@ impl ParsedMesh {
     ///
     /// # Errors
     /// If that would take more memory than there is.
-    fn draw(&mut self, segments: Segments, budget: &Budget) -> Result<(), LimitExceeded> {
+    fn draw(
+        &mut self,
+        segments: Segments,
+        options: MeshOptions,
+        budget: &Budget,
+    ) -> Result<(), LimitExceeded> {
         if segments.ends.is_empty() {
             return Ok(());
         }
-        let drawn_meshes = StrokeMesher::new(&self.mesh, budget).draw(segments)?;
+        let drawn_meshes = StrokeMesher::new(&self.mesh, options, budget).draw(segments)?;
         join(&mut self.mesh, drawn_meshes);
         Ok(())
     }
@@ -175,7 +211,7 @@ pub(crate) fn parse_colored_ply(
     colors: PlyColors,
     budget: &Budget,
 ) -> Result<ParsedMesh, TextParseError> {
-    let mut parsed = ply::parse(bytes, colors, budget)?;
+    let mut parsed = ply::parse(bytes, colors, MeshOptions::default(), budget)?;
     charge(&mut parsed.mesh, budget)?;
     Ok(parsed)
 }
@@ -185,19 +221,32 @@ pub(crate) fn parse_colored_ply(
 /// # Errors
 /// If it has errors, or exceeds the budget.
 pub fn parse(bytes: &[u8], budget: &Budget) -> Result<ParsedMesh, TextParseError> {
+    parse_with(bytes, MeshOptions::default(), budget)
+}
+
+/// As [`parse`], with options.
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_with(
+    bytes: &[u8],
+    options: MeshOptions,
+    budget: &Budget,
+) -> Result<ParsedMesh, TextParseError> {
     let mut words = Vec::new();
     first_lines(bytes).next(&mut words);
     let mut parsed = match words.first() {
-        _ if ply::is_head(bytes) => ply::parse(bytes, ply::PlyColors::Reported, budget)?,
-        _ if stl::is_head(bytes) => stl::parse(bytes, budget)?,
-        Some(head) if off::is_head(head) => off::parse(bytes, budget)?,
-        _ if xyz::is_head(bytes) => xyz::parse(bytes, budget)?,
-        Some(_) | None => obj::parse(bytes, budget)?,
+        _ if ply::is_head(bytes) => ply::parse(bytes, ply::PlyColors::Reported, options, budget)?,
+        _ if stl::is_head(bytes) => stl::parse(bytes, options, budget)?,
+        Some(head) if off::is_head(head) => off::parse(bytes, options, budget)?,
+        _ if xyz::is_head(bytes) => xyz::parse(bytes, options, budget)?,
+        Some(_) | None => obj::parse(bytes, options, budget)?,
     };
     if parsed.mesh.triangles.is_empty() && parsed.not_drawn.is_none() {
         // Of points alone the vertices themselves are not kept.
         let vertices = std::mem::take(&mut parsed.mesh);
-        let points = StrokeMesher::new(&vertices, budget).draw(Segments::points(&vertices))?;
+        let points =
+            StrokeMesher::new(&vertices, options, budget).draw(Segments::points(&vertices))?;
         join(&mut parsed.mesh, points);
     }
     charge(&mut parsed.mesh, budget)?;

@@ -10,9 +10,9 @@ mod smooth;
 
 use super::stroke::Segments;
 use super::tint::VertexColors;
-use super::{MAX_FAULTS, MaterialUse, ParsedMesh, SpannedName, TextParseError};
+use super::{MAX_FAULTS, MaterialUse, MeshOptions, ParsedMesh, SpannedName, TextParseError};
 use crate::words::{Word, WordError, WordLines, numbers};
-use corner::{CornerCounts, indices};
+use corner::{Corner, CornerCounts, indices, indices_there};
 use rtc_source::{Budget, Resource};
 
 /// True if the word is a statement that OBJ files begin with.
@@ -25,8 +25,15 @@ pub(super) fn is_keyword(word: &Word<'_>) -> bool {
 }
 
 /// Reads an OBJ.
-pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<ParsedMesh, TextParseError> {
-    let mut check = ObjCheck::default();
+pub(super) fn parse(
+    bytes: &[u8],
+    options: MeshOptions,
+    budget: &Budget,
+) -> Result<ParsedMesh, TextParseError> {
+    let mut check = ObjCheck {
+        options,
+        ..ObjCheck::default()
+    };
     check.vertices(bytes);
     let at_most = MaterialUse::at_most(check.switches) + STROKE * check.ends as u64;
     budget.has(Resource::Memory, at_most)?;
@@ -41,8 +48,9 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<ParsedMesh, TextPar
     Ok(ParsedMesh {
         mesh,
         not_drawn: check.not_drawn,
+        repaired: check.repaired,
         material_use: check.material_use,
-        texture: None,
+        ..ParsedMesh::default()
     })
 }
 
@@ -70,6 +78,8 @@ struct ObjCheck {
     material_use: MaterialUse,
     faults: Vec<WordError>,
     not_drawn: Option<(WordError, usize)>,
+    options: MeshOptions,
+    repaired: Option<(WordError, usize)>,
 }
 
 /// What corners refer to.
@@ -187,7 +197,7 @@ impl ObjCheck {
     ) -> Result<(), WordError> {
         let (mut used, mut without_normal) = ([false; 2], 0);
         for corner in corners {
-            let [_, uv, normal] = indices(corner, so_far, self.vertices.counts())?;
+            let [_, uv, normal] = self.corner(corner, so_far)?;
             used[0] |= uv.is_some();
             used[1] |= normal.is_some();
             without_normal += usize::from(normal.is_none());
@@ -202,10 +212,22 @@ impl ObjCheck {
         Ok(())
     }
 
+    /// The indices of a corner; lenient, without a texture coordinate or normal that is not there.
+    fn corner(&mut self, corner: &Word<'_>, so_far: CornerCounts) -> Result<Corner, WordError> {
+        let total = self.vertices.counts();
+        match indices(corner, so_far, total) {
+            Err(fault) if self.options.is_lenient && fault.repair.is_some() => {
+                self.repaired.get_or_insert((fault, 0)).1 += 1;
+                indices_there(corner, so_far, total)
+            }
+            found => found,
+        }
+    }
+
     /// The positions of the words of a line or point statement.
-    fn ends(&self, words: &[Word<'_>], so_far: CornerCounts) -> Result<Vec<u32>, WordError> {
+    fn ends(&mut self, words: &[Word<'_>], so_far: CornerCounts) -> Result<Vec<u32>, WordError> {
         let corners = words.iter();
-        let corners = corners.map(|corner| indices(corner, so_far, self.vertices.counts()));
+        let corners = corners.map(|corner| self.corner(corner, so_far));
         corners
             .map(|corner| Ok(corner?[0].unwrap_or_default()))
             .collect()

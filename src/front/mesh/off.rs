@@ -5,7 +5,7 @@
 use super::polygons::{CORNER, Polygons};
 use super::stroke::Segments;
 use super::tint::VertexColors;
-use super::{MAX_FAULTS, ParsedMesh, TextParseError};
+use super::{MAX_FAULTS, MeshOptions, ParsedMesh, TextParseError};
 use crate::words::{Word, WordError, WordLines, numbers};
 use rtc_source::{Budget, LimitExceeded, Resource};
 
@@ -15,7 +15,11 @@ pub(super) fn is_head(word: &Word<'_>) -> bool {
 }
 
 /// Reads an OFF. Normals and colours of vertices are kept, of faces colours.
-pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<ParsedMesh, TextParseError> {
+pub(super) fn parse(
+    bytes: &[u8],
+    options: MeshOptions,
+    budget: &Budget,
+) -> Result<ParsedMesh, TextParseError> {
     // A corner takes two bytes.
     budget.has(Resource::Memory, (CORNER / 2 * bytes.len()) as u64)?;
     let mut reader = OffReader {
@@ -30,7 +34,7 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<ParsedMesh, TextPar
     if !faults.is_empty() {
         return Err(TextParseError::Faults(faults));
     }
-    Ok(content.finish(budget)?)
+    Ok(content.finish(options, budget)?)
 }
 
 struct OffReader<'a> {
@@ -123,7 +127,11 @@ struct OffContent {
 }
 
 impl OffContent {
-    fn finish(mut self, budget: &Budget) -> Result<ParsedMesh, LimitExceeded> {
+    fn finish(
+        mut self,
+        options: MeshOptions,
+        budget: &Budget,
+    ) -> Result<ParsedMesh, LimitExceeded> {
         let mut parsed = self.parsed;
         if parsed.mesh.colors.is_empty() {
             self.polygons.colors = self.tints.linear();
@@ -132,7 +140,7 @@ impl OffContent {
         }
         let missing = || Word::START.fault("a corner is not there", "in this file");
         self.polygons.cut(&mut parsed, missing, budget)?;
-        parsed.draw(self.strokes, budget)?;
+        parsed.draw(self.strokes, options, budget)?;
         Ok(parsed)
     }
 }

@@ -9,7 +9,8 @@ mod vertex;
 use super::polygons::{CORNER, Polygons};
 use super::stroke::Segments;
 use super::tint::decoded;
-use super::{ParsedMesh, TextParseError};
+use super::{MeshOptions, ParsedMesh, TextParseError};
+use crate::splat::{self, Splat};
 use crate::words::{Word, WordError};
 use body::PlyBody;
 use head::{PlyElement, PlyProperty};
@@ -37,6 +38,7 @@ pub(crate) enum PlyColors {
 pub(super) fn parse(
     bytes: &[u8],
     colors: PlyColors,
+    options: MeshOptions,
     budget: &Budget,
 ) -> Result<ParsedMesh, TextParseError> {
     let one = |fault| TextParseError::Faults(vec![fault]);
@@ -47,12 +49,13 @@ pub(super) fn parse(
         parsed: ParsedMesh::default(),
         polygons: Polygons::default(),
         strokes: Segments::default(),
+        splats: Vec::new(),
         long: 0,
     };
     for element in &head.elements {
         reader.element(element, budget)?;
     }
-    let mut parsed = reader.finish(colors, budget)?;
+    let mut parsed = reader.finish(colors, options, budget)?;
     if let Some((texture, count)) = head.textures.take() {
         parsed.material_use.face(0);
         parsed.texture = Some(texture);
@@ -71,6 +74,8 @@ struct PlyReader<'a> {
     parsed: ParsedMesh,
     polygons: Polygons,
     strokes: Segments,
+    /// The vertices as splats, if they are such.
+    splats: Vec<Splat>,
     /// The number of face rows with too many values.
     long: usize,
 }
@@ -83,7 +88,22 @@ impl<'a> PlyReader<'a> {
         }
         match element.name.bytes {
             b"vertex" => {
-                vertex::read(element, &mut self.body, &mut self.parsed.mesh, budget)?;
+                let unread = vertex::unread(element);
+                // The higher harmonics of splats have a remark of their own.
+                let is_rest =
+                    |property: &&PlyProperty<'_>| property.name.bytes.starts_with(b"f_rest_");
+                let is_splat = |property: &PlyProperty<'_>| property.name.bytes == b"f_dc_0";
+                let has_splats = element.properties.iter().any(is_splat);
+                let unread = unread
+                    .into_iter()
+                    .filter(|name| !(has_splats && is_rest(name)));
+                self.remark_unread(element, &unread.collect::<Vec<_>>());
+                let mesh = &mut self.parsed.mesh;
+                self.splats = vertex::read(element, &mut self.body, mesh, budget)?;
+                if !self.splats.is_empty() {
+                    let remark = element.name.fault(splat::APPROXIMATION, "these");
+                    self.parsed.remarks.push(remark);
+                }
             }
             // A list of empty elements.
             _ if element.properties.is_empty() => {}
@@ -95,25 +115,69 @@ impl<'a> PlyReader<'a> {
                 let size = corner.map_or(1, |corner| self.body.least(corner.kind));
                 let at_most = CORNER * self.body.left() / size;
                 budget.has(Resource::Memory, at_most as u64)?;
+                if element.name.bytes == b"face" {
+                    let is_read = |property: &&PlyProperty<'_>| {
+                        let is_list = property.is_corners() || property.is_uvs();
+                        is_list || vertex::channel(property).is_some()
+                    };
+                    let properties = element.properties.iter();
+                    let unread = properties.filter(|property| !is_read(property));
+                    self.remark_unread(element, &unread.collect::<Vec<_>>());
+                }
                 match element.name.bytes {
                     b"face" => self.faces(element).map_err(one)?,
                     b"edge" => self.edges(element).map_err(one)?,
                     _ => self.strips(element).map_err(one)?,
                 }
             }
-            _ => self.skip(element).map_err(one)?,
+            _ => {
+                self.remark_unread(element, &element.properties.iter().collect::<Vec<_>>());
+                self.skip(element).map_err(one)?;
+            }
         }
         Ok(())
     }
 
-    fn finish(self, colors: PlyColors, budget: &Budget) -> Result<ParsedMesh, LimitExceeded> {
+    /// Tells that properties of an element are not read.
+    fn remark_unread(&mut self, element: &PlyElement<'a>, unread: &[&PlyProperty<'a>]) {
+        const NAMED: usize = 6;
+        let Some(first) = unread.first().filter(|_| element.count > 0) else {
+            return;
+        };
+        let names = unread.iter().take(NAMED);
+        let names: Vec<_> = names.map(|one| format!("`{}`", one.name.text())).collect();
+        let more = match unread.len().saturating_sub(NAMED) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let message = format!(
+            "properties of `{}` are not read: {}{more}",
+            element.name.text(),
+            names.join(", ")
+        );
+        let remark = first.name.fault(message, "the first one");
+        self.parsed.remarks.push(remark);
+    }
+
+    fn finish(
+        self,
+        colors: PlyColors,
+        options: MeshOptions,
+        budget: &Budget,
+    ) -> Result<ParsedMesh, LimitExceeded> {
         let Self {
             mut parsed,
             mut polygons,
             strokes,
+            splats,
             long,
             ..
         } = self;
+        if polygons.count() == 0 && !splats.is_empty() {
+            parsed.mesh = splat::mesh(&splats);
+            parsed.is_unlit = true;
+            return Ok(parsed);
+        }
         // Where lines are longer than they should be, which number is which part of a colour is
         // open.
         if long > 0 || polygons.colors.len() < polygons.count() {
@@ -133,7 +197,7 @@ impl<'a> PlyReader<'a> {
         }
         let missing = || Word::START.fault("a corner is not there", "in this file");
         polygons.cut(&mut parsed, missing, budget)?;
-        parsed.draw(strokes, budget)?;
+        parsed.draw(strokes, options, budget)?;
         Ok(parsed)
     }
 

@@ -4,10 +4,10 @@
 //! The normals of the file are not read: the order of the corners determines them.
 
 use super::tint::decoded;
-use super::{MAX_FAULTS, ParsedMesh, TextParseError, first_lines};
+use super::{MAX_FAULTS, MeshOptions, ParsedMesh, TextParseError, first_lines};
 use crate::words::{Word, WordError, WordLines, numbers};
 use rtc_ir::Mesh;
-use rtc_math::to_u32;
+use rtc_math::{Vec3, to_u32};
 use rtc_source::{Budget, Resource};
 
 /// The bytes before the triangles of a binary file: a header of 80 bytes, and their count.
@@ -38,8 +38,8 @@ fn is_text(head: &[u8]) -> bool {
     true
 }
 
-/// Whether it has the length of its count, or is longer and begins with valid triangles; for a
-/// truncated prefix, whether it may.
+/// Whether it has the length of its count, or begins with valid triangles; for a truncated prefix,
+/// whether it may. Where the count is wrong, a triangle has an area.
 fn is_binary(head: &[u8]) -> bool {
     let Some(count) = count(head) else {
         return false;
@@ -49,7 +49,48 @@ fn is_binary(head: &[u8]) -> bool {
     let size = HEAD as u64 + TRIANGLE as u64 * u64::from(count);
     let is_cut = head.len() == LOOKED_AT && size > length;
     let are_triangles = || triangles(head, count).iter().all(is_triangle);
-    count > 0 && (length == size || ((is_cut || length > size) && are_triangles()))
+    (count > 0 && length == size)
+        || (count > 0 && (is_cut || length > size) && are_triangles())
+        || are_solid(&head[HEAD..])
+}
+
+/// Whether some bytes are valid triangles, of which one has an area.
+fn are_solid(bytes: &[u8]) -> bool {
+    let triangles = bytes.as_chunks::<TRIANGLE>().0;
+    let has_area = |triangle: &[u8; TRIANGLE]| {
+        let [_, a, b, c] = vectors(triangle).map(Vec3::from_array);
+        (b - a).cross(c - a) != Vec3::ZERO
+    };
+    triangles.iter().all(is_triangle) && triangles.iter().any(has_area)
+}
+
+/// The triangles of a binary file. Where the count is not that of the triangles that are there, it
+/// is an error, or repaired; fewer than there are may be right, and the others are reported.
+fn counted<'b>(
+    bytes: &'b [u8],
+    is_lenient: bool,
+    parsed: &mut ParsedMesh,
+) -> Result<&'b [[u8; TRIANGLE]], WordError> {
+    let count = count(bytes).unwrap_or(0);
+    let (all, declared) = (triangles(bytes, u32::MAX), triangles(bytes, count));
+    let is_short = declared.len() < count as usize;
+    if !is_short && !are_solid(&bytes[HEAD + TRIANGLE * declared.len()..]) {
+        return Ok(declared);
+    }
+    let message = format!(
+        "the file says that it has {count} triangles, and has {}",
+        all.len()
+    );
+    let fault = WordError::new(HEAD - 4..HEAD, message, "the count").repaired("all are read");
+    if is_lenient {
+        parsed.note_repair(fault);
+        return Ok(all);
+    }
+    if is_short || declared.is_empty() {
+        return Err(fault);
+    }
+    parsed.skip(|| fault);
+    Ok(declared)
 }
 
 /// The number of triangles that a binary file declares.
@@ -125,13 +166,19 @@ fn opaque([r, g, b]: [f32; 3]) -> [f32; 4] {
 }
 
 /// Reads an STL.
-pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<ParsedMesh, TextParseError> {
+pub(super) fn parse(
+    bytes: &[u8],
+    options: MeshOptions,
+    budget: &Budget,
+) -> Result<ParsedMesh, TextParseError> {
     // A binary triangle becomes three positions, three colours and three numbers; a line of text
     // one position, in a list that grows by doubling.
     budget.has(Resource::Memory, 5 * bytes.len() as u64)?;
-    let binary_triangles = count(bytes).filter(|_| is_binary(bytes));
-    let binary_triangles = binary_triangles.map(|count| triangles(bytes, count));
     let mut parsed = ParsedMesh::default();
+    let binary_triangles =
+        is_binary(bytes).then(|| counted(bytes, options.is_lenient, &mut parsed));
+    let binary_triangles = binary_triangles.transpose();
+    let binary_triangles = binary_triangles.map_err(|fault| TextParseError::Faults(vec![fault]))?;
     let (positions, faults) = match binary_triangles {
         Some(triangles) => binary(triangles),
         None => text(bytes, &mut parsed),

@@ -1,7 +1,7 @@
 //! The points and lines of mesh files, drawn as those of glTF are.
 
-use super::columns;
-use crate::glyph::{StrokeShape, radius, thin_glyphs};
+use super::{MeshOptions, columns};
+use crate::glyph::{StrokeShape, point_radius, radius, spacing, thin_glyphs};
 use glam::DAffine3;
 use rtc_ir::{BoundingSphere, Mesh, VertexColumn};
 use rtc_math::{Vec3, to_u32};
@@ -41,17 +41,29 @@ impl Segments {
 /// Makes meshes of points and lines between the vertices of a mesh.
 pub(super) struct StrokeMesher<'run> {
     source: &'run Mesh,
-    radius: f64,
+    options: MeshOptions,
     budget: &'run Budget,
 }
 
 impl<'run> StrokeMesher<'run> {
     /// A mesher for a file with these vertices.
-    pub(super) fn new(source: &'run Mesh, budget: &'run Budget) -> Self {
+    pub(super) fn new(source: &'run Mesh, options: MeshOptions, budget: &'run Budget) -> Self {
         Self {
             source,
-            radius: ball(source).map_or(0.0, radius),
+            options,
             budget,
+        }
+    }
+
+    /// The radius of points or lines.
+    fn radius(&self, are_points: bool, ends: &[[u32; 2]]) -> f64 {
+        let Some(ball) = ball(self.source) else {
+            return 0.0;
+        };
+        let point = |at: usize| Vec3::from_array(self.source.positions.at(ends[at][0] as usize));
+        match are_points {
+            true => point_radius(ball, self.options.point_size, spacing(ends.len(), point)),
+            false => radius(ball),
         }
     }
 
@@ -73,11 +85,12 @@ impl<'run> StrokeMesher<'run> {
             self.budget.has(Resource::Vertices, vertices)?;
             self.budget
                 .has(Resource::Memory, vertices * vertex + triangles * TRIANGLE)?;
+            let radius = self.radius(are_points, &ends);
             let glyphs = thin_glyphs(self.source, &ends, DAffine3::IDENTITY, solid);
             drawn_meshes.extend(glyphs.map(|(mesh, offsets, world)| {
                 let corners = mesh.positions.iter().zip(offsets.iter());
                 let positions = corners.map(|(position, offset)| {
-                    let offset = self.radius * Vec3::from_array(offset);
+                    let offset = radius * Vec3::from_array(offset);
                     (world.translation + Vec3::from_array(position) + offset).to_array()
                 });
                 let positions = positions.collect();

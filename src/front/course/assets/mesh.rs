@@ -2,9 +2,9 @@
 
 use super::text_file::TextFileKind;
 use super::{AssetLoader, FileCache, MissingAssetPolicy, PendingAsset};
-use crate::mesh::{EXTENSIONS, MaterialUse, ParsedMesh, SpannedName, is_mesh, parse};
+use crate::mesh::{EXTENSIONS, MaterialUse, ParsedMesh, SpannedName, is_mesh, parse_with};
 use crate::over_limit;
-use rtc_diag::{Diagnostic, DiagnosticSink, clip, codes};
+use rtc_diag::{Diagnostic, DiagnosticSink, Severity, clip, codes};
 use rtc_ir::{LoweredScene, Mesh, MeshId, Mode, Scene, Shape};
 use rtc_source::{Budget, FileId, FileKind, FoundFile, LimitExceeded, Resource, Span};
 use std::collections::BTreeMap;
@@ -149,6 +149,9 @@ impl MeshFile {
         let ParsedMesh {
             mesh: full_mesh,
             not_drawn: _,
+            repaired: _,
+            remarks: _,
+            is_unlit: _,
             material_use,
             texture,
         } = parsed;
@@ -255,21 +258,38 @@ fn read_file(
     pending: &PendingAsset,
     loader: &mut AssetLoader<'_>,
 ) -> Option<MeshFile> {
+    let options = loader.options.mesh();
+    let parse = |bytes: &[u8], budget: &Budget| parse_with(bytes, options, budget);
     let (file, parsed) = loader.read_text(found, pending, &TEXT, parse)?;
-    report_not_drawn(&parsed, file, pending.span, loader.sink);
+    report_losses(&parsed, file, pending.span, loader.sink);
     let path = loader.search.path_to(found).unwrap_or_default();
     Some(MeshFile::new(parsed, file, path))
 }
 
-/// Reports the elements of a file that are not drawn; `named` is where a scene names the file.
-pub(super) fn report_not_drawn(
+/// Reports the elements of a file that are not drawn, and what was repaired; `named` is where a
+/// scene names the file.
+pub(super) fn report_losses(
     parsed: &ParsedMesh,
     file: FileId,
     named: Option<Span>,
     sink: &mut DiagnosticSink,
 ) {
-    if let Some(((first, _), message)) = parsed.not_drawn.as_ref().zip(parsed.loss()) {
-        let diagnostic = Diagnostic::new(&codes::NOT_DRAWN, message);
+    let not_drawn = parsed.not_drawn.as_ref().zip(parsed.loss());
+    let repaired = parsed.repaired.as_ref().zip(parsed.repair());
+    for remark in &parsed.remarks {
+        let diagnostic = Diagnostic::new(&codes::NOT_DRAWN, remark.message.as_str());
+        let diagnostic = diagnostic.at(remark.span(file), remark.label.as_str());
+        sink.push(diagnostic.also(named, "the file is named here"));
+    }
+    let losses = [
+        (&codes::NOT_DRAWN, not_drawn),
+        (&codes::BAD_MESH_FILE, repaired),
+    ];
+    for (code, loss) in losses {
+        let Some(((first, _), message)) = loss else {
+            continue;
+        };
+        let diagnostic = Diagnostic::new(code, message).severity(Severity::Warning);
         let diagnostic = diagnostic.at(first.span(file), first.label.as_str());
         sink.push(diagnostic.also(named, "the file is named here"));
     }

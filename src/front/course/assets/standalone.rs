@@ -5,7 +5,8 @@
 use super::AssetImport;
 use super::material_binder::{MaterialSource, PendingMaterial};
 use super::mesh::{self, MeshFile};
-use crate::mesh::{is_mesh, parse};
+use super::text_file;
+use crate::mesh::{MeshOptions, is_mesh, parse_with};
 use crate::words::TextParseError;
 use crate::{FrontOptions, UpAxis, gltf, over_limit};
 use rtc_diag::{Diagnostic, DiagnosticSink, codes};
@@ -29,11 +30,11 @@ pub fn lower_standalone_mesh(
     map: &mut SourceMap,
     sink: &mut DiagnosticSink,
 ) -> Option<LoweredScene> {
-    let parsed = parse_file(file, map, sink)?;
+    let parsed = parse_file(file, options.mesh(), map, sink)?;
     let name = map.name(file).rsplit(['/', '\\']).next();
     let name = name.unwrap_or_default().to_owned();
-    let has_colors = !parsed.mesh.colors.is_empty();
-    mesh::report_not_drawn(&parsed, file, None, sink);
+    let (has_colors, is_unlit) = (!parsed.mesh.colors.is_empty(), parsed.is_unlit);
+    mesh::report_losses(&parsed, file, None, sink);
     let mesh_file = MeshFile::new(parsed, file, name.clone());
     // A scene with one instance of the mesh, seen by a default camera.
     let mut scene = gltf::empty();
@@ -41,9 +42,10 @@ pub fn lower_standalone_mesh(
         name,
         ..mesh_file.full_mesh()
     });
-    scene
-        .materials
-        .push(Material::Standard(Box::new(default_material(has_colors))));
+    scene.materials.push(Material::Standard(Box::new(Standard {
+        unlit: is_unlit,
+        ..default_material(has_colors)
+    })));
     let up_axis = options.up_axis.unwrap_or(UpAxis::Y);
     let [x, y, z] = up_axis.scene_from_file().map(|axis| axis.to_array());
     scene.surfaces.push(Surface::new(
@@ -108,6 +110,7 @@ fn stands_on_z(mesh: &Mesh, is_stl: bool) -> bool {
 /// Parses the mesh file.
 fn parse_file(
     file: FileId,
+    options: MeshOptions,
     map: &SourceMap,
     sink: &mut DiagnosticSink,
 ) -> Option<crate::mesh::ParsedMesh> {
@@ -118,7 +121,7 @@ fn parse_file(
         sink.push(diagnostic.at(Span::new(file, 0, 0), "at its start"));
         return None;
     }
-    match parse(bytes, map.budget()) {
+    match parse_with(bytes, options, map.budget()) {
         Ok(parsed) => return Some(parsed),
         Err(TextParseError::Limit(fault)) => {
             let what = format!("the mesh `{}`", map.name(file));
@@ -126,8 +129,7 @@ fn parse_file(
         }
         Err(TextParseError::Faults(faults)) => {
             for fault in faults {
-                let diagnostic = Diagnostic::new(&codes::BAD_MESH_FILE, fault.message.as_str());
-                sink.push(diagnostic.at(fault.span(file), fault.label));
+                sink.push(text_file::diagnostic(&codes::BAD_MESH_FILE, fault, file));
             }
         }
     }

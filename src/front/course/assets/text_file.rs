@@ -2,7 +2,7 @@
 
 use super::{AssetLoader, MissingAssetPolicy, PendingAsset};
 use crate::over_limit;
-use crate::words::TextParseError;
+use crate::words::{TextParseError, WordError};
 use rtc_diag::{Code, Diagnostic};
 use rtc_source::{Budget, FileId, FileKind, FoundFile};
 
@@ -22,6 +22,17 @@ pub(super) struct TextFileKind {
     pub(super) file: FileKind,
 }
 
+/// The diagnostic of an error in a text file.
+pub(super) fn diagnostic(code: &'static Code, fault: WordError, file: FileId) -> Diagnostic {
+    let span = fault.span(file);
+    let hint = |repair| format!("with `--lenient` this is a warning: {repair}");
+    let diagnostic = Diagnostic::new(code, fault.message).at(span, fault.label);
+    match fault.repair.map(hint) {
+        Some(hint) => diagnostic.hint(hint),
+        None => diagnostic,
+    }
+}
+
 impl AssetLoader<'_> {
     /// Reads a text file, adds it to the source map and parses it. `None` if that fails, which is
     /// reported.
@@ -30,7 +41,7 @@ impl AssetLoader<'_> {
         found: &FoundFile,
         pending: &PendingAsset,
         kind: &TextFileKind,
-        parse: fn(&[u8], &Budget) -> Result<T, TextParseError>,
+        parse: impl FnOnce(&[u8], &Budget) -> Result<T, TextParseError>,
     ) -> Option<(FileId, T)> {
         let file = self.open_text(found, pending, kind)?;
         match parse(self.map.bytes(file), self.map.budget()) {
@@ -48,9 +59,8 @@ impl AssetLoader<'_> {
                     faults.len()
                 };
                 for fault in faults.into_iter().take(count) {
-                    let diagnostic = Diagnostic::new(kind.code, fault.message.as_str())
-                        .at(fault.span(file), fault.label)
-                        .also(pending.span, "the file is named here");
+                    let diagnostic = diagnostic(kind.code, fault, file);
+                    let diagnostic = diagnostic.also(pending.span, "the file is named here");
                     self.reject(diagnostic, kind.policy);
                 }
             }

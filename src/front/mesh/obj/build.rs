@@ -1,6 +1,6 @@
 //! Builds the mesh of an OBJ, after its contents are checked and counted against the budget.
 
-use super::corner::{Corner, CornerCounts, indices};
+use super::corner::{Corner, CornerCounts, indices, indices_there};
 use super::smooth::SmoothNormals;
 use super::{ObjCheck, ObjVertices, is_face, part_of};
 use crate::mesh::polygon::EarClipper;
@@ -90,7 +90,7 @@ impl ObjCheck {
             let current = self.material_use.current().clone();
             strokes.push((current, Segments::points(&source)));
         }
-        let mesher = StrokeMesher::new(&source, budget);
+        let mesher = StrokeMesher::new(&source, self.options, budget);
         let mut drawn_meshes = Vec::new();
         for (named, strokes) in strokes {
             let polygon = mesher.draw(strokes)?;
@@ -234,6 +234,10 @@ impl ObjCheck {
         let (mut lines, mut words, mut so_far) =
             (WordLines::new(bytes), Vec::new(), CornerCounts::default());
         let (total, mut corners, mut group) = (self.vertices.counts(), Vec::new(), 0);
+        let indices = match self.options.is_lenient {
+            true => indices_there,
+            false => indices,
+        };
         while lines.next(&mut words) {
             let (head, rest) = (&words[0], &words[1..]);
             if let Some(part) = part_of(head) {

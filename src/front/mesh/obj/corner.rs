@@ -11,12 +11,39 @@ pub(super) type Corner = [Option<u32>; 3];
 /// What corners refer to, in the order of their parts.
 const NOUNS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
+/// What other readers do where a corner refers to a texture coordinate or a normal that is not
+/// there.
+const WITHOUT: &str = "the corner is without it";
+
 /// The indices of a corner, from 0: `v`, `v/vt`, `v//vn` or `v/vt/vn`, each from 1 or, negative,
 /// from the last so far.
 pub(super) fn indices(
     corner: &Word<'_>,
     so_far: CornerCounts,
     total: CornerCounts,
+) -> Result<Corner, WordError> {
+    read(corner, |part, index| {
+        resolve(index, NOUNS[part], so_far[part], total[part]).map(Some)
+    })
+}
+
+/// As [`indices`], without the texture coordinate or the normal that is not there.
+pub(super) fn indices_there(
+    corner: &Word<'_>,
+    so_far: CornerCounts,
+    total: CornerCounts,
+) -> Result<Corner, WordError> {
+    read(corner, |part, index| {
+        match resolve(index, NOUNS[part], so_far[part], total[part]) {
+            Err(fault) if fault.repair.is_some() => Ok(None),
+            found => found.map(Some),
+        }
+    })
+}
+
+fn read(
+    corner: &Word<'_>,
+    mut resolve: impl FnMut(usize, &Word<'_>) -> Result<Option<u32>, WordError>,
 ) -> Result<Corner, WordError> {
     if corner.bytes[0] == b'/' {
         return Err(corner.fault(
@@ -33,7 +60,7 @@ pub(super) fn indices(
             ));
         };
         if !index.bytes.is_empty() {
-            *slot = Some(resolve(&index, NOUNS[part], so_far[part], total[part])?);
+            *slot = resolve(part, &index)?;
         }
     }
     Ok(found)
@@ -56,9 +83,13 @@ fn resolve(index: &Word<'_>, entity: &str, so_far: usize, total: usize) -> Resul
             } else {
                 format!("the file has only {total}")
             };
-            index.fault(
+            let fault = index.fault(
                 format!("a face refers to {entity} {number}, but {there}"),
                 format!("there is no such {entity}"),
-            )
+            );
+            match entity == NOUNS[0] {
+                true => fault,
+                false => fault.repaired(WITHOUT),
+            }
         })
 }

@@ -4,14 +4,16 @@ use super::super::TextParseError;
 use super::super::tint::decoded;
 use super::body::PlyBody;
 use super::head::{PlyElement, PlyNumberType, PlyProperty};
+use crate::splat::{self, Splat};
 use rtc_ir::Mesh;
-use rtc_math::VertexColumn;
+use rtc_math::{Vec3, VertexColumn};
 use rtc_source::{Budget, Resource};
 
 /// The values of a vertex that are kept, by the names of their properties: position, normal, both
 /// sets of texture coordinates, tangent, colour as sRGB codes it, and as it is, with opacity or, as
-/// Mitsuba writes it, without.
-const VALUES: [&[&[u8]]; 25] = [
+/// Mitsuba writes it, without; the colour, opacity, size and rotation (w first) of a Gaussian
+/// splat.
+const VALUES: [&[&[u8]]; 36] = [
     &[b"x"],
     &[b"y"],
     &[b"z"],
@@ -37,6 +39,32 @@ const VALUES: [&[&[u8]]; 25] = [
     &[b"color_0"],
     &[b"color_1"],
     &[b"color_2"],
+    &[b"f_dc_0"],
+    &[b"f_dc_1"],
+    &[b"f_dc_2"],
+    &[b"opacity"],
+    &[b"scale_0"],
+    &[b"scale_1"],
+    &[b"scale_2"],
+    &[b"rot_0"],
+    &[b"rot_1"],
+    &[b"rot_2"],
+    &[b"rot_3"],
+];
+
+/// The values that are used together, or not at all.
+const GROUPS: [std::ops::Range<usize>; 10] = [
+    0..NORMAL,
+    NORMAL..UV,
+    UV..SECOND_UV,
+    SECOND_UV..TANGENT,
+    TANGENT..COLOR,
+    COLOR..ALPHA,
+    LINEAR_COLOR..OPAQUE_COLOR,
+    OPAQUE_COLOR..SPLAT,
+    SPLAT..VALUES.len(),
+    // The opacity of a coded colour.
+    COLOR..LINEAR_COLOR,
 ];
 
 /// The offsets of values that belong together.
@@ -48,6 +76,7 @@ const COLOR: usize = 14;
 const ALPHA: usize = 17;
 const LINEAR_COLOR: usize = 18;
 const OPAQUE_COLOR: usize = 22;
+const SPLAT: usize = 25;
 
 /// The values of one vertex.
 type VertexRow = [f64; VALUES.len()];
@@ -102,13 +131,26 @@ impl<const N: usize> ColumnBuilder<N> {
     }
 }
 
-/// Reads the vertices into a mesh.
+/// The properties of vertices that are not read.
+pub(super) fn unread<'e, 'a>(element: &'e PlyElement<'a>) -> Vec<&'e PlyProperty<'a>> {
+    let values: Vec<_> = element.properties.iter().map(slot).collect();
+    let has = |value: usize| values.iter().flatten().any(|(at, _)| *at == value);
+    let is_used = |value: usize| {
+        let mut groups = GROUPS.iter().filter(|group| group.contains(&value));
+        groups.any(|group| group.clone().all(has))
+    };
+    let properties = element.properties.iter().zip(&values);
+    let unread = properties.filter(|(_, value)| !value.is_some_and(|(at, _)| is_used(at)));
+    unread.map(|(property, _)| property).collect()
+}
+
+/// Reads the vertices into a mesh. The splats that they are come back, if they are such.
 pub(super) fn read(
     element: &PlyElement<'_>,
     body: &mut PlyBody<'_>,
     mesh: &mut Mesh,
     budget: &Budget,
-) -> Result<(), TextParseError> {
+) -> Result<Vec<Splat>, TextParseError> {
     let one = |fault| TextParseError::Faults(vec![fault]);
     let slots: Vec<_> = element.properties.iter().map(slot).collect();
     let has = |values: &[usize]| {
@@ -137,7 +179,11 @@ pub(super) fn read(
     let is_coded = !linear.exists() && has(&[COLOR, COLOR + 1, COLOR + 2]);
     let is_opaque =
         !linear.exists() && !is_coded && has(&[OPAQUE_COLOR, OPAQUE_COLOR + 1, OPAQUE_COLOR + 2]);
-    let mut colors = Vec::new();
+    let are_splats = (SPLAT..VALUES.len()).all(|value| has(&[value]));
+    if are_splats {
+        budget.has(Resource::Memory, splat::MEMORY.saturating_mul(count as u64))?;
+    }
+    let (mut colors, mut splats) = (Vec::new(), Vec::new());
     for _ in 0..count {
         let row = row(element, &slots, body)?;
         body.end_row();
@@ -149,6 +195,7 @@ pub(super) fn read(
         linear.push(&row);
         colors.extend(is_coded.then(|| color(&row)));
         colors.extend(is_opaque.then(|| opaque_color(&row)));
+        splats.extend(are_splats.then(|| splat_of(&row)));
     }
     mesh.positions = positions.finish();
     mesh.normals = normals.finish();
@@ -160,7 +207,20 @@ pub(super) fn read(
     } else {
         linear.finish()
     };
-    Ok(())
+    Ok(splats)
+}
+
+/// The splat that a vertex is.
+fn splat_of(row: &VertexRow) -> Splat {
+    let three = |first: usize| [row[first], row[first + 1], row[first + 2]];
+    let [w, x, y, z] = [7, 8, 9, 10].map(|at: usize| row[SPLAT + at]);
+    Splat {
+        center: Vec3::from_array(three(0)),
+        rotation: [x, y, z, w],
+        log_scale: three(SPLAT + 4),
+        opacity: splat::logistic(row[SPLAT + 3]),
+        color: splat::harmonic_color(three(SPLAT)),
+    }
 }
 
 /// The value that a property is, and its type.
@@ -189,7 +249,7 @@ fn row(
         if !number.is_finite() {
             return Err(one(body.fault("a number is not finite", "of this vertex")));
         }
-        if *slot >= LINEAR_COLOR && number < 0.0 {
+        if (LINEAR_COLOR..SPLAT).contains(slot) && number < 0.0 {
             return Err(one(body.fault("a colour is negative", "of this vertex")));
         }
         let is_coded = (COLOR..LINEAR_COLOR).contains(slot);
@@ -233,7 +293,7 @@ pub(super) struct FaceChannel {
 
 /// The channel of a colour that a property is.
 pub(super) fn channel(property: &PlyProperty<'_>) -> Option<FaceChannel> {
-    let (at, kind) = slot(property)?;
+    let (at, kind) = slot(property).filter(|(at, _)| *at < SPLAT)?;
     let is_linear = at >= OPAQUE_COLOR;
     let first = if is_linear { OPAQUE_COLOR } else { COLOR };
     let index = at.checked_sub(first).filter(|channel| *channel < 4)?;
