@@ -295,7 +295,14 @@ fn untextured(scene: &ValidScene, lowered: &LoweredScene, sink: &mut DiagnosticS
     for map in plan::hidden_maps(scene) {
         let texture = ValuePath::new(EntityKind::Material, map.material.index(), map.field);
         let surface = ValuePath::new(EntityKind::Surface, map.surface, EntityField::Whole);
-        let message = "a surface has no texture coordinates, and is shown without its texture";
+        let surface_or_part = if map.is_partial {
+            "a part of a surface"
+        } else {
+            "a surface"
+        };
+        let message = format!(
+            "{surface_or_part} has no texture coordinates, and is shown without its texture"
+        );
         let diagnostic = Diagnostic::new(&codes::UNTEXTURED, message)
             .at(lowered.source_spans.span(texture), "the texture")
             .also(lowered.source_spans.span(surface), "a surface without it")

@@ -3,14 +3,12 @@
 
 use super::light::LightRuleResults;
 use super::rules::{Rule, RuleSet};
-use super::summary::{MaterialSummary, constants};
+use super::summary::{ConstantTextures, MapUse, MaterialSummary};
 use super::surface_bounds::{SurfaceBounds, surface_bounds};
 use super::visibility::VisibleSurfaces;
 use super::{WhittedFeatures, facts, summary};
-use rtc_math::{IdTable, Vec3};
-use rtc_valid::{
-    CourseLight, Material, Mesh, Mode, Pattern, Phong, Shape, Surface, Texture, ValidScene,
-};
+use rtc_math::IdTable;
+use rtc_valid::{CourseLight, Material, Mesh, Mode, Pattern, Phong, Shape, Surface, ValidScene};
 
 /// Facts about a scene before any rule is applied.
 pub(super) struct SceneFacts<'scene> {
@@ -24,8 +22,8 @@ pub(super) struct SceneFacts<'scene> {
     pub(super) surface_bounds: Vec<SurfaceBounds>,
     /// The summary of each surface's material.
     pub(super) summaries: Vec<MaterialSummary>,
-    /// The value of each constant texture.
-    pub(super) constants: IdTable<Texture, Option<Vec3>>,
+    /// The values of the constant textures.
+    pub(super) constants: ConstantTextures,
     /// For each mesh, whether the three normals of every triangle are equal.
     pub(super) has_flat_normals: IdTable<Mesh, bool>,
 }
@@ -33,9 +31,9 @@ pub(super) struct SceneFacts<'scene> {
 impl<'scene> SceneFacts<'scene> {
     pub(super) fn new(scene: &'scene ValidScene, rules: RuleSet) -> Self {
         let constants = if rules.contains(Rule::TextureConstant) {
-            constants(scene)
+            ConstantTextures::of(scene)
         } else {
-            vec![None; scene.textures().len()].into()
+            ConstantTextures::none(scene)
         };
         let materials = facts::material::phongs(scene.materials());
         let summary = |surface: &Surface| {
@@ -146,18 +144,13 @@ impl RuleResults<'_> {
 
     /// Whether the picture depends on the colour texture of a material.
     pub(super) fn shows_color_map(&self, summary: &MaterialSummary) -> bool {
-        let is_constant = summary
-            .color_map
-            .is_none_or(|map| self.facts.constants[map].is_some());
-        self.is_shaded() && !is_constant && (summary.ambient || summary.diffuse)
+        let varies = summary.color_map == MapUse::Varying;
+        self.is_shaded() && varies && (summary.ambient || summary.diffuse)
     }
 
     /// Whether the picture depends on the ks texture of a material.
     pub(super) fn shows_specular_map(&self, summary: &MaterialSummary) -> bool {
-        let is_constant = summary
-            .specular_map
-            .is_none_or(|map| self.facts.constants[map].is_some());
-        self.is_shaded() && !is_constant && summary.is_specular
+        self.is_shaded() && summary.specular_map == MapUse::Varying && summary.is_specular
     }
 
     /// Whether shadow rays are needed.
@@ -196,9 +189,8 @@ impl RuleResults<'_> {
                 && (self.shows_normal(summary) || !rules.contains(Rule::NormalFlat))
         };
         let colors = |summary: &MaterialSummary| {
-            let unseen = summary.color_map.is_some() || summary.specular_map.is_some();
             let shows = self.shows_color_map(summary) || self.shows_specular_map(summary);
-            shows || (unseen && !rules.contains(Rule::TextureUnseen))
+            shows || (summary.has_map() && !rules.contains(Rule::TextureUnseen))
         };
         let is_specular =
             |summary: &MaterialSummary| summary.is_specular && self.is_illuminated(summary);

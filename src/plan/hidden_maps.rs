@@ -1,8 +1,8 @@
 //! The texture maps that surfaces do not show, for want of texture coordinates.
 
-use crate::shape::shape_facts;
+use crate::coverage::{MapPresence, UvCoverage};
 use rtc_ir::EntityField;
-use rtc_valid::{Maps, Material, MaterialId, Shape, Texture, TextureId, ValidScene};
+use rtc_valid::{Maps, Material, MaterialId, Shape, Texture, TextureId, UvSet, ValidScene};
 use std::collections::BTreeSet;
 
 /// A map that a surface does not show.
@@ -10,6 +10,8 @@ use std::collections::BTreeSet;
 pub struct HiddenMap {
     /// The first surface without texture coordinates, as an IR index.
     pub surface: usize,
+    /// Whether other parts of the surface show the map.
+    pub is_partial: bool,
     /// Its material.
     pub material: MaterialId,
     /// The map.
@@ -27,14 +29,14 @@ pub fn hidden_maps(scene: &ValidScene) -> Vec<HiddenMap> {
     let mut hidden = Vec::new();
     for surface in scene.surfaces() {
         let material = surface.material;
-        if seen.contains(&material) || shape_facts(&surface.shape).has_uv(scene) {
+        if seen.contains(&material) {
             continue;
         }
-        let is_mesh = matches!(surface.shape, Shape::Instance(_));
-        if let Some(field) = map_of(&scene.materials()[material], is_mesh, scene) {
+        if let Some((field, is_partial)) = hidden_map(&surface.shape, material, scene) {
             seen.insert(material);
             hidden.push(HiddenMap {
                 surface: surface.index,
+                is_partial,
                 material,
                 field,
             });
@@ -43,14 +45,21 @@ pub fn hidden_maps(scene: &ValidScene) -> Vec<HiddenMap> {
     hidden
 }
 
-/// A map of a material that needs texture coordinates.
-fn map_of(material: &Material, is_mesh: bool, scene: &ValidScene) -> Option<EntityField> {
-    // The texture of texture coordinates is no picture that could be missing.
-    let needs_uv = |texture: TextureId| {
-        let texture = &scene.textures()[texture];
-        texture.needs_uv() && !matches!(texture, Texture::Uv)
+/// A map of a material that a shape does not show, and whether other parts of it do.
+fn hidden_map(
+    shape: &Shape,
+    material: MaterialId,
+    scene: &ValidScene,
+) -> Option<(EntityField, bool)> {
+    let coverage = UvCoverage::of(shape, scene);
+    let hides = |texture: TextureId, set: UvSet| match coverage.presence(scene, texture, set) {
+        // The texture of texture coordinates is no picture that could be missing.
+        _ if matches!(scene.textures()[texture], Texture::Uv) => None,
+        MapPresence::Never => Some(false),
+        MapPresence::Somewhere => Some(true),
+        MapPresence::Everywhere(_) => None,
     };
-    match material {
+    match &scene.materials()[material] {
         Material::Phong(phong) => {
             let Maps {
                 color,
@@ -65,13 +74,13 @@ fn map_of(material: &Material, is_mesh: bool, scene: &ValidScene) -> Option<Enti
                 (EntityField::Bump, bump.map(|bump| bump.texture)),
             ];
             let mut maps = maps.into_iter();
-            maps.find(|(_, map)| map.is_some_and(needs_uv))
-                .map(|(field, _)| field)
+            maps.find_map(|(field, map)| Some((field, hides(map?, UvSet::First)?)))
         }
+        Material::Standard(_) if matches!(shape, Shape::Instance(_)) => None,
         Material::Standard(standard) => {
             let mut maps = standard.maps();
-            let is_hidden = !is_mesh && maps.any(|map| needs_uv(map.texture));
-            is_hidden.then_some(EntityField::Whole)
+            let hidden = maps.find_map(|map| hides(map.texture, map.set));
+            hidden.map(|is_partial| (EntityField::Whole, is_partial))
         }
     }
 }

@@ -38,6 +38,7 @@
 //! [`invisible_surfaces`] lists the surfaces that no ray can hit, and [`facts`] converts lights and
 //! materials to the models of each integrator.
 
+mod coverage;
 mod effect;
 pub mod facts;
 mod features;
@@ -60,6 +61,7 @@ mod summary;
 mod surface_bounds;
 mod visibility;
 
+pub use coverage::{MapPresence, ShownMap, UvCoverage};
 pub use effect::{Effect, EffectState, EffectStatus};
 pub use features::{FeatureSet, PathFeatures, ShapeSet, WhittedFeatures};
 pub use hidden_maps::{HiddenMap, hidden_maps};
@@ -70,13 +72,14 @@ pub use path::{CausticMaterials, Caustics, PathPlan, RemainingEnvironment, Remai
 pub use pixel_classes::{PixelClass, PixelClassGrid};
 pub use precision::{MIN_HIT_DISTANCE, PrecisionArtifact, PrecisionLoss, loss};
 pub use rules::{Rule, RuleSet};
+pub use summary::ConstantTextures;
 
 use findings::{RuleResults, SceneFacts};
 use light::LightRuleResults;
 use path::PathPlanning;
 use projection::{ScreenProjection, ScreenRect};
-use rtc_math::{IdTable, Vec3};
-use rtc_valid::{CourseLight, Mode, PathSettings, Projection, Shape, Texture, ValidScene};
+use rtc_math::IdTable;
+use rtc_valid::{CourseLight, Mode, PathSettings, Projection, Shape, ValidScene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use summary::MaterialSummary;
@@ -151,8 +154,8 @@ pub struct Plan {
     pub lights: IdTable<CourseLight, LightPlan>,
     /// For each surface of the scene, whether a ray may hit it.
     pub surfaces: Vec<bool>,
-    /// The value of each constant texture of the scene.
-    pub constants: IdTable<Texture, Option<Vec3>>,
+    /// The values of the constant textures of the scene.
+    pub constants: ConstantTextures,
     /// The number of bounces after the first hit that may contribute.
     pub max_depth: u32,
     /// The classes of the pixels.
@@ -258,7 +261,7 @@ impl Plan {
             shapes: shapes(scene, &surfaces),
             lights: IdTable::default(),
             surfaces,
-            constants: vec![None; scene.textures().len()].into(),
+            constants: ConstantTextures::none(scene),
             max_depth,
             pixel_classes: PixelClassGrid::default(),
             moments,

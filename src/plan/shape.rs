@@ -1,8 +1,6 @@
-//! Facts about each shape: its bounds, its shape class, its texture coordinates, and its
-//! intersection equation.
+//! Facts about each shape: its bounds, its shape class, and its intersection equation.
 
 use super::margin::OrientedPlane;
-use super::path::UvRect;
 use super::precision::EquationKind;
 use super::surface_bounds::{
     ShapeClass, SurfaceBounds, SurfaceExtent, circle_bounds, instance_bounds, triangle_plane,
@@ -28,16 +26,6 @@ pub(super) trait ShapeFacts {
     /// The vertices of a convex polygon within a flat shape, in order.
     fn polygon(&self, _normal: Vec3) -> Option<Vec<Vec3>> {
         None
-    }
-
-    /// Whether its points have texture coordinates.
-    fn has_uv(&self, _scene: &ValidScene) -> bool {
-        false
-    }
-
-    /// The bounds of the texture coordinates for both sets; the unit square for a parametric shape.
-    fn uv_areas(&self, scene: &ValidScene) -> [Option<UvRect>; 2] {
-        [self.has_uv(scene).then_some(UvRect::UNIT), None]
     }
 }
 
@@ -73,10 +61,6 @@ impl ShapeFacts for Sphere {
 
     fn formula(&self, _: &ValidScene) -> (Vec3, EquationKind) {
         (self.center, EquationKind::Quadratic(self.radius.get()))
-    }
-
-    fn has_uv(&self, _: &ValidScene) -> bool {
-        true
     }
 }
 
@@ -119,15 +103,6 @@ impl ShapeFacts for Triangle {
     fn polygon(&self, _: Vec3) -> Option<Vec<Vec3>> {
         Some(self.vertices.to_vec())
     }
-
-    fn has_uv(&self, _: &ValidScene) -> bool {
-        self.uvs.is_some()
-    }
-
-    fn uv_areas(&self, _: &ValidScene) -> [Option<UvRect>; 2] {
-        let corners = self.uvs.as_deref();
-        [corners.map(|uvs| UvRect::of(uvs.iter().copied())), None]
-    }
 }
 
 impl ShapeFacts for Quad {
@@ -159,10 +134,6 @@ impl ShapeFacts for Quad {
 
     fn polygon(&self, _: Vec3) -> Option<Vec<Vec3>> {
         Some(self.vertices.to_vec())
-    }
-
-    fn has_uv(&self, _: &ValidScene) -> bool {
-        true
     }
 }
 
@@ -243,10 +214,6 @@ impl ShapeFacts for Paraboloid {
     fn formula(&self, _: &ValidScene) -> (Vec3, EquationKind) {
         (self.base, EquationKind::Quadratic(self.radius.get()))
     }
-
-    fn has_uv(&self, _: &ValidScene) -> bool {
-        true
-    }
 }
 
 impl ShapeFacts for Torus {
@@ -280,10 +247,6 @@ impl ShapeFacts for Ellipsoid {
 
     fn formula(&self, _: &ValidScene) -> (Vec3, EquationKind) {
         (self.center, EquationKind::Quadratic(self.thickness()))
-    }
-
-    fn has_uv(&self, _: &ValidScene) -> bool {
-        true
     }
 }
 
@@ -330,13 +293,6 @@ impl ShapeFacts for Csg {
     fn formula(&self, scene: &ValidScene) -> (Vec3, EquationKind) {
         shape_facts(&self.operands[0]).formula(scene)
     }
-
-    fn has_uv(&self, scene: &ValidScene) -> bool {
-        let operands = self.operands.iter();
-        operands
-            .map(shape_facts)
-            .any(|operand| operand.has_uv(scene))
-    }
 }
 
 impl ShapeFacts for Instance {
@@ -360,15 +316,6 @@ impl ShapeFacts for Instance {
         let first = corners.next().unwrap_or(origin);
         let distances = corners.map(|corner| corner.distance(first));
         (first, EquationKind::Linear(distances.fold(0.0, f64::max)))
-    }
-
-    fn has_uv(&self, scene: &ValidScene) -> bool {
-        !scene.meshes()[self.mesh].uvs.is_empty()
-    }
-
-    fn uv_areas(&self, scene: &ValidScene) -> [Option<UvRect>; 2] {
-        let mesh = &scene.meshes()[self.mesh];
-        [&mesh.uvs, &mesh.second_uvs].map(|uvs| (!uvs.is_empty()).then(|| UvRect::of(uvs.iter())))
     }
 }
 

@@ -1,8 +1,9 @@
 //! Summaries of Phong materials, with maps and constant textures taken into account.
 
-use super::shape::shape_facts;
+use super::coverage::{MapPresence, UvCoverage};
 use rtc_math::{IdTable, NonNegative, Vec3};
-use rtc_valid::{Mesh, Phong, Shape, Surface, Texture, TextureId, ValidScene};
+use rtc_valid::{Mesh, Phong, Shape, Surface, Texture, TextureId, UvSet, ValidScene};
+use std::fmt::{self, Debug, Formatter};
 
 /// A summary of the material of a surface.
 #[derive(Clone, Copy, Debug)]
@@ -28,9 +29,20 @@ pub(super) struct MaterialSummary {
     /// A map changes its shading normals.
     pub(super) has_normal_map: bool,
     /// The texture that gives its colour.
-    pub(super) color_map: Option<TextureId>,
+    pub(super) color_map: MapUse,
     /// The texture that scales its ks.
-    pub(super) specular_map: Option<TextureId>,
+    pub(super) specular_map: MapUse,
+}
+
+/// What a surface shows of a map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum MapUse {
+    /// Nothing, or there is no map.
+    Nothing,
+    /// One value, on all its parts.
+    Constant,
+    /// Several values, or one on some parts alone.
+    Varying,
 }
 
 impl MaterialSummary {
@@ -38,7 +50,7 @@ impl MaterialSummary {
         surface: &Surface,
         material: &Phong,
         scene: &ValidScene,
-        constants: &IdTable<Texture, Option<Vec3>>,
+        constants: &ConstantTextures,
     ) -> Self {
         // Find the maps that the surface can use.
         let Phong {
@@ -52,18 +64,28 @@ impl MaterialSummary {
             glossy_samples,
             ..
         } = material;
-        let has_uv = shape_facts(&surface.shape).has_uv(scene);
-        let is_seen = |map: &TextureId| has_uv || !scene.textures()[*map].needs_uv();
+        let coverage = UvCoverage::of(&surface.shape, scene);
+        let presence = |map| coverage.presence(scene, map, UvSet::First);
+        let is_seen = |map: &TextureId| presence(*map) != MapPresence::Never;
         let maps = material.maps.as_deref();
-        let (color_map, specular_map) = (
-            maps.and_then(|maps| maps.color).filter(is_seen),
-            maps.and_then(|maps| maps.specular).filter(is_seen),
-        );
-        // Fold constant textures into the factors.
-        let color = color_map.map_or(Some(*color), |map| constants[map]);
-        let scale = specular_map.map_or(Some(1.0), |map| constants[map].map(|value| value.x));
-        // Bound the terms.
-        let most_ks = ks.get() * scale.unwrap_or_else(|| largest(scene, specular_map).x);
+        // Fold constant textures into the factors, and bound the terms.
+        let value = |map: Option<TextureId>, bare: Vec3| {
+            let Some(map) = map.filter(is_seen) else {
+                return (MapUse::Nothing, Some(bare), bare);
+            };
+            match (constants.value(presence(map)), presence(map)) {
+                (Some(value), _) => (MapUse::Constant, Some(value), value),
+                (None, MapPresence::Somewhere) => {
+                    (MapUse::Varying, None, largest(scene, map).max(bare))
+                }
+                (None, _) => (MapUse::Varying, None, largest(scene, map)),
+            }
+        };
+        let (color_map, color, most_color) = value(maps.and_then(|maps| maps.color), *color);
+        let (specular_map, scale, most_scale) =
+            value(maps.and_then(|maps| maps.specular), Vec3::ONE);
+        let scale = scale.map(|scale| scale.x);
+        let most_ks = ks.get() * most_scale.x;
         let colored = color != Some(Vec3::ZERO);
         let is_specular = ks.get() > 0.0 && scale != Some(0.0);
         let most_kr = kr.map_or(most_ks, NonNegative::get);
@@ -73,11 +95,7 @@ impl MaterialSummary {
             is_specular,
             mirrors: kr.map_or(is_specular, |kr| kr.get() > 0.0) || (*fresnel && kt.get() > 0.0),
             weight: most_kr + kt.get(),
-            max_direct: (ka.get() + kd.get())
-                * color
-                    .unwrap_or_else(|| largest(scene, color_map))
-                    .max_element()
-                + most_ks,
+            max_direct: (ka.get() + kd.get()) * most_color.max_element() + most_ks,
             refracts: kt.get() > 0.0,
             glossy: glossy_samples.get() > 1,
             has_vertex_normals: has_normals(&surface.shape, scene),
@@ -89,6 +107,11 @@ impl MaterialSummary {
             color_map,
             specular_map,
         }
+    }
+
+    /// Whether the surface shows a texture.
+    pub(super) fn has_map(&self) -> bool {
+        [self.color_map, self.specular_map] != [MapUse::Nothing; 2]
     }
 
     /// Whether a light contributes more than its ambient term.
@@ -108,15 +131,15 @@ impl MaterialSummary {
 }
 
 /// The maximum of each channel of a texture.
-fn largest(scene: &ValidScene, texture: Option<TextureId>) -> Vec3 {
-    match texture.map(|texture| &scene.textures()[texture]) {
+fn largest(scene: &ValidScene, texture: TextureId) -> Vec3 {
+    match &scene.textures()[texture] {
         // Texels may be floats of any size.
-        Some(Texture::Uv | Texture::Sampled(_)) => Vec3::INFINITY,
-        Some(Texture::Procedural(texture)) => {
+        Texture::Uv | Texture::Sampled(_) => Vec3::INFINITY,
+        Texture::Procedural(texture) => {
             let [first, second] = texture.colors;
             first.max(second)
         }
-        Some(Texture::Image(_)) | None => Vec3::ONE,
+        Texture::Image(_) => Vec3::ONE,
     }
 }
 
@@ -124,23 +147,49 @@ fn has_normals(shape: &Shape, scene: &ValidScene) -> bool {
     matches!(shape, Shape::Instance(instance) if !scene.meshes()[instance.mesh].normals.is_empty())
 }
 
-/// The value of each constant texture.
-pub(super) fn constants(scene: &ValidScene) -> IdTable<Texture, Option<Vec3>> {
-    let value = |texture: &Texture| match texture {
-        Texture::Uv | Texture::Sampled(_) => None,
-        Texture::Procedural(texture) => {
-            let [first, second] = texture.colors;
-            (first == second).then_some(first)
+/// The values of the textures of a scene that are constant, for surfaces that show them on all
+/// parts.
+#[derive(Clone, PartialEq)]
+pub struct ConstantTextures(IdTable<Texture, Option<Vec3>>);
+
+impl Debug for ConstantTextures {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl ConstantTextures {
+    pub(super) fn of(scene: &ValidScene) -> Self {
+        let value = |texture: &Texture| match texture {
+            Texture::Uv | Texture::Sampled(_) => None,
+            Texture::Procedural(texture) => {
+                let [first, second] = texture.colors;
+                (first == second).then_some(first)
+            }
+            Texture::Image(image) => {
+                let image = &scene.images()[*image];
+                image
+                    .texels
+                    .are_even()
+                    .then(|| image.texels.at(0).color() / 255.0)
+            }
+        };
+        Self(scene.textures().iter().map(value).collect())
+    }
+
+    /// Without any value.
+    pub(super) fn none(scene: &ValidScene) -> Self {
+        Self(vec![None; scene.textures().len()].into())
+    }
+
+    /// The value of a map that is shown so, if it is one on all parts.
+    #[must_use]
+    pub fn value(&self, presence: MapPresence) -> Option<Vec3> {
+        match presence {
+            MapPresence::Everywhere(map) => self.0[map.texture()],
+            MapPresence::Never | MapPresence::Somewhere => None,
         }
-        Texture::Image(image) => {
-            let image = &scene.images()[*image];
-            image
-                .texels
-                .are_even()
-                .then(|| image.texels.at(0).color() / 255.0)
-        }
-    };
-    scene.textures().iter().map(value).collect()
+    }
 }
 
 /// Whether the three normals of every triangle of a mesh are equal.

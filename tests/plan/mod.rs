@@ -25,6 +25,7 @@ mod paths;
 mod precision;
 mod scenes;
 mod sensitivity;
+mod solids;
 mod validation;
 mod written;
 

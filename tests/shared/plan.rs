@@ -2,12 +2,13 @@
 //! pictures or adds a ray, and that removed work contributes nothing.
 
 use super::oracle;
-use super::scenes::{COURSE, accepted, course, each, film, validated, whole};
+use super::scenes::{COURSE, accepted, course, each, film, read, validated, whole};
 use crate::small::bits;
+use crate::suite::needs;
 use libtest_mimic::Trial;
 use rtc::internals::ir::Scene;
 use rtc::internals::passes::Overrides;
-use rtc::internals::plan::{Plan, RuleSet};
+use rtc::internals::plan::{Plan, RuleSet, hidden_maps};
 use rtc::internals::render::{RenderSelection, Values, verify};
 use rtc::internals::valid::ValidScene;
 use std::path::Path;
@@ -34,7 +35,19 @@ pub(crate) fn trials() -> Vec<Trial> {
         "scene01.yaml",
         takes_rays_of_the_camera_alone,
     ));
+    trials.push(needs(
+        "plan: a constant texture on a solid",
+        "round-4/promises/plan-constant-texture-on-csg-changes-picture.yaml",
+        keeps_a_constant_texture_to_its_parts,
+    ));
     trials
+}
+
+fn keeps_a_constant_texture_to_its_parts(path: &Path) {
+    obeys_the_law(path);
+    is_left_out_rightly(path);
+    let told = hidden_maps(&validated(read(path)));
+    assert!(matches!(told[..], [map] if map.is_partial), "{told:?}");
 }
 
 /// The scene of a file with few pixels, samples and bounces; `None` if it is rejected.

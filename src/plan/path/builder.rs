@@ -2,9 +2,10 @@
 //! removes what provably contributes zero.
 
 use super::caustics::CausticMaterials;
-use super::facts::{MaterialUses, UvPresence};
+use super::facts::MaterialUses;
 use super::rules::PathRule;
 use super::texture::TextureValues;
+use crate::coverage::{MapPresence, ShownMap};
 use crate::effect::Effect;
 use crate::facts::material::has_media;
 use crate::layer::Layer;
@@ -15,7 +16,7 @@ use rtc_ir::{EntityField, EntityKind, ValuePath};
 use rtc_math::{IdTable, Medium, Plastic, UnitInterval, Vec3};
 use rtc_valid::{
     Alpha, Map, Material, MaterialId, Mesh, PathSettings, Punctual, Shape, Standard, Surface,
-    Texture, ValidScene,
+    ValidScene,
 };
 use std::ops::Range;
 
@@ -38,8 +39,8 @@ pub(super) struct PathPlanBuilder<'scene> {
     pub(super) materials: IdTable<Material, Standard>,
     /// The materials of caustics.
     pub(super) caustics: &'scene CausticMaterials,
-    /// For each texture, whether its maps are folded into factors.
-    pub(super) folded: IdTable<Texture, bool>,
+    /// For each material, the maps that are folded into factors.
+    pub(super) folded: IdTable<Material, Vec<ShownMap>>,
     /// The use of each punctual light.
     pub(super) lights: IdTable<Punctual, RemainingLight>,
     pub(super) environment: RemainingEnvironment,
@@ -263,25 +264,29 @@ impl PathPlanBuilder<'_> {
 
     /// Whether a map of a material is folded into a constant.
     pub(super) fn is_folded(&self, material: MaterialId, map: &Map) -> bool {
-        self.is_everywhere(material, map) && self.folded[map.texture]
+        is_among(&self.folded[material], map)
     }
 
-    /// Whether a map is constant, so that it could be folded.
-    pub(super) fn is_constant(&self, material: MaterialId, map: &Map) -> bool {
-        self.is_everywhere(material, map) && self.textures.is_constant(map)
+    /// A map that has one value on all surfaces of its material.
+    pub(super) fn constant(&self, material: MaterialId, map: &Map) -> Option<ShownMap> {
+        match self.presence(material, map) {
+            MapPresence::Everywhere(shown) => self.textures.is_constant(map).then_some(shown),
+            MapPresence::Never | MapPresence::Somewhere => None,
+        }
     }
 
-    /// Whether all surfaces of a material have the texture coordinates of a map.
-    fn is_everywhere(&self, material: MaterialId, map: &Map) -> bool {
-        self.presence(material, map) == UvPresence::Everywhere
+    /// Folds a map of a material into a factor.
+    pub(super) fn fold(&mut self, material: MaterialId, map: ShownMap) -> ValuePath {
+        self.folded[material].push(map);
+        ValuePath::new(EntityKind::Material, material.index(), EntityField::Whole)
     }
 
     /// Whether any surface of a material has the texture coordinates of a map.
     pub(super) fn has_places(&self, material: MaterialId, map: &Map) -> bool {
-        self.presence(material, map) != UvPresence::Never
+        self.presence(material, map) != MapPresence::Never
     }
 
-    fn presence(&self, material: MaterialId, map: &Map) -> UvPresence {
+    fn presence(&self, material: MaterialId, map: &Map) -> MapPresence {
         self.uses[material].presence(map, self.textures)
     }
 
@@ -344,6 +349,12 @@ impl PathPlanBuilder<'_> {
         self.used_surfaces()
             .any(|surface| shines(surface.material) && is_sampled(&surface.shape))
     }
+}
+
+/// Whether a map is one of those that are folded.
+pub(super) fn is_among(folded: &[ShownMap], map: &Map) -> bool {
+    let mut folded = folded.iter();
+    folded.any(|shown| (shown.texture(), shown.set()) == (map.texture, map.set))
 }
 
 /// Whether light sampling supports an emissive shape: all but a plane, which paths find best.

@@ -3,7 +3,7 @@
 
 use super::texture::{TextureValues, UvRect};
 use crate::Layer;
-use crate::shape::shape_facts;
+use crate::coverage::{self, MapPresence, UvCoverage};
 use rtc_math::{IdTable, UnitInterval};
 use rtc_valid::{Map, Material, Mesh, Shape, Standard, ValidScene};
 
@@ -12,8 +12,8 @@ use rtc_valid::{Map, Material, Mesh, Shape, Standard, ValidScene};
 pub(super) struct MaterialUses {
     /// The indices of the surfaces in the scene.
     pub(super) surfaces: Vec<usize>,
-    /// For each set of texture coordinates, which surfaces have it.
-    sets: [UvPresence; 2],
+    /// The texture coordinates of their parts.
+    coverage: UvCoverage,
     /// For each set, the bounding rectangle of all coordinates.
     areas: [UvRect; 2],
     /// Whether any surface has vertex colours. Rounding in the interpolation may leave an alpha
@@ -21,31 +21,12 @@ pub(super) struct MaterialUses {
     pub(super) has_colors: bool,
 }
 
-/// Whether all, some or none of a material's surfaces have a property.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum UvPresence {
-    Never,
-    Somewhere,
-    Everywhere,
-}
-
-impl UvPresence {
-    fn and(self, exists: bool, is_first: bool) -> Self {
-        match (self, exists) {
-            (_, true) if is_first => Self::Everywhere,
-            (Self::Everywhere, true) => Self::Everywhere,
-            (Self::Never, false) => Self::Never,
-            (Self::Never | Self::Somewhere | Self::Everywhere, _) => Self::Somewhere,
-        }
-    }
-}
-
 impl MaterialUses {
     /// The facts for each material of a scene.
     pub(super) fn of(scene: &ValidScene) -> IdTable<Material, Self> {
         let unused = Self {
             surfaces: Vec::new(),
-            sets: [UvPresence::Never; 2],
+            coverage: UvCoverage::NEVER,
             areas: [UvRect::NONE; 2],
             has_colors: false,
         };
@@ -53,7 +34,7 @@ impl MaterialUses {
         // Each mesh is scanned once, however many instances it has.
         let mut of_meshes = IdTable::<Mesh, _>::from(vec![None; scene.meshes().len()]);
         for (index, surface) in scene.surfaces().iter().enumerate() {
-            let areas = || shape_facts(&surface.shape).uv_areas(scene);
+            let areas = || coverage::areas(&surface.shape, scene);
             let (areas, has_colors) = if let Shape::Instance(instance) = &surface.shape {
                 let has_colors = !scene.meshes()[instance.mesh].colors.is_empty();
                 let areas = of_meshes[instance.mesh].get_or_insert_with(areas);
@@ -61,30 +42,28 @@ impl MaterialUses {
             } else {
                 (areas(), false)
             };
+            let coverage = UvCoverage::of(&surface.shape, scene);
             for material in scene.blended(surface.material) {
                 uses[material].has_colors |= has_colors;
-                uses[material].add(index, areas);
+                uses[material].add(index, coverage, areas);
             }
         }
         uses
     }
 
-    fn add(&mut self, surface: usize, areas: [Option<UvRect>; 2]) {
-        let is_first = self.surfaces.is_empty();
-        for (set, area) in areas.into_iter().enumerate() {
-            self.sets[set] = self.sets[set].and(area.is_some(), is_first);
-            self.areas[set] = self.areas[set].around(area.unwrap_or(UvRect::NONE));
-        }
+    fn add(&mut self, surface: usize, coverage: UvCoverage, areas: [UvRect; 2]) {
+        self.coverage = match self.surfaces.is_empty() {
+            true => coverage,
+            false => self.coverage.and(coverage),
+        };
+        self.areas = [0, 1].map(|set| self.areas[set].around(areas[set]));
         self.surfaces.push(surface);
     }
 
-    /// The surfaces on which a map has its texture coordinates.
-    pub(super) fn presence(&self, map: &Map, textures: &TextureValues<'_>) -> UvPresence {
-        if textures.needs_uv(map) {
-            self.sets[map.set.index()]
-        } else {
-            UvPresence::Everywhere
-        }
+    /// The parts of the surfaces that show a map.
+    pub(super) fn presence(&self, map: &Map, textures: &TextureValues<'_>) -> MapPresence {
+        let scene = textures.scene();
+        self.coverage.presence(scene, map.texture, map.set)
     }
 
     /// The value of a channel of a map on all these surfaces, if it is constant there; colour
@@ -98,9 +77,9 @@ impl MaterialUses {
         let value = || textures.value(map, self.areas[map.set.index()], channel);
         // Without texture coordinates, a map has the value 1.
         match self.presence(map, textures) {
-            UvPresence::Never => Some(1.0),
-            UvPresence::Everywhere => value(),
-            UvPresence::Somewhere => value().filter(|value| *value == 1.0),
+            MapPresence::Never => Some(1.0),
+            MapPresence::Everywhere(_) => value(),
+            MapPresence::Somewhere => value().filter(|value| *value == 1.0),
         }
     }
 

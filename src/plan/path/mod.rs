@@ -26,6 +26,7 @@ pub use builder::{RemainingEnvironment, RemainingLight};
 pub use caustics::{CausticMaterials, Caustics};
 pub(super) use texture::UvRect;
 
+use super::coverage::ShownMap;
 use super::effect::{Effect, EffectStatus};
 use super::facts as facts_seen;
 use super::features::PathFeatures;
@@ -33,12 +34,11 @@ use super::layer::Layer;
 use super::projection::{ScreenProjection, ScreenRect};
 use super::rules::{PATH_RULES, RuleSet};
 use super::surface_bounds::surface_bounds;
-use builder::{AppliedRule, PathPlanBuilder};
+use builder::{AppliedRule, PathPlanBuilder, is_among};
 use facts::MaterialUses;
 use rtc_math::{IdTable, Medium, Vec3};
 use rtc_valid::{
-    Map, Material, MaterialId, PathSettings, Projection, Punctual, Standard, TextureId, UvSet,
-    ValidScene,
+    Map, Material, MaterialId, PathSettings, Projection, Punctual, Standard, ValidScene,
 };
 use texture::TextureValues;
 
@@ -48,8 +48,8 @@ use texture::TextureValues;
 pub struct PathPlan {
     /// The simplified material for each material of the scene.
     pub materials: IdTable<Material, Standard>,
-    /// For each material, the maps that are folded into constants: the texture and the set.
-    folded: IdTable<Material, Vec<(TextureId, UvSet)>>,
+    /// For each material, the maps that are folded into constants.
+    folded: IdTable<Material, Vec<ShownMap>>,
     /// The use of each punctual light.
     pub lights: IdTable<Punctual, RemainingLight>,
     /// The use of the environment.
@@ -69,7 +69,7 @@ impl PathPlan {
     /// it into a factor.
     #[must_use]
     pub fn is_folded(&self, material: MaterialId, map: &Map) -> bool {
-        self.folded[material].contains(&(map.texture, map.set))
+        is_among(&self.folded[material], map)
     }
 }
 
@@ -120,7 +120,7 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: RuleSet) -> Pa
         punctual: &punctual,
         materials,
         caustics: &caustics,
-        folded: vec![false; scene.textures().len()].into(),
+        folded: vec![Vec::new(); scene.materials().len()].into(),
         lights: vec![RemainingLight::All; punctual.len()].into(),
         environment: if scene.environment().radiance == Vec3::ZERO {
             RemainingEnvironment::Nothing
@@ -139,13 +139,9 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: RuleSet) -> Pa
     let applied = apply(&mut reduced, rules);
     let statuses = status::statuses(&requested, &reduced, &applied);
     // Take the plan from the remaining parts.
-    let folded = |(index, material): (MaterialId, &Standard)| {
-        let maps = material.maps().filter(|map| reduced.is_folded(index, map));
-        maps.map(|map| (map.texture, map.set)).collect()
-    };
     let plan = PathPlan {
-        folded: reduced.materials.entries().map(folded).collect(),
         features: features(&reduced, rules),
+        folded: reduced.folded,
         lights: reduced.lights,
         environment: reduced.environment,
         medium: reduced.medium,

@@ -18,7 +18,7 @@ const MAX_REPEATS: f64 = 1e6;
 
 impl UvRect {
     /// The empty area.
-    pub(super) const NONE: Self = Self([[f64::INFINITY, f64::NEG_INFINITY]; 2]);
+    pub(crate) const NONE: Self = Self([[f64::INFINITY, f64::NEG_INFINITY]; 2]);
 
     /// The unit square.
     pub(crate) const UNIT: Self = Self([[0.0, 1.0]; 2]);
@@ -31,7 +31,7 @@ impl UvRect {
     }
 
     /// The union with another area.
-    pub(super) fn around(self, Self(other): Self) -> Self {
+    pub(crate) fn around(self, Self(other): Self) -> Self {
         let Self(area) = self;
         Self([0, 1].map(|axis| {
             let ([low, high], [other_low, other_high]) = (area[axis], other[axis]);
@@ -68,9 +68,9 @@ impl<'scene> TextureValues<'scene> {
         }
     }
 
-    /// Whether a map needs texture coordinates of the surface.
-    pub(super) fn needs_uv(&self, map: &Map) -> bool {
-        self.scene.textures()[map.texture].needs_uv()
+    /// The scene.
+    pub(super) fn scene(&self) -> &'scene ValidScene {
+        self.scene
     }
 
     /// Whether a map is constant.

@@ -4,6 +4,7 @@ use super::{camera, first_n, settings};
 use crate::effect::{Effect, EffectStatus};
 use crate::pixel_classes::PixelClassGrid;
 use crate::rules::Rule;
+use crate::summary::MapUse;
 use crate::{MaterialSummary, RuleResults};
 use rtc_ir::EntityField;
 use rtc_valid::{Mode, Pattern};
@@ -129,11 +130,8 @@ fn textures(findings: &RuleResults<'_>) -> EffectStatus {
     {
         return status;
     }
-    let is_constant = |map: Option<rtc_valid::TextureId>| {
-        map.is_some_and(|map| findings.facts.constants[map].is_some())
-    };
     let constant = |summary: &MaterialSummary| {
-        is_constant(summary.color_map) || is_constant(summary.specular_map)
+        [summary.color_map, summary.specular_map].contains(&MapUse::Constant)
     };
     if let Some(surface) = findings.first(constant) {
         let facts = vec![findings.material(surface, EntityField::ColorMap)];
@@ -144,8 +142,7 @@ fn textures(findings: &RuleResults<'_>) -> EffectStatus {
             facts,
         );
     }
-    let unseen = findings
-        .first_unseen(|summary| summary.color_map.is_some() || summary.specular_map.is_some());
+    let unseen = findings.first_unseen(MaterialSummary::has_map);
     let facts = first_n(
         unseen
             .iter()

@@ -234,10 +234,6 @@ impl Intersect for Csg {
         }
     }
 
-    fn has_uv(&self) -> bool {
-        self.expression.operands.iter().any(Shape::has_uv)
-    }
-
     fn shading_attributes(
         &self,
         ray: &Ray,

@@ -96,10 +96,6 @@ impl Intersect for Ellipsoid {
         Interaction::new(ray, point, normal, self.center, extent)
     }
 
-    fn has_uv(&self) -> bool {
-        true
-    }
-
     /// The coordinates of the unit sphere: u = φ/2π and v = 1 − θ/π about the third axis.
     fn shading_attributes(
         &self,

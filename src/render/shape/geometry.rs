@@ -72,12 +72,6 @@ pub trait Intersect: Sized + Send + Sync {
     #[must_use]
     fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction;
 
-    /// Whether its points have texture coordinates.
-    #[must_use]
-    fn has_uv(&self) -> bool {
-        false
-    }
-
     /// Whether its shading normals are not the geometric ones.
     #[must_use]
     fn has_shading_normals(&self) -> bool {

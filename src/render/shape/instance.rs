@@ -250,10 +250,6 @@ impl Intersect for Instance {
         )
     }
 
-    fn has_uv(&self) -> bool {
-        !self.mesh.attributes.uvs.is_empty()
-    }
-
     fn has_shading_normals(&self) -> bool {
         !self.mesh.attributes.normals.is_empty()
     }

@@ -83,12 +83,6 @@ macro_rules! dispatch {
                 }
             }
 
-            fn has_uv(&self) -> bool {
-                match self {
-                    $(Self::$Name(shape) => <$Name as Intersect>::has_uv(shape),)*
-                }
-            }
-
             fn has_shading_normals(&self) -> bool {
                 match self {
                     $(Self::$Name(shape) => <$Name as Intersect>::has_shading_normals(shape),)*

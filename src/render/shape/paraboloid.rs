@@ -282,10 +282,6 @@ impl Intersect for Paraboloid {
         Interaction::new(ray, self.base + local, normal, self.base, extent)
     }
 
-    fn has_uv(&self) -> bool {
-        true
-    }
-
     /// u = φ/2π about the axis. On the side, v is the depth below the vertex in heights; on the
     /// cap, the distance from the axis in radii: 1 at the rim on both.
     fn shading_attributes(

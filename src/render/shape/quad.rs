@@ -281,10 +281,6 @@ impl Intersect for Quad {
         self.interaction(ray, t, prim_id)
     }
 
-    fn has_uv(&self) -> bool {
-        true
-    }
-
     fn shading_attributes(
         &self,
         ray: &Ray,

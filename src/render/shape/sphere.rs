@@ -241,10 +241,6 @@ impl Intersect for TexturedSphere {
         self.sphere.interaction(ray, t)
     }
 
-    fn has_uv(&self) -> bool {
-        true
-    }
-
     /// u = φ/2π and v = 1 − θ/π of the direction from the centre, turned by the rotation of the
     /// texture.
     fn shading_attributes(

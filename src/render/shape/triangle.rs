@@ -251,10 +251,6 @@ impl Intersect for TexturedTriangle {
         self.triangle.interaction(ray, t)
     }
 
-    fn has_uv(&self) -> bool {
-        self.uvs.is_some()
-    }
-
     /// uv between those of the corners.
     fn shading_attributes(
         &self,

@@ -10,8 +10,9 @@ use crate::shape::geometry::AttributeRequest;
 use crate::texture::bilinear::Bump;
 use crate::texture::sampled::{ColorSpace, UvSets};
 use rtc_math::{Id, IdTable, Plastic, UnitInterval, Vec3, Weight, cos, ln, sin};
-use rtc_plan::{Effect, Layer, PathPlan, Plan, Rule};
-use rtc_valid::{self as valid, Maps, Phong, Standard, TextureId};
+use rtc_plan::{Effect, Layer, MapPresence, PathPlan, Plan, Rule, UvCoverage};
+use rtc_valid::{self as valid, Maps, Phong, Standard, TextureId, UvSet, ValidScene};
+use std::collections::BTreeMap;
 
 /// The material of a world that stands for one of the scene as it is: both begin with the same
 /// list.
@@ -19,56 +20,63 @@ pub(super) fn unchanged(material: valid::MaterialId) -> MaterialId {
     Id::new(material.index())
 }
 
-/// Materials of Phong's model, and after them the simplified ones: on surfaces with texture
-/// coordinates a constant map is replaced by its value.
+/// Materials of Phong's model, and after them the simplified ones: a constant map that all parts of
+/// a surface show is replaced by its value.
 pub(super) struct PhongList<'plan> {
     all: IdTable<Material, Phong>,
     plan: &'plan Plan,
-    /// Per texture of the scene, whether it needs texture coordinates of the surface.
-    needs_uv: IdTable<valid::Texture, bool>,
-    /// Per material of the scene, the indices of its simplified forms for surfaces without and with
-    /// texture coordinates.
-    simple: IdTable<valid::Material, [Option<MaterialId>; 2]>,
+    scene: &'plan ValidScene,
+    /// The indices of the simplified forms of materials, for surfaces with these texture
+    /// coordinates.
+    simple: BTreeMap<(valid::MaterialId, UvCoverage), MaterialId>,
 }
 
 impl<'plan> PhongList<'plan> {
     pub(super) fn new(
         all: IdTable<Material, Phong>,
-        textures: &[valid::Texture],
+        scene: &'plan ValidScene,
         plan: &'plan Plan,
     ) -> Self {
         Self {
-            simple: vec![[None; 2]; all.len()].into(),
-            needs_uv: textures.iter().map(valid::Texture::needs_uv).collect(),
+            simple: BTreeMap::new(),
+            scene,
             all,
             plan,
         }
     }
 
-    /// The index of the prepared material for one of the scene.
-    pub(super) fn of(&mut self, material: valid::MaterialId, has_uv: bool) -> MaterialId {
-        if let Some(simple) = self.simple[material][usize::from(has_uv)] {
-            return simple;
+    /// The index of the prepared material for a surface of the scene.
+    pub(super) fn of(&mut self, surface: &valid::Surface) -> MaterialId {
+        let original = unchanged(surface.material);
+        if self.all[original].maps.is_none() {
+            return original;
         }
-        let original = unchanged(material);
-        match self.simplified(&self.all[original], has_uv) {
-            Some(phong) => *self.simple[material][usize::from(has_uv)].insert(self.all.push(phong)),
+        let coverage = UvCoverage::of(&surface.shape, self.scene);
+        let key = (surface.material, coverage);
+        if let Some(simple) = self.simple.get(&key) {
+            return *simple;
+        }
+        let simple = match self.simplified(&self.all[original], coverage) {
+            Some(phong) => self.all.push(phong),
             None => original,
-        }
+        };
+        *self.simple.entry(key).or_insert(simple)
     }
 
     /// The material with values instead of constant maps, and without maps that have no effect or
     /// no texture coordinates, if it has any of these.
-    fn simplified(&self, material: &Phong, has_uv: bool) -> Option<Phong> {
+    fn simplified(&self, material: &Phong, coverage: UvCoverage) -> Option<Phong> {
         let maps = **material.maps.as_ref()?;
-        let is_seen = |map: &TextureId| has_uv || !self.needs_uv[*map];
+        let presence = |map| coverage.presence(self.scene, map, UvSet::First);
+        let is_seen = |map: &TextureId| presence(*map) != MapPresence::Never;
         let seen = Maps {
             color: maps.color.filter(is_seen),
             specular: maps.specular.filter(is_seen),
             normal: maps.normal.filter(is_seen),
             bump: maps.bump.filter(|bump| is_seen(&bump.texture)),
         };
-        let value = |map: Option<TextureId>| map.and_then(|map| self.plan.constants[map]);
+        let value =
+            |map: Option<TextureId>| map.and_then(|map| self.plan.constants.value(presence(map)));
         let (new_color, scale) = (value(seen.color), value(seen.specular));
         let (shows, bends) = (
             self.shows(Effect::Textures),

@@ -74,10 +74,8 @@ impl<S: Prepare> World<S> {
             None => {
                 let materials = material::phongs(scene.materials());
                 let materials = materials.into_iter().collect();
-                let mut list = PhongList::new(materials, scene.textures(), plan);
-                let surfaces = surfaces(scene, plan, meshes, |material, has_uv| {
-                    list.of(material, has_uv)
-                });
+                let mut list = PhongList::new(materials, scene, plan);
+                let surfaces = surfaces(scene, plan, meshes, |surface| list.of(surface));
                 (surfaces, list.prepared(textures), IdTable::default())
             }
             Some(paths) => {
@@ -87,7 +85,7 @@ impl<S: Prepare> World<S> {
                     ..standard(index, material, textures, paths)
                 });
                 let prepared = prepared.collect();
-                let surfaces = surfaces(scene, plan, meshes, |material, _| unchanged(material));
+                let surfaces = surfaces(scene, plan, meshes, |surface| unchanged(surface.material));
                 (surfaces, IdTable::default(), with_requests(prepared))
             }
         };
@@ -158,17 +156,17 @@ fn interface(
 }
 
 /// The planned surfaces that rays can hit; `material_of` selects the world's material for one of
-/// the scene on a surface with or without texture coordinates.
+/// the scene.
 fn surfaces<S: Prepare>(
     scene: &ValidScene,
     plan: &Plan,
     meshes: &IdTable<valid::Mesh, Arc<S::Mesh>>,
-    mut material_of: impl FnMut(valid::MaterialId, bool) -> MaterialId,
+    mut material_of: impl FnMut(&valid::Surface) -> MaterialId,
 ) -> IdTable<Surface, Surface<S>> {
     let prepared = |(index, surface): (usize, &valid::Surface)| {
         let shape = S::prepare(&surface.shape, meshes)?;
         Some(Surface {
-            material: material_of(surface.material, shape.has_uv()),
+            material: material_of(surface),
             shape,
             index,
         })

@@ -46,7 +46,7 @@ fn without_zeros(builder: &PathPlanBuilder<'_>, index: MaterialId, m: &Standard)
     if m.metallic == UnitInterval::ZERO || builder.is_zero(index, metals, 2..3) {
         new.conductor = None;
     }
-    let is_even = |map: &Map| builder.is_constant(index, map);
+    let is_even = |map: &Map| builder.constant(index, map).is_some();
     new.bump_map = m.bump_map.filter(|map| !is_even(map));
     if m.blend_weight == UnitInterval::ZERO || is_zero(&m.blend_map, 0) {
         new.blend_with = None;

@@ -3,7 +3,6 @@
 use super::PathRule;
 use crate::Layer;
 use crate::path::builder::PathPlanBuilder;
-use rtc_ir::{EntityField, EntityKind, ValuePath};
 use rtc_math::{UnitInterval, Vec3};
 use rtc_valid::{Alpha, Map, MaterialId, Standard};
 
@@ -70,22 +69,15 @@ pub(crate) const CONSTANT: PathRule = PathRule {
            factors, and a normal map becomes one normal, when the scene is prepared.",
     reason: "all texels of each of its textures are equal",
     apply: |builder| {
-        let mut changed = Vec::new();
-        let mut folded = builder.folded.clone();
-        for (index, material) in builder.used_materials() {
-            let is_new =
-                |map: &&Map| !builder.is_folded(index, map) && builder.is_constant(index, map);
-            for map in material.maps().filter(is_new) {
-                folded[map.texture] = true;
-                changed.push(ValuePath::new(
-                    EntityKind::Material,
-                    index.index(),
-                    EntityField::Whole,
-                ));
-            }
-        }
+        let foldable = |(index, material): (MaterialId, &Standard)| {
+            let new = material.maps().filter(|map| !builder.is_folded(index, map));
+            let constant = new.filter_map(|map| builder.constant(index, map));
+            constant.map(|map| (index, map)).collect::<Vec<_>>()
+        };
+        let new: Vec<_> = builder.used_materials().flat_map(foldable).collect();
+        let folded = new.into_iter().map(|(index, map)| builder.fold(index, map));
+        let mut changed: Vec<_> = folded.collect();
         changed.dedup();
-        builder.folded = folded;
         changed
     },
 };

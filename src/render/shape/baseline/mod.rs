@@ -135,10 +135,6 @@ impl<R: Real> Intersect for BaselineShape<R> {
         }
     }
 
-    fn has_uv(&self) -> bool {
-        self.robust.has_uv()
-    }
-
     fn has_shading_normals(&self) -> bool {
         self.robust.has_shading_normals()
     }
