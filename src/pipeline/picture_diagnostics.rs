@@ -180,11 +180,11 @@ pub(super) fn verification_failure(mismatch: &PlanMismatch) -> String {
         rule,
         what,
     } = mismatch;
-    let rule = rule.map_or("no rule", Rule::name);
+    let effect = effect.map_or(String::new(), |effect| format!("{}, ", effect.name()));
+    let rule = rule.map_or("a plan of no rules", Rule::name);
     let version = env!("CARGO_PKG_VERSION");
     format!(
-        "internal error: {}, left out by {rule}: {what} at pixel {x}, {y}\n\
-         This is a fault of rtc {version}, please report it with the scene.",
-        effect.name()
+        "internal error: {effect}left out by {rule}: {what} at pixel {x}, {y}\n\
+         This is a fault of rtc {version}, please report it with the scene."
     )
 }

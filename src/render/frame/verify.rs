@@ -11,9 +11,9 @@ use std::sync::{Mutex, PoisonError};
 pub struct PlanMismatch {
     /// The pixel, from the upper left.
     pub pixel: [u32; 2],
-    /// The effect that was left out.
-    pub effect: Effect,
-    /// The rule that left it out, where the plan has one for that effect.
+    /// The effect that was left out, if it is known.
+    pub effect: Option<Effect>,
+    /// The rule that is wrong; `None` for a plan that its rules do not make.
     pub rule: Option<Rule>,
     /// The observation.
     pub what: &'static str,
@@ -44,7 +44,7 @@ impl PlanVerification {
         let rule = self.plan.rule_of(effect);
         self.keep(PlanMismatch {
             pixel,
-            effect,
+            effect: Some(effect),
             rule,
             what,
         });
@@ -63,12 +63,12 @@ impl PlanVerification {
     }
 }
 
-/// The first pixel whose bits differ, and its value without the rules.
+/// The first pixel whose bits differ.
 pub(crate) fn first_difference(
     planned: &Film,
     naive: &Film,
     job: &RenderSelection,
-) -> Option<([u32; 2], [f64; 3])> {
+) -> Option<[u32; 2]> {
     let bits = |pixel: &[f64; 3]| pixel.map(f64::to_bits);
     let mut pairs = planned.image.pixels.iter().zip(&naive.image.pixels);
     let index = pairs.position(|(a, b)| bits(a) != bits(b))?;
@@ -77,8 +77,5 @@ pub(crate) fn first_difference(
         index / planned.image.width as usize,
         index % planned.image.width as usize,
     );
-    Some((
-        [x + to_u32(column), y + to_u32(row)],
-        naive.image.pixels[index],
-    ))
+    Some([x + to_u32(column), y + to_u32(row)])
 }
