@@ -40,6 +40,11 @@ pub(crate) fn trials() -> Vec<Trial> {
         "round-4/promises/plan-constant-texture-on-csg-changes-picture.yaml",
         keeps_a_constant_texture_to_its_parts,
     ));
+    trials.push(needs(
+        "plan: an eye on a skew cylinder",
+        "round-4/promises/eye-on-skew-cylinder-sees-it.yaml",
+        sees_nothing,
+    ));
     trials
 }
 
@@ -48,6 +53,13 @@ fn keeps_a_constant_texture_to_its_parts(path: &Path) {
     is_left_out_rightly(path);
     let told = hidden_maps(&validated(read(path)));
     assert!(matches!(told[..], [map] if map.is_partial), "{told:?}");
+}
+
+fn sees_nothing(path: &Path) {
+    let film = whole(&validated(read(path)));
+    let is_black = |pixel: &&[f64; 3]| **pixel == [0.0; 3];
+    let black = film.image.pixels.iter().filter(is_black).count();
+    assert_eq!(black, film.image.pixels.len());
 }
 
 /// The scene of a file with few pixels, samples and bounces; `None` if it is rejected.

@@ -15,7 +15,7 @@ use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::disc::BaselineDisc;
 use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{Intersect, SolidCrossing};
-use crate::shape::interval::{Interval, between_planes, roots};
+use crate::shape::interval::{Interval, between_planes, off_surface, roots, size_of_start};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::WatertightRay;
@@ -153,23 +153,21 @@ impl Cone {
         let d = ray.direction;
         let start = ray.origin - self.base;
         let nearest = (self.axis * (0.5 * self.height) - start).dot(d) / d.dot(d);
-        let rise = dot(self.axis, d);
-        if self.slope > FLAT && rise != 0.0 {
-            return self.crossing_flat(start, d, nearest, self.slope * rise);
+        let size = size_of_start(ray, self.base, self.height + self.radius);
+        let (distance, growth) = self.profile(start, d).distance();
+        let distance = off_surface(distance, size * (1.0 + self.slope));
+        let is_flat = self.slope > FLAT && dot(self.axis, d) != 0.0;
+        if is_flat {
+            return self.crossing_flat(start, d, nearest, size, |side| {
+                side.seen_from(distance, growth)
+            });
         }
         let f = start + d * nearest;
         let inside = self.profile(f, d).inside()?;
         let inside = inside.map(|t| t + nearest);
-        let (distance, growth) = self.profile(start, d).distance();
-        let inside = inside.seen_from(distance, growth);
-        let ends = between_planes(
-            self.axis,
-            self.height,
-            start,
-            d,
-            [ConeFace::Base, ConeFace::Apex],
-        )?;
-        inside.and(ends)
+        let parts = [ConeFace::Base, ConeFace::Apex];
+        let ends = between_planes(self.axis, self.height, start, d, size, parts)?;
+        inside.seen_from(distance, growth).and(ends)
     }
 
     /// The ray from a point, given from the base, along `d`.
@@ -183,16 +181,19 @@ impl Cone {
     }
 
     /// As [`Self::stretch`] for a cone far wider than high, and a ray that hits the plane of its
-    /// base.
+    /// base; `seen` is the stretch inside its side as the start sees it.
     fn crossing_flat(
         &self,
         start: Vec3,
         d: Vec3,
         nearest: f64,
-        tau: f64,
+        size: f64,
+        seen: impl Fn(Interval<ConeFace>) -> Interval<ConeFace>,
     ) -> Option<Interval<ConeFace>> {
-        let x = cross(d, self.axis);
-        let at_base = -dot(self.axis, start) / dot(self.axis, d);
+        let (x, rise) = (cross(d, self.axis), dot(self.axis, d));
+        let tau = self.slope * rise;
+        let above = off_surface(dot(self.axis, start), size);
+        let at_base = -above / rise;
         // Move a ray steeper than the side to the base, and any other ray to the point closest to
         // the middle. If it hits the cone, it then starts within a few heights of the base.
         let across = x.length();
@@ -222,7 +223,13 @@ impl Cone {
                 leave: base,
             }
         };
-        let inside = profile.inside()?.and(ends)?;
+        // From the plane of the base, it is behind.
+        let ends = if above == 0.0 {
+            ends.seen_from(above, -rise)
+        } else {
+            ends
+        };
+        let inside = seen(profile.inside()?).and(ends)?;
         Some(inside.map(|s| moved + s / pace))
     }
 }

@@ -13,7 +13,7 @@ use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::disc::BaselineDisc;
 use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{Intersect, SolidCrossing};
-use crate::shape::interval::{Interval, between_planes, roots};
+use crate::shape::interval::{Interval, between_planes, off_surface, roots, size_of_start};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::normal_field::NormalField;
 use crate::shape::triangle::WatertightRay;
@@ -61,24 +61,24 @@ impl Cylinder {
 
     /// The stretch of the ray inside.
     fn inside(&self, ray: &Ray) -> Option<Interval<CylinderFace>> {
-        let f = ray.origin - self.base;
         let caps = between_planes(
             self.axis,
             self.height,
-            f,
+            ray.origin - self.base,
             ray.direction,
+            size_of_start(ray, self.base, self.height + self.radius),
             [CylinderFace::Base, CylinderFace::Top],
         )?;
-        self.inside_side(f, ray.direction, &caps)?.and(caps)
+        self.inside_side(ray, &caps)?.and(caps)
     }
 
     /// The interval of t inside the infinite cylinder, accurate between the caps.
     fn inside_side(
         &self,
-        f: Vec3,
-        d: Vec3,
+        ray: &Ray,
         caps: &Interval<CylinderFace>,
     ) -> Option<Interval<CylinderFace>> {
+        let (f, d) = (ray.origin - self.base, ray.direction);
         let r2 = self.radius * self.radius;
         let (from_axis, across) = (cross(f, self.axis), cross(d, self.axis));
         let a = across.dot(across);
@@ -90,7 +90,8 @@ impl Cylinder {
             return (from_axis.dot(from_axis) <= r2).then_some(everywhere);
         }
         let slope = from_axis.dot(across);
-        let outside = from_axis.length() - self.radius;
+        let size = size_of_start(ray, self.base, self.height + self.radius);
+        let outside = off_surface(from_axis.length() - self.radius, size);
         // Move the ray to the point nearest to the axis, but not beyond the caps.
         let nearest = (-slope / a).max(caps.enter.0).min(caps.leave.0);
         let from_axis = cross(f + d * nearest, self.axis);
@@ -201,8 +202,7 @@ impl InfiniteCylinder {
             enter: (f64::NEG_INFINITY, CylinderFace::Side),
             leave: (f64::INFINITY, CylinderFace::Side),
         };
-        self.0
-            .inside_side(ray.origin - self.0.base, ray.direction, &whole)
+        self.0.inside_side(ray, &whole)
     }
 }
 

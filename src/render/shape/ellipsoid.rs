@@ -10,6 +10,7 @@ use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes, SolidCrossing};
+use crate::shape::interval::off_surface;
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::normal_field::NormalField;
 use crate::shape::sphere::{Sphere, TexturedSphere};
@@ -58,6 +59,23 @@ impl Ellipsoid {
         }
     }
 
+    /// The stretch of a ray of the unit sphere inside; `ray` is the same in the world.
+    fn stretch(&self, ray: &Ray, local: &Ray) -> Option<[f64; 2]> {
+        let axes = self.axes.map(Vec3::abs).into_iter();
+        let sizes = axes.fold(ray.origin.abs() + self.center.abs(), |sum, axis| sum + axis);
+        let size: f64 = self.inverse.map(|row| row.abs().dot(sizes)).iter().sum();
+        let (f, d) = (local.origin, local.direction);
+        let stretch = UNIT_SPHERE.sphere.stretch(local);
+        if off_surface(f.length() - 1.0, size) != 0.0 {
+            return stretch;
+        }
+        // From the surface, the point across is the only one ahead.
+        let across = -2.0 * f.dot(d) / d.dot(d);
+        let leave = stretch.map(|[_, leave]| leave);
+        let leave = leave.filter(|leave| *leave > 0.5 * across);
+        (across > 0.0).then_some([f64::NEG_INFINITY, leave.unwrap_or(across)])
+    }
+
     /// A vector of the unit sphere in the world.
     fn to_world(self, v: Vec3) -> Vec3 {
         let [x, y, z] = self.axes;
@@ -74,13 +92,14 @@ impl Ellipsoid {
 impl Intersect for Ellipsoid {
     fn intersect(&self, ray: &Ray, _: &WatertightRay, _: f64) -> Option<(f64, u32)> {
         let (local, factor) = self.to_unit(ray).rescaled();
-        let t = UNIT_SPHERE.sphere.intersect(&local)? * factor;
-        (t > 0.0 && t.is_finite()).then_some((t, 0))
+        let ends = self.stretch(ray, &local)?.map(|t| t * factor);
+        let t = ends.into_iter().find(|t| *t > 0.0 && t.is_finite())?;
+        Some((t, 0))
     }
 
     fn visit_crossings(&self, ray: &Ray, visit: &mut dyn FnMut(SolidCrossing)) {
         let (local, factor) = self.to_unit(ray).rescaled();
-        if let Some([enter, leave]) = UNIT_SPHERE.sphere.stretch(&local) {
+        if let Some([enter, leave]) = self.stretch(ray, &local) {
             SolidCrossing::visit_both((enter * factor, 0), (leave * factor, 0), visit);
         }
     }

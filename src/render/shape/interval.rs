@@ -1,8 +1,25 @@
 //! The t-interval of a ray inside a convex region. A capped solid is the intersection of such
 //! intervals, so there is no gap between its side and its caps.
 
+use crate::ray::{OFFSET, Ray};
 use crate::shape::geometry::SolidCrossing;
-use rtc_math::{Vec3, dot};
+use rtc_math::{U, Vec3, dot};
+
+/// The size of the numbers from which the distance of a ray's start is computed from a solid of
+/// some extent about an anchor.
+pub(crate) fn size_of_start(ray: &Ray, anchor: Vec3, extent: f64) -> f64 {
+    (ray.origin.abs() + anchor.abs()).element_sum() + extent
+}
+
+/// A distance from a surface, computed from numbers of a size; 0 where it may be rounding alone: a
+/// ray that starts no farther from a surface than one that leaves it starts on it.
+pub(crate) fn off_surface(distance: f64, size: f64) -> f64 {
+    if distance.abs() <= OFFSET * U * size {
+        0.0
+    } else {
+        distance
+    }
+}
 
 /// The interval of t inside a region, with the part crossed at either end.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,13 +54,14 @@ impl<Part: Copy> Interval<Part> {
 
     /// The same for a convex region where a convex function is below 0, by its value and its
     /// derivative at t = 0: where rounding moved a root of 0 to the other side they decide, so an
-    /// origin on the surface does not hit its own surface.
+    /// origin on the surface does not hit its own surface. What is behind the origin is at −∞.
     pub(crate) fn seen_from(mut self, value: f64, slope: f64) -> Self {
-        if value <= 0.0 {
-            self.enter.0 = self.enter.0.min(0.0);
+        let is_behind = value >= 0.0 && slope >= 0.0;
+        if value <= 0.0 || is_behind {
+            self.enter.0 = f64::NEG_INFINITY;
         }
-        if value >= 0.0 && slope >= 0.0 {
-            self.leave.0 = self.leave.0.min(0.0);
+        if is_behind {
+            self.leave.0 = f64::NEG_INFINITY;
         }
         self
     }
@@ -63,23 +81,26 @@ impl<Part: Copy> Interval<Part> {
 }
 
 /// The stretch of the ray from `f` along `d` between the planes through 0 and `height` on the axis,
-/// which is a unit vector, with the part at either plane.
+/// which is a unit vector, with the part at either plane. The size is that of
+/// [`size_of_start`].
 pub(crate) fn between_planes<Part>(
     axis: Vec3,
     height: f64,
     f: Vec3,
     d: Vec3,
+    size: f64,
     [base, top]: [Part; 2],
 ) -> Option<Interval<Part>> {
     let (above, rise) = (dot(axis, f), dot(axis, d));
+    let (above, below) = (off_surface(above, size), off_surface(height - above, size));
     if rise == 0.0 {
         let everywhere = Interval {
             enter: (f64::NEG_INFINITY, base),
             leave: (f64::INFINITY, top),
         };
-        return (0.0..=height).contains(&above).then_some(everywhere);
+        return (above >= 0.0 && below >= 0.0).then_some(everywhere);
     }
-    let (base, top) = ((-above / rise, base), ((height - above) / rise, top));
+    let (base, top) = ((-above / rise, base), (below / rise, top));
     Some(if rise > 0.0 {
         Interval {
             enter: base,
@@ -140,7 +161,8 @@ mod tests {
         assert_eq!(outwards.first_in_front(), None);
         let inwards = rounded(1e-17, 2.0).seen_from(0.0, -1.0);
         assert_eq!(inwards.first_in_front(), Some((2.0, 'b')));
-        assert_eq!(ends(rounded(-1.0, 1.0).seen_from(-1.0, 1.0)), (-1.0, 1.0));
+        let before = f64::NEG_INFINITY;
+        assert_eq!(ends(rounded(-1.0, 1.0).seen_from(-1.0, 1.0)), (before, 1.0));
         assert_eq!(ends(rounded(1.0, 2.0).seen_from(1.0, -1.0)), (1.0, 2.0));
     }
 

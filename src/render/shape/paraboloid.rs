@@ -16,7 +16,7 @@ use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::disc::BaselineDisc;
 use crate::shape::emitter::Emitter;
 use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes, SolidCrossing};
-use crate::shape::interval::{Interval, between_planes, roots};
+use crate::shape::interval::{Interval, between_planes, off_surface, roots, size_of_start};
 use crate::shape::mesh::BaselineMesh;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{
@@ -97,10 +97,14 @@ impl Paraboloid {
     fn stretch(&self, ray: &Ray) -> Option<Interval<ParaboloidFace>> {
         let start = ray.origin - self.base;
         let parts = [ParaboloidFace::Base, ParaboloidFace::Side];
-        let ends = between_planes(self.axis, self.height, start, ray.direction, parts)?;
+        let size = size_of_start(ray, self.base, self.height + self.radius);
+        let ends = between_planes(self.axis, self.height, start, ray.direction, size, parts)?;
         let inside = self.inside(ray, start, &ends)?;
-        let QuadraticCoefficients { b, c, .. } = self.coefficients(start, ray.direction);
-        inside.seen_from(c, -b).and(ends)
+        let QuadraticCoefficients { w, b, c, .. } = self.coefficients(start, ray.direction);
+        // The gradient of F bounds what rounding changes in it.
+        let gradient = 2.0 * w.length() + self.latus_rectum;
+        let outside = off_surface(c, size * gradient);
+        inside.seen_from(outside, -b).and(ends)
     }
 
     /// The stretch inside the infinite paraboloid, accurate between the base and the vertex.

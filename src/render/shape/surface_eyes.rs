@@ -1,6 +1,8 @@
 //! Rays that start exactly on a shape do not hit the point they start from, but hit the far side.
 
+use super::Shape;
 use super::cone::Cone;
+use super::csg::Csg;
 use super::cylinder::{Cylinder, InfiniteCylinder};
 use super::disc::Disc;
 use super::ellipsoid::Ellipsoid;
@@ -8,11 +10,11 @@ use super::geometry::Intersect;
 use super::paraboloid::Paraboloid;
 use super::plane::Plane;
 use super::quad::Quad;
-use super::sphere::Sphere;
+use super::sphere::{Sphere, TexturedSphere};
 use super::torus::Torus;
 use super::triangle::{Triangle, WatertightRay};
 use crate::ray::Ray;
-use rtc_math::Vec3;
+use rtc_math::{OrthonormalBasis, SetStep, Vec3};
 
 /// Scales of a shape, powers of two: all points of this file stay exactly on their shapes.
 const SCALES: [f64; 3] = [1.0 / 1_048_576.0, 1.0, 1_073_741_824.0];
@@ -134,6 +136,131 @@ fn spheres_and_solids_are_seen_from_within_alone() {
             ([0.0, 0.0, 2.0], [0.0, 0.0, 1.0]),
         ],
     );
+}
+
+/// A round shape of some height and radius about an axis from a base.
+type Round = fn(Vec3, Vec3, [f64; 2]) -> Shape;
+
+/// A point of a round shape in the frame of its axis and a direction across it, and the normal
+/// there.
+type RoundEye = fn([f64; 2]) -> ([f64; 2], [f64; 2]);
+
+/// Round shapes, each with points on every part.
+const ROUND: [(&str, Round, &[RoundEye]); 4] = [
+    (
+        "cylinder",
+        |base, axis, [height, radius]| {
+            Shape::Cylinder(Cylinder::new(base, axis * 1.375, height, radius))
+        },
+        &[
+            |[height, radius]| ([0.375 * height, radius], [0.0, 1.0]),
+            |[height, radius]| ([0.875 * height, radius], [0.0, 1.0]),
+            |[_, radius]| ([0.0, 0.3 * radius], [-1.0, 0.0]),
+            |[height, radius]| ([height, 0.7 * radius], [1.0, 0.0]),
+        ],
+    ),
+    (
+        "infinite cylinder",
+        |base, axis, [_, radius]| {
+            Shape::InfiniteCylinder(InfiniteCylinder::new(base, axis * 1.375, radius))
+        },
+        &[
+            |[height, radius]| ([10.0 * height, radius], [0.0, 1.0]),
+            |[height, radius]| ([-0.3 * height, radius], [0.0, 1.0]),
+        ],
+    ),
+    (
+        "cone",
+        |base, axis, [height, radius]| Shape::Cone(Cone::new(base, axis * height, radius)),
+        &[
+            |[height, radius]| ([0.25 * height, 0.75 * radius], [radius, height]),
+            |[height, radius]| ([0.7 * height, 0.3 * radius], [radius, height]),
+            |[_, radius]| ([0.0, 0.3 * radius], [-1.0, 0.0]),
+        ],
+    ),
+    (
+        "paraboloid",
+        |base, axis, [height, radius]| {
+            Shape::Paraboloid(Paraboloid::new(base, axis * height, radius))
+        },
+        &[
+            |[height, radius]| ([0.75 * height, 0.5 * radius], [radius, height]),
+            |[height, radius]| ([0.36 * height, 0.8 * radius], [radius, 1.6 * height]),
+            |[_, radius]| ([0.0, 0.3 * radius], [-1.0, 0.0]),
+        ],
+    ),
+];
+
+/// Every 7th of the directions.
+fn some_directions() -> impl Iterator<Item = Vec3> {
+    directions().step_by(7)
+}
+
+/// Asks a shape, and a solid of it and a ball around it, from a point to within rounding on both.
+fn check_eye(name: &str, shape: &Shape, radius: f64, origin: Vec3, normal: Vec3) {
+    let around = Shape::Sphere(TexturedSphere {
+        sphere: Sphere {
+            center: origin,
+            radius: 1e6 * radius,
+        },
+        texture_from_world: Vec3::AXES,
+    });
+    let steps = vec![SetStep::Operand, SetStep::Operand, SetStep::Intersection];
+    let solid = Shape::Csg(Box::new(Csg::new(vec![shape.clone(), around], steps, 1)));
+    let normal = normal.normalize();
+    for direction in some_directions() {
+        let slope = direction.dot(normal);
+        let ray = Ray { origin, direction };
+        for (kind, shape) in [("alone", shape), ("solid", &solid)] {
+            let hit = shape.intersect(&ray, &WatertightRay::new(&ray), f64::INFINITY);
+            let reported = format!("{name}, {kind}, from {origin:?} along {direction:?}: {hit:?}");
+            assert!(slope < 0.01 || hit.is_none(), "{reported}");
+            let is_far = hit.is_some_and(|(t, _)| t > 1e-7 * radius);
+            // Along its axis, an infinite cylinder is far.
+            assert!(slope > -0.01 || is_far, "{reported}");
+        }
+    }
+}
+
+#[test]
+fn round_shapes_about_any_axis_are_seen_from_within_alone() {
+    let sizes = [[2.0, 1.0], [0.7, 2.3], [31.0, 0.17], [0.001, 3.7]];
+    for (name, make, eyes) in ROUND {
+        for (k, axis) in some_directions().enumerate() {
+            let scale = SCALES[k % 3] * (1.0 + 0.01 * k as f64);
+            let base = Vec3::new(3.1, -7.7, 9.3) * scale;
+            let size = sizes[k % 4].map(|length| length * scale);
+            let shape = make(base, axis, size);
+            let basis = OrthonormalBasis::around(axis);
+            for (turn, eye) in eyes.iter().enumerate() {
+                let angle = (k + 5 * turn) as f64;
+                let across = basis.tangent * libm::cos(angle) + basis.bitangent * libm::sin(angle);
+                let ([along, off], normal) = eye(size);
+                let point = base + axis * along + across * off;
+                let normal = axis * normal[0] + across * normal[1];
+                check_eye(name, &shape, size[1], point, normal);
+            }
+        }
+    }
+}
+
+#[test]
+fn an_ellipsoid_of_any_axes_is_seen_from_within_alone() {
+    for (k, axis) in some_directions().enumerate() {
+        let scale = SCALES[k % 3];
+        let basis = OrthonormalBasis::around(axis);
+        let lengths = [1.7, 0.3, 0.9].map(|length| length * scale);
+        let axes = [axis, basis.tangent, basis.bitangent];
+        let center = Vec3::new(3.1, -7.7, 9.3) * scale;
+        let [x, y, z] = [0, 1, 2].map(|k| axes[k] * lengths[k]);
+        let shape = Shape::Ellipsoid(Box::new(Ellipsoid::new(center, [x, y, z])));
+        for unit in some_directions().step_by(9) {
+            let point = center + x * unit.x + y * unit.y + z * unit.z;
+            let [u, v, w] = [0, 1, 2].map(|k| axes[k] * (scale / lengths[k]));
+            let normal = u * unit.x + v * unit.y + w * unit.z;
+            check_eye("ellipsoid", &shape, scale, point, normal);
+        }
+    }
 }
 
 #[test]
