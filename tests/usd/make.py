@@ -191,6 +191,7 @@ layer.defaultPrim = "arcs"
 layer.pseudoRoot.SetInfo("upAxis", "Z")
 layer.pseudoRoot.SetInfo("metersPerUnit", 0.125)
 layer.timeCodesPerSecond = 30.0
+layer.framesPerSecond = 12.0
 layer.startTimeCode = 3.0
 arcs = prim(layer, "arcs")
 arcs.specifier = Sdf.SpecifierDef

@@ -236,6 +236,18 @@ impl Lowering<'_> {
         })
     }
 
+    /// Whether an instancer gives each instance primvars of its own.
+    pub(super) fn varies_by_instance(&self, prim: &ComposedPrim) -> bool {
+        prim.opinions.iter().any(|opinion| {
+            let properties = self.spec(opinion).properties.iter();
+            let mut primvars = properties.filter(|(name, _)| name.starts_with("primvars:"));
+            primvars.any(|(_, property)| {
+                let interpolation = property.interpolation.as_deref();
+                interpolation.is_some_and(|interpolation| interpolation != "constant")
+            })
+        })
+    }
+
     /// The prim and the output that an input is connected to.
     pub(super) fn connection(&self, prim: &ComposedPrim, name: &str) -> Option<(String, String)> {
         let target = self.targets(prim, name).into_iter().next()?;

@@ -466,6 +466,7 @@ impl LayerAssembly<'_> {
             }
             "primChildren" => self.order(prim, value),
             "clips" => self.layer.prim_mut(prim).has_clips = true,
+            "relocates" => self.layer.prim_mut(prim).has_relocates = true,
             _ => {}
         }
     }
@@ -500,6 +501,8 @@ impl LayerAssembly<'_> {
             "timeCodesPerSecond" => {
                 self.layer.metadata.time_codes_per_second = self.number(value);
             }
+            "framesPerSecond" => self.layer.metadata.frames_per_second = self.number(value),
+            "relocates" | "layerRelocates" => self.layer.prim_mut(0).has_relocates = true,
             "startTimeCode" => self.layer.metadata.start_time_code = self.number(value),
             "subLayers" => {
                 let Some(Value::Texts(texts)) = self.value(value) else {

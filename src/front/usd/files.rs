@@ -231,6 +231,11 @@ impl Lowering<'_> {
     }
 
     fn add_layer(&mut self, layer: Layer, origin: LayerOrigin) -> usize {
+        if layer.prim(0).has_relocates {
+            let span = layer.prim(0).span;
+            let message = "the relocation of the layer is not supported: prims stay where they are";
+            self.report(&codes::USD_UNSUPPORTED, span, message);
+        }
         self.layers.push(Rc::new(layer));
         self.layer_origins.push(origin);
         self.layers.len() - 1

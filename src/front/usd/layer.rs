@@ -229,6 +229,7 @@ pub(super) struct PrimSpec {
     pub(super) specializes: ListOp<ArcTarget>,
     pub(super) selections: BTreeMap<String, String>,
     pub(super) has_clips: bool,
+    pub(super) has_relocates: bool,
     pub(super) properties: BTreeMap<String, Box<PropertySpec>>,
     /// Its place among its siblings, if that is not the one in the file.
     pub(super) rank: usize,
@@ -250,6 +251,7 @@ impl PrimSpec {
             specializes: ListOp::default(),
             selections: BTreeMap::new(),
             has_clips: false,
+            has_relocates: false,
             properties: BTreeMap::new(),
             rank: 0,
             children: BTreeMap::new(),
@@ -272,6 +274,8 @@ pub(super) struct StageMetadata {
     pub(super) up_axis: Option<SpannedText>,
     pub(super) meters_per_unit: Option<f64>,
     pub(super) time_codes_per_second: Option<f64>,
+    /// The rate of the time codes where none is given.
+    pub(super) frames_per_second: Option<f64>,
     pub(super) start_time_code: Option<f64>,
     pub(super) sub_layers: Vec<SubLayer>,
 }

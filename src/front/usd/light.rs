@@ -25,7 +25,7 @@ pub(super) const KINDS: [&str; 7] = [
 ];
 
 /// Numbers of lights that are not read: the name, the number that says nothing, and what is shown.
-const UNREAD: [(&str, f64, &str); 7] = [
+const UNREAD: [(&str, f64, &str); 8] = [
     ("diffuse", 1.0, "matte surfaces get all of its light"),
     ("specular", 1.0, "glossy surfaces get all of its light"),
     (
@@ -33,6 +33,7 @@ const UNREAD: [(&str, f64, &str); 7] = [
         0.0,
         "it shines to all sides of its cone alike",
     ),
+    ("treatAsLine", 0.0, "it is as thick as it says"),
     ("shadow:enable", 1.0, "it casts shadows"),
     ("shadow:color", 0.0, "its shadows are without light"),
     (
@@ -78,12 +79,14 @@ impl Lowering<'_> {
     /// Warns of what a light asks for and is not shown.
     fn report_unread(&mut self, prim: &ComposedPrim) {
         for (name, neutral, instead) in UNREAD {
-            let full = format!("inputs:{name}");
-            let numbers = self
-                .numbers(prim, &full)
-                .or_else(|| self.numbers(prim, name));
-            if numbers.is_some_and(|numbers| numbers.iter().any(|number| *number != neutral)) {
-                self.unsupported(prim, &format!("`{full}`"), instead);
+            let names = [format!("inputs:{name}"), name.to_owned()];
+            let mut read = names
+                .iter()
+                .filter_map(|name| Some((name, self.numbers(prim, name)?)));
+            if let Some((name, numbers)) = read.next()
+                && numbers.iter().any(|number| *number != neutral)
+            {
+                self.unsupported(prim, &format!("`{name}`"), instead);
             }
         }
         let profile = self.light_file(prim, "shaping:ies:file");

@@ -35,7 +35,7 @@ mod xform;
 use crate::exchange::texture::SampledTextures;
 use crate::exchange::transform::AffineTransform;
 use crate::{FrontOptions, UpAxis, over_limit};
-use layer::Layer;
+use layer::{Layer, PrimSpec};
 use rtc_diag::{Diagnostic, DiagnosticSink, clip, clip_path, codes};
 use rtc_ir::{
     EntityField, EntityKind, ImageId, LoweredScene, MaterialId, MeshId, Scene, SourceSpans,
@@ -301,6 +301,7 @@ impl<'run> Lowering<'run> {
         let up = metadata.up_axis.clone();
         let rate = metadata
             .time_codes_per_second
+            .or(metadata.frames_per_second)
             .filter(|rate| *rate > 0.0)
             .unwrap_or(24.0);
         let start = metadata.start_time_code.unwrap_or(0.0);
@@ -430,12 +431,24 @@ impl<'run> Lowering<'run> {
                 "what it holds keeps its own material",
             );
         }
-        if prim
-            .opinions
-            .iter()
-            .any(|opinion| self.spec(opinion).has_clips)
-        {
-            self.unsupported(prim, "the value clips", "they are left out");
+        let says = |is: fn(&PrimSpec) -> bool| {
+            let mut specs = prim.opinions.iter().map(|opinion| self.spec(opinion));
+            specs.any(is)
+        };
+        let lost = [
+            (
+                says(|spec| spec.has_clips),
+                "the value clips",
+                "they are left out",
+            ),
+            (
+                says(|spec| spec.has_relocates),
+                "the relocation",
+                "prims stay where they are",
+            ),
+        ];
+        for (_, what, instead) in lost.into_iter().filter(|(is_lost, ..)| *is_lost) {
+            self.unsupported(prim, what, instead);
         }
         if self.has_some(prim, "primvars:") {
             state.primvars = Some(Rc::new(PrimvarScope {
@@ -502,6 +515,10 @@ impl<'run> Lowering<'run> {
 
     /// Places the shapes of prototypes at points (`UsdGeomPointInstancer`).
     fn instancer(&mut self, prim: &ComposedPrim, state: &PrimState) {
+        if self.varies_by_instance(prim) {
+            let instead = "all instances have those of their prototype";
+            self.unsupported(prim, "the variation by instance", instead);
+        }
         let prototypes = self.targets(prim, "prototypes");
         let indices = self.indices(prim, "protoIndices").unwrap_or_default();
         let positions = self.numbers(prim, "positions").unwrap_or_default();

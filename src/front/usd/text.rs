@@ -146,7 +146,11 @@ impl<'a> TextReader<'a> {
                 let span = self.span(start);
                 self.layer.metadata.up_axis = Some(SpannedText { text, span });
             }
-            "metersPerUnit" | "timeCodesPerSecond" | "startTimeCode" => {
+            "relocates" => {
+                self.layer.prim_mut(0).has_relocates = true;
+                self.skip_value()?;
+            }
+            "metersPerUnit" | "timeCodesPerSecond" | "framesPerSecond" | "startTimeCode" => {
                 let Value::Numbers(numbers) = self.value()? else {
                     return self.mistake("a number is expected here");
                 };
@@ -155,6 +159,7 @@ impl<'a> TextReader<'a> {
                 *match key {
                     "metersPerUnit" => &mut metadata.meters_per_unit,
                     "startTimeCode" => &mut metadata.start_time_code,
+                    "framesPerSecond" => &mut metadata.frames_per_second,
                     _ => &mut metadata.time_codes_per_second,
                 } = number;
             }
@@ -212,6 +217,10 @@ impl<'a> TextReader<'a> {
                     let variant = self.string()?;
                     self.layer.prim_mut(index).selections.insert(set, variant);
                 }
+            }
+            "relocates" => {
+                self.layer.prim_mut(index).has_relocates = true;
+                self.skip_value()?;
             }
             "clips" => {
                 self.layer.prim_mut(index).has_clips = true;

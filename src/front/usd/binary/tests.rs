@@ -109,6 +109,7 @@ impl ReadLayer {
             up_axis,
             meters_per_unit,
             time_codes_per_second,
+            frames_per_second,
             start_time_code,
             sub_layers,
         } = &self.layer.metadata;
@@ -119,7 +120,7 @@ impl ReadLayer {
             .collect();
         let mut lines = vec![format!(
             "{default_prim:?} {up_axis:?} {meters_per_unit:?} {time_codes_per_second:?} \
-             {start_time_code:?} {sub_layers:?}"
+             {frames_per_second:?} {start_time_code:?} {sub_layers:?}"
         )];
         self.lines("", 0, &mut lines);
         lines
