@@ -19,9 +19,9 @@ pub const PICTURES: FileKind = FileKind {
     begins: is_picture,
 };
 
-/// The image formats of textures that may be brighter than white, too.
+/// The image formats of environments, and of textures that may be brighter than white, too.
 pub const TEXTURES: FileKind = FileKind {
-    extensions: &["png", "jpg", "jpeg", "webp", "ktx2", "exr", "hdr"],
+    extensions: &["png", "jpg", "jpeg", "webp", "ktx2", "exr", "hdr", "pic"],
     begins: |head| is_picture(head) || is_radiance(head),
 };
 

@@ -16,8 +16,8 @@ record! {
         /// The radiance: red, green, blue, or one number for all; with a `file`, a factor of the
         /// image.
         color: Spanned<Channels>, default(Channels([1.0; 3])), &[&["color"]];
-        /// An image of all directions, Radiance HDR or OpenEXR: longitude across, its middle
-        /// towards −z, +y up.
+        /// An image of all directions, Radiance HDR, OpenEXR or 8 bits: longitude across, its
+        /// middle towards −z, +y up.
         file: Spanned<FileName>, optional, &[&["file"]];
         /// The rotation of the environment by angles in radians: first about x, then y, then z.
         rotation: Spanned<Vector>, optional, &[&["rotation"]];

@@ -7,19 +7,12 @@ use crate::exchange::SpannedText;
 use crate::exchange::spot::falling;
 use crate::pixels;
 use rtc_diag::codes;
-use rtc_image::is_radiance;
 use rtc_ir::{EntityKind, Environment, Image, Light, Punctual, PunctualKind};
 use rtc_math::{Vec3, cos, unit};
-use rtc_source::{FileKind, Resource};
+use rtc_source::Resource;
 use std::f64::consts::PI;
 
 use super::equal_area;
-
-/// The formats of environment maps.
-const MAPS: FileKind = FileKind {
-    extensions: &["exr", "hdr", "pfm", "png"],
-    begins: is_radiance,
-};
 
 /// The light of the shapes that follow.
 #[derive(Clone, Debug)]
@@ -207,7 +200,7 @@ impl Lowering<'_> {
     /// Adds the picture of the environment; without it the environment is constant.
     fn environment_map(&mut self, path: &SpannedText, is_equal_area: bool) {
         const INSTEAD: &str = "light of one colour replaces it";
-        let Some(bytes) = self.file(path, &MAPS, INSTEAD) else {
+        let Some(bytes) = self.file(path, &pixels::TEXTURES, INSTEAD) else {
             return;
         };
         let image = match pixels::environment(&path.text, &bytes, self.map.budget()) {

@@ -2,18 +2,10 @@
 
 use super::{AssetLoader, MissingAssetPolicy, PendingAsset};
 use crate::pixels;
-use rtc_image::is_radiance;
 use rtc_ir::{ImageId, LoweredScene};
-use rtc_source::FileKind;
 
 /// The largest file read, in bytes: the largest image in 32-bit floats.
 const MAX_BYTES: u64 = 1 << 29;
-
-/// The file formats of environments.
-pub(super) const KIND: FileKind = FileKind {
-    extensions: &["hdr", "pic", "exr"],
-    begins: is_radiance,
-};
 
 /// Loads the image of the environment. If that fails, the scene has no environment.
 pub(super) fn load(

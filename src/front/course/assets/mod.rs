@@ -372,10 +372,9 @@ impl AssetLoader<'_> {
 /// The file formats of an asset.
 fn kind_of(target: &AssetTarget) -> &'static FileKind {
     match target {
-        AssetTarget::Image(_) | AssetTarget::Sampled(_) => &TEXTURES,
+        AssetTarget::Image(_) | AssetTarget::Sampled(_) | AssetTarget::Environment(_) => &TEXTURES,
         AssetTarget::Map(_) | AssetTarget::Mask(_) => &PICTURES,
         AssetTarget::Mesh(_) => &mesh::TEXT.file,
-        AssetTarget::Environment(_) => &environment::KIND,
         AssetTarget::Gltf(_) => &gltf::KIND,
         AssetTarget::Photometry(_) => &photometry::TEXT.file,
         AssetTarget::Materials => &mtl::TEXT.file,
