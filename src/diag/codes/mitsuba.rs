@@ -6,4 +6,5 @@ super::codes! { MI:
     MITSUBA_PLUGIN = "MI003", Warning, "a plugin of a Mitsuba scene is not supported";
     MITSUBA_APPROXIMATE = "MI004", Warning, "a plugin of a Mitsuba scene is shown approximately";
     MITSUBA_IGNORED = "MI005", Warning, "a property of a Mitsuba scene has no effect";
+    MITSUBA_DOUBTFUL = "MI006", Warning, "a value of a Mitsuba scene is probably not what was meant";
 }

@@ -20,12 +20,16 @@ use rtc_ir::{
     TextureId, Wrap,
 };
 use rtc_math::Plastic;
-use rtc_source::Span;
+use rtc_source::{Resource, Span};
 
 /// What distinguishes materials: the BSDF, the emitter, whether v points down and the back is
 /// black, and the media.
 pub(super) type MaterialKey = (Option<Span>, Option<Span>, [bool; 2], [Option<Span>; 2]);
 
+/// The memory of a material, in bytes, rounded up.
+const MATERIAL_BYTES: u64 = 2048;
+/// The most materials of a blend.
+const MAX_BLENDED: usize = 16;
 /// The deepest nesting of BSDFs.
 const MAX_DEPTH: usize = 16;
 
@@ -33,6 +37,24 @@ const MAX_DEPTH: usize = 16;
 pub(super) struct ColorOrMap {
     pub(super) color: [f64; 3],
     pub(super) map: Option<Map>,
+}
+
+impl PluginNode {
+    /// The colour of a texture that is the same everywhere.
+    pub(super) fn constant(&self) -> Option<[f64; 3]> {
+        let either = |names: [&str; 2]| names.into_iter().find_map(|name| self.color(name));
+        match self.plugin.text.as_str() {
+            "uniform" => either(["value", "color"]).or(Some([1.0; 3])),
+            "srgb" => either(["color", "value"]).or(Some([1.0; 3])),
+            // Relative to that of daylight, which is white.
+            "d65" => {
+                let scale = self.number("scale").unwrap_or(1.0);
+                let color = self.color("color").unwrap_or([1.0; 3]);
+                Some(color.map(|channel| scale * channel))
+            }
+            _ => None,
+        }
+    }
 }
 
 impl<'run> Lowering<'run> {
@@ -103,17 +125,31 @@ impl<'run> Lowering<'run> {
         id
     }
 
-    /// A BSDF as a standard material; `None` for `null`.
+    /// A BSDF as a standard material, which is made once; `None` for `null`.
     fn standard(&mut self, node: &'run PluginNode, flip: bool, depth: usize) -> Option<Standard> {
         // Nesting is bounded.
         if depth >= MAX_DEPTH {
             self.unsupported(node, "it is nested too deep, and grey replaces it");
             return Some(matte([0.5; 3]));
         }
+        if let Some(known) = self.standards.get(&(node.span, flip)) {
+            return known.clone();
+        }
+        self.charge(Resource::Memory, MATERIAL_BYTES, node.span);
+        let standard = self.new_standard(node, flip, depth);
+        self.standards.insert((node.span, flip), standard.clone());
+        standard
+    }
+
+    fn new_standard(
+        &mut self,
+        node: &'run PluginNode,
+        flip: bool,
+        depth: usize,
+    ) -> Option<Standard> {
         // Each plugin becomes the standard material nearest to it.
         Some(match BSDFS.known(&node.plugin.text) {
             "diffuse" | "lambertian" => {
-                self.ignored(node);
                 let channel = self.channel(node, "reflectance", [0.5; 3], flip);
                 Standard {
                     base_color_map: channel.map,
@@ -160,7 +196,6 @@ impl<'run> Lowering<'run> {
                 self.each_other(first, with_map)
             }
             "bumpmap" => {
-                self.ignored(node);
                 let inner = self.inner(node, flip, depth)?;
                 let NumberOrMap { map, .. } =
                     self.number_or_map(node, "", 0.0, NumberUse::of(flip));
@@ -185,7 +220,6 @@ impl<'run> Lowering<'run> {
     /// A blend of two BSDFs, of which either may be a blend: the first material of a chain. `None`
     /// if light passes through both.
     fn blend(&mut self, node: &'run PluginNode, flip: bool, depth: usize) -> Option<Standard> {
-        self.ignored(node);
         let parts: Vec<_> = self.bsdf_children(node);
         let [first, second, ..] = parts[..] else {
             self.approximate(
@@ -221,6 +255,11 @@ impl<'run> Lowering<'run> {
             return None;
         }
         let second = second.unwrap_or_else(clear);
+        if self.others(&second) + 2 > MAX_BLENDED {
+            let message = format!("a blend of more than {MAX_BLENDED} BSDFs lacks the last one");
+            self.approximate(node.plugin.span, message);
+            return Some(second);
+        }
         let index = self.scene.materials.len();
         self.record(EntityKind::Material, index, node.span);
         self.scene
@@ -232,6 +271,15 @@ impl<'run> Lowering<'run> {
             blend_map: weight.map,
             ..first.unwrap_or_else(clear)
         })
+    }
+
+    /// How many materials a blend has beside the first one.
+    fn others(&self, first: &Standard) -> usize {
+        let next = |part: &Standard| match self.scene.materials.get(part.blend_with?.0 as usize) {
+            Some(Material::Standard(part)) => Some(&**part),
+            _ => None,
+        };
+        std::iter::successors(next(first), |part| next(part)).count()
     }
 
     fn bsdf_children(&mut self, node: &'run PluginNode) -> Vec<&'run PluginNode> {
@@ -254,12 +302,6 @@ impl<'run> Lowering<'run> {
 
     /// A metal, or a mirror without an index.
     fn conductor(&mut self, node: &'run PluginNode, flip: bool) -> Standard {
-        for name in ["eta", "k"] {
-            if node.child(name).is_some() {
-                let message = format!("a texture of `{name}` is left out");
-                self.approximate(node.plugin.span, message);
-            }
-        }
         let given = [node.color("eta"), node.color("k")];
         let name = node.string("material").map(|name| name.text.as_str());
         let conductor = match (given, name) {
@@ -416,20 +458,8 @@ impl<'run> Lowering<'run> {
         };
         let metallic = self.number_or_map_named(node, "metallic", 0.0, of_channel(2));
         let roughness = self.number_or_map_named(node, "roughness", 0.5, of_channel(1));
-        let is_left = |name: &&str| node.child(name).is_some();
-        let others = [
-            "anisotropic",
-            "clearcoat",
-            "clearcoat_gloss",
-            "sheen",
-            "sheen_tint",
-        ];
-        let mut left: Vec<&str> = others.into_iter().filter(is_left).collect();
         if metallic.map.is_some() && roughness.map.is_some() {
-            left.push("metallic");
-        }
-        for name in left {
-            let message = format!("a texture of `{name}` is left out");
+            let message = "a texture of `metallic` is left out";
             self.approximate(node.plugin.span, message);
         }
         let unit = |number: f64| number.clamp(0.0, 1.0);
@@ -477,7 +507,6 @@ impl<'run> Lowering<'run> {
     }
 
     fn mask(&mut self, node: &'run PluginNode, inner: Standard, flip: bool) -> Standard {
-        self.ignored(node);
         let NumberOrMap { number, map } =
             self.number_or_map(node, "opacity", 0.5, NumberUse::of(flip));
         // One mask in another covers by the product of both.
@@ -550,6 +579,9 @@ impl<'run> Lowering<'run> {
                 map: None,
             };
         };
+        if let Some(color) = texture.constant() {
+            return ColorOrMap { color, map: None };
+        }
         match TEXTURES.known(&texture.plugin.text) {
             "mesh_attribute" => {
                 let name = texture.string("name").map(|name| name.text.as_str());
@@ -561,13 +593,6 @@ impl<'run> Lowering<'run> {
                     map: None,
                 }
             }
-            "uniform" | "srgb" => ColorOrMap {
-                color: texture
-                    .color("value")
-                    .or_else(|| texture.color("color"))
-                    .unwrap_or(default),
-                map: None,
-            },
             _ => {
                 let map = self.texture(texture, flip);
                 if let Some(map) = map.as_ref().filter(|_| texture.flag("raw") == Some(true)) {
@@ -594,7 +619,6 @@ impl<'run> Lowering<'run> {
         // Find the image and the filter.
         let (image, filter) = match TEXTURES.known(&node.plugin.text) {
             "bitmap" => {
-                self.ignored(node);
                 let path: &SpannedText = node.string("filename")?;
                 let filter = match node.string("filter_type") {
                     Some(name) if name.text == "nearest" => Filter::Nearest,
@@ -651,7 +675,10 @@ pub(super) fn checkerboard_colors(node: &PluginNode, flip: bool) -> ([[f64; 3]; 
 pub(super) fn rows(node: &PluginNode, flip: bool) -> [[f64; 3]; 2] {
     let scale = |name| node.number(name).unwrap_or(1.0);
     let scaled = AffineTransform::scale([scale("uscale"), scale("vscale"), 1.0]);
-    let AffineTransform([x, y, _, origin]) = node.transform("to_uv").after(&scaled);
+    let offset = |name| node.number(name).unwrap_or(0.0);
+    let moved = AffineTransform::translation([offset("uoffset"), offset("voffset"), 0.0]);
+    let placed = moved.after(&scaled);
+    let AffineTransform([x, y, _, origin]) = node.transform("to_uv").after(&placed);
     let row = |k: usize| match flip {
         false => [x[k], y[k], origin[k]],
         true => [x[k], -y[k], origin[k] + y[k]],

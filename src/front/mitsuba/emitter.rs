@@ -20,7 +20,7 @@ impl<'run> Lowering<'run> {
     /// An emitter of the scene.
     pub(super) fn emitter(&mut self, node: &'run PluginNode) {
         let to_world = node.transform("to_world");
-        let color = |name: &str| node.color(name).unwrap_or([1.0; 3]);
+        let color = |name| self.color(node, name).unwrap_or([1.0; 3]);
         match EMITTERS.known(&node.plugin.text) {
             "constant" => self.environment(node, color("radiance"), false),
             "envmap" => {
@@ -37,7 +37,6 @@ impl<'run> Lowering<'run> {
                     range: None,
                 };
                 self.light(node, emitter, color("intensity"));
-                self.ignored(node);
             }
             "directional" => {
                 let direction = node.vector("direction").map(Vec3::from_array);
@@ -46,7 +45,6 @@ impl<'run> Lowering<'run> {
                     direction: (-direction).to_array(),
                 };
                 self.light(node, emitter, color("irradiance"));
-                self.ignored(node);
             }
             "sky" | "sun" | "sunsky" => self.sky(node),
             "spot" => self.spot(node, &to_world),
@@ -75,14 +73,12 @@ impl<'run> Lowering<'run> {
             let half = tangent(cutoff.min(89.0));
             projected(map, to_world, [0.5 / half; 2])
         });
-        let intensity = node.color("intensity").unwrap_or([1.0; 3]);
+        let intensity = self.color(node, "intensity").unwrap_or([1.0; 3]);
         self.projecting_light(node, emitter, intensity, projected);
-        self.ignored(node);
     }
 
     /// A projector: a texture as the irradiance on a plane at the distance 1.
     fn projector(&mut self, node: &'run PluginNode, to_world: &AffineTransform) {
-        self.ignored(node);
         // The field of view is that of the texture, whose image is loaded later.
         let irradiance = self.channel(node, "irradiance", [1.0; 3], false);
         let scale = node.number("scale").unwrap_or(1.0);
@@ -147,7 +143,6 @@ impl<'run> Lowering<'run> {
             image,
             image_from_world: image.map(|_| rows),
         });
-        self.ignored(node);
     }
 
     /// The area light of a shape.
@@ -164,7 +159,7 @@ impl<'run> Lowering<'run> {
             return None;
         }
         // A dark one is no light.
-        (node.color("radiance") != Some([0.0; 3])).then_some(node)
+        (self.color(node, "radiance") != Some([0.0; 3])).then_some(node)
     }
 }
 

@@ -4,6 +4,7 @@ use super::Lowering;
 use super::bsdf::rows;
 use super::xml::PluginNode;
 use crate::exchange::checkerboard::checkerboard;
+use rtc_color::luminance;
 use rtc_ir::{EntityKind, Map, Standard};
 use rtc_math::Microfacets;
 use std::f64::consts::FRAC_PI_2;
@@ -162,7 +163,7 @@ impl<'run> Lowering<'run> {
         let texture = node.child(name).and_then(|child| self.resolve(child));
         match texture {
             None => {
-                let width = node.number(name).unwrap_or(DEFAULT).clamp(0.0, 1.0);
+                let width = node.color(name).map_or(DEFAULT, luminance).clamp(0.0, 1.0);
                 ([width; 2], None)
             }
             Some(texture) if texture.plugin.text == "checkerboard" => {

@@ -124,7 +124,6 @@ impl<'run> Lowering<'run> {
             self.unsupported(node, "it is left out");
             return None;
         }
-        self.ignored(node);
         if let Some(name) = node.string("material") {
             let message = format!(
                 "the coefficients of the material `{}` are not known: those of the default \

@@ -26,7 +26,9 @@
     reason = "a value of another type counts as none; slices end where a character was found"
 )]
 
+mod bounds;
 mod bsdf;
+mod clip;
 pub(crate) mod completion;
 mod emitter;
 mod facets;
@@ -40,6 +42,8 @@ mod sensor;
 mod serialized;
 mod shape;
 mod sky;
+mod transform;
+mod unused;
 mod value;
 mod xml;
 
@@ -52,13 +56,14 @@ use crate::{FrontOptions, over_limit};
 use rtc_diag::{Diagnostic, DiagnosticSink, clip, clip_path, codes};
 use rtc_ir::{
     EntityField, EntityKind, Image, ImageId, LoweredScene, MaterialId, Medium, Mesh, MeshId,
-    Pixels, Scene, Settings, SourceSpans, TextureId, ValuePath, VertexColumn,
+    Pixels, Scene, Settings, SourceSpans, Standard, TextureId, ValuePath, VertexColumn,
 };
 use rtc_source::{
     Budget, FileId, FileKind, FileSearch, LimitExceeded, Loader, Resource, SourceMap, Span,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
+use std::rc::Rc;
 use xml::PluginNode;
 
 /// The name of the root element.
@@ -87,6 +92,8 @@ pub fn lower(
     let mut lowering = Lowering::new(&root, search, map, sink);
     lowering.scene(&root);
     let flat = std::mem::take(&mut lowering.flat);
+    let turned = std::mem::take(&mut lowering.turned);
+    let clips = std::mem::take(&mut lowering.clips);
     let one_sided = std::mem::take(&mut lowering.one_sided);
     let colorless: Vec<MeshId> = std::mem::take(&mut lowering.meshes).into_values().collect();
     let projectors = std::mem::take(&mut lowering.projectors);
@@ -108,8 +115,10 @@ pub fn lower(
     }
     number::read_raw_colors(&mut lowered.scene, &raw_colors, map.budget(), sink);
     number::read_numbers(&mut lowered.scene, &numbers, map.budget(), sink);
+    shape::turn_round(&mut lowered.scene, &turned);
     one_sided::cover_backs(&mut lowered, &one_sided, sink);
     shape::flatten(&mut lowered.scene, &flat);
+    clip::report_clipped(&lowered.scene, &clips, sink);
     for (light, node) in projectors {
         emitter::fit_projector(&mut lowered.scene, light, &node);
     }
@@ -173,6 +182,8 @@ struct Lowering<'run> {
     /// Images and meshes that are pending, by path.
     images: BTreeMap<String, ImageId>,
     meshes: BTreeMap<String, MeshId>,
+    /// The bytes of `.serialized` files by path, as each may have many meshes.
+    files: BTreeMap<String, Option<Rc<[u8]>>>,
     /// The meshes of `.serialized` files, by path and index.
     serialized: BTreeMap<(String, u32), Option<MeshId>>,
     /// The meshes of PLY files whose colours are a texture, by path and whether those of faces.
@@ -181,14 +192,18 @@ struct Lowering<'run> {
     built: BTreeMap<&'static str, MeshId>,
     /// The surfaces without vertex normals, by index.
     flat: BTreeSet<usize>,
+    /// The surfaces whose meshes are turned round, by index.
+    turned: BTreeSet<usize>,
+    /// The clip planes of the sensor.
+    clips: Vec<clip::ClipPlane>,
     /// The lights that emit on one side.
     one_sided: Vec<one_sided::OneSided>,
     /// The material of backs that scatter no light.
     black: Option<MaterialId>,
-    /// What is inside BSDFs, by their span: whether it scatters light from behind, and the
-    /// attribute of meshes that it shows.
-    two_sided: BTreeMap<Span, bool>,
-    attributes: BTreeMap<Span, Option<&'run str>>,
+    /// What is inside BSDFs and textures, by their span.
+    contents: BTreeMap<Span, one_sided::BsdfContents<'run>>,
+    /// The BSDFs that were lowered, by their span and whether v points down.
+    standards: BTreeMap<(Span, bool), Option<Standard>>,
     /// The textures of numbers.
     numbers: Vec<number::NumberTexture>,
     /// The textures of colours that are not coded as sRGB.
@@ -200,6 +215,8 @@ struct Lowering<'run> {
     projectors: Vec<(usize, PluginNode)>,
     /// The folders of `<path>`.
     paths: Vec<&'run str>,
+    /// The files as the scene names them, and where they were found.
+    located: BTreeMap<String, String>,
 }
 
 impl<'run> Lowering<'run> {
@@ -209,10 +226,14 @@ impl<'run> Lowering<'run> {
         map: &'run mut SourceMap,
         sink: &'run mut DiagnosticSink,
     ) -> Self {
-        let mut shared = BTreeMap::new();
+        let mut shared: BTreeMap<&str, &PluginNode> = BTreeMap::new();
         root.visit(&mut |node| {
-            if let Some(id) = &node.id {
-                shared.insert(id.text.as_str(), node);
+            let target = match node.tag.as_str() {
+                "alias" => shared.get(node.plugin.text.as_str()).copied(),
+                _ => Some(node),
+            };
+            if let (Some(id), Some(target)) = (&node.id, target) {
+                shared.insert(id.text.as_str(), target);
             }
         });
         Self {
@@ -232,15 +253,19 @@ impl<'run> Lowering<'run> {
             colored: BTreeMap::new(),
             built: BTreeMap::new(),
             flat: BTreeSet::new(),
+            turned: BTreeSet::new(),
+            clips: Vec::new(),
             one_sided: Vec::new(),
             black: None,
-            two_sided: BTreeMap::new(),
-            attributes: BTreeMap::new(),
+            contents: BTreeMap::new(),
+            standards: BTreeMap::new(),
             numbers: Vec::new(),
             raw_colors: Vec::new(),
             is_exhausted: false,
             has_sensor: false,
             projectors: Vec::new(),
+            located: BTreeMap::new(),
+            files: BTreeMap::new(),
             paths: root
                 .children
                 .iter()
@@ -258,7 +283,8 @@ impl<'run> Lowering<'run> {
         }
         for node in &root.children {
             match node.tag.as_str() {
-                "integrator" | "bsdf" | "texture" | "spectrum" | "path" => {}
+                "integrator" | "bsdf" | "texture" | "path" | "ref" | "alias" => {}
+                "spectrum" | "rgb" | "srgb" => {}
                 // What shapes and media refer to.
                 "medium" | "phase" | "volume" => {}
                 // An area light that shapes refer to.
@@ -273,6 +299,7 @@ impl<'run> Lowering<'run> {
             let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, "the scene has no sensor");
             self.sink.push(diagnostic.at(root.span, "add a `<sensor>`"));
         }
+        self.report_unused(root);
     }
 
     fn record(&mut self, entity: EntityKind, index: usize, span: Span) {
@@ -293,25 +320,9 @@ impl<'run> Lowering<'run> {
         self.resolve(node)
     }
 
-    /// An element and all inside it, references followed, each once.
-    fn reachable(&self, node: &'run PluginNode) -> Vec<&'run PluginNode> {
-        let (mut found, mut seen) = (vec![node], BTreeSet::from([node.span]));
-        let mut next = 0;
-        while let Some(node) = found.get(next).copied() {
-            next += 1;
-            let children = node.children.iter();
-            let targets = children.filter_map(|child| match child.tag.as_str() {
-                "ref" => self.shared.get(child.plugin.text.as_str()).copied(),
-                _ => Some(child),
-            });
-            found.extend(targets.filter(|target| seen.insert(target.span)));
-        }
-        found
-    }
-
-    /// Charges one of a resource. If the budget is exceeded, that is reported once.
-    fn charge(&mut self, resource: Resource, span: Span) -> Option<()> {
-        let charged = self.map.budget().charge(resource, 1);
+    /// Charges a resource. If the budget is exceeded, that is reported once.
+    fn charge(&mut self, resource: Resource, amount: u64, span: Span) -> Option<()> {
+        let charged = self.map.budget().charge(resource, amount);
         let Err(fault) = charged else {
             return Some(());
         };
@@ -322,20 +333,19 @@ impl<'run> Lowering<'run> {
         None
     }
 
-    /// Follows a reference to the shared element.
-    fn resolve(&mut self, node: &'run PluginNode) -> Option<&'run PluginNode> {
-        if node.tag != "ref" {
-            return Some(node);
+    /// The element to which a reference or another name leads.
+    fn shared_node(&self, node: &PluginNode) -> Option<&'run PluginNode> {
+        let is_reference = matches!(node.tag.as_str(), "ref" | "alias");
+        let target = self.shared.get(node.plugin.text.as_str()).copied();
+        target.filter(|_| is_reference)
+    }
+
+    /// Follows a reference to the shared element; one that leads nowhere is reported apart.
+    fn resolve(&self, node: &'run PluginNode) -> Option<&'run PluginNode> {
+        match node.tag.as_str() {
+            "ref" => self.shared_node(node),
+            _ => Some(node),
         }
-        let id = node.plugin.text.as_str();
-        let target = self.shared.get(id).copied();
-        if target.is_none() {
-            let message = format!("there is no element with the id `{}`", clip(id));
-            let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
-            self.sink
-                .push(diagnostic.at(node.plugin.span, "refers to nothing"));
-        }
-        target
     }
 
     /// Warns of a plugin that is left out or replaced.
@@ -364,42 +374,43 @@ impl<'run> Lowering<'run> {
         self.sink.push(diagnostic.at(node.span, ""));
     }
 
-    /// Warns of properties of a plugin that its table does not have.
-    fn ignored(&mut self, node: &PluginNode) {
-        let table = plugins::kind(&node.tag);
-        for property in &node.properties {
-            let name = property.name.text.as_str();
-            if !table.is_some_and(|table| table.has(&node.plugin.text, name)) {
-                let message = format!(
-                    "`{}` of the {} `{}` has no effect",
-                    clip(&property.name.text),
-                    node.tag,
-                    clip(&node.plugin.text)
-                );
-                let diagnostic = Diagnostic::new(&codes::MITSUBA_IGNORED, message);
-                self.sink.push(diagnostic.at(property.name.span, ""));
-            }
-        }
+    /// Warns of what is read, and is probably not what was meant.
+    fn doubtful(&mut self, span: Span, message: impl Into<String>) {
+        let diagnostic = Diagnostic::new(&codes::MITSUBA_DOUBTFUL, message);
+        self.sink.push(diagnostic.at(span, ""));
+    }
+
+    /// A colour: a property, or what it refers to.
+    fn color(&self, node: &'run PluginNode, name: &str) -> Option<[f64; 3]> {
+        let referred = || self.resolve(node.child(name)?)?.constant();
+        node.color(name).or_else(referred)
     }
 
     /// A file as the scene names it, below the first folder of `<path>` that has it.
-    fn located(&self, name: &SpannedText) -> SpannedText {
+    fn located(&mut self, name: &SpannedText) -> SpannedText {
+        /// The work of looking for a file in a folder, in nodes.
+        const LOOKUP: u64 = 16;
         const ANY: FileKind = FileKind {
             extensions: &[],
             begins: |_| true,
         };
-        let below = |folder: &&str| format!("{folder}/{}", name.text);
-        let has = |path: &String| {
-            let found = self.search.find(path, &ANY);
-            found.is_ok_and(|found| !found.elsewhere)
-        };
-        match self.paths.iter().map(below).find(has) {
-            Some(text) => SpannedText {
-                text,
-                span: name.span,
-            },
-            None => name.clone(),
+        if let Some(known) = self.located.get(&name.text) {
+            let text = known.clone();
+            return SpannedText { text, ..*name };
         }
+        let mut text = name.text.clone();
+        for folder in self.paths.clone() {
+            if self.charge(Resource::Nodes, LOOKUP, name.span).is_none() {
+                break;
+            }
+            let path = format!("{folder}/{}", name.text).replace('\\', "/");
+            if self.search.above(&path, Some(&ANY)).is_ok() {
+                text = path;
+                break;
+            }
+        }
+        self.located.insert(name.text.clone(), text.clone());
+        SpannedText { text, ..*name }
     }
 
     /// An image of one pixel that waits for its file.
@@ -456,7 +467,15 @@ impl<'run> Lowering<'run> {
             let mesh = serialized::read(bytes, index, budget)?;
             Ok((mesh, None))
         };
-        let id = self.read_mesh(path, &serialized::KIND, parse);
+        let bytes = match self.files.get(&path.text) {
+            Some(known) => known.clone(),
+            None => {
+                let bytes = self.file_bytes(path, &serialized::KIND).map(Rc::from);
+                self.files.insert(path.text.clone(), bytes.clone());
+                bytes
+            }
+        };
+        let id = bytes.and_then(|bytes| self.read_mesh(path, &bytes, parse));
         self.serialized.insert(key, id);
         id
     }
@@ -477,7 +496,8 @@ impl<'run> Lowering<'run> {
             let loss = parsed.loss();
             Ok((parsed.mesh, loss))
         };
-        let id = self.read_mesh(path, &PLY, parse);
+        let bytes = self.file_bytes(path, &PLY);
+        let id = bytes.and_then(|bytes| self.read_mesh(path, &bytes, parse));
         self.colored.insert(key, id);
         id
     }
@@ -486,11 +506,10 @@ impl<'run> Lowering<'run> {
     fn read_mesh(
         &mut self,
         path: &SpannedText,
-        kind: &FileKind,
+        bytes: &[u8],
         parse: impl Fn(&[u8], &Budget) -> Result<(Mesh, Option<String>), MeshReadError>,
     ) -> Option<MeshId> {
-        let bytes = self.file_bytes(path, kind)?;
-        let diagnostic = match parse(&bytes, self.map.budget()) {
+        let diagnostic = match parse(bytes, self.map.budget()) {
             Ok((mesh, loss)) => {
                 if let Some(message) = loss {
                     let diagnostic = Diagnostic::new(&codes::NOT_DRAWN, message);

@@ -98,11 +98,10 @@ impl<'run> Lowering<'run> {
         let Some(texture) = texture else {
             return constant(default);
         };
+        if let Some(color) = texture.constant() {
+            return constant(luminance(color));
+        }
         let map = match TEXTURES.known(&texture.plugin.text) {
-            "uniform" | "srgb" => {
-                let value = texture.color("value").or_else(|| texture.color("color"));
-                return constant(value.map_or(default, luminance));
-            }
             "bitmap" => self.numbers_of_bitmap(texture, how),
             "checkerboard" => {
                 let (colors, squares) = checkerboard_colors(texture, flip);

@@ -8,8 +8,8 @@ use crate::exchange::one_sided::{behind, flat_mesh, is_closed};
 use crate::exchange::transform::AffineTransform;
 use rtc_diag::{Diagnostic, DiagnosticSink, codes};
 use rtc_ir::{
-    Disc, EntityField, EntityKind, LoweredScene, Material, MaterialId, Mesh, Shape, Surface,
-    ValuePath,
+    Disc, Ellipsoid, EntityField, EntityKind, LoweredScene, Material, MaterialId, Mesh, Shape,
+    Sphere, Surface, ValuePath,
 };
 use rtc_math::Vec3;
 use rtc_source::Span;
@@ -23,7 +23,23 @@ pub(super) struct OneSided {
     pub(super) to_world: AffineTransform,
     /// Whether its normal is reversed.
     pub(super) is_flipped: bool,
+    /// Whether its shape is turned round for that.
+    pub(super) is_turned: bool,
     pub(super) span: Span,
+}
+
+/// How far the cover of a sphere is from it, over the radius.
+const AROUND: f64 = 1e-5;
+/// The deepest nesting of what is looked at for the contents of a BSDF.
+const MAX_DEPTH: usize = 64;
+
+/// What is inside a BSDF, itself included.
+#[derive(Clone, Copy, Default)]
+pub(super) struct BsdfContents<'run> {
+    /// Whether any part scatters light that comes from behind.
+    has_two_sides: bool,
+    /// The attribute of meshes that a texture shows.
+    pub(super) attribute: Option<&'run str>,
 }
 
 impl<'run> Lowering<'run> {
@@ -49,10 +65,20 @@ impl<'run> Lowering<'run> {
 
     /// Whether a BSDF, or one inside it, scatters light that comes from behind.
     pub(super) fn has_two_sides(&mut self, bsdf: &'run PluginNode) -> bool {
-        if let Some(known) = self.two_sided.get(&bsdf.span) {
+        self.contents(bsdf, 0).has_two_sides
+    }
+
+    /// What is inside a BSDF or a texture; each is looked at once.
+    pub(super) fn contents(&mut self, node: &'run PluginNode, depth: usize) -> BsdfContents<'run> {
+        if let Some(known) = self.contents.get(&node.span) {
             return *known;
         }
-        let is_two_sided = |node: &&PluginNode| match node.plugin.text.as_str() {
+        if depth >= MAX_DEPTH {
+            return BsdfContents::default();
+        }
+        // What is inside itself ends there.
+        self.contents.insert(node.span, BsdfContents::default());
+        let has_two_sides = match node.plugin.text.as_str() {
             "twosided" | "dielectric" | "thindielectric" | "roughdielectric" | "null" | "hair"
             | "polarizer" | "circular" | "retarder" | "principledthin" => true,
             "principled" => {
@@ -61,9 +87,22 @@ impl<'run> Lowering<'run> {
             }
             _ => false,
         };
-        let has = self.reachable(bsdf).iter().any(is_two_sided);
-        self.two_sided.insert(bsdf.span, has);
-        has
+        let attribute = node.string("name").map(|name| name.text.as_str());
+        let is_attribute = node.plugin.text == "mesh_attribute";
+        let mut contents = BsdfContents {
+            has_two_sides,
+            attribute: attribute.filter(|_| is_attribute),
+        };
+        for child in &node.children {
+            let Some(child) = self.resolve(child) else {
+                continue;
+            };
+            let inside = self.contents(child, depth + 1);
+            contents.has_two_sides |= inside.has_two_sides;
+            contents.attribute = contents.attribute.or(inside.attribute);
+        }
+        self.contents.insert(node.span, contents);
+        contents
     }
 }
 
@@ -99,8 +138,9 @@ pub(super) fn cover_backs(
                     continue;
                 };
                 let placed = AffineTransform(instance.world_from_object.map(Vec3::from_array));
-                let back = back_of(mesh, &placed, light.is_flipped);
-                if back.is_none() && !is_closed(mesh) {
+                let is_against = light.is_flipped != light.is_turned;
+                let back = back_of(mesh, &placed, is_against);
+                if back.is_none() && (light.is_flipped || !is_closed(mesh)) {
                     let message = "the light shines from both sides of its shape";
                     let diagnostic = Diagnostic::new(&codes::MITSUBA_APPROXIMATE, message);
                     sink.push(diagnostic.at(light.span, ""));
@@ -110,7 +150,17 @@ pub(super) fn cover_backs(
                     moved.instance(instance.mesh)
                 })
             }
-            // No camera is inside of a sphere that shines outward.
+            // The front of these is inside; no camera is inside of one that shines outward.
+            Shape::Sphere(sphere) if light.is_flipped => Some(Shape::Sphere(Sphere {
+                radius: sphere.radius * (1.0 + AROUND),
+                ..sphere.clone()
+            })),
+            Shape::Ellipsoid(solid) if light.is_flipped => Some(Shape::Ellipsoid(Ellipsoid {
+                axes: solid
+                    .axes
+                    .map(|axis| axis.map(|part| part * (1.0 + AROUND))),
+                ..solid.clone()
+            })),
             _ => None,
         };
         let Some(shape) = cover else { continue };

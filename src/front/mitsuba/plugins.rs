@@ -91,6 +91,8 @@ const ANY_SHAPE: &[DeclaredParameter] = &[
 const MESH: &[DeclaredParameter] = &[
     p("filename", "string", "The file."),
     p("face_normals", "boolean", "Whether it is flat between its edges."),
+    p("collapse", "boolean", NONE),
+    p("load_materials", "boolean", NONE),
 ];
 const FLIP_UV: &[DeclaredParameter] = &[p("flip_tex_coords", "boolean", "Whether v points down in the file.")];
 const RADIUS: &[DeclaredParameter] = &[p("radius", "float", "The radius.")];
@@ -135,6 +137,14 @@ const FACETS: &[DeclaredParameter] = &[
     p("alpha_u", NUMBER, "The width along u."),
     p("alpha_v", NUMBER, "The width along v."),
     p("distribution", "string", "`ggx` or `beckmann`, which is the default."),
+    p("sample_visible", "boolean", NONE),
+];
+/// They turn the polarization, of which light has none here.
+const POLARIZATION: &[DeclaredParameter] = &[
+    p("theta", NUMBER, NONE),
+    p("delta", NUMBER, NONE),
+    p("polarizing", "boolean", NONE),
+    p("left_handed", "boolean", NONE),
 ];
 const NONLINEAR: &[DeclaredParameter] = &[p("nonlinear", "boolean", "Whether light between the base and the boundary takes its colour each time.")];
 const PRINCIPLED: &[DeclaredParameter] = &[
@@ -144,6 +154,12 @@ const PRINCIPLED: &[DeclaredParameter] = &[
     p("sheen", "float", "The strength of the sheen, from 0 to 1."),
     p("spec_trans", NUMBER, "The share of light that glass lets through, from 0 to 1."),
     p("eta", "float", "The index of refraction."),
+    p("diffuse_reflectance_sampling_rate", "float", NONE),
+    p("main_specular_sampling_rate", "float", NONE),
+    p("clearcoat_sampling_rate", "float", NONE),
+    p("spec_refl_sampling_rate", "float", NONE),
+    p("spec_trans_sampling_rate", "float", NONE),
+    p("diff_trans_sampling_rate", "float", NONE),
 ];
 
 pub(crate) static BSDFS: PluginKind = PluginKind {
@@ -172,10 +188,13 @@ pub(crate) static BSDFS: PluginKind = PluginKind {
         plugin("bumpmap", "The BSDF inside, with a texture of heights.", &[&[p("scale", "float", "A factor of the heights.")]]),
         plugin("blendbsdf", "A blend of the two BSDFs inside.", &[&[p("weight", NUMBER, "The share of the second one, from 0 to 1.")]]),
         plugin("null", "No surface: light passes through.", &[]),
-        plugin("polarizer", "A filter that lets half of the light through.", &[TRANSMITTANCE]),
-        plugin("retarder", "A filter that turns the polarization.", &[TRANSMITTANCE]),
-        plugin("circular", "A filter that lets half of the light through.", &[TRANSMITTANCE]),
-        plugin("roughdiffuse", "A matte surface, in version 0.", &[REFLECTANCE]),
+        plugin("polarizer", "A filter that lets half of the light through.", &[TRANSMITTANCE, POLARIZATION]),
+        plugin("retarder", "A filter that turns the polarization.", &[TRANSMITTANCE, POLARIZATION]),
+        plugin("circular", "A filter that lets half of the light through.", &[TRANSMITTANCE, POLARIZATION]),
+        plugin("roughdiffuse", "A matte surface, in version 0.", &[REFLECTANCE, &[
+            p("alpha", NUMBER, "The roughness, which is left out."),
+            p("use_fast_approx", "boolean", NONE),
+        ]]),
         plugin("lambertian", "A matte surface, in version 0.", &[REFLECTANCE]),
     ],
     replaced: &["phong", "ward"],
@@ -185,6 +204,8 @@ const UV: &[DeclaredParameter] = &[
     p("to_uv", "transform", "The transform of the texture coordinates."),
     p("uscale", "float", "A factor of u, in version 0."),
     p("vscale", "float", "A factor of v, in version 0."),
+    p("uoffset", "float", "What is added to u, in version 0."),
+    p("voffset", "float", "What is added to v, in version 0."),
 ];
 const VALUE: &[DeclaredParameter] = &[p("value", "float rgb spectrum", "The value.")];
 
@@ -195,6 +216,10 @@ pub(crate) static TEXTURES: PluginKind = PluginKind {
             p("wrap_mode", "string", "What is around the picture: `repeat`, `mirror` or `clamp`."),
             p("filter_type", "string", "`bilinear` or `nearest`."),
             p("raw", "boolean", "Whether its numbers are linear, and no colours."),
+            p("format", "string", NONE),
+            p("accel", "boolean", NONE),
+            p("cache", "boolean", NONE),
+            p("max_anisotropy", "float", NONE),
         ], UV]),
         plugin("checkerboard", "Squares of two colours.", &[&[
             p("color0", "rgb spectrum float", "One colour; 0.4 by default."),
@@ -206,10 +231,15 @@ pub(crate) static TEXTURES: PluginKind = PluginKind {
         ]]),
         plugin("uniform", "One value.", &[VALUE]),
         plugin("srgb", "One colour.", &[&[p("color", "rgb", "The colour.")], VALUE]),
+        plugin("d65", "Daylight, which is white.", &[&[
+            p("color", "rgb", "A colour that it takes."),
+            p("scale", "float", "A factor."),
+        ]]),
     ],
     replaced: &[],
 };
 
+const WEIGHT: &[DeclaredParameter] = &[p("sampling_weight", "float", NONE)];
 const INTENSITY: &[DeclaredParameter] = &[p("intensity", "rgb spectrum", "The intensity.")];
 const FOV: &[DeclaredParameter] = &[
     p("fov", "float", "The angle of view, in degrees."),
@@ -239,37 +269,41 @@ const SKY: &[DeclaredParameter] = &[
 
 pub(crate) static EMITTERS: PluginKind = PluginKind {
     plugins: &[
-        plugin("area", "The light of a shape.", &[&[p("radiance", COLOR, "The radiance.")]]),
-        plugin("constant", "Light of one colour from all around.", &[&[p("radiance", "rgb spectrum", "The radiance.")], TO_WORLD]),
+        plugin("area", "The light of a shape.", &[&[p("radiance", COLOR, "The radiance.")], WEIGHT]),
+        plugin("constant", "Light of one colour from all around.", &[&[p("radiance", "rgb spectrum", "The radiance.")], TO_WORLD, WEIGHT]),
         plugin("envmap", "Light from all around, by a picture.", &[&[
             p("filename", "string", "The picture of all directions."),
             p("scale", "float", "A factor of the light."),
-        ], TO_WORLD]),
-        plugin("point", "A point that shines into all directions.", &[&[p("position", "point", "The position.")], INTENSITY, TO_WORLD]),
+            p("mis_compensation", "boolean", NONE),
+            p("cache", "boolean", NONE),
+        ], TO_WORLD, WEIGHT]),
+        plugin("point", "A point that shines into all directions.", &[&[p("position", "point", "The position.")], INTENSITY, TO_WORLD, WEIGHT]),
         plugin("directional", "Parallel light, as of the sun.", &[&[
             p("direction", "vector", "The direction in which it shines."),
             p("irradiance", "rgb spectrum", "The irradiance."),
-        ], TO_WORLD]),
+        ], TO_WORLD, WEIGHT]),
         plugin("spot", "A cone of light along z.", &[INTENSITY, &[
             p("cutoff_angle", "float", "The angle of the cone from its axis, in degrees."),
             p("beam_width", "float", "The angle of full light from the axis, in degrees."),
             p("texture", "texture", "A picture that it projects."),
-        ], TO_WORLD]),
+        ], TO_WORLD, WEIGHT]),
         plugin("projector", "A picture that is projected along z.", &[&[
             p("irradiance", COLOR, "The picture."),
             p("scale", "float", "A factor of the light."),
-        ], FOV, TO_WORLD]),
-        plugin("sunsky", "The sun and the sky.", &[SKY, TO_WORLD]),
-        plugin("sky", "The sky.", &[SKY, TO_WORLD]),
-        plugin("sun", "The sun.", &[SKY, TO_WORLD]),
+        ], FOV, TO_WORLD, WEIGHT]),
+        plugin("sunsky", "The sun and the sky.", &[SKY, TO_WORLD, WEIGHT]),
+        plugin("sky", "The sky.", &[SKY, TO_WORLD, WEIGHT]),
+        plugin("sun", "The sun.", &[SKY, TO_WORLD, WEIGHT]),
     ],
     replaced: &[],
 };
 
 const ANY_SENSOR: &[DeclaredParameter] = &[
     p("to_world", "transform", "The transform to the world; it looks along z."),
-    p("near_clip", "float", NONE),
-    p("far_clip", "float", NONE),
+    p("near_clip", "float", "What is nearer is hidden in Mitsuba; it is shown."),
+    p("far_clip", "float", "What is farther is hidden in Mitsuba; it is shown."),
+    p("shutter_open", "float", NONE),
+    p("shutter_close", "float", NONE),
 ];
 const VIEW: &[DeclaredParameter] = &[
     p("fov", "float", "The angle of view, in degrees."),
@@ -299,6 +333,14 @@ const SIZE: &[DeclaredParameter] = &[
     p("crop_offset_y", "integer", "The first row that is shown."),
     p("crop_width", "integer", "The columns that are shown."),
     p("crop_height", "integer", "The rows that are shown."),
+    p("file_format", "string", NONE),
+    p("pixel_format", "string", NONE),
+    p("component_format", "string", NONE),
+    p("sample_border", "boolean", NONE),
+    p("compensate", "boolean", NONE),
+    p("high_quality_edges", "boolean", NONE),
+    p("banner", "boolean", NONE),
+    p("attach_log", "boolean", NONE),
 ];
 
 /// The reader takes any film and any sampler.
@@ -311,7 +353,13 @@ pub(crate) static FILMS: PluginKind = PluginKind {
     replaced: &[],
 };
 
-const COUNT: &[DeclaredParameter] = &[p("sample_count", "integer", "The samples of a pixel.")];
+const COUNT: &[DeclaredParameter] = &[
+    p("sample_count", "integer", "The samples of a pixel."),
+    p("seed", "integer", NONE),
+    p("jitter", "boolean", NONE),
+    p("dimension", "integer", NONE),
+    p("scramble", "integer boolean", NONE),
+];
 
 pub(crate) static SAMPLERS: PluginKind = PluginKind {
     plugins: &[
@@ -342,6 +390,12 @@ pub(crate) static FILTERS: PluginKind = PluginKind {
     replaced: &[],
 };
 
+const HIDING: &[DeclaredParameter] = &[
+    p("hide_emitters", "boolean", "Whether the camera sees no lights; it sees them."),
+    p("block_size", "integer", NONE),
+    p("samples_per_pass", "integer", NONE),
+    p("timeout", "float", NONE),
+];
 const DEPTH: &[DeclaredParameter] = &[
     p("max_depth", "integer", "The most edges of a path; −1 for any number."),
     p("rr_depth", "integer", NONE),
@@ -350,12 +404,16 @@ const DEPTH: &[DeclaredParameter] = &[
 
 pub(crate) static INTEGRATORS: PluginKind = PluginKind {
     plugins: &[
-        plugin("path", "Path tracing.", &[DEPTH]),
-        plugin("volpath", "Path tracing with participating media.", &[DEPTH]),
-        plugin("direct", "Direct light.", &[]),
-        plugin("volpathmis", "Path tracing with participating media.", &[DEPTH]),
-        plugin("prb", "Path tracing.", &[DEPTH]),
-        plugin("volpath_simple", "Path tracing with participating media, in version 0.", &[DEPTH]),
+        plugin("path", "Path tracing.", &[DEPTH, HIDING]),
+        plugin("volpath", "Path tracing with participating media.", &[DEPTH, HIDING]),
+        plugin("direct", "Direct light.", &[HIDING, &[
+            p("shading_samples", "integer", NONE),
+            p("emitter_samples", "integer", NONE),
+            p("bsdf_samples", "integer", NONE),
+        ]]),
+        plugin("volpathmis", "Path tracing with participating media.", &[DEPTH, HIDING]),
+        plugin("prb", "Path tracing.", &[DEPTH, HIDING]),
+        plugin("volpath_simple", "Path tracing with participating media, in version 0.", &[DEPTH, HIDING]),
     ],
     replaced: &["moment", "aov", "stokes"],
 };

@@ -1,6 +1,7 @@
 //! Integrators, sensors, films and samplers.
 
 use super::Lowering;
+use super::clip::ClipPlane;
 use super::plugins::{FILTERS, INTEGRATORS, SENSORS};
 use super::xml::PluginNode;
 use crate::exchange::traced;
@@ -54,6 +55,9 @@ impl<'run> Lowering<'run> {
     /// The depth of an integrator. A path of `max_depth` edges has `max_depth` − 1 bounces.
     pub(super) fn integrator(&mut self, node: &'run PluginNode) {
         self.integrator_of_media(node);
+        if node.flag("hide_emitters") == Some(true) {
+            self.approximate(node.span, "`hide_emitters` is left out: lights are seen");
+        }
         match INTEGRATORS.known(&node.plugin.text) {
             "path" | "volpath" | "volpathmis" | "prb" | "volpath_simple" => {
                 let depth = node.number("max_depth").unwrap_or(-1.0);
@@ -61,7 +65,6 @@ impl<'run> Lowering<'run> {
                     let depth = node.count("max_depth").unwrap_or(0);
                     self.settings().max_depth = depth.saturating_sub(1);
                 }
-                self.ignored(node);
             }
             // Its light and its samples of the BSDF end at the first surface.
             "direct" => {
@@ -103,7 +106,8 @@ impl<'run> Lowering<'run> {
             }
         }
         self.medium_of_sensor(node);
-        // Lower the camera and report parameters that have no effect.
+        self.clips = ClipPlane::of(node);
+        // Lower the camera.
         let to_world = node.transform("to_world");
         let camera = match SENSORS.known(&node.plugin.text) {
             "orthographic" => orthographic(&to_world, size),
@@ -113,9 +117,6 @@ impl<'run> Lowering<'run> {
                 self.perspective(node, &to_world, size)
             }
         };
-        if SENSORS.find(&node.plugin.text).is_some() {
-            self.ignored(node);
-        }
         // A degenerate transform has no view.
         match camera {
             Some(camera) => {

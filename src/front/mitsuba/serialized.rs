@@ -19,6 +19,9 @@ pub(super) const MAX_BYTES: u64 = 1 << 30;
 /// The first bytes of each mesh: the format, before the version.
 const MAGIC: [u8; 2] = [0x1c, 0x04];
 
+/// The longest name of a mesh, in bytes.
+const MAX_NAME: usize = 4096;
+
 /// The flags of a mesh.
 const HAS_NORMALS: u32 = 0x1;
 const HAS_UVS: u32 = 0x2;
@@ -49,8 +52,9 @@ pub(super) fn read(bytes: &[u8], index: u32, budget: &Budget) -> Result<Mesh, Me
     }
     // Charge the memory before it is taken.
     let (vertices, triangles) = (stream.u64()?, stream.u64()?);
-    let numbers =
-        3 + if flags & HAS_NORMALS != 0 { 3 } else { 0 } + if flags & HAS_UVS != 0 { 2 } else { 0 };
+    let columns = [(HAS_NORMALS, 3), (HAS_UVS, 2), (HAS_COLORS, 3)];
+    let given = columns.into_iter().filter(|(flag, _)| flags & flag != 0);
+    let numbers = 3 + given.map(|(_, size)| size).sum::<u64>();
     budget.charge(Resource::Vertices, vertices)?;
     let memory = vertices.saturating_mul(8 * numbers);
     budget.charge(
@@ -158,8 +162,12 @@ impl SerializedStream<'_> {
 
     /// A name ends with a byte 0.
     fn skip_name(&mut self) -> Result<(), MeshReadError> {
-        while self.bytes::<1>()? != [0] {}
-        Ok(())
+        for _ in 0..=MAX_NAME {
+            if self.bytes::<1>()? == [0] {
+                return Ok(());
+            }
+        }
+        Err(MeshReadError::damaged("the name of a mesh has no end"))
     }
 
     /// One vector for each vertex.
@@ -225,6 +233,19 @@ mod tests {
         assert_eq!(second.positions.at(1), [6.0, 0.0, 0.0]);
         assert_eq!(second.triangles[..], [[0, 1, 2]]);
         assert!(mesh(2).is_err());
+    }
+
+    #[test]
+    fn a_name_without_an_end_is_not_unpacked() {
+        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::best());
+        encoder.write_all(&0x1000_u32.to_le_bytes()).unwrap();
+        encoder.write_all(&vec![b'a'; 1 << 20]).unwrap();
+        let mut file = vec![0x1c, 0x04, 4, 0];
+        file.extend(encoder.finish().unwrap());
+        let mut stream = SerializedStream(ZlibDecoder::new(&file[4..]));
+        stream.u32().ok().unwrap();
+        assert!(stream.skip_name().is_err());
+        assert!(stream.0.total_out() < 5000, "{}", stream.0.total_out());
     }
 
     #[test]

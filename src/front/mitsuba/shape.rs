@@ -22,8 +22,13 @@ impl<'run> Lowering<'run> {
     }
 
     fn shape_at(&mut self, node: &'run PluginNode, outer: &AffineTransform, depth: usize) {
-        // Charge each visit, as groups of groups multiply.
-        if self.charge(Resource::Surfaces, node.span).is_none() {
+        // Charge each visit and what it looks through, as groups of groups multiply.
+        let parts = (node.children.len() + node.properties.len()) as u64;
+        let charged = self.charge(Resource::Surfaces, 1, node.span);
+        if charged
+            .and_then(|()| self.charge(Resource::Nodes, parts, node.span))
+            .is_none()
+        {
             return;
         }
         let to_world = outer.after(&node.transform("to_world"));
@@ -67,7 +72,12 @@ impl<'run> Lowering<'run> {
             || plugin == "sphere" && is_similar;
         // A mesh that is reflected has its front where its triangles run counterclockwise.
         let is_reflected = to_world.determinant() < 0.0;
-        let is_seen_behind = is_reflected || node.flag("flip_normals") == Some(true);
+        let is_flipped = node.flag("flip_normals") == Some(true);
+        let bsdf = self.bsdf_of(node);
+        let has_one_side = bsdf.is_none_or(|bsdf| !self.has_two_sides(bsdf));
+        // The front of a sphere cannot be inside: it gets a cover.
+        let is_turned = is_flipped && !is_reflected && has_one_side && plugin != "sphere";
+        let is_seen_behind = is_reflected || is_flipped && !is_turned;
         let media = self.media_of(node, is_seen_behind);
         let Some(material) = self.material(node, emitter, [flip, is_seen_behind], media) else {
             if emitter.is_some() {
@@ -91,18 +101,29 @@ impl<'run> Lowering<'run> {
                 None
             }
         };
-        let Some(shape) = geometry else { return };
+        let Some(mut shape) = geometry else { return };
+        match &mut shape {
+            Shape::Disc(disc) if is_turned => {
+                disc.normal = disc.normal.map(|coordinate| -coordinate);
+            }
+            Shape::Instance(_) if is_turned => {
+                self.turned.insert(self.scene.surfaces.len());
+            }
+            _ => {}
+        }
         let material = self.face_forward(node, material);
         if node.flag("face_normals") == Some(true) {
             self.flat.insert(self.scene.surfaces.len());
         }
-        if emitter.is_some() {
+        let is_inside = is_flipped && has_one_side && plugin == "sphere";
+        if emitter.is_some() || is_inside {
             let back = self.back_material(node, flip);
             self.one_sided.push(OneSided {
                 surface: self.scene.surfaces.len(),
                 back,
                 to_world,
-                is_flipped: node.flag("flip_normals") == Some(true),
+                is_flipped,
+                is_turned,
                 span: node.span,
             });
         }
@@ -124,7 +145,6 @@ impl<'run> Lowering<'run> {
     }
 
     fn mesh(&mut self, node: &'run PluginNode, to_world: &AffineTransform) -> Option<Shape> {
-        self.ignored(node);
         let Some(path) = node.string("filename") else {
             self.unsupported(node, "it names no file, and is left out");
             return None;
@@ -143,18 +163,7 @@ impl<'run> Lowering<'run> {
     /// Which colours of its mesh a texture of the BSDF of a shape shows.
     fn mesh_colors(&mut self, shape: &'run PluginNode) -> Option<PlyColors> {
         let bsdf = self.bsdf_of(shape)?;
-        let attribute = |node: &&PluginNode| node.plugin.text == "mesh_attribute";
-        let name = match self.attributes.get(&bsdf.span) {
-            Some(known) => *known,
-            None => {
-                let texture = self.reachable(bsdf).into_iter().find(attribute);
-                let name = texture.and_then(|texture| texture.string("name"));
-                let name = name.map(|name| name.text.as_str());
-                self.attributes.insert(bsdf.span, name);
-                name
-            }
-        };
-        match name? {
+        match self.contents(bsdf, 0).attribute? {
             "vertex_color" => Some(PlyColors::Vertices),
             "face_color" => Some(PlyColors::Faces),
             _ => None,
@@ -186,7 +195,6 @@ impl<'run> Lowering<'run> {
         to_world: &AffineTransform,
         has_maps: bool,
     ) -> Option<Shape> {
-        self.ignored(node);
         let center = node.vector("center").unwrap_or([0.0; 3]);
         let radius = node.number("radius").unwrap_or(1.0);
         if has_maps && to_world.similarity().is_none() {
@@ -206,7 +214,6 @@ impl<'run> Lowering<'run> {
         to_world: &AffineTransform,
         has_maps: bool,
     ) -> Option<Shape> {
-        self.ignored(node);
         match round::disc(0.0, 1.0, to_world).filter(|_| !has_maps) {
             Some(disc) => Some(Shape::Disc(disc)),
             None => {
@@ -218,7 +225,6 @@ impl<'run> Lowering<'run> {
 
     /// A cylinder from `p0` to `p1`, open at both ends.
     fn cylinder(&mut self, node: &'run PluginNode, to_world: &AffineTransform) -> Option<Shape> {
-        self.ignored(node);
         self.approximate(
             node.span,
             "the cylinder is shown as a mesh of 256 triangles",
@@ -231,46 +237,72 @@ impl<'run> Lowering<'run> {
     }
 }
 
-/// Removes the vertex normals of the meshes of some surfaces. A mesh that other surfaces share is
-/// copied.
+/// Removes the vertex normals of the meshes of some surfaces.
 pub(super) fn flatten(scene: &mut Scene, flat: &BTreeSet<usize>) {
-    // Find the meshes that smooth surfaces share.
+    change_meshes(scene, flat, |mesh| {
+        (!mesh.normals.is_empty()).then(|| Mesh {
+            normals: VertexColumn::default(),
+            ..mesh.clone()
+        })
+    });
+}
+
+/// Makes the backs of the meshes of some surfaces their fronts.
+pub(super) fn turn_round(scene: &mut Scene, turned: &BTreeSet<usize>) {
+    change_meshes(scene, turned, |mesh| {
+        let normals = mesh.normals.iter().map(|normal| normal.map(|part| -part));
+        let triangles = mesh.triangles.iter().map(|[a, b, c]| [*a, *c, *b]);
+        Some(Mesh {
+            // It is no longer that of its file.
+            name: String::new(),
+            normals: VertexColumn::rounded(normals),
+            triangles: triangles.collect::<Vec<_>>().into(),
+            ..mesh.clone()
+        })
+    });
+}
+
+/// Changes the meshes of some surfaces. A mesh that other surfaces share is copied.
+fn change_meshes(
+    scene: &mut Scene,
+    changed: &BTreeSet<usize>,
+    change: impl Fn(&Mesh) -> Option<Mesh>,
+) {
+    // Find the meshes that other surfaces share.
     let mesh_of = |surface: &Surface| match &surface.shape {
         Shape::Instance(instance) => Some(instance.mesh),
         _ => None,
     };
-    let smooth: BTreeSet<u32> = scene
+    let others: BTreeSet<u32> = scene
         .surfaces
         .iter()
         .enumerate()
-        .filter(|(index, _)| !flat.contains(index))
+        .filter(|(index, _)| !changed.contains(index))
         .filter_map(|(_, surface)| mesh_of(surface).map(|mesh| mesh.0))
         .collect();
-    // Remove the normals of flat surfaces.
-    let mut copies = BTreeMap::new();
-    for index in flat {
+    let mut made: BTreeMap<u32, MeshId> = BTreeMap::new();
+    for index in changed {
         let Some(MeshId(mesh)) = scene.surfaces.get(*index).and_then(mesh_of) else {
             continue;
         };
-        let Some(found) = scene.meshes.get_mut(mesh as usize) else {
-            continue;
+        let id = match made.get(&mesh) {
+            Some(known) => *known,
+            None => {
+                let Some(new) = scene.meshes.get(mesh as usize).and_then(&change) else {
+                    continue;
+                };
+                let id = match others.contains(&mesh) {
+                    true => MeshId(rtc_math::to_u32(scene.meshes.len())),
+                    false => MeshId(mesh),
+                };
+                match scene.meshes.get_mut(id.0 as usize) {
+                    Some(own) => *own = new,
+                    None => scene.meshes.push(new),
+                }
+                made.insert(mesh, id);
+                id
+            }
         };
-        if found.normals.is_empty() {
-            continue;
-        }
-        // A mesh that is smooth elsewhere is copied first.
-        if !smooth.contains(&mesh) {
-            found.normals = VertexColumn::default();
-            continue;
-        }
-        let copy = Mesh {
-            normals: VertexColumn::default(),
-            ..found.clone()
-        };
-        let id = *copies.entry(mesh).or_insert_with(|| {
-            scene.meshes.push(copy);
-            MeshId(u32::try_from(scene.meshes.len() - 1).unwrap_or(u32::MAX))
-        });
         if let Shape::Instance(instance) = &mut scene.surfaces[*index].shape {
             instance.mesh = id;
         }

@@ -68,7 +68,6 @@ impl<'run> Lowering<'run> {
 
     /// Reports what is left out.
     fn report_sky(&mut self, node: &PluginNode) {
-        self.ignored(node);
         let widening = match (node.number("sun_radius_scale"), node.number("sun_aperture")) {
             (Some(scale), _) => scale,
             (None, Some(aperture)) => aperture / APERTURE,
@@ -88,10 +87,12 @@ impl<'run> Lowering<'run> {
         let [x, y, z] = axes.unwrap_or([Vec3::X, Vec3::Y, Vec3::Z]);
         let is_old = node.version < 2;
         let sky_from_world = if is_old { [x, -z, y] } else { [x, y, z] };
+        // It is given in the world.
         let given = node.vector("sun_direction").and_then(|direction| {
-            let [x, y, z] = direction;
-            let direction = if is_old { [x, -z, y] } else { direction };
-            unit(Vec3::from_array(direction))
+            let direction = Vec3::from_array(direction);
+            unit(Vec3::from_array(
+                sky_from_world.map(|axis| axis.dot(direction)),
+            ))
         });
         let sun = given.unwrap_or_else(|| {
             let [zenith, azimuth] = time_and_place(node).sun();

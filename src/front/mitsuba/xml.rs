@@ -1,5 +1,6 @@
 //! The XML of a Mitsuba scene as a tree of plugins with their properties.
 
+use super::bounds;
 use super::value;
 use crate::exchange::{SpannedText, transform::AffineTransform};
 use crate::{FrontOptions, over_limit};
@@ -31,7 +32,8 @@ const SCENES: FileKind = FileKind {
     begins: |head| String::from_utf8_lossy(head).trim_start().starts_with('<'),
 };
 
-/// An element that creates a plugin, or a reference to one (`ref`, whose plugin is the id).
+/// An element that creates a plugin, or a reference to one (`ref`, whose plugin is the id; an
+/// `alias` gives its target the name too).
 #[derive(Clone, Debug)]
 pub(super) struct PluginNode {
     /// `shape`, `bsdf`, `emitter`, …
@@ -73,6 +75,21 @@ impl PluginNode {
         visit(self);
         for child in &self.children {
             child.visit(visit);
+        }
+    }
+
+    /// Adds a texture; one that is constant becomes a property, unless others refer to it.
+    fn add_spectrum(&mut self, texture: Self) {
+        let constant = texture.constant().filter(|_| texture.id.is_none());
+        match (constant, &texture.name) {
+            (Some(color), Some(name)) => self.properties.push(Property {
+                name: SpannedText {
+                    text: name.clone(),
+                    span: texture.span,
+                },
+                value: Value::Color(color),
+            }),
+            _ => self.children.push(texture),
         }
     }
 
@@ -183,16 +200,16 @@ pub(super) fn read(
 }
 
 /// The state of reading: one for a scene and the files that it includes.
-struct XmlReader<'run> {
+pub(super) struct XmlReader<'run> {
     map: &'run mut SourceMap,
-    sink: &'run mut DiagnosticSink,
+    pub(super) sink: &'run mut DiagnosticSink,
     search: FileSearch,
     /// The parameters `$name` and their values.
     defaults: BTreeMap<String, String>,
     /// The parameters that an attribute refers to.
     used: BTreeSet<String>,
     /// The major version of the file.
-    version: u32,
+    pub(super) version: u32,
     /// The number of open files.
     depth: usize,
     /// The number of included files.
@@ -208,7 +225,7 @@ struct XmlReader<'run> {
 }
 
 /// An element of the document in one file.
-type XmlElement<'d, 'i> = roxmltree::Node<'d, 'i>;
+pub(super) type XmlElement<'d, 'i> = roxmltree::Node<'d, 'i>;
 
 impl XmlReader<'_> {
     fn file(&mut self, file: FileId) -> Option<PluginNode> {
@@ -220,6 +237,13 @@ impl XmlReader<'_> {
                 .push(Diagnostic::new(&codes::NOT_UTF8, message).at(span, ""));
             return None;
         };
+        if let Some((at, message)) = bounds::excess(&text) {
+            let at = offset(at);
+            let diagnostic = Diagnostic::new(&codes::MITSUBA_XML, message);
+            self.sink
+                .push(diagnostic.at(Span::new(file, at, at), "here"));
+            return None;
+        }
         // The document takes memory beside the elements that are kept.
         let document = DOCUMENT_BYTES * text.len() as u64;
         if let Err(fault) = self.map.budget().has(Resource::Memory, document) {
@@ -264,6 +288,7 @@ impl XmlReader<'_> {
             .next()
             .and_then(|major| major.parse().ok())
             .unwrap_or(3);
+        self.unknown_attributes(file, root);
         Some(self.node(file, root, 0))
     }
 
@@ -320,15 +345,16 @@ impl XmlReader<'_> {
             match child.tag_name().name() {
                 "default" => self.default_value(file, child),
                 "include" => node.children.extend(self.include(file, child)),
-                "alias" => self.alias(file, child, &mut node),
+                "alias" => node.children.extend(self.alias(file, child)),
                 "path" => node.children.extend(self.search_path(file, child)),
-                "ref" | "shape" | "bsdf" | "emitter" | "luminaire" | "texture" | "sensor"
-                | "camera" | "integrator" | "film" | "sampler" | "rfilter" | "medium" | "phase"
-                | "volume" | "subsurface" => {
+                "ref" | "shape" | "bsdf" | "emitter" | "luminaire" | "sensor" | "camera"
+                | "integrator" | "film" | "sampler" | "rfilter" | "medium" | "phase" | "volume"
+                | "subsurface" => {
                     node.children.push(self.node(file, child, depth + 1));
                 }
+                "texture" => node.add_spectrum(self.node(file, child, depth + 1)),
                 "spectrum" | "rgb" | "srgb" if child.has_attribute("type") => {
-                    node.children.push(self.node(file, child, depth + 1));
+                    node.add_spectrum(self.node(file, child, depth + 1));
                 }
                 _ => node.properties.extend(self.property(file, child)),
             }
@@ -369,36 +395,23 @@ impl XmlReader<'_> {
     }
 
     /// `<alias id="…" as="…">`: another id for an element.
-    fn alias(&mut self, file: FileId, element: XmlElement<'_, '_>, parent: &mut PluginNode) {
+    fn alias(&mut self, file: FileId, element: XmlElement<'_, '_>) -> Option<PluginNode> {
         let id = self.attribute(file, element, "id");
         let name = self.attribute(file, element, "as");
-        let (Some(id), Some(name)) = (id, name) else {
-            return self.missing(file, element, "`id` and `as`");
+        let (Some(plugin), Some(name)) = (id, name) else {
+            self.missing(file, element, "`id` and `as`");
+            return None;
         };
-        // The element is mostly the last one.
-        let known = |node: &&PluginNode| node.id.as_ref().is_some_and(|own| own.text == id.text);
-        let Some(known) = parent.children.iter().rfind(known) else {
-            return;
-        };
-        // A second shape would be drawn twice.
-        if known.tag == "shape" || known.tag == "emitter" {
-            return;
-        }
-        // Charge the elements of the copy before it is made.
-        let mut elements = 0;
-        known.visit(&mut |_| elements += 1);
-        let budget = self.map.budget();
-        let charged = budget
-            .charge(Resource::Nodes, elements)
-            .and_then(|()| budget.charge(Resource::Memory, elements * ELEMENT_BYTES));
-        if let Err(fault) = charged {
-            return self.exhaust(&fault, id.span);
-        }
-        let copy = PluginNode {
+        Some(PluginNode {
+            tag: "alias".to_owned(),
+            plugin,
             id: Some(name),
-            ..known.clone()
-        };
-        parent.children.push(copy);
+            name: None,
+            properties: Vec::new(),
+            children: Vec::new(),
+            span: span(file, &element),
+            version: self.version,
+        })
     }
 
     fn default_value(&mut self, file: FileId, element: XmlElement<'_, '_>) {
@@ -472,7 +485,7 @@ impl XmlReader<'_> {
     }
 
     /// An attribute with its parameters replaced.
-    fn attribute(
+    pub(super) fn attribute(
         &mut self,
         file: FileId,
         element: XmlElement<'_, '_>,
@@ -565,7 +578,39 @@ impl XmlReader<'_> {
             "point" | "vector" => self.vector(file, element).map(Value::Vector),
             _ => self.value(file, element, kind),
         }?;
+        let value = match value {
+            Value::Color(color) => Value::Color(self.bounded(element, &name, color)),
+            Value::Number(number) => match is_reflectance(&name.text) {
+                true => Value::Number(self.bounded(element, &name, [number; 3])[0]),
+                false => value,
+            },
+            value => value,
+        };
         Some(Property { name, value })
+    }
+
+    /// A colour of a surface between 0 and 1: what is beyond is told.
+    fn bounded(
+        &mut self,
+        element: XmlElement<'_, '_>,
+        name: &SpannedText,
+        color: [f64; 3],
+    ) -> [f64; 3] {
+        let parent = element.parent().map(|parent| parent.tag_name().name());
+        let is_rgb = matches!(element.tag_name().name(), "rgb" | "srgb");
+        let is_bounded = parent == Some("bsdf") && is_rgb && !matches!(&*name.text, "eta" | "k")
+            || is_reflectance(&name.text);
+        let clamped = color.map(|channel| channel.clamp(0.0, 1.0));
+        if !is_bounded || is_emitted(element) || clamped == color {
+            return color;
+        }
+        let message = format!(
+            "`{}` of a surface is between 0 and 1: the nearest is shown",
+            clip(&name.text)
+        );
+        let diagnostic = Diagnostic::new(&codes::MITSUBA_DOUBTFUL, message);
+        self.sink.push(diagnostic.at(name.span, ""));
+        clamped
     }
 
     /// The value of a property with one attribute.
@@ -593,12 +638,7 @@ impl XmlReader<'_> {
                 value::rgb(&text.text).map(|rgb| Value::Color(rgb.map(rtc_color::srgb_decoded)))
             }
             "spectrum" if attribute == "filename" => None,
-            "spectrum" => {
-                let is_emitted = element
-                    .ancestors()
-                    .any(|outer| outer.has_tag_name("emitter"));
-                value::spectrum(&text.text, is_emitted).map(Value::Color)
-            }
+            "spectrum" => value::spectrum(&text.text, is_emitted(element)).map(Value::Color),
             "blackbody" => None,
             _ => {
                 let message = format!("`<{}>` has no meaning here", clip(kind));
@@ -628,7 +668,7 @@ impl XmlReader<'_> {
     }
 
     /// Three numbers; those of `x`, `y` and `z` that are missing are `default`.
-    fn components(
+    pub(super) fn components(
         &mut self,
         file: FileId,
         element: XmlElement<'_, '_>,
@@ -653,98 +693,13 @@ impl XmlReader<'_> {
         Some(vector)
     }
 
-    fn not_numbers(&mut self, text: &SpannedText) {
+    pub(super) fn not_numbers(&mut self, text: &SpannedText) {
         let message = format!("`{}` has the wrong numbers", clip(&text.text));
         let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
         self.sink.push(diagnostic.at(text.span, ""));
     }
 
-    /// The product of the elements of a `<transform>`: the first one is applied first.
-    fn transform(&mut self, file: FileId, element: XmlElement<'_, '_>) -> AffineTransform {
-        let mut product = AffineTransform::IDENTITY;
-        for child in element.children().filter(XmlElement::is_element) {
-            let name = child.tag_name().name();
-            let step = match name {
-                "translate" => self
-                    .components(file, child, 0.0)
-                    .map(AffineTransform::translation),
-                "scale" => self
-                    .components(file, child, 1.0)
-                    .map(AffineTransform::scale),
-                "rotate" => self.rotation(file, child),
-                "lookat" | "lookAt" => self.look_at(file, child),
-                "matrix" => self.matrix(file, child),
-                // The keyframes of an animation: the first one is shown.
-                "transform" => Some(self.transform(file, child)),
-                _ => {
-                    let message = format!("`<{}>` is no transform", clip(name));
-                    let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
-                    self.sink.push(diagnostic.at(span(file, &child), ""));
-                    None
-                }
-            };
-            product = step.unwrap_or(AffineTransform::IDENTITY).after(&product);
-            if name == "transform" {
-                break;
-            }
-        }
-        product
-    }
-
-    fn rotation(&mut self, file: FileId, element: XmlElement<'_, '_>) -> Option<AffineTransform> {
-        let axis = self.components(file, element, 0.0)?;
-        let Some(angle) = self.attribute(file, element, "angle") else {
-            self.missing(file, element, "`angle`");
-            return None;
-        };
-        let degrees = value::number(&angle.text);
-        if degrees.is_none() {
-            self.not_numbers(&angle);
-        }
-        let rotation = AffineTransform::rotation(axis, degrees?);
-        if rotation.is_none() {
-            let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, "the axis has no length");
-            self.sink.push(diagnostic.at(span(file, &element), ""));
-        }
-        rotation
-    }
-
-    fn look_at(&mut self, file: FileId, element: XmlElement<'_, '_>) -> Option<AffineTransform> {
-        let mut point = |name: &str| -> Option<[f64; 3]> {
-            let text = self.attribute(file, element, name)?;
-            let vector = value::vector(&text.text);
-            if vector.is_none() {
-                self.not_numbers(&text);
-            }
-            vector
-        };
-        let (origin, target, up) = (point("origin"), point("target"), point("up"));
-        let (Some(origin), Some(target)) = (origin, target) else {
-            self.missing(file, element, "`origin` and `target`");
-            return None;
-        };
-        let transform = AffineTransform::look_at(origin, target, up);
-        if transform.is_none() {
-            let message = "`origin`, `target` and `up` give no direction";
-            let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
-            self.sink.push(diagnostic.at(span(file, &element), ""));
-        }
-        transform
-    }
-
-    fn matrix(&mut self, file: FileId, element: XmlElement<'_, '_>) -> Option<AffineTransform> {
-        let Some(text) = self.attribute(file, element, "value") else {
-            self.missing(file, element, "`value`");
-            return None;
-        };
-        let matrix = value::matrix(&text.text);
-        if matrix.is_none() {
-            self.not_numbers(&text);
-        }
-        matrix
-    }
-
-    fn missing(&mut self, file: FileId, element: XmlElement<'_, '_>, what: &str) {
+    pub(super) fn missing(&mut self, file: FileId, element: XmlElement<'_, '_>, what: &str) {
         // The parameter without a value was reported.
         if std::mem::take(&mut self.has_unset) {
             return;
@@ -757,13 +712,24 @@ impl XmlReader<'_> {
 }
 
 /// The span of the start of an element: its tag name.
-fn span(file: FileId, element: &XmlElement<'_, '_>) -> Span {
+pub(super) fn span(file: FileId, element: &XmlElement<'_, '_>) -> Span {
     let start = element.range().start;
     let end = start + 1 + element.tag_name().name().len();
     Span::new(file, offset(start), offset(end))
 }
 
-fn offset(at: usize) -> u32 {
+/// Whether an element is within an emitter.
+fn is_emitted(element: XmlElement<'_, '_>) -> bool {
+    let mut outer = element.ancestors();
+    outer.any(|outer| current_tag(outer.tag_name().name()) == "emitter")
+}
+
+/// Whether a property is a share of light that a surface gives back or lets through.
+fn is_reflectance(name: &str) -> bool {
+    name.ends_with("reflectance") || name.ends_with("transmittance") || name == "base_color"
+}
+
+pub(super) fn offset(at: usize) -> u32 {
     u32::try_from(at).unwrap_or(u32::MAX)
 }
 

@@ -16,6 +16,7 @@ pub(crate) fn all() -> Vec<Repro> {
         parameters(),
         files(),
         references(),
+        shared_bsdfs(),
         values(),
         meshes(),
     ]
@@ -60,7 +61,25 @@ fn texts() -> Vec<Repro> {
                 "<bsdf type=\"diffuse\" {}/>",
                 numbered(20_000, |n| format!("a{n}=\"1\" "))
             ),
-            None,
+            Some("MI001"),
+        ),
+        checked(
+            "2 000 namespaces beside 2 000 elements with one",
+            numbered(2_000, |n| format!("<a xmlns:a{n}=\"u{n}\"/>"))
+                + &"<a xmlns:b=\"c\"/>".repeat(2_000),
+            Some("MI001"),
+        ),
+        checked(
+            "20 000 transforms in each other",
+            shape(
+                "sphere",
+                &format!(
+                    "<transform name=\"to_world\">{}{}</transform>",
+                    "<transform>".repeat(20_000),
+                    "</transform>".repeat(20_000)
+                ),
+            ),
+            Some("MI002"),
         ),
         repeated(
             "100 000 unknown elements",
@@ -124,7 +143,14 @@ fn parameters() -> Vec<Repro> {
                 "<bsdf type=\"twosided\" id=\"a\">{}</bsdf>",
                 "<bsdf type=\"diffuse\"/>".repeat(30_000)
             ) + &numbered(30_000, |n| format!("<alias id=\"a\" as=\"b{n}\"/>")),
-            Some("IO003"),
+            None,
+        ),
+        checked(
+            "30 000 other names behind 30 000 elements",
+            "<bsdf type=\"diffuse\" id=\"a\"/>".to_owned()
+                + &"<bsdf type=\"diffuse\"/>".repeat(30_000)
+                + &numbered(30_000, |n| format!("<alias id=\"a\" as=\"b{n}\"/>")),
+            None,
         ),
         checked(
             "a chain of 30 000 other names",
@@ -180,6 +206,12 @@ fn files() -> Vec<Repro> {
             numbered(5_000, |n| format!("<path value=\"p{n}\"/>"))
                 + &numbered(5_000, |n| shape("obj", &file(&format!("{n}.obj")))),
             Some("MI002"),
+        ),
+        checked(
+            "20 000 meshes that are not there, in 32 folders",
+            "<path value=\"p\"/>".repeat(32)
+                + &numbered(20_000, |n| shape("obj", &file(&format!("{n}.obj")))),
+            Some("RE001"),
         ),
     ]
 }
@@ -237,11 +269,42 @@ fn references() -> Vec<Repro> {
         checked(
             "100 000 references to nothing",
             "<ref id=\"x\"/>".repeat(100_000),
-            None,
+            Some("MI002"),
         ),
         checked(
             "30 000 lights with a back",
             shape("rectangle", "<emitter type=\"area\"/>").repeat(30_000),
+            None,
+        ),
+    ]
+}
+
+/// BSDFs that many others hold.
+fn shared_bsdfs() -> Vec<Repro> {
+    vec![
+        checked(
+            "20 blends of the last one twice",
+            "<bsdf type=\"diffuse\" id=\"b0\"/>".to_owned()
+                + &numbered(20, |n| {
+                    format!(
+                        "<bsdf type=\"blendbsdf\" id=\"b{}\">{}</bsdf>",
+                        n + 1,
+                        format!("<ref id=\"b{n}\"/>").repeat(2)
+                    )
+                })
+                + &shape("sphere", "<ref id=\"b20\"/>"),
+            None,
+        ),
+        checked(
+            "a chain of 10 000 BSDFs, each on a sphere",
+            "<bsdf type=\"diffuse\" id=\"b0\"/>".to_owned()
+                + &numbered(10_000, |n| {
+                    format!(
+                        "<bsdf type=\"twosided\" id=\"b{}\"><ref id=\"b{n}\"/></bsdf>{}",
+                        n + 1,
+                        shape("sphere", &format!("<ref id=\"b{n}\"/>"))
+                    )
+                }),
             None,
         ),
     ]
@@ -356,6 +419,33 @@ fn meshes() -> Vec<Repro> {
             expected: Some("IO003"),
         },
         Repro {
+            name: "a mesh whose name unpacks to 200 MB",
+            files: vec![
+                (
+                    "a.xml".to_owned(),
+                    scene(&shape("serialized", &file("a.serialized"))),
+                ),
+                ("a.serialized".to_owned(), named(200 << 20)),
+            ],
+            arguments: check(),
+            expected: Some("RE006"),
+        },
+        Repro {
+            name: "5 000 meshes of a file of 1 MB",
+            files: vec![
+                (
+                    "a.xml".to_owned(),
+                    scene(&numbered(5_000, |n| {
+                        let index = format!("<integer name=\"shape_index\" value=\"{n}\"/>");
+                        shape("serialized", &(file("a.serialized") + &index))
+                    })),
+                ),
+                ("a.serialized".to_owned(), vec![0x1c; 1 << 20]),
+            ],
+            arguments: check(),
+            expected: Some("RE006"),
+        },
+        Repro {
             name: "a coloured mesh of 4 000 000 000 vertices",
             files: vec![
                 ("a.xml".to_owned(), scene(&colored)),
@@ -377,6 +467,21 @@ fn serialized(vertices: u64, triangles: u64, zeros: usize) -> Vec<u8> {
     encoder.write_all(&triangles.to_le_bytes()).unwrap();
     let block = vec![0; 1 << 20];
     for _ in 0..zeros / block.len() {
+        encoder.write_all(&block).unwrap();
+    }
+    let mut bytes = [0x041c_u16.to_le_bytes(), 4_u16.to_le_bytes()].concat();
+    bytes.extend(encoder.finish().unwrap());
+    bytes.extend(0_u64.to_le_bytes());
+    bytes.extend(1_u32.to_le_bytes());
+    bytes
+}
+
+/// A `.serialized` file whose mesh has a name of so many bytes.
+fn named(length: usize) -> Vec<u8> {
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
+    encoder.write_all(&0x1000_u32.to_le_bytes()).unwrap();
+    let block = vec![b'a'; 1 << 20];
+    for _ in 0..length / block.len() {
         encoder.write_all(&block).unwrap();
     }
     let mut bytes = [0x041c_u16.to_le_bytes(), 4_u16.to_le_bytes()].concat();
