@@ -22,6 +22,7 @@ mod codec;
 mod codes;
 mod cost;
 mod course;
+mod foreign_findings;
 mod gltf;
 mod guide;
 mod hardcases;

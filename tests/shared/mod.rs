@@ -12,6 +12,7 @@
 mod assets;
 mod corpus;
 mod energy;
+mod exchange;
 mod exports;
 mod fates;
 mod figures;
@@ -39,6 +40,7 @@ pub(crate) fn trials() -> Vec<Trial> {
         assets::trials(),
         corpus::trials(),
         energy::trials(),
+        exchange::trials(),
         exports::trials(),
         fates::trials(),
         figures::trials(),

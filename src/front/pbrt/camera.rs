@@ -117,8 +117,14 @@ impl Lowering<'_> {
             self.unsupported("film", plugin, &FILMS, "`rgb` replaces it");
         }
         // Parameters other than colours and size do not change the picture.
-        parameters.skip(&["filename", "diagonal", "savefp16", "maxsampleluminance"]);
-        parameters.skip(&["maxcomponentvalue"]);
+        parameters.skip(&["filename", "diagonal", "savefp16"]);
+        for name in ["maxcomponentvalue", "maxsampleluminance"] {
+            if parameters.number(name).is_some() {
+                let message =
+                    format!("`{name}` is left out: brighter samples are kept as they are");
+                self.approximate(plugin.span, message);
+            }
+        }
         let scale = parameters.number("scale").unwrap_or(1.0);
         self.exposure *= scale * parameters.number("iso").map_or(1.0, |iso| iso / 100.0);
         if let Some(sensor) = parameters.string("sensor")

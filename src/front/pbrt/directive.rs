@@ -2,7 +2,7 @@
 
 use super::Lowering;
 use super::parameter::{self, Parameters};
-use super::plugins::DIRECTIVES;
+use super::plugins::{DIRECTIVES, TARGETS};
 use super::state::{ActiveTransform, StateOpener};
 use super::token::{PbrtToken, PbrtTokenKind};
 use crate::exchange::SpannedText;
@@ -23,6 +23,29 @@ const BARE: [&[u8]; 4] = [
     b"AttributeBegin",
     b"Identity",
     b"TransformBegin",
+];
+
+/// The directives of the view, which end with the beginning of the world.
+const VIEW: [&str; 6] = [
+    "Camera",
+    "Film",
+    "Integrator",
+    "PixelFilter",
+    "Sampler",
+    "SurfaceIntegrator",
+];
+
+/// The options that change no picture but for its noise.
+const OPTIONS: [&str; 9] = [
+    "disabletexturefiltering",
+    "disablewavelengthjitter",
+    "displacementedgescale",
+    "msereferenceimage",
+    "msereferenceout",
+    "pixelstats",
+    "rendercoordsys",
+    "seed",
+    "wavefront",
 ];
 
 /// The number of tokens between charges to the budget.
@@ -154,7 +177,7 @@ impl Lowering<'_> {
                     self.approximate(space.span, message);
                 }
             }
-            "Option" => self.skip_arguments(),
+            "Option" => self.option(),
             "MediumInterface" => {
                 let media: Vec<SpannedText> = self.arguments().collect();
                 self.medium_interface(&media);
@@ -185,6 +208,10 @@ impl Lowering<'_> {
     }
 
     fn plugin(&mut self, directive: &str, plugin: SpannedText, parameters: Parameters, span: Span) {
+        if self.in_world && VIEW.contains(&directive) {
+            let message = format!("`{directive}` has no effect behind `WorldBegin`");
+            return self.doubtful(span, message);
+        }
         match directive {
             "Camera" => self.camera(plugin, parameters, span),
             "Film" => self.view.film = Some((plugin, parameters)),
@@ -192,32 +219,24 @@ impl Lowering<'_> {
             "Integrator" | "SurfaceIntegrator" => self.view.integrator = Some((plugin, parameters)),
             "PixelFilter" => self.view.filter = Some((plugin, parameters)),
             "Material" => {
-                let parameters = self.with_attributes("material", parameters, span);
+                let parameters = self.with_attributes("material", parameters);
                 let material = self.material(&plugin, &parameters);
                 self.state.material = Some(material);
             }
             "MakeNamedMaterial" => self.make_named_material(plugin, &parameters),
             "LightSource" => {
-                let parameters = self.with_attributes("light", parameters, span);
+                let parameters = self.with_attributes("light", parameters);
                 self.light_source(&plugin, &parameters);
             }
             "AreaLightSource" => {
-                let parameters = self.with_attributes("light", parameters, span);
+                let parameters = self.with_attributes("light", parameters);
                 self.area_light_source(&plugin, &parameters);
             }
             "Shape" => {
-                let parameters = self.with_attributes("shape", parameters, span);
+                let parameters = self.with_attributes("shape", parameters);
                 self.shape(&plugin, &parameters, span);
             }
-            "Attribute" => {
-                let known: usize = self.state.attributes.values().map(Vec::len).sum();
-                self.charge(Resource::Nodes, known as u64, span);
-                let attributes = Rc::make_mut(&mut self.state.attributes);
-                attributes
-                    .entry(plugin.text)
-                    .or_default()
-                    .extend(parameters.list);
-            }
+            "Attribute" => self.attribute(plugin, parameters, span),
             "MakeNamedMedium" => self.make_named_medium(plugin, &parameters),
             // How rays find surfaces changes no picture.
             "Accelerator" | "VolumeIntegrator" | "Renderer" => {}
@@ -225,17 +244,45 @@ impl Lowering<'_> {
         }
     }
 
-    fn with_attributes(&mut self, target: &str, parameters: Parameters, at: Span) -> Parameters {
-        let attributes = Rc::clone(&self.state.attributes);
-        let Some(defaults) = attributes.get(target) else {
-            return parameters;
-        };
-        // Each name is compared with each other one.
-        let compared = defaults.len() as u64 * (parameters.list.len() as u64 + 1);
-        match self.charge(Resource::Nodes, compared, at) {
-            Some(()) => parameters.with_defaults(defaults),
-            None => parameters,
+    /// Warns of an option that changes the picture.
+    fn option(&mut self) {
+        for option in self.parameters().list {
+            if !OPTIONS.contains(&option.name.text.as_str()) {
+                let message = format!("the option `{}` has no effect", clip(&option.name.text));
+                self.report(&codes::PBRT_IGNORED, option.name.span, message);
+            }
         }
+    }
+
+    /// `Attribute`: defaults of the plugins of a kind that follow.
+    fn attribute(&mut self, target: SpannedText, parameters: Parameters, span: Span) {
+        let Some((_, kind)) = TARGETS.iter().find(|(name, _)| *name == target.text) else {
+            let message = format!("`{}` has no attributes", clip(&target.text));
+            return self.report(&codes::PBRT_IGNORED, target.span, message);
+        };
+        for parameter in &parameters.list {
+            let name = &parameter.name;
+            let mut plugins = kind.plugins.iter();
+            if !plugins.any(|plugin| kind.has(plugin.name, &name.text)) {
+                let name_text = clip(&name.text);
+                let message = format!("`{name_text}` has no effect on any {}", target.text);
+                self.report(&codes::PBRT_IGNORED, name.span, message);
+            }
+        }
+        // The defaults are copied where an outer state has them too.
+        let defaults = self.state.attributes.entry(target.text).or_default();
+        let copied = match Rc::strong_count(defaults) {
+            1 => 0,
+            _ => defaults.len() as u64,
+        };
+        let named = (parameters.list.into_iter()).map(|own| (own.name.text.clone(), own));
+        Rc::make_mut(defaults).extend(named);
+        self.charge(Resource::Nodes, copied, span);
+    }
+
+    fn with_attributes(&self, target: &str, mut parameters: Parameters) -> Parameters {
+        parameters.defaults = self.state.attributes.get(target).cloned();
+        parameters
     }
 
     fn texture_directive(&mut self, span: Span) {
@@ -250,7 +297,7 @@ impl Lowering<'_> {
             }
         };
         let parameters = self.parameters();
-        let parameters = self.with_attributes("texture", parameters, span);
+        let parameters = self.with_attributes("texture", parameters);
         self.texture(name, &kind, &plugin, &parameters);
     }
 
@@ -377,9 +424,11 @@ impl Lowering<'_> {
             return;
         };
         if n[3] != 0.0 || n[7] != 0.0 || n[11] != 0.0 || n[15] == 0.0 {
-            return self.mistake(span, format!("the matrix of `{name}` is not affine"));
+            let message = format!("the matrix of `{name}` is not affine: its last row is left out");
+            self.doubtful(span, message);
         }
-        let column = |at: usize| Vec3::new(n[at], n[at + 1], n[at + 2]) / n[15];
+        let whole = if n[15] == 0.0 { 1.0 } else { n[15] };
+        let column = |at: usize| Vec3::new(n[at], n[at + 1], n[at + 2]) / whole;
         let matrix = AffineTransform([column(0), column(4), column(8), column(12)]);
         self.transform_by(|current| match name {
             "Transform" => matrix,
@@ -399,7 +448,7 @@ impl Lowering<'_> {
             Some(system) => self.transform_by(|_| system),
             None => {
                 let message = format!("there is no coordinate system `{}`", clip(&name.text));
-                self.mistake(name.span, message);
+                self.doubtful(name.span, message);
             }
         }
     }
@@ -426,18 +475,20 @@ impl Lowering<'_> {
         let Some(name) = self.argument("ObjectBegin", span) else {
             return;
         };
-        if self.open_object.is_some() {
-            return self.mistake(span, "an object is defined inside of another one");
-        }
         self.open(StateOpener::Object, span);
-        self.open_object = Some((name, Vec::new()));
+        if let Some((outer, shapes)) = self.open_object.replace((name, Vec::new())) {
+            self.doubtful(
+                span,
+                "an object is defined inside of another one, and ends it",
+            );
+            self.objects.insert(outer.text, Rc::new(shapes));
+        }
     }
 
     fn object_end(&mut self, span: Span) {
-        let Some((name, shapes)) = self.open_object.take() else {
-            return self.mistake(span, "`ObjectEnd` ends nothing");
-        };
-        self.objects.insert(name.text, Rc::new(shapes));
+        if let Some((name, shapes)) = self.open_object.take() {
+            self.objects.insert(name.text, Rc::new(shapes));
+        }
         self.close(StateOpener::Object, "ObjectEnd", span);
     }
 
@@ -446,11 +497,12 @@ impl Lowering<'_> {
             return;
         };
         if self.open_object.is_some() {
-            return self.mistake(span, "an object cannot hold an instance of another one");
+            let message = "an object cannot hold an instance of another one: it is left out";
+            return self.doubtful(span, message);
         }
         let Some(shapes) = self.objects.get(&name.text).cloned() else {
-            let message = format!("there is no object `{}`", clip(&name.text));
-            return self.mistake(name.span, message);
+            let message = format!("there is no object `{}`: it is left out", clip(&name.text));
+            return self.doubtful(name.span, message);
         };
         let outer = self.state.transform;
         for shape in shapes.iter() {

@@ -18,6 +18,8 @@ const MAX_BYTES: u64 = 1 << 30;
 const UNPACKED: (u64, u64) = (16 << 20, 8);
 /// The step in which unpacked bytes are charged.
 const STEP: usize = 1 << 16;
+/// The bytes of a text that are passed with the work of a node.
+const BYTES_PER_NODE: u64 = 4;
 /// The number of bytes of a compressed file that are examined.
 const HEAD: u64 = 1 << 16;
 
@@ -108,8 +110,13 @@ impl Lowering<'_> {
             self.is_exhausted |= self.included > MAX_FILES;
             return self.mistake(path.span, message);
         }
-        let found = match self.parts.get(&path.text) {
-            Some(known) => known.clone(),
+        let found = match self.parts.get(&path.text).cloned() {
+            Some(known) => {
+                // To pass a text once more is work even where it has nothing but comments.
+                let bytes = known.as_ref().map_or(0, TokenReader::len) as u64;
+                self.charge(Resource::Nodes, bytes / BYTES_PER_NODE, path.span);
+                known
+            }
             None => {
                 let found = self.find_included(path);
                 self.parts.insert(path.text.clone(), found.clone());
@@ -117,8 +124,7 @@ impl Lowering<'_> {
             }
         };
         let Some(reader) = found else { return };
-        let is_open = |open: &OpenFile| open.reader.file() == reader.file();
-        if self.files.iter().any(is_open) {
+        if self.is_open(&reader) {
             return self.mistake(path.span, "the file includes itself");
         }
         if is_import {
@@ -131,14 +137,34 @@ impl Lowering<'_> {
     fn find_included(&mut self, path: &SpannedText) -> Option<TokenReader> {
         const INSTEAD: &str = "its contents are left out";
         let found = self.find(path, &SCENES, INSTEAD)?;
-        if let Some(known) = self.texts.get(&found.path) {
-            return Some(known.clone());
+        let reader = match self.texts.get(&found.path) {
+            Some(known) => known.clone(),
+            None => {
+                let bytes = self.bytes_of(path, INSTEAD, &found)?;
+                // The scene itself is open already.
+                let scene = self.files.first().map(|open| open.reader.restarted());
+                let reader = match scene.filter(|scene| scene.has_text(&bytes)) {
+                    Some(scene) => scene,
+                    None => {
+                        let file = self.map.add_found(&found, bytes);
+                        TokenReader::new(file, self.map.bytes(file))
+                    }
+                };
+                self.texts.insert(found.path.clone(), reader.clone());
+                reader
+            }
+        };
+        // A file that is absent may have the name of an open one in another folder.
+        if found.elsewhere && self.is_open(&reader) {
+            self.absent(path, INSTEAD);
+            return None;
         }
-        let bytes = self.bytes_of(path, INSTEAD, &found)?;
-        let file = self.map.add_found(&found, bytes);
-        let reader = TokenReader::new(file, self.map.bytes(file));
-        self.texts.insert(found.path, reader.clone());
         Some(reader)
+    }
+
+    fn is_open(&self, reader: &TokenReader) -> bool {
+        let mut open = self.files.iter();
+        open.any(|open| open.reader.file() == reader.file())
     }
 
     /// Finds a file of a format; if it is missing, a warning names the replacement `instead`.
@@ -157,11 +183,16 @@ impl Lowering<'_> {
         }
         let found = self.search.find(&path.text, kind);
         if found.is_err() {
-            let message = format!("there is no file `{}`", clip_path(&path.text));
-            let diagnostic = Diagnostic::new(&codes::FILE_NOT_FOUND, message);
-            self.without(diagnostic, path.span, instead);
+            self.absent(path, instead);
         }
         found.ok()
+    }
+
+    /// Reports a file that is not there.
+    fn absent(&mut self, path: &SpannedText, instead: &str) {
+        let message = format!("there is no file `{}`", clip_path(&path.text));
+        let diagnostic = Diagnostic::new(&codes::FILE_NOT_FOUND, message);
+        self.without(diagnostic, path.span, instead);
     }
 
     /// The bytes of a file of a format, decompressed; if it is missing, a warning names the

@@ -65,8 +65,9 @@ impl Lowering<'_> {
         match self.materials.get(&name.text) {
             Some(material) => self.state.material = Some(Rc::clone(material)),
             None => {
-                let message = format!("there is no material `{}`", clip(&name.text));
-                self.mistake(name.span, message);
+                let name_text = clip(&name.text);
+                let message = format!("there is no material `{name_text}`: the one before stays");
+                self.doubtful(name.span, message);
             }
         }
     }
@@ -175,7 +176,7 @@ impl Lowering<'_> {
             color: [1.0; 3],
             map,
         };
-        if parameters.get("reflectance").is_none() {
+        if parameters.find("reflectance").is_none() {
             let conductor = self.conductor(parameters, names);
             return (white(None), Some(conductor));
         }
@@ -416,7 +417,7 @@ impl Lowering<'_> {
     }
 
     fn of_unknown_scattering(&mut self, plugin: &SpannedText, parameters: &Parameters) -> Standard {
-        let name = if parameters.get("Kd").is_some() {
+        let name = if parameters.find("Kd").is_some() {
             "Kd"
         } else {
             "reflectance"
@@ -469,9 +470,10 @@ impl Lowering<'_> {
             Ok(names) => names.map(|name| match self.materials.get(&name.text) {
                 Some(material) => Some(material.standard.clone()),
                 None => {
-                    let message = format!("there is no material `{}`", clip(&name.text));
-                    self.mistake(name.span, message);
-                    None
+                    let name_text = clip(&name.text);
+                    let message = format!("there is no material `{name_text}`: grey replaces it");
+                    self.doubtful(name.span, message);
+                    Some(Some(matte([0.5; 3])))
                 }
             }),
             Err(_) => {
@@ -530,7 +532,7 @@ impl Lowering<'_> {
     /// Adds the map of heights and that of normals.
     fn with_bumps(&mut self, standard: Standard, parameters: &Parameters) -> Standard {
         // Version 3 has `bumpmap`.
-        let name = match parameters.get("displacement") {
+        let name = match parameters.find("displacement") {
             Some(_) => "displacement",
             None => "bumpmap",
         };

@@ -118,8 +118,8 @@ impl Lowering<'_> {
         }
         let medium = self.media.get(&name.text).copied();
         if medium.is_none() {
-            let message = format!("there is no medium `{}`", clip(&name.text));
-            self.mistake(name.span, message);
+            let message = format!("there is no medium `{}`: none is there", clip(&name.text));
+            self.doubtful(name.span, message);
         }
         medium.flatten()
     }

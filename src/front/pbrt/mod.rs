@@ -217,6 +217,11 @@ impl<'run> Lowering<'run> {
         self.report(&codes::PBRT_VALUE, span, message);
     }
 
+    /// Warns of what pbrt goes on after, and is probably not what was meant.
+    fn doubtful(&mut self, span: Span, message: impl Into<String>) {
+        self.report(&codes::PBRT_DOUBTFUL, span, message);
+    }
+
     /// Warns of an approximation.
     fn approximate(&mut self, span: Span, message: impl Into<String>) {
         self.report(&codes::PBRT_APPROXIMATE, span, message);
@@ -247,12 +252,23 @@ impl<'run> Lowering<'run> {
             table.has_all(plugin, &looked_up),
             "not in the table: one of {looked_up:?} of the {kind} `{plugin}`"
         );
-        for (count, name) in unused.into_iter().enumerate() {
+        for (count, parameter) in unused.into_iter().enumerate() {
             let plugin = clip(plugin);
+            let name = &parameter.name;
             let own = clip(&name.text);
-            let message = format!("`{own}` of the {kind} `{plugin}` has no effect");
+            let is_known = looked_up.contains(&name.text.as_str());
+            let message = match is_known {
+                true => format!(
+                    "`{own}` of the {kind} `{plugin}` is no `{}`: it has no effect",
+                    parameter.kind.name()
+                ),
+                false => format!("`{own}` of the {kind} `{plugin}` has no effect"),
+            };
             let mut diagnostic = Diagnostic::new(&codes::PBRT_IGNORED, message).at(name.span, "");
-            let known = looked_up.iter().copied().filter(|_| count < COMPARED);
+            let known = looked_up
+                .iter()
+                .copied()
+                .filter(|_| count < COMPARED && !is_known);
             if let Some(near) = nearest(&name.text, known) {
                 diagnostic = diagnostic.hint(format!("did you mean `{near}`?"));
             }

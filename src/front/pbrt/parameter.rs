@@ -5,6 +5,8 @@ use crate::exchange::SpannedText;
 use rtc_diag::{Diagnostic, clip, codes};
 use rtc_source::Span;
 use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::rc::Rc;
 
 /// The type of a parameter.
@@ -42,6 +44,23 @@ impl ParameterType {
         })
     }
 
+    /// Its name in version 4.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Float => "float",
+            Self::Integer => "integer",
+            Self::Bool => "bool",
+            Self::String => "string",
+            Self::Rgb => "rgb",
+            Self::Xyz => "xyz",
+            Self::Blackbody => "blackbody",
+            Self::Spectrum => "spectrum",
+            Self::Texture => "texture",
+            Self::Tuple(2) => "point2",
+            Self::Tuple(_) => "point3",
+        }
+    }
+
     /// Whether this many numbers are a value of the type.
     fn fits(self, count: usize) -> bool {
         match self {
@@ -70,33 +89,49 @@ pub(super) struct PluginParameter {
     pub(super) values: ParameterValues,
 }
 
+/// Parameters by name, which `Attribute` gives to all plugins of a kind.
+pub(super) type DefaultParameters = BTreeMap<String, Rc<PluginParameter>>;
+
 /// The parameters of a directive. They record which ones were read.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Parameters {
     pub(super) list: Vec<Rc<PluginParameter>>,
+    /// What the list lacks.
+    pub(super) defaults: Option<Rc<DefaultParameters>>,
     looked_up: RefCell<Vec<&'static str>>,
+    /// Those looked up whose values were taken.
+    read: RefCell<Vec<&'static str>>,
 }
 
 impl Parameters {
-    /// The parameters of a directive, with defaults from others.
-    pub(super) fn with_defaults(mut self, defaults: &[Rc<PluginParameter>]) -> Self {
-        for default in defaults {
-            let is_own = |own: &Rc<PluginParameter>| own.name.text == default.name.text;
-            if !self.list.iter().any(is_own) {
-                self.list.push(Rc::clone(default));
-            }
-        }
-        self
+    /// A parameter whose value is not taken yet.
+    pub(super) fn find(&self, name: &'static str) -> Option<&PluginParameter> {
+        note(&self.looked_up, name);
+        let mut list = self.list.iter();
+        let own = list.find(|parameter| parameter.name.text == name);
+        let default = || self.defaults.as_ref()?.get(name);
+        own.or_else(default).map(Rc::as_ref)
+    }
+
+    /// Notes that the value of a parameter was taken.
+    pub(super) fn take(&self, name: &'static str) {
+        note(&self.read, name);
     }
 
     pub(super) fn get(&self, name: &'static str) -> Option<&PluginParameter> {
-        let mut looked_up = self.looked_up.borrow_mut();
-        if !looked_up.contains(&name) {
-            looked_up.push(name);
-        }
-        let mut list = self.list.iter();
-        let found = list.find(|parameter| parameter.name.text == name);
-        found.map(Rc::as_ref)
+        self.take(name);
+        self.find(name)
+    }
+
+    /// What `pick` makes of a parameter, which is taken if that is something.
+    fn pick<'p, T>(
+        &'p self,
+        name: &'static str,
+        pick: impl FnOnce(&'p ParameterValues) -> Option<T>,
+    ) -> Option<T> {
+        let picked = pick(&self.find(name)?.values)?;
+        self.take(name);
+        Some(picked)
     }
 
     /// Marks parameters as read whose values have no effect here.
@@ -107,19 +142,19 @@ impl Parameters {
     }
 
     /// The parameters that were not read, and the names that were looked up.
-    pub(super) fn unused(&self) -> (Vec<&SpannedText>, Vec<&'static str>) {
-        let looked_up = self.looked_up.borrow().clone();
+    pub(super) fn unused(&self) -> (Vec<&PluginParameter>, Vec<&'static str>) {
+        let read = self.read.borrow();
         let is_unused =
-            |parameter: &&Rc<PluginParameter>| !looked_up.contains(&parameter.name.text.as_str());
-        let unused = self.list.iter().filter(is_unused);
-        (unused.map(|parameter| &parameter.name).collect(), looked_up)
+            |parameter: &&Rc<PluginParameter>| !read.contains(&parameter.name.text.as_str());
+        let unused = self.list.iter().filter(is_unused).map(Rc::as_ref);
+        (unused.collect(), self.looked_up.borrow().clone())
     }
 
     pub(super) fn numbers(&self, name: &'static str) -> Option<&[f64]> {
-        match &self.get(name)?.values {
-            ParameterValues::Numbers(numbers) => Some(numbers),
+        self.pick(name, |values| match values {
+            ParameterValues::Numbers(numbers) => Some(numbers.as_slice()),
             _ => None,
-        }
+        })
     }
 
     pub(super) fn number(&self, name: &'static str) -> Option<f64> {
@@ -137,17 +172,17 @@ impl Parameters {
     }
 
     pub(super) fn flag(&self, name: &'static str) -> Option<bool> {
-        match &self.get(name)?.values {
+        self.pick(name, |values| match values {
             ParameterValues::Flags(flags) => flags.first().copied(),
             _ => None,
-        }
+        })
     }
 
     pub(super) fn strings(&self, name: &'static str) -> Option<&[SpannedText]> {
-        match &self.get(name)?.values {
-            ParameterValues::Strings(strings) => Some(strings),
+        self.pick(name, |values| match values {
+            ParameterValues::Strings(strings) => Some(strings.as_slice()),
             _ => None,
-        }
+        })
     }
 
     pub(super) fn string(&self, name: &'static str) -> Option<&SpannedText> {
@@ -176,13 +211,46 @@ impl Parameters {
 /// Reads the parameters that follow. A mistake is handed to `report`, and its parameter left out.
 pub(super) fn read(reader: &mut TokenReader, report: &mut dyn FnMut(Diagnostic)) -> Parameters {
     let mut parameters = Parameters::default();
+    let mut given: BTreeMap<String, usize> = BTreeMap::new();
     while let Some(head) = reader.next_if(PbrtTokenKind::Quoted) {
-        match parameter(reader, head) {
-            Ok(parameter) => parameters.list.push(Rc::new(parameter)),
-            Err(diagnostic) => report(*diagnostic),
+        let parameter = match parameter(reader, head) {
+            Ok(parameter) => parameter,
+            Err(diagnostic) => {
+                report(*diagnostic);
+                continue;
+            }
+        };
+        let index = parameters.list.len();
+        match given.entry(parameter.name.text.clone()) {
+            Entry::Vacant(vacant) => {
+                vacant.insert(index);
+                parameters.list.push(Rc::new(parameter));
+            }
+            // The last one counts.
+            Entry::Occupied(known) => {
+                let earlier = &mut parameters.list[*known.get()];
+                let name = clip(&parameter.name.text);
+                let message = format!("`{name}` is given twice: the last one counts");
+                let diagnostic = Diagnostic::new(&codes::PBRT_DOUBTFUL, message);
+                let at = earlier.name.span;
+                report(
+                    diagnostic
+                        .at(parameter.name.span, "")
+                        .also(at, "given here first"),
+                );
+                *earlier = Rc::new(parameter);
+            }
         }
     }
     parameters
+}
+
+/// Adds a name to a list of few, once.
+fn note(names: &RefCell<Vec<&'static str>>, name: &'static str) {
+    let mut names = names.borrow_mut();
+    if !names.contains(&name) {
+        names.push(name);
+    }
 }
 
 /// Passes the tokens of a value to `take`: one, or those between brackets. Returns their number,
@@ -365,6 +433,20 @@ mod tests {
         assert_eq!(parameters.word("f", ""), "x");
         assert_eq!(parameters.tuples::<3>("P").map(<[_]>::len), Some(2));
         assert!(parameters.unused().0.is_empty());
+    }
+
+    #[test]
+    fn a_value_of_another_type_is_not_read_and_the_last_of_two_counts() {
+        let (parameters, codes) =
+            parameters("\"string a\" \"1\" \"float b\" 1 \"float b\" 2 \"float c\" 3");
+        assert_eq!(codes, ["PB006"]);
+        assert_eq!(
+            (parameters.number("a"), parameters.number("b")),
+            (None, Some(2.0))
+        );
+        let (unused, looked_up) = parameters.unused();
+        let unused: Vec<&str> = unused.iter().map(|own| own.name.text.as_str()).collect();
+        assert_eq!((unused, looked_up), (vec!["a", "c"], vec!["a", "b"]));
     }
 
     #[test]

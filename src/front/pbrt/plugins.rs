@@ -394,8 +394,8 @@ const FILM: &[DeclaredParameter] = &[
     p("sensor", "string", "`cie1931`, which replaces others."),
     p("diagonal", "float", NONE),
     p("savefp16", "bool", NONE),
-    p("maxsampleluminance", "float", NONE),
-    p("maxcomponentvalue", "float", NONE),
+    p("maxsampleluminance", "float", "The most luminance of a sample, which is left out."),
+    p("maxcomponentvalue", "float", "The most of a channel of a sample, which is left out."),
 ];
 
 pub(crate) static FILMS: PluginKind = PluginKind {

@@ -61,7 +61,7 @@ impl Lowering<'_> {
     /// The colour of a light. In version 4 spectra and black bodies have the luminance 1 before
     /// they are scaled.
     pub(super) fn light_color(&mut self, parameters: &Parameters, name: &'static str) -> [f64; 3] {
-        let kind = parameters.get(name).map(|parameter| parameter.kind);
+        let kind = parameters.find(name).map(|parameter| parameter.kind);
         if let (Some(ParameterType::Spectrum), Some(text)) = (kind, parameters.string(name))
             && let Some(color) = illuminant(&text.text)
         {
@@ -87,16 +87,18 @@ impl Lowering<'_> {
         convert: impl Fn(&[(f64, f64)]) -> Option<[f64; 3]>,
     ) -> Option<[f64; 3]> {
         // A spectrum in a file is converted from its samples.
-        let parameter = parameters.get(name)?;
+        let parameter = parameters.find(name)?;
         let numbers = match &parameter.values {
             ParameterValues::Numbers(numbers) => numbers.as_slice(),
             ParameterValues::Strings(strings) if parameter.kind == ParameterType::Spectrum => {
+                parameters.take(name);
                 let pairs = self.spectrum_file(strings.first()?, "white replaces it");
                 let color = pairs.and_then(|pairs| convert(&pairs));
                 return Some(color.unwrap_or([1.0; 3]));
             }
             _ => return None,
         };
+        parameters.take(name);
         // Other values are converted by the type of the parameter.
         match (parameter.kind, numbers) {
             (ParameterType::Float | ParameterType::Integer, [grey, ..]) => Some([*grey; 3]),
@@ -155,12 +157,13 @@ impl Lowering<'_> {
     }
 
     fn index(&mut self, parameters: &Parameters, name: &'static str) -> Option<IndexSpectrum> {
-        let parameter = parameters.get(name)?;
+        let parameter = parameters.find(name)?;
         let (ParameterType::Spectrum, ParameterValues::Strings(strings)) =
             (parameter.kind, &parameter.values)
         else {
             return self.color(parameters, name).map(IndexSpectrum::Primaries);
         };
+        parameters.take(name);
         let text = strings.first()?.clone();
         let known = metal_name(&text.text);
         if let Some(known) = known.filter(|_| text.text.starts_with("metal-")) {
@@ -182,11 +185,14 @@ impl Lowering<'_> {
         parameters: &Parameters,
         names: [&'static str; 2],
     ) -> (f64, f64) {
-        let [name, other] = names.map(|name| parameters.get(name));
+        let [name, other] = names.map(|name| parameters.find(name));
         let Some(parameter) = name.or(other) else {
             return (1.5, 0.0);
         };
         let span = parameter.name.span;
+        if !matches!(parameter.kind, ParameterType::Bool | ParameterType::String) {
+            names.into_iter().for_each(|name| parameters.take(name));
+        }
         match (&parameter.values, parameter.kind) {
             (ParameterValues::Strings(strings), ParameterType::Spectrum) => {
                 let name = strings.first().map_or("", |text| text.text.as_str());
@@ -198,7 +204,7 @@ impl Lowering<'_> {
                 self.approximate(span, message);
                 (1.5, 0.0)
             }
-            (ParameterValues::Strings(_), _) => {
+            (ParameterValues::Strings(_), ParameterType::Texture) => {
                 self.approximate(span, "the texture of an index of refraction is left out");
                 (1.5, 0.0)
             }
@@ -215,7 +221,7 @@ impl Lowering<'_> {
             (ParameterValues::Numbers(numbers), _) => {
                 (numbers.first().copied().unwrap_or(1.5), 0.0)
             }
-            (ParameterValues::Flags(_), _) => (1.5, 0.0),
+            (ParameterValues::Flags(_) | ParameterValues::Strings(_), _) => (1.5, 0.0),
         }
     }
 

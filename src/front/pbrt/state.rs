@@ -4,9 +4,9 @@ use super::Lowering;
 use super::light::AreaLight;
 use super::material::LoweredMaterial;
 use super::medium::InterfaceMedia;
-use super::parameter::PluginParameter;
+use super::parameter::DefaultParameters;
 use crate::exchange::transform::AffineTransform;
-use rtc_diag::clip;
+use rtc_diag::{Diagnostic, clip, codes};
 use rtc_source::Span;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -35,8 +35,8 @@ pub(super) struct GraphicsState {
     pub(super) reverse_orientation: bool,
     /// The participating media of the following shapes and of the camera.
     pub(super) media: InterfaceMedia,
-    /// The parameters that `VertexAttribute` gave to all plugins of a kind.
-    pub(super) attributes: Rc<BTreeMap<String, Vec<Rc<PluginParameter>>>>,
+    /// The parameters that `Attribute` gave to all plugins of a kind, of which there are four.
+    pub(super) attributes: BTreeMap<String, Rc<DefaultParameters>>,
 }
 
 /// What opened a nested state.
@@ -109,7 +109,7 @@ impl Lowering<'_> {
             Some((opened, _, at)) => {
                 let (name, at) = (opened.name(), *at);
                 let message = format!("`{}` does not end `{name}`", clip(closer));
-                let diagnostic = rtc_diag::Diagnostic::new(&rtc_diag::codes::PBRT_VALUE, message);
+                let diagnostic = Diagnostic::new(&codes::PBRT_DOUBTFUL, message);
                 self.sink
                     .push(diagnostic.at(span, "").also(at, "opened here"));
                 // An end of another kind still ends something.
@@ -119,7 +119,7 @@ impl Lowering<'_> {
             }
             None => {
                 let message = format!("`{}` ends nothing", clip(closer));
-                return self.mistake(span, message);
+                return self.doubtful(span, message);
             }
         }
         let Some((opened, saved, _)) = self.stack.saved.pop() else {
@@ -140,7 +140,7 @@ impl Lowering<'_> {
             return;
         }
         for (opener, _, span) in std::mem::take(&mut self.stack.saved) {
-            self.mistake(span, format!("this `{}` is not closed", opener.name()));
+            self.doubtful(span, format!("this `{}` is not closed", opener.name()));
         }
     }
 }

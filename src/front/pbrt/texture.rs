@@ -135,10 +135,11 @@ impl Lowering<'_> {
         parameters: &Parameters,
         name: &'static str,
     ) -> Option<ScaledTexture> {
-        let parameter = parameters.get(name)?;
+        let parameter = parameters.find(name)?;
         if parameter.kind != super::parameter::ParameterType::Texture {
             return None;
         }
+        parameters.take(name);
         let ParameterValues::Strings(strings) = &parameter.values else {
             return None;
         };
@@ -149,15 +150,16 @@ impl Lowering<'_> {
             .or_else(|| self.floats.get(&text.text));
         let known = known.cloned();
         if known.is_none() {
-            let message = format!("there is no texture `{}`", clip(&text.text));
-            self.mistake(text.span, message);
+            let name = clip(&text.text);
+            let message = format!("there is no texture `{name}`: the default replaces it");
+            self.doubtful(text.span, message);
         }
         known
     }
 
     fn scale_texture(&mut self, plugin: &SpannedText, parameters: &Parameters) -> ScaledTexture {
         // Version 3 has `tex1` and `tex2`, version 4 `tex` and `scale`.
-        let pick = |new, old| match parameters.get(new) {
+        let pick = |new, old| match parameters.find(new) {
             Some(_) => new,
             None => old,
         };

@@ -58,6 +58,24 @@ impl TokenReader {
         }
     }
 
+    /// The same text from its start.
+    pub(super) fn restarted(&self) -> Self {
+        Self {
+            bytes: Rc::clone(&self.bytes),
+            ..Self::new(self.file, b"")
+        }
+    }
+
+    /// The bytes of the text.
+    pub(super) fn len(&self) -> usize {
+        self.bytes.len()
+    }
+
+    /// Whether its text is this one.
+    pub(super) fn has_text(&self, bytes: &[u8]) -> bool {
+        *self.bytes == *bytes
+    }
+
     pub(super) fn file(&self) -> FileId {
         self.file
     }
