@@ -121,13 +121,11 @@ fn not_utf8(byte: u8, span: Span) -> Diagnostic {
 /// The diagnostic for a key that repeats because the separator between two list items is missing.
 fn new_item(key: &str, first: Span, second: Span, separator: MissingSeparator) -> Diagnostic {
     let what = match separator {
-        MissingSeparator::Dash(_) => "a dash",
-        MissingSeparator::Braces => "`}, {`",
+        MissingSeparator::Dash(_) => "a dash is missing before the second",
+        MissingSeparator::Braces => "`}, {` is missing before the second",
+        MissingSeparator::FirstKey => "the beginning of an item is missing before the second",
     };
-    let message = format!(
-        "the key `{}` occurs twice: {what} is missing before the second",
-        clip(key)
-    );
+    let message = format!("the key `{}` occurs twice: {what}", clip(key));
     let diagnostic = at_span(
         &codes::DUPLICATE_KEY,
         message,
@@ -140,6 +138,10 @@ fn new_item(key: &str, first: Span, second: Span, separator: MissingSeparator) -
             diagnostic.guess("each item of a list begins with a dash", blanks, "- ")
         }
         MissingSeparator::Braces => diagnostic.hint("each item of a list has its own braces"),
+        MissingSeparator::FirstKey => diagnostic.hint(
+            "other keys occur twice, too: write the first line of the next object before it, as \
+             `- type: sphere`; in JSON `}, {` and its type",
+        ),
     }
 }
 
@@ -151,7 +153,7 @@ fn duplicate_key(key: &str, first: Span, second: Span, is_same: bool) -> Diagnos
     };
     let diagnostic = at_span(&codes::DUPLICATE_KEY, message, second, "again")
         .also(first, "first")
-        .hint("remove one of them");
+        .hint("remove one of them; of two lists, move the items of one below those of the other");
     match is_same {
         true => diagnostic.severity(Severity::Warning),
         false => diagnostic,

@@ -32,7 +32,8 @@ pub(super) fn syntax(
         comment: comment_after(tree, bracket),
     };
     // Typos that explain any error.
-    if let Some(typo) = lookalike::near(tree, at).or_else(|| lookalike::comment_near(tree, at)) {
+    let near = lookalike::near(tree, at).or_else(|| lookalike::comment_near(tree, at));
+    if let Some(typo) = near.or_else(|| typo::quote(tree, at)) {
         return typo;
     }
     let from = bracket.map_or(at, |bracket| (bracket.start - tree.base) as usize);
@@ -51,6 +52,9 @@ pub(super) fn syntax(
             unclosed(bracket, Some(here))
         }
         bracket => {
+            if let Some(typo) = typo::colon_after_key(tree, at) {
+                return typo;
+            }
             let missing = bracket.filter(|_| runs_on(kind) || trails(kind));
             if let Some(typo) = missing.and_then(|_| comma::missing(tree, at)) {
                 return typo;
@@ -190,14 +194,96 @@ fn message_with_characters(kind: &ErrorKind) -> (String, &'static str, &'static 
             "put the value in quotes if it is text",
         )
     } else {
+        let (message, label, hint) = message_of_rest(kind);
+        (message.to_owned(), label, hint)
+    }
+}
+
+/// Message, label and hint, for errors that are rare.
+fn message_of_rest(kind: &ErrorKind) -> (&'static str, &'static str, &'static str) {
+    use ErrorKind as Kind;
+    if matches!(
+        kind,
+        Kind::ExpectedBlockMappingKey | Kind::InvalidSimpleKey | Kind::MappingKeyNotAllowed
+    ) {
         (
-            error_text(kind),
-            "not YAML from here on",
+            "no key where one must stand",
+            "not read as a key",
+            "in a map each line is a key, a colon, a space and a value, indented alike; in a list \
+             each item begins with a dash, the first one, too",
+        )
+    } else if matches!(
+        kind,
+        Kind::ExpectedBlockSequenceEntry
+            | Kind::BlockSequenceEntryNotAllowed
+            | Kind::InvalidBlockEntryWhitespace
+            | Kind::PlainScalarStartsWithDashFlowIndicator
+    ) {
+        (
+            "an item of a list where none can stand",
+            "no item can begin here",
+            "write each item in a line of its own, as `- value`, all of a list indented alike",
+        )
+    } else if matches!(
+        kind,
+        Kind::InvalidTrailingSingleQuotedScalar
+            | Kind::InvalidTrailingDoubleQuotedScalar
+            | Kind::DocumentIndicatorInQuotedScalar
+    ) {
+        (
+            "something follows a text in quotes",
+            "after the closing quote",
+            "put all of the value between the quotes, or a comma after it",
+        )
+    } else if matches!(kind, Kind::MissingAnchorOrAliasName) {
+        (
+            "`&` or `*` without a name",
+            "a name must follow",
+            "`&name` marks a value, and `*name` repeats it; put other text in quotes",
+        )
+    } else if matches!(
+        kind,
+        Kind::InvalidIndentation | Kind::InvalidFlowScalarIndent | Kind::UnexpectedEndOfPlainScalar
+    ) {
+        (
+            "a line is indented less than what it belongs to",
+            "too far to the left",
+            "indent lines that belong together alike",
+        )
+    } else if matches!(
+        kind,
+        Kind::CommentInterceptedScalar | Kind::CommentNotSeparated | Kind::ExpectedWhitespace
+    ) {
+        (
+            "a space is missing, or a comment divides a value",
+            "before this",
+            "a comment begins with a space and `#`, after the value",
+        )
+    } else if is_escape(kind) {
+        (
+            "an unknown escape in a double-quoted string",
+            "contains an unknown escape",
+            "in single quotes, a backslash is literal",
+        )
+    } else {
+        (
+            "the text is not YAML from here on",
+            "not understood",
             "compare with the lines before: indentation, colons, brackets, quotes",
         )
     }
 }
 
-fn error_text(kind: &ErrorKind) -> String {
-    kind.to_string().replace('`', "'")
+/// Whether an escape in a string is the mistake.
+fn is_escape(kind: &ErrorKind) -> bool {
+    matches!(
+        kind,
+        ErrorKind::UnknownQuotedScalarEscape
+            | ErrorKind::InvalidQuotedScalarHexEscape
+            | ErrorKind::InvalidLowSurrogateHexEscape
+            | ErrorKind::InvalidLowSurrogate
+            | ErrorKind::MissingLowSurrogate
+            | ErrorKind::UnpairedLowSurrogate
+            | ErrorKind::InvalidUnicodeEscape
+    )
 }

@@ -9,6 +9,8 @@ pub enum MissingSeparator {
     Dash(Span),
     /// `}, {`.
     Braces,
+    /// The line or the brackets with the first key of the item, which is missing, too.
+    FirstKey,
 }
 
 /// An error in a YAML text. All except tags and duplicate keys prevent a tree.

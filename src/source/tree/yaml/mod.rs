@@ -282,9 +282,12 @@ impl<'s> TreeBuilder<'s, '_> {
     fn keys(&mut self, map: NodeId, flow: bool) {
         let known = self.tree.duplicate_keys().len();
         keys::close(&mut self.tree, map);
+        let has_two_items = self.has_two_items(known);
         for at in known..self.tree.duplicate_keys().len() {
             let (first, second) = self.tree.duplicate_keys()[at];
             let separator = self.separator(map, flow, [first, second]);
+            let separator =
+                separator.or_else(|| has_two_items.then_some(MissingSeparator::FirstKey));
             (self.report)(YamlError::DuplicateKey {
                 key: self.tree.text(second).unwrap_or_default(),
                 first: self.tree.span(first),
@@ -297,6 +300,20 @@ impl<'s> TreeBuilder<'s, '_> {
                 break;
             }
         }
+    }
+
+    /// Whether the item of a list that was just closed has several keys twice, with other values:
+    /// it is two items. Its duplicate keys begin at the index `from`.
+    fn has_two_items(&self, from: usize) -> bool {
+        let is_item = self
+            .open
+            .last()
+            .is_some_and(|open| self.tree.is_list(open.node));
+        let pairs = self.tree.duplicate_keys()[from..].iter();
+        let is_other = |(first, second): &&(NodeId, NodeId)| {
+            !self.tree.is_same(NodeId(first.0 + 1), NodeId(second.0 + 1))
+        };
+        is_item && pairs.filter(is_other).take(2).count() == 2
     }
 
     /// The missing separator before the second of two equal keys, if it begins a new list item: an

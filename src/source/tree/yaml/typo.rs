@@ -7,6 +7,41 @@ use crate::Span;
 use granit_parser::ErrorKind;
 use rtc_math::to_u32;
 
+/// A quote that explains a syntax error in JSON, if one is found: it hides the brackets and commas
+/// after it.
+pub(super) fn quote(tree: &SyntaxTree<'_>, at: usize) -> Option<YamlError<'static>> {
+    SourceText { tree }.quote_in_json(at)
+}
+
+/// A quoted key without a colon after it, or with `=`, before the position of a syntax error.
+pub(super) fn colon_after_key(tree: &SyntaxTree<'_>, at: usize) -> Option<YamlError<'static>> {
+    let (before, rest) = tree.source.split_at_checked(at)?;
+    let key = before.trim_end();
+    let open = key.strip_suffix('"')?.rfind('"')?;
+    let is_key = key.get(..open)?.trim_end().ends_with(['{', ',']);
+    let (sign, found) = match rest.starts_with('=') {
+        true => (1, "`=` instead of a colon"),
+        false => (0, "no colon after a key"),
+    };
+    let begins = |c: char| c.is_alphanumeric() || "[{\"-".contains(c);
+    if !is_key || !rest.get(sign..)?.trim_start().starts_with(begins) {
+        return None;
+    }
+    Some(typo(
+        found.to_owned(),
+        "the key".to_owned(),
+        "write a colon between a key and its value",
+        span(tree, open, key.len()),
+        (
+            span(tree, key.len(), at + sign),
+            match sign {
+                0 => ": ".to_owned(),
+                _ => ":".to_owned(),
+            },
+        ),
+    ))
+}
+
 /// The typo that explains a syntax error, if one is found.
 pub(super) fn find(
     tree: &SyntaxTree<'_>,
@@ -14,6 +49,10 @@ pub(super) fn find(
     kind: &ErrorKind,
 ) -> Option<YamlError<'static>> {
     let text = SourceText { tree };
+    let typo = text.value_below(at).or_else(|| text.colon_above(at));
+    if let Some(typo) = typo.or_else(|| text.key_without_line(at)) {
+        return Some(typo);
+    }
     let is_tab = matches!(
         kind,
         ErrorKind::TabNotAllowed | ErrorKind::TabInBlockIndentation | ErrorKind::TabInPlainScalar
@@ -98,6 +137,146 @@ impl SourceText<'_, '_> {
             span,
             (span, format!("{key}: ")),
         ))
+    }
+
+    /// A value in the line after its key that is not indented.
+    fn value_below(&self, at: usize) -> Option<YamlError<'static>> {
+        let (line, before) = self.lines_at(at)?;
+        let value = IndentedLine::of(self.after(line).lines().next()?)?;
+        let (key_line, key) = before;
+        let begins = value
+            .words
+            .starts_with(|c: char| c.is_alphanumeric() || "[{\"'.-+".contains(c));
+        let is_alone = !value.words.contains(": ") && !value.words.ends_with(':');
+        let is_key = key.words.ends_with(':') && !key.words.starts_with('#');
+        if !(begins && is_alone && is_key && value.dash.is_none() && value.spaces <= key.spaces) {
+            return None;
+        }
+        let end = key_line + self.after(key_line).lines().next()?.trim_end().len();
+        let start = line + value.spaces;
+        Some(typo(
+            format!("the value of `{}` is not indented", key.key()),
+            "a value in the next line".to_owned(),
+            "write it after the colon, or indent it by more than its key",
+            self.span(start, start + value.words.len()),
+            (self.span(end, start), " ".to_owned()),
+        ))
+    }
+
+    /// A key without a colon in the line before: a word alone above lines that are indented, or a
+    /// word and a value.
+    fn colon_above(&self, at: usize) -> Option<YamlError<'static>> {
+        let (line, (start, before)) = self.lines_at(at)?;
+        let below = IndentedLine::of(self.after(line).lines().next()?)?;
+        let words = before.words.trim_start_matches([' ', '-']);
+        let (key, value) = words.split_once(' ').unwrap_or((words, ""));
+        let is_word = key.chars().all(char::is_alphanumeric) && !words.contains([':', '#', '"']);
+        let opens = value.is_empty() && below.spaces > before.spaces && before.dash.is_none();
+        let has_value = !value.is_empty() && !value.contains(' ') && before.dash.is_some();
+        if key.is_empty() || !is_word || !(opens || has_value) || !below.words.contains(':') {
+            return None;
+        }
+        let first = start + before.spaces;
+        let end = self.span(first + key.len(), first + key.len());
+        Some(typo(
+            "a line that is no `key: value`".to_owned(),
+            "no colon follows this".to_owned(),
+            "write a colon and a space after the key",
+            self.span(first, first + key.len()),
+            (end, ":".to_owned()),
+        ))
+    }
+
+    /// Several keys that are indented as those of a map, below a key that has a value already.
+    fn key_without_line(&self, at: usize) -> Option<YamlError<'static>> {
+        let (line, (_, before)) = self.lines_at(at)?;
+        let mut below = self.after(line).lines().filter_map(IndentedLine::of);
+        let (first, second) = (below.next()?, below.next()?);
+        let are_keys = [&first, &second]
+            .iter()
+            .all(|line| line.words.contains(':') && line.dash.is_none());
+        let (_, value) = before.words.split_once(':')?;
+        let is_map = are_keys && first.spaces == second.spaces && first.spaces > before.spaces;
+        if !is_map || value.trim().is_empty() || value.trim_start().starts_with('#') {
+            return None;
+        }
+        let start = line + first.spaces;
+        Some(YamlError::Syntax {
+            message: format!(
+                "`{}` is indented as below a key, but `{}` before it has a value",
+                first.key(),
+                before.key()
+            ),
+            label: "no key above that it belongs to".to_owned(),
+            hint: "a line with a key alone is missing before it, as `material:`, or these lines \
+                   are indented too far",
+            replacement: None,
+            span: self.span(start, start + first.key().len()),
+            bracket: None,
+        })
+    }
+
+    /// The start of the line of an offset, and the start and the content of the last line before
+    /// it that has any.
+    fn lines_at(&self, at: usize) -> Option<(usize, (usize, IndentedLine<'_>))> {
+        let line = self.line(at);
+        let mut end = line;
+        for _ in 0..MAX_LINES_BACK {
+            let start = self.line(end.checked_sub(1)?);
+            let text = self.tree.source.get(start..end)?;
+            if let Some(found) = IndentedLine::of(text) {
+                return Some((line, (start, found)));
+            }
+            end = start;
+        }
+        None
+    }
+
+    /// A quote in JSON that is never closed: in the line of the error or the one before it.
+    fn quote_in_json(&self, at: usize) -> Option<YamlError<'static>> {
+        if !self.tree.source.trim_start().starts_with(['{', '[']) {
+            return None;
+        }
+        let mut start = self.line(at);
+        for _ in 0..2 {
+            let line = self.after(start).lines().next()?;
+            if line.matches('"').count() % 2 == 1 && !line.contains(['\\', '\'']) {
+                return self.close_quote(start, line);
+            }
+            start = self.line(start.checked_sub(1)?);
+        }
+        None
+    }
+
+    /// The report of the quote that is missing in a line of JSON: that of a value at the end of the
+    /// line, or that of a key before its colon.
+    fn close_quote(&self, start: usize, line: &str) -> Option<YamlError<'static>> {
+        let quotes: Vec<_> = line.match_indices('"').map(|(at, _)| at).collect();
+        let content = |open: usize, close: usize| line.get(open + 1..close);
+        let pairs = quotes.chunks(2).map(|pair| match pair {
+            [open, close] => (*open, content(*open, *close)),
+            [open, ..] => (*open, content(*open, line.len())),
+            [] => (0, None),
+        });
+        // A string with a colon is a key and what follows.
+        let mut pairs = pairs.filter_map(|(open, inside)| Some((open, inside?)));
+        let last = (*quotes.last()?, content(*quotes.last()?, line.len())?);
+        let (open, inside) = pairs
+            .find(|(_, inside)| inside.contains(':'))
+            .unwrap_or(last);
+        let length = match inside.find(':') {
+            Some(colon) => colon,
+            None => inside.trim_end_matches([',', '}', ']', ' ', '\r']).len(),
+        };
+        let close = start + open + 1 + length;
+        Some(YamlError::Syntax {
+            message: "a quote is never closed".to_owned(),
+            label: "opened here".to_owned(),
+            hint: "close it with the same kind of quote",
+            replacement: (length > 0).then(|| Box::new((self.span(close, close), '"'.to_string()))),
+            span: self.span(start + open, start + open + 1),
+            bracket: None,
+        })
     }
 
     /// A quote that is never closed: the last quote before the error that opens and does not close
