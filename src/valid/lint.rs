@@ -8,6 +8,7 @@ use super::medium;
 use rtc_diag::{Diagnostic, Severity, codes};
 use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
 use rtc_math::{Vec3, shortest};
+use std::f64::consts::PI;
 
 /// Runs the lints on a scene without errors. With errors, parts of the scene may be missing.
 pub(super) fn lints(scene: &ir::Scene, solids: &Solids<'_>, check: &mut Checker<'_>) {
@@ -15,6 +16,7 @@ pub(super) fn lints(scene: &ir::Scene, solids: &Solids<'_>, check: &mut Checker<
         return;
     }
     no_light(scene, check);
+    black_lights(scene, check);
     shadows_of_paths(scene, check);
     tiny_picture(scene, check);
     one_eye(scene, check);
@@ -23,6 +25,9 @@ pub(super) fn lints(scene: &ir::Scene, solids: &Solids<'_>, check: &mut Checker<
     inside::eye(solids, check);
     unsupported_features(scene, check);
     medium::open_shapes(scene, check);
+    // A bubble in glass has an index below 1.
+    let mut materials = scene.materials.iter().filter_map(ir::Material::phong);
+    let has_glass = materials.any(|phong| phong.kt > 0.0 && phong.ior > 1.0);
     for (index, material) in scene.materials.iter().enumerate() {
         let Some(phong) = material.phong() else {
             continue;
@@ -31,6 +36,10 @@ pub(super) fn lints(scene: &ir::Scene, solids: &Solids<'_>, check: &mut Checker<
             bytes(phong.color, EntityKind::Material, index, check);
         }
         weights(phong, index, check);
+        if !has_glass {
+            glass(phong, index, check);
+        }
+        highlight(phong, index, check);
     }
     for (index, light) in scene.lights.iter().enumerate() {
         let Some(light) = light.point() else { continue };
@@ -91,10 +100,63 @@ fn weights(phong: &ir::Phong, index: usize, check: &mut Checker<'_>) {
     }
 }
 
-/// The size of all objects in the picture below which the camera is probably wrong: in pixels, and
-/// as a fraction of the picture.
-const FEW_PIXELS: f64 = 8.0;
-const SMALL_FRACTION: f64 = 1.0 / 16.0;
+/// Warns of an index of refraction that no glass has.
+fn glass(phong: &ir::Phong, index: usize, check: &mut Checker<'_>) {
+    if phong.kt > 0.0 && phong.ior < 1.0 {
+        let inverse = shortest((100.0 / phong.ior).round() / 100.0);
+        let message = format!(
+            "an index of refraction of {} is below that of air",
+            shortest(phong.ior)
+        );
+        let hint = format!(
+            "it is the index inside over that outside, for instance 1.5 for glass; the other way \
+             round this is {inverse}"
+        );
+        check.report(
+            ValuePath::new(EntityKind::Material, index, EntityField::Ior),
+            "the light is bent as on leaving glass",
+            Diagnostic::new(&codes::UNLIKELY_VALUE, message).hint(hint),
+        );
+    }
+}
+
+/// Warns of a highlight that is everywhere.
+fn highlight(phong: &ir::Phong, index: usize, check: &mut Checker<'_>) {
+    if phong.ks > 0.0 && phong.n == 0.0 {
+        let message = "a highlight with the exponent 0 is as bright everywhere";
+        let hint = "a larger `n` makes it smaller and sharper, for instance 20; `ks: 0` is no \
+                    highlight";
+        check.report(
+            ValuePath::new(EntityKind::Material, index, EntityField::N),
+            "it whitens the whole surface",
+            Diagnostic::new(&codes::UNLIKELY_VALUE, message).hint(hint),
+        );
+    }
+}
+
+/// Warns of the lights that are black, if their scene shades its surfaces.
+fn black_lights(scene: &ir::Scene, check: &mut Checker<'_>) {
+    let is_lit = matches!(
+        scene.settings.mode,
+        ir::Mode::Phong | ir::Mode::Gooch(_) | ir::Mode::Path(_)
+    );
+    for (index, light) in scene.lights.iter().enumerate() {
+        let is_black = light.point().is_some_and(|light| light.color == [0.0; 3]);
+        if is_lit && is_black {
+            let message = "a black light has no effect";
+            let hint = "white is `[1, 1, 1]`; to turn a light off, remove it";
+            check.report(
+                ValuePath::new(EntityKind::Light, index, EntityField::Color),
+                "no light",
+                Diagnostic::new(&codes::UNLIKELY_VALUE, message).hint(hint),
+            );
+        }
+    }
+}
+
+/// The fraction of the picture below which a circle around all objects is probably the mistake of
+/// the camera.
+const SMALL_FRACTION: f64 = 0.01;
 
 /// The fraction of the picture's height that all objects take with the suggested `up`.
 const FILLED: f64 = 0.75;
@@ -113,14 +175,27 @@ fn tiny_picture(scene: &ir::Scene, check: &mut Checker<'_>) {
     let camera = &scene.camera;
     let [eye, center, step] = [camera.eye, camera.center, camera.up].map(Vec3::from_array);
     let distance = eye.distance(sphere.center);
-    let scale = match camera.projection {
+    let scale = |distance: f64| match camera.projection {
         ir::Projection::Perspective => eye.distance(center) / distance,
         ir::Projection::Orthographic => 1.0,
     };
-    let across = 2.0 * sphere.radius * scale;
+    let across = 2.0 * sphere.radius * scale(distance);
     let pixels = across / step.length();
-    let side = f64::from(camera.size[0].min(camera.size[1]));
-    let is_tiny = pixels < FEW_PIXELS && pixels < SMALL_FRACTION * side;
+    let [width, height] = camera.size.map(f64::from);
+    let side = width.min(height);
+    // A circle around each ball is smaller than one around all corners of its box.
+    let disc = |(ball, radius): (Vec3, f64)| {
+        let radius = radius * scale(eye.distance(ball)) / step.length();
+        PI * radius * radius
+    };
+    let covered = match balls(scene) {
+        Some(balls) => balls
+            .map(disc)
+            .sum::<f64>()
+            .min(disc((sphere.center, sphere.radius))),
+        None => disc((sphere.center, sphere.radius)),
+    };
+    let is_tiny = covered < SMALL_FRACTION * width * height;
     if distance <= sphere.radius || !is_tiny || pixels.is_nan() {
         return;
     }
@@ -140,6 +215,18 @@ fn tiny_picture(scene: &ir::Scene, check: &mut Checker<'_>) {
         .guess("write a shorter one", span, suggestion)
         .hint("or give the angle that the picture spans, as `fov: 45`");
     check.report(up, "its length is the size of a pixel", diagnostic);
+}
+
+/// The centres and radii of the objects, if all that are bounded are balls.
+fn balls(scene: &ir::Scene) -> Option<impl Iterator<Item = (Vec3, f64)>> {
+    let ball = |surface: &ir::Surface| {
+        if let ir::Shape::Sphere(sphere) = &surface.shape {
+            return Some(Some((Vec3::from_array(sphere.center), sphere.radius)));
+        }
+        matches!(surface.shape, ir::Shape::Plane(_)).then_some(None)
+    };
+    let balls: Option<Vec<_>> = scene.surfaces.iter().map(ball).collect();
+    balls.map(|balls| balls.into_iter().flatten())
 }
 
 /// A number rounded to two digits.

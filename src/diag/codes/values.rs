@@ -33,6 +33,7 @@ super::codes! { VA:
     TINY_PICTURE = "VA032", Warning, "all objects together cover only a few pixels";
     LARGE_WEIGHT = "VA033", Warning, "a weight of a material looks like a percentage";
     OPEN_MEDIUM = "VA034", Warning, "an open shape bounds a participating medium";
+    UNLIKELY_VALUE = "VA035", Warning, "a value is possible, but hardly the one that is meant";
     OUT_OF_RANGE = "VA101", Error, "a number is outside the range of its key";
     NO_CAMERA = "VA102", Error, "the scene has no camera";
     TWO_CAMERAS = "VA103", Warning, "the scene has both `Camera` and `Eye`";
