@@ -40,15 +40,21 @@ pub enum LevelSubject {
 
 impl LevelSubject {
     /// The subject of this name: `warnings`, or a code in any case.
+    #[must_use]
+    pub fn find(word: &str) -> Option<Self> {
+        match word {
+            "warnings" => Some(Self::Warnings),
+            _ => codes::find(word).map(Self::Code),
+        }
+    }
+
+    /// As [`LevelSubject::find`].
     ///
     /// # Errors
     /// A message if there is none, with the closest name.
     pub fn parse(word: &str) -> Result<Self, String> {
-        if word == "warnings" {
-            return Ok(Self::Warnings);
-        }
-        if let Some(code) = codes::find(word) {
-            return Ok(Self::Code(code));
+        if let Some(subject) = Self::find(word) {
+            return Ok(subject);
         }
         let known = codes::all().map(|code| code.id).chain(["warnings"]);
         Err(match nearest(word, known) {

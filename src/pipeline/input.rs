@@ -7,7 +7,7 @@ use rtc_front::{gltf, pixels};
 use rtc_ir::{EntityField, EntityKind, Light, LoweredScene, Scene, SourceSpans, ValuePath};
 use rtc_passes::{EnvironmentOverride, FillLight, Framing, SceneKind, StudioChoice, ViewAndLight};
 use rtc_source::tree::DetachedTree;
-use rtc_source::{FileId, LoadError, Loader, MemoryFiles, Resource, SourceMap, Span};
+use rtc_source::{ByteLimit, FileId, LoadError, Loader, MemoryFiles, Resource, SourceMap, Span};
 use rtc_valid::ValidScene;
 use std::io::Read;
 use std::path::Path;
@@ -458,11 +458,9 @@ fn unreadable(name: &str, error: &LoadError) -> Diagnostic {
             Diagnostic::new(&codes::CANNOT_READ, format!("can't read `{name}`: {error}"))
         }
         LoadError::TooLarge { limit } => {
-            let limit = limit >> 20;
-            Diagnostic::new(
-                &codes::TOO_LARGE,
-                format!("`{name}` is larger than {limit} MiB"),
-            )
+            let limit = ByteLimit(*limit);
+            let message = format!("`{name}` is larger than {limit}");
+            Diagnostic::new(&codes::TOO_LARGE, message)
         }
         LoadError::NotRegular => {
             Diagnostic::new(&codes::CANNOT_READ, format!("can't read `{name}`: {error}"))

@@ -31,8 +31,22 @@ impl fmt::Display for LoadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Io(error) => error.fmt(f),
-            Self::TooLarge { limit } => write!(f, "it is larger than {} MiB", limit >> 20),
+            Self::TooLarge { limit } => write!(f, "it is larger than {}", ByteLimit(*limit)),
             Self::NotRegular => f.write_str("it is no regular file; `-` reads standard input"),
+        }
+    }
+}
+
+/// A limit in bytes, displayed exactly, with the largest unit.
+#[derive(Clone, Copy, Debug)]
+pub struct ByteLimit(pub u64);
+
+impl fmt::Display for ByteLimit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.trailing_zeros() {
+            20.. => write!(f, "{} MiB", self.0 >> 20),
+            10.. => write!(f, "{} KiB", self.0 >> 10),
+            _ => write!(f, "{} bytes", self.0),
         }
     }
 }

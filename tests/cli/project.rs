@@ -167,8 +167,6 @@ fn mistakes_are_told_all_and_with_their_place() {
         let (exit, said) = checked(&shelf, &[]);
         assert!(exit == 1 && said.contains(words), "{text}: {said}");
     }
-    fs::write(shelf.path().join("set/rtc.toml"), "#".repeat(70_000)).unwrap();
-    assert_eq!(checked(&shelf, &[]).0, 2, "it is too large");
 }
 
 /// A scene whose picture has more pixels than it may have by default, and an `rtc.toml` that lifts
@@ -275,4 +273,25 @@ fn a_link_that_leaves_its_folder_is_not_read() {
         1,
         "within its folder it is followed"
     );
+}
+
+/// It may be that of somebody else, in a folder above.
+#[cfg(unix)]
+#[test]
+fn one_that_cannot_be_read_is_a_warning() {
+    let shelf = shelf("[levels]\nwarnings = \"deny\"\n");
+    let file = shelf.path().join("set/rtc.toml");
+    assert_eq!(checked(&shelf, &[]).0, 1);
+    fs::write(&file, "#".repeat((64 << 10) + 1)).unwrap();
+    let (exit, said) = checked(&shelf, &[]);
+    assert_eq!(exit, 0, "{said}");
+    assert!(
+        said.contains("warning[IO007]: `set/rtc.toml` is not read: it is larger than 64 KiB"),
+        "{said}"
+    );
+    let made = rtc(
+        &shelf,
+        &["render", SCENE_BELOW, "--size", "4", "-o", "a.png"],
+    );
+    assert_eq!(code(&made), 0, "{}", stderr(&made));
 }

@@ -12,6 +12,7 @@ use rtc_passes::Overrides;
 use rtc_pipeline::Input;
 use rtc_source::{Limits, LoadError, Loader, Resource, Span};
 use rtc_study::RenderGoal;
+use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use trust::ProjectTrust;
@@ -32,7 +33,35 @@ pub(super) struct Project {
     settings: ProjectSettings,
     faults: Vec<ProjectFileError>,
     /// The reason why it was not read.
-    withheld: Option<&'static str>,
+    withheld: Option<Withheld>,
+}
+
+/// Why a file was not read. Every scene below its folder would fail if that were an error, and the
+/// folder may be that of somebody else.
+#[derive(Debug)]
+enum Withheld {
+    /// It is a link out of its folder, or another user could have written it.
+    Untrusted(&'static str),
+    /// It can't be read.
+    Unreadable(LoadError),
+}
+
+impl Withheld {
+    fn hint(&self) -> &'static str {
+        match self {
+            Self::Untrusted(_) => "`--trust-project` has it read, unless it is a link",
+            Self::Unreadable(_) => "the run goes on without its settings",
+        }
+    }
+}
+
+impl fmt::Display for Withheld {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Untrusted(reason) => f.write_str(reason),
+            Self::Unreadable(error) => error.fmt(f),
+        }
+    }
 }
 
 /// Its contents.
@@ -67,7 +96,7 @@ impl Project {
             return Ok(None);
         };
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        let (bytes, withheld) = match content(&path, &folder, reading)? {
+        let (bytes, withheld) = match content(&path, &folder, reading) {
             Ok(bytes) => (bytes, None),
             Err(reason) => (Vec::new(), Some(reason)),
         };
@@ -136,10 +165,10 @@ impl Project {
     /// Adds its diagnostics to those of a scene.
     pub(super) fn report_diagnostics(&self, input: &mut Input) {
         let path = self.path.display().to_string();
-        if let Some(reason) = self.withheld {
+        if let Some(reason) = &self.withheld {
             let message = format!("`{}` is not read: {reason}", clip_path(&path));
             let found = Diagnostic::new(&codes::SETTINGS_UNTRUSTED, message);
-            return input.push(found.hint("`--trust-project` has it read, unless it is a link"));
+            return input.push(found.hint(reason.hint()));
         }
         let file = input.add_text(&self.path, self.bytes.clone());
         let message = format!("settings from `{}`", clip_path(&path));
@@ -184,26 +213,19 @@ pub(super) fn picture(
 }
 
 /// The contents of the file at a path in a folder without links, or the reason why it is not read.
-fn content(
-    path: &Path,
-    folder: &Path,
-    reading: &ReadArgs,
-) -> Result<Result<Vec<u8>, &'static str>, Failure> {
-    const LINK: &str = "it is a link that leaves its folder";
+fn content(path: &Path, folder: &Path, reading: &ReadArgs) -> Result<Vec<u8>, Withheld> {
+    const LINK: Withheld = Withheld::Untrusted("it is a link that leaves its folder");
     let is_link = path.is_symlink();
     match Loader.owned(path, MAX_BYTES) {
-        Ok(file) if !file.path.starts_with(folder) => Ok(Err(LINK)),
-        Ok(file) if !file.is_trusted && !reading.trust_project => {
-            Ok(Err("it belongs to another user, or all may write it"))
-        }
-        Ok(file) => Ok(Ok(file.bytes)),
+        Ok(file) if !file.path.starts_with(folder) => Err(LINK),
+        Ok(file) if !file.is_trusted && !reading.trust_project => Err(Withheld::Untrusted(
+            "it belongs to another user, or all may write it",
+        )),
+        Ok(file) => Ok(file.bytes),
         // Whether a file outside exists is not revealed.
-        Err(_) if is_link => Ok(Err(LINK)),
-        Err(LoadError::NotRegular) => Ok(Err("it is no regular file")),
-        Err(error) => Err(Failure::Failed(format!(
-            "can't read `{}`: {error}",
-            path.display()
-        ))),
+        Err(_) if is_link => Err(LINK),
+        Err(LoadError::NotRegular) => Err(Withheld::Untrusted("it is no regular file")),
+        Err(error) => Err(Withheld::Unreadable(error)),
     }
 }
 

@@ -13,6 +13,10 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
+/// The number of errors after which no more suggestions are computed: each costs a comparison with
+/// all known names.
+const MAX_SUGGESTIONS: usize = 20;
+
 /// The keys at the top.
 const KEYS: [&str; 7] = [
     "asset-root",
@@ -155,7 +159,11 @@ impl ProjectReader<'_> {
 
     fn level(&mut self, key: &ProjectKey<'_>, value: &Value<'_>) {
         let name = key.get_ref().as_ref();
-        let subject = match LevelSubject::parse(name) {
+        let subject = match self.is_advising() {
+            true => LevelSubject::parse(name),
+            false => LevelSubject::find(name).ok_or_else(|| "there is no such code".to_owned()),
+        };
+        let subject = match subject {
             Ok(subject) => subject,
             Err(reason) => {
                 return self.fault(key.span(), format!("`{}`: {reason}", clip(name)), "");
@@ -223,7 +231,8 @@ impl ProjectReader<'_> {
 
     fn unknown(&mut self, key: &ProjectKey<'_>, known: &[&str]) {
         let name = key.get_ref().as_ref();
-        let suggestion = nearest(name, known.iter().copied());
+        let known_names = known.iter().copied().filter(|_| self.is_advising());
+        let suggestion = nearest(name, known_names);
         let hint = match suggestion {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("the keys here are {}", known.join(", ")),
@@ -235,6 +244,11 @@ impl ProjectReader<'_> {
             hint: Some(hint),
             suggestion: suggestion.map(str::to_owned),
         });
+    }
+
+    /// Whether suggestions are still made.
+    fn is_advising(&self) -> bool {
+        self.faults.len() < MAX_SUGGESTIONS
     }
 
     /// Whether the scene may name the files in a folder.
@@ -278,4 +292,30 @@ fn whole(value: &DeValue<'_>) -> Option<u64> {
 fn written(value: &DeValue<'_>) -> Option<String> {
     let number = whole(value).map(|number| number.to_string());
     number.or_else(|| value.as_str().map(str::to_owned))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MAX_SUGGESTIONS, ProjectTrust, read};
+    use std::fmt::Write as _;
+    use std::path::Path;
+
+    #[test]
+    fn suggestions_are_made_for_the_first_errors_alone() {
+        for count in [50, 100, 200] {
+            let mut text = "shadowss = 1\n[levels]\n".to_owned();
+            for k in 0..count {
+                writeln!(text, "VA0{:02}X{k} = \"warn\"\nsizee{k} = 1", k % 30).unwrap();
+            }
+            text += "VA022 = \"deny\"\n";
+            let (settings, faults) = read(text.as_bytes(), Path::new(""), ProjectTrust::Full);
+            let is_advised = |hint: &String| hint.contains("did you mean");
+            let advised = faults
+                .iter()
+                .filter(|fault| is_advised(&fault.message) || fault.hint.iter().any(is_advised));
+            assert!(advised.count() <= MAX_SUGGESTIONS);
+            assert_eq!(faults.len(), 2 * count + 1);
+            assert_ne!(settings.levels, rtc_diag::DiagnosticLevels::default());
+        }
+    }
 }
