@@ -3,17 +3,20 @@
 use super::Failure;
 use super::args::CheckArgs;
 use super::reporter::{self, Reporter};
-use super::{files, fix, input};
+use super::table::{FileTable, TableCell};
+use super::{files, fix, input, output};
+use std::path::Path;
 
 /// Checks the files and reports their diagnostics.
 pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
-    // The printed diff is the result of the command.
-    let mut reporter = match args.diff {
+    // The printed diff or table is the result of the command.
+    let mut reporter = match args.diff || args.table.is_some() {
         true => Reporter::beside_result(&args.reporter),
         false => Reporter::as_result(&args.reporter),
     };
     let mut worst = Ok(());
     let scenes = files::scenes(&args.files, args.skip_others)?;
+    let mut rows = Vec::new();
     for path in &scenes.paths {
         let read = input::read(path, &args.reading)?;
         let mut input = match fix::run(path, read, args, &reporter) {
@@ -21,6 +24,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
             Err(Failure::Failed(message)) => {
                 reporter::print_message(&format!("error: {message}"));
                 worst = Err(Failure::Unreadable);
+                rows.push(row(path, [1, 0, 0]));
                 continue;
             }
             Err(failure) => return Err(failure),
@@ -34,14 +38,44 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
             Err(failure) => worst = Err(failure),
             Ok(()) => {}
         }
+        rows.push(row(path, reporter.last_counts()));
     }
     let is_in_doubt = reporter.left_in_doubt();
     scenes.report_skipped(reporter.is_quiet());
     reporter.finish()?;
-    if worst.is_ok() && is_in_doubt {
+    if let Some(format) = args.table {
+        output::to_stdout(table(rows).print(format).as_bytes())?;
+    } else if worst.is_ok() && is_in_doubt {
         reporter::print_message(&nothing_found(scenes.paths.len()));
     }
     worst
+}
+
+/// The row of a file with so many errors, warnings and notes.
+fn row(path: &Path, counts: [usize; 3]) -> (TableCell, [usize; 3]) {
+    (TableCell::Text(path.display().to_string()), counts)
+}
+
+/// The table of the files, and their total.
+fn table(rows: Vec<(TableCell, [usize; 3])>) -> FileTable {
+    let sum = |k: usize| rows.iter().map(|(_, counts)| counts[k]).sum();
+    let files = match rows.len() {
+        1 => "1 file".to_owned(),
+        count => format!("{count} files"),
+    };
+    let line = |name, counts: [usize; 3]| {
+        let counts = counts.map(TableCell::Count);
+        [name].into_iter().chain(counts).collect()
+    };
+    FileTable {
+        schema: "rtc-check-table/1",
+        columns: &["file", "errors", "warnings", "notes"],
+        total: line(TableCell::Text(files), [sum(0), sum(1), sum(2)]),
+        rows: rows
+            .into_iter()
+            .map(|(name, counts)| line(name, counts))
+            .collect(),
+    }
 }
 
 /// The summary for files without errors.

@@ -6,6 +6,7 @@
 //!
 //! Only a link named on the command line is followed: others may form cycles or leave the folder.
 
+use super::input::is_picture;
 use super::{Failure, reporter};
 use globset::{GlobBuilder, GlobMatcher};
 use rtc_front::{is_scene_name, is_scene_text_name};
@@ -221,6 +222,22 @@ fn below(folder: &Path, is_meant: FileNameFilter) -> Result<Vec<PathBuf>, Failur
         true => Err(refused("there are no scenes in this folder")),
         false => Ok(found),
     }
+}
+
+/// The pictures below a folder, by their paths in it, sorted; without hidden files and links.
+pub(super) fn pictures(folder: &Path) -> Result<BTreeSet<PathBuf>, Failure> {
+    let mut found = BTreeSet::new();
+    let entries = WalkDir::new(folder).into_iter();
+    for entry in entries.filter_entry(|entry| !is_hidden(entry)) {
+        let entry = entry.map_err(|error| {
+            Failure::Failed(format!("`{}`: {}", folder.display(), reason(&error)))
+        })?;
+        let path = entry.path().strip_prefix(folder).unwrap_or(entry.path());
+        if is_picture(path) && entry.file_type().is_file() {
+            found.insert(path.to_owned());
+        }
+    }
+    Ok(found)
 }
 
 /// Whether the name of a found entry, not of a named one, begins with a dot.

@@ -13,7 +13,7 @@
 //!    validates it. The work itself is done by `pipeline`, `study` and `render`.
 //! 4. `reporter` prints diagnostics in the requested format; `output` writes results atomically.
 //!
-//! Shared parts: `files` expands folders and patterns, `gate` parses and checks limits, `interrupt`
+//! Shared parts: `files` expands folders and patterns, `table` prints a row for each file, `gate` parses and checks limits, `interrupt`
 //! turns signals into a flag, `progress` draws the bar, `suggest` completes errors of the
 //! arguments. [`trial`] has the entry points of the fuzz targets.
 //!
@@ -62,6 +62,7 @@ mod shown;
 mod simd;
 mod suggest;
 mod system;
+mod table;
 pub mod trial;
 mod turntable;
 mod typed;

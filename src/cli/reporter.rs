@@ -38,6 +38,8 @@ pub(super) struct Reporter {
     has_reported: bool,
     /// The number of warnings and errors so far, whether printed or not.
     warnings: usize,
+    /// The errors, warnings and notes of the last file.
+    last: [usize; 3],
     /// The warnings that are printed once.
     repeated: BTreeSet<String>,
 }
@@ -87,6 +89,7 @@ impl Reporter {
             tells_objects: message_format == args::MessageFormat::Json,
             has_reported: false,
             warnings: 0,
+            last: [0; 3],
             repeated: BTreeSet::new(),
         }
     }
@@ -100,6 +103,13 @@ impl Reporter {
     ) -> Result<(), Failure> {
         let is_warning = |found: &&Diagnostic| found.severity != Severity::Note;
         self.warnings += sink.kept().iter().filter(is_warning).count() + sink.dropped();
+        let severities = [Severity::Error, Severity::Warning, Severity::Note];
+        let of = |severity| {
+            sink.kept()
+                .iter()
+                .filter(move |found| found.severity == severity)
+        };
+        self.last = severities.map(|severity| of(severity).count());
         let deferred = self.printer.deferred();
         let text = self.printer.file(name, sink, map);
         if self.printer.deferred() > deferred {
@@ -172,6 +182,11 @@ impl Reporter {
     /// The number of warnings and errors so far, whether they were printed or not.
     pub(super) fn warnings(&self) -> usize {
         self.warnings
+    }
+
+    /// The numbers of errors, warnings and notes of the last file, those that are kept.
+    pub(super) fn last_counts(&self) -> [usize; 3] {
+        self.last
     }
 
     /// Prints a message that only `--verbose` asks for.

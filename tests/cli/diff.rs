@@ -243,3 +243,92 @@ fn small_files_of_many_pixels_are_refused() {
     let (code, _, said) = diff(&folder, &["black.png", "black.png", "--limit", "pixels=9"]);
     assert!(code == 2 && said.contains("pixels"), "{said}");
 }
+
+/// Two folders with pictures of the same names, one of them below a folder, and one alone.
+fn classes() -> TempDir {
+    let folder = pictures("png", &[]);
+    for (class, names) in [
+        ("handed-in", ["two.png", "one.png", "two.png"]),
+        ("solutions", ["two.png", "two.png", "one.png"]),
+    ] {
+        fs::create_dir_all(folder.path().join(class).join("a")).unwrap();
+        let places = ["same.png", "a/other.png", &format!("{class}.png")];
+        for (name, place) in names.iter().zip(places) {
+            let to = folder.path().join(class).join(place);
+            fs::copy(folder.path().join(name), to).unwrap();
+        }
+    }
+    folder
+}
+
+#[test]
+fn the_pictures_of_two_folders_are_compared_in_one_table() {
+    let folder = classes();
+    let (exit, reported, _) = diff(&folder, &["handed-in", "solutions"]);
+    assert_eq!(exit, 2, "some have no counterpart");
+    let lines: Vec<_> = reported.lines().collect();
+    assert!(
+        lines[0].starts_with("picture") && lines[0].ends_with("share"),
+        "{reported}"
+    );
+    assert!(
+        lines[1].starts_with("a/other.png") && lines[1].contains("differs"),
+        "{reported}"
+    );
+    assert!(lines[2].starts_with("handed-in.png") && lines[2].ends_with("only in handed-in"));
+    assert!(
+        lines[3].starts_with("same.png") && lines[3].contains("same "),
+        "{reported}"
+    );
+    assert!(lines[4].ends_with("only in solutions"), "{reported}");
+    assert!(
+        lines[5].starts_with("4 pictures") && lines.len() == 6,
+        "{reported}"
+    );
+    assert!(
+        lines[5].contains("1 same, 1 differ, 2 not compared"),
+        "{reported}"
+    );
+
+    let (_, csv, _) = diff(&folder, &["handed-in", "solutions", "--table", "csv"]);
+    assert!(
+        csv.starts_with("picture,result,rmse,max,flip,share\na/other.png,differs,"),
+        "{csv}"
+    );
+    assert!(csv.contains("\nsame.png,same,0,0,0,0\n"), "{csv}");
+    for format in [["--table", "json"], ["--format", "json"]] {
+        let (_, json, _) = diff(
+            &folder,
+            &[&["handed-in", "solutions"], &format[..]].concat(),
+        );
+        let value: serde_json::Value = serde_json::from_str(&json).unwrap();
+        assert_eq!(value["schema"], "rtc-diff-table/1");
+        assert_eq!(value["files"][1]["rmse"], serde_json::Value::Null);
+        let single = diff(&folder, &["one.png", "two.png", "--format", "json"]).1;
+        let single: serde_json::Value = serde_json::from_str(&single).unwrap();
+        assert_eq!(value["files"][0]["rmse"], single["difference"]["rmse"]);
+        assert_eq!(value["total"]["rmse"], single["difference"]["rmse"]);
+        assert_eq!(value["total"]["files"], 4);
+    }
+}
+
+#[test]
+fn a_gate_holds_for_each_picture_of_a_folder() {
+    let folder = classes();
+    for class in ["handed-in", "solutions"] {
+        fs::remove_file(folder.path().join(class).join(format!("{class}.png"))).unwrap();
+    }
+    let folders = ["handed-in", "solutions", "--gate"];
+    let (exit, _, _) = diff(&folder, &[&folders[..], &["max<=255"]].concat());
+    assert_eq!(exit, 0);
+    let (exit, reported, said) = diff(&folder, &[&folders[..], &["max<=0"]].concat());
+    assert!(exit == 1 && said.contains("gate failed"), "{said}");
+    assert!(reported.contains("gate failed"), "{reported}");
+    fs::write(folder.path().join("solutions/same.png"), "no picture").unwrap();
+    let (exit, reported, _) = diff(&folder, &[&folders[..], &["max<=255"]].concat());
+    assert_eq!(exit, 1, "what can't be read passes no gate: {reported}");
+    let (exit, _, said) = diff(&folder, &["handed-in", "."]);
+    assert_eq!(exit, 2, "{said}");
+    let (exit, _, said) = diff(&folder, &["one.png", "two.png", "--table", "csv"]);
+    assert!(exit == 2 && said.contains("of two folders"), "{said}");
+}

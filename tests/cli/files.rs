@@ -327,3 +327,28 @@ fn fmt_leaves_the_yaml_of_other_programs_as_it_is() {
     assert_eq!(code(&refused), 1);
     assert_eq!(fs::read_to_string(&path).unwrap(), two);
 }
+
+#[test]
+fn a_table_has_a_row_for_each_scene_and_a_total() {
+    let folder = folder();
+    let output = rtc(&folder, &["check", ".", "--table", "csv"]);
+    let table = String::from_utf8(output.stdout.clone()).unwrap();
+    assert_eq!(code(&output), 1, "one of them has an error: {table}");
+    let lines: Vec<_> = table.lines().collect();
+    assert_eq!(lines[0], "file,errors,warnings,notes");
+    assert!(lines[1].starts_with("./away.json,0,"), "{table}");
+    assert!(lines[2].starts_with("./bad.json,1,"), "{table}");
+    assert!(lines[3].starts_with("./ball.json,0,0,"), "{table}");
+    assert!(
+        lines[4].starts_with("3 files,1,") && lines.len() == 5,
+        "{table}"
+    );
+    assert!(stderr(&output).contains("error["), "the findings, too");
+    let output = rtc(&folder, &["check", ".", "--table", "json"]);
+    let value: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(value["files"][1]["errors"], 1);
+    assert_eq!(
+        (&value["total"]["files"], &value["total"]["errors"]),
+        (&3.into(), &1.into())
+    );
+}

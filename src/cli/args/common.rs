@@ -229,6 +229,17 @@ enum ReportFormat {
     Json,
 }
 
+/// The format of a table of files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum TableFormat {
+    /// Text for people
+    Text,
+    /// Comma-separated values
+    Csv,
+    /// One JSON object
+    Json,
+}
+
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum MessageFormat {
     /// For people, with the source

@@ -1,7 +1,7 @@
 //! The arguments of `rtc diff`.
 
 use super::super::gate::{MeasureLimits, picture_limits};
-use super::{ReadArgs, ReportFormatArgs, ReporterArgs, WantedArgs};
+use super::{ReadArgs, ReportFormatArgs, ReporterArgs, TableFormat, WantedArgs};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -15,9 +15,12 @@ negative values count as 0. Colours are composited on black; opacity shows in `m
 Examples:
   rtc diff new.png golden.png
   rtc diff new.png golden.png --gate 'rmse<=1,share<=0.1%' -o map.png
-  rtc diff new.yaml old.yaml --html page.html")]
+  rtc diff new.yaml old.yaml --html page.html
+  rtc diff handed-in/ solutions/ --gate 'share<=1%' --table csv")]
 pub(crate) struct DiffArgs {
-    /// The new picture (PNG, JPEG, WebP, EXR or HDR) or scene
+    /// The new picture (PNG, JPEG, WebP, EXR or HDR) or scene, or a folder of pictures
+    ///
+    /// Of two folders, pictures of one name are compared, those in folders below, too.
     #[arg(value_name = "NEW", value_hint = ValueHint::FilePath)]
     pub(crate) new: PathBuf,
     /// The old picture, of the same size, or the old scene
@@ -53,6 +56,9 @@ pub(crate) struct DiffArgs {
     /// Write an HTML page with a slider between the two pictures
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = "Output")]
     pub(crate) html: Option<PathBuf>,
+    /// Of two folders: print the table in this format
+    #[arg(long, value_enum, value_name = "FORMAT", help_heading = "Output")]
+    pub(crate) table: Option<TableFormat>,
     #[command(flatten)]
     pub(crate) format: ReportFormatArgs,
     #[command(flatten)]

@@ -17,7 +17,7 @@ mod wanted;
 pub(super) use audit::AuditArgs;
 pub(super) use certify::CertifyArgs;
 pub(super) use common::{
-    ColorArg, MessageFormat, ReadArgs, ReportFormatArgs, ReporterArgs, ThreadArgs,
+    ColorArg, MessageFormat, ReadArgs, ReportFormatArgs, ReporterArgs, TableFormat, ThreadArgs,
 };
 pub(super) use cost::{CostArgs, StudyFormat};
 pub(super) use diff::DiffArgs;
@@ -85,7 +85,7 @@ pub(super) enum Command {
     Farm(Box<FarmArgs>),
     /// Show the error and the time of each setting, and recommend one
     Cost(CostArgs),
-    /// Compare two pictures or scenes, and apply gates
+    /// Compare two pictures, scenes or folders of pictures, and apply gates
     Diff(DiffArgs),
     /// Verify a picture against its metadata: render some tiles again
     Audit(Box<AuditArgs>),
@@ -149,6 +149,15 @@ pub(super) struct CheckArgs {
     /// possibly misspelt.
     #[arg(long, help_heading = "Input")]
     pub(super) skip_others: bool,
+    /// Print a table with a row for each file, and a total
+    #[arg(
+        long,
+        value_enum,
+        value_name = "FORMAT",
+        help_heading = "Output",
+        conflicts_with = "diff"
+    )]
+    pub(super) table: Option<TableFormat>,
     #[command(flatten)]
     pub(super) reading: ReadArgs,
     #[command(flatten)]

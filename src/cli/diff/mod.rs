@@ -1,5 +1,7 @@
-//! `rtc diff`: the differences between two pictures, or two scenes and their pictures, with gates.
+//! `rtc diff`: the differences between two pictures, or two scenes and their pictures, or the
+//! pictures of two folders, with gates.
 
+mod folders;
 mod pictures;
 mod scenes;
 
@@ -38,6 +40,13 @@ const PAGE_PIXEL: u64 = 104;
 
 /// Compares two pictures or two scenes, and reports the differences.
 pub(super) fn run(args: &DiffArgs) -> Result<(), Failure> {
+    if args.new.is_dir() && args.old.is_dir() {
+        return folders::run(args);
+    }
+    if args.table.is_some() {
+        let message = "`--table` is of two folders; `--format` is of two files";
+        return Err(Failure::Failed(message.to_owned()));
+    }
     match [&args.new, &args.old].map(|path| input::is_picture(path)) {
         [true, true] => pictures::run(args),
         [false, false] => scenes::run(args),
