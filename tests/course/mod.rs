@@ -7,6 +7,7 @@
     reason = "a test stops at the first surprise and reads what it checks"
 )]
 
+mod meaning;
 mod solid;
 mod synonym;
 mod years;

@@ -11,6 +11,7 @@
 
 mod assets;
 mod corpus;
+mod dialects;
 mod energy;
 mod exchange;
 mod exports;
@@ -39,6 +40,7 @@ pub(crate) fn trials() -> Vec<Trial> {
     [
         assets::trials(),
         corpus::trials(),
+        dialects::trials(),
         energy::trials(),
         exchange::trials(),
         exports::trials(),

@@ -35,7 +35,7 @@ impl Lowering {
             FieldResult::Read(Spanned { value, .. }) => *value,
             FieldResult::Absent | FieldResult::Broken if light.is_some() => Ambient::Once,
             FieldResult::Absent | FieldResult::Broken
-                if is_json(context) && self.scene.settings.mode == ir::Mode::Phong =>
+                if context.is_json() && self.scene.settings.mode == ir::Mode::Phong =>
             {
                 Ambient::Once
             }
@@ -44,14 +44,19 @@ impl Lowering {
         let is_assumed = light.is_none()
             && scene.ambient.is_absent()
             && self.scene.settings.ambient == Ambient::Once;
-        if let (true, true, Some(span)) = (is_assumed, self.shows_ambient(), scene.lights.span) {
+        let levels = self.ambient_difference();
+        if let (true, true, Some(span)) = (is_assumed, levels > 0.0, scene.lights.span) {
             let message = || "the ambient light of a JSON scene is added once".to_owned();
             context.report(&codes::KEY_READ_DIFFERENTLY, span, message, |d| {
                 d.at(
                     span,
-                    "some programs add it for each light, times its colour",
+                    "some programs, and the pictures handed out of textured scenes, add it for \
+                     each light, times its colour",
                 )
-                .severity(Severity::Note)
+                .severity(match levels > 1.0 {
+                    true => Severity::Warning,
+                    false => Severity::Note,
+                })
                 .hint("`\"Ambient\": \"perLight\"` does so, `\"once\"` does as here")
             });
         }
@@ -78,26 +83,26 @@ impl Lowering {
         context.report(&codes::NO_EFFECT, span, message, |d| d.at(span, reason));
     }
 
-    /// Whether the image depends on how often the ambient term is added.
-    fn shows_ambient(&self) -> bool {
+    /// By how many levels of a byte a pixel can depend on how often the ambient term is added.
+    fn ambient_difference(&self) -> f64 {
         let ir::Scene {
             settings,
             lights,
             materials,
             ..
         } = &self.scene;
+        if settings.mode != ir::Mode::Phong {
+            return 0.0;
+        }
         let mut sum = [0.0; 3];
         for light in lights.iter().filter_map(ir::Light::point) {
             sum = [0, 1, 2].map(|channel| sum[channel] + light.color[channel]);
         }
-        let mut phong = materials.iter().filter_map(ir::Material::phong);
-        settings.mode == ir::Mode::Phong && sum != [1.0; 3] && phong.any(|phong| phong.ka > 0.0)
+        let difference = |phong: &ir::Phong| {
+            let channels = [0, 1, 2].map(|channel| phong.color[channel] * (sum[channel] - 1.0));
+            phong.ka * channels.map(f64::abs).into_iter().fold(0.0, f64::max)
+        };
+        let materials = materials.iter().filter_map(ir::Material::phong);
+        255.0 * materials.map(difference).fold(0.0, f64::max)
     }
-}
-
-/// Whether the scene is written as JSON: an opening brace, then a key in quotes.
-fn is_json(context: &DecodeContext<'_>) -> bool {
-    let text = context.tree.written(context.tree.root());
-    let inside = text.strip_prefix('{').map(str::trim_start);
-    inside.is_some_and(|inside| inside.starts_with('"'))
 }

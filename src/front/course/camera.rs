@@ -10,7 +10,7 @@ use super::value::{Point, Shutter, Vector};
 use super::view_size::ViewSize;
 use rtc_diag::{Severity, codes};
 use rtc_ir::{self as ir, EntityField};
-use rtc_math::{CameraBasisError, Vec3, camera_basis, fallback_up, length, shortest, unit};
+use rtc_math::{CameraBasisError, Vec3, atan2, camera_basis, fallback_up, length, shortest, unit};
 use rtc_source::Span;
 
 record! {
@@ -20,13 +20,15 @@ record! {
         eye: Spanned<Point>, required, &EYE;
         /// The point in the middle of the image. The plane through it is in focus.
         center: Spanned<Point>, required, &TARGET;
-        /// The up vector; its length is the size of a pixel in the plane through `center`.
+        /// The up vector; its length is the size of a pixel in the plane through `center`. In a
+        /// camera of `position`, `lookAt` and `resolution` a length from 5 to 180 is the field of
+        /// view from left to right in degrees, as in the programs that write so.
         up: Spanned<Vector>, required,
             &[&["up"], &["upVector"], &["viewUp"], &["worldUp"], &["vup"]];
         /// The vector from a pixel to its right neighbour. With it `up`, at a right angle, is the
         /// vector to the upper neighbour, and the image plane need not be perpendicular to the view
         /// direction. Without it pixels are square.
-        right: Spanned<Vector>, optional, &[&["right"]];
+        right: Spanned<Vector>, optional, &[&["right"]], own true;
         /// Width and height of the image in pixels.
         view_size: Spanned<ViewSize>, unless("sides"), &IMAGE_SIZE;
         /// Width and height of the image as two keys.
@@ -34,26 +36,27 @@ record! {
         /// The distance from the eye to an image plane with pixels of size 1; then only the
         /// directions of `center` and `up` are used.
         focal_distance: Spanned<Positive>, optional,
-            &[&["focalDistance"], &["planeDistance"], &["imagePlaneDistance"]];
+            &[&["focalDistance"], &["planeDistance"], &["imagePlaneDistance"]], own true;
         /// The size of a pixel in the image plane; then the length of `up` has no effect.
-        pixel_size: Spanned<Positive>, optional, &[&["pixelSize"], &["pixSize"]];
+        pixel_size: Spanned<Positive>, optional, &[&["pixelSize"], &["pixSize"]], own true;
         /// The vertical field of view in degrees, above 0 and below 180; then the length of `up`
         /// has no effect.
-        fov: Spanned<FieldOfView>, optional, &[&["fov"], &["fovy"], &["vfov"], &["yfov"]];
+        fov: Spanned<FieldOfView>, optional, &[&["fov"], &["fovy"], &["vfov"], &["yfov"]], own true;
         /// The projection: `perspective`, with all rays from the eye; or `orthographic`, with
         /// parallel rays in the direction from the eye to `center`, so that `fov` has no effect.
         projection: Spanned<ir::Projection>, default(ir::Projection::Perspective),
-            &[&["projection"]];
+            &[&["projection"]], own true;
         /// The distance between two eyes in scene units; 0 for one eye. What lies in the plane
         /// through `center` is at the same place for both.
-        stereo: Spanned<NonNegative>, default(NonNegative(0.0)), &[&["stereo"], &["eyeDistance"]];
+        stereo: Spanned<NonNegative>, default(NonNegative(0.0)),
+            &[&["stereo"], &["eyeDistance"]], own true;
         /// How the picture shows what two eyes see: `sideBySide`, each in one half of the picture;
         /// or `anaglyph`, for glasses with a red filter on the left and a cyan one on the right.
         stereo_view: Spanned<ir::StereoView>, default(ir::StereoView::SideBySide),
-            &[&["stereoView"]];
+            &[&["stereoView"]], own true;
         /// When the shutter opens and closes, in seconds: in between objects with a `velocity`
         /// move.
-        shutter: Spanned<Shutter>, default(Shutter([0.0, 1.0])), &[&["shutter"]];
+        shutter: Spanned<Shutter>, default(Shutter([0.0, 1.0])), &[&["shutter"]], own true;
         /// The radius of the lens in scene units; at 0 everything is in focus.
         aperture_radius: Spanned<NonNegative>, default(NonNegative(0.0)), &[&["apertureRadius"]];
         /// The number of lens samples per sub-sample.
@@ -110,7 +113,7 @@ pub(super) const DEFAULT_SIZE: ViewSize = ViewSize([400, 400]);
 impl Lowering {
     /// Lowers a `Camera`.
     pub(super) fn camera(&mut self, camera: &Spanned<Camera>, context: &mut DecodeContext<'_>) {
-        let (center, up) = image_plane(&camera.value);
+        let (center, up) = image_plane(&camera.value, context);
         let Camera {
             eye,
             center: _,
@@ -154,7 +157,8 @@ impl Lowering {
                     up.span
                 },
             ),
-            (EntityField::Up, up.span),
+            // With a field of view its length is not that of `up`.
+            (EntityField::Up, up.span.filter(|_| fov.is_none())),
             (EntityField::Size, view_size.span),
             (EntityField::LensRadius, aperture_radius.span),
             (EntityField::LensSamples, aperture_samples.span),
@@ -214,12 +218,25 @@ impl Lowering {
     }
 
     /// Lowers an `Eye`: it looks at a rectangle in the plane z = 0 with one corner at the origin
-    /// and pixels of size 1.
-    pub(super) fn old_eye_camera(&mut self, eye: Spanned<Point>, size: ViewSize) {
-        let [x, y] = size.0.map(|side| f64::from(side) / 2.0);
+    /// and pixels of size 1. A `Resolution` is the number of pixels across the width of 400 units
+    /// that an `Eye` sees without a size.
+    pub(super) fn old_eye_camera(
+        &mut self,
+        eye: Spanned<Point>,
+        size: ViewSize,
+        context: &DecodeContext<'_>,
+    ) {
+        let [width, _] = size.0.map(f64::from);
+        let pixel = match context.is_spelled("Resolution", "ImageSize") {
+            true if width > 0.0 => f64::from(DEFAULT_SIZE.0[0]) / width,
+            _ => 1.0,
+        };
+        let [x, y] = size.0.map(|side| f64::from(side) / 2.0 * pixel);
         self.scene.camera = ir::Camera {
             eye: eye.value.0,
             center: [x, y, 0.0],
+            right: [pixel, 0.0, 0.0],
+            up: [0.0, pixel, 0.0],
             size: size.0,
             ..ir::Camera::default()
         };
@@ -230,13 +247,17 @@ impl Lowering {
 
 /// The centre of the image and the up vector. With a focal distance the image plane has that
 /// distance, and pixels of size 1 or of the given size.
-fn image_plane(camera: &Camera) -> (Spanned<Point>, Spanned<Vector>) {
+fn image_plane(
+    camera: &Camera,
+    context: &mut DecodeContext<'_>,
+) -> (Spanned<Point>, Spanned<Vector>) {
     let (mut center, mut up) = (camera.center, camera.up);
     let [eye, at, upward] = [camera.eye.value.0, center.value.0, up.value.0].map(Vec3::from_array);
     let distance = camera.focal_distance.ok();
     let size = camera.pixel_size.ok().filter(|_| camera.uses_up_length());
     let size = size.map(|size| size.value.0);
     let size = size.or(distance.map(|_| 1.0));
+    let size = size.or_else(|| pixel_of_opening(camera, context));
     if let (Some(view_dir), Some(distance)) = (unit(at - eye), distance) {
         center.value = Point((eye + view_dir * distance.value.0).to_array());
     }
@@ -244,6 +265,49 @@ fn image_plane(camera: &Camera) -> (Spanned<Point>, Spanned<Vector>) {
         up.value = Vector((upward * size).to_array());
     }
     (center, up)
+}
+
+/// The lengths of `up` that are degrees in a camera of `position`, `lookAt` and `resolution`.
+const OPENINGS: std::ops::Range<f64> = 5.0..180.0;
+
+/// The size of a pixel in a camera of `position`, `lookAt` and `resolution`, if the length of its
+/// `up` is that of an angle: the programs that write these keys see so many degrees across. The
+/// reading is reported.
+fn pixel_of_opening(camera: &Camera, context: &mut DecodeContext<'_>) -> Option<f64> {
+    let other_keys = [
+        ("position", "eye"),
+        ("lookAt", "center"),
+        ("resolution", "viewSize"),
+    ];
+    let mut other_keys = other_keys.into_iter();
+    let are_other = other_keys.all(|(written, canonical)| context.is_spelled(written, canonical));
+    let [eye, center, up] =
+        [camera.eye.value.0, camera.center.value.0, camera.up.value.0].map(Vec3::from_array);
+    let (degrees, ViewSize([width, height])) = (length(up), camera.view_size.read()?.value);
+    let is_perspective = camera.projection.value == ir::Projection::Perspective;
+    let reads_length = are_other && is_perspective && camera.uses_up_length();
+    if !(reads_length && OPENINGS.contains(&degrees)) || width == 0 {
+        return None;
+    }
+    let pixel = ir::Camera::pixel(degrees.to_radians(), eye.distance(center), width);
+    let half = pixel * f64::from(height) / 2.0;
+    let down = 2.0 * atan2(half, eye.distance(center)).to_degrees();
+    let down = shortest((down * 100.0).round() / 100.0);
+    let across = shortest(degrees);
+    let message =
+        || format!("the length of `up` is read as a field of view of {across} degrees across");
+    let span = camera.up.span?;
+    context.report(&codes::KEY_READ_DIFFERENTLY, span, message, |d| {
+        d.at(
+            span,
+            "as where `position`, `lookAt` and `resolution` are the keys",
+        )
+        .hint(format!(
+            "`fov: {down}` says so everywhere; beside `eye`, `center` and `viewSize` the \
+                 length of `up` is the size of a pixel"
+        ))
+    });
+    Some(pixel)
 }
 
 /// Reports a `pixelSize` that another key overrides.

@@ -2,7 +2,6 @@
 //! all diagnostics.
 
 use super::schema::SchemaDefinitions;
-use super::spelling::same_letters;
 use super::suggestion;
 use crate::FrontOptions;
 use rtc_diag::clip;
@@ -66,7 +65,11 @@ impl<T: Decode> Decode for SharedValue<T> {
     const IS_LIST: bool = T::IS_LIST;
 
     fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
-        let target = context.tree.target(node);
+        // Of objects with textures of their own, each has a material of its own.
+        let target = match context.object_texture {
+            Some(texture) => texture.value,
+            None => context.tree.target(node),
+        };
         if context.decoded.contains(&target) {
             return Some(Self {
                 node: target,
@@ -182,6 +185,8 @@ pub(super) struct DecodeContext<'a> {
     pub(super) entries: Vec<MapEntry<'a>>,
     /// The material of operands that have none of their own.
     pub(super) operand_material: Option<MapEntry<'a>>,
+    /// The texture beside the material of the object that is read; the material takes it.
+    pub(super) object_texture: Option<MapEntry<'a>>,
     /// The spellings that are not canonical, each with the span of its first use.
     pub(super) spellings: Vec<(&'a str, &'static str, Span)>,
     /// The first key in another case of letters.
@@ -189,6 +194,8 @@ pub(super) struct DecodeContext<'a> {
     /// Unknown keys: the key that was probably intended, and the span.
     pub(super) typos: Vec<(&'static str, Span)>,
     sink: &'a mut DiagnosticSink,
+    /// Whether the value of a key is read that only rtc has.
+    is_own_key: bool,
     /// The shared values decoded so far.
     decoded: BTreeSet<NodeId>,
     /// The codes reported for each span: aliases visit a node several times.
@@ -214,10 +221,12 @@ impl<'a> DecodeContext<'a> {
             },
             entries: Vec::new(),
             operand_material: None,
+            object_texture: None,
             spellings: Vec::new(),
             other_case: None,
             typos: Vec::new(),
             sink,
+            is_own_key: false,
             decoded: BTreeSet::new(),
             reported: BTreeSet::new(),
             steps: 0,
@@ -241,8 +250,31 @@ impl<'a> DecodeContext<'a> {
         if self.reported.len() < MAX_REMEMBERED {
             self.reported.insert((span, code.id));
         }
-        self.sink
-            .push(make(Diagnostic::new(code, message()).at(span, "")));
+        let diagnostic = make(Diagnostic::new(code, message()).at(span, ""));
+        let is_tolerated = self.is_own_key && !self.options.strict;
+        self.sink.push(
+            match is_tolerated && diagnostic.severity == Severity::Error {
+                true => diagnostic
+                    .severity(Severity::Warning)
+                    .hint("the key is not of the course but of rtc, and such a value is ignored"),
+                false => diagnostic,
+            },
+        );
+    }
+
+    /// Whether mistakes in the value that is read are warnings, and the value is ignored.
+    pub(super) fn is_tolerant(&self) -> bool {
+        self.is_own_key && !self.options.strict
+    }
+
+    /// Reads a value. If the key is `own`, only rtc has it: mistakes in its value are warnings,
+    /// unless `strict` is on.
+    pub(super) fn reading<T>(&mut self, own: bool, read: impl FnOnce(&mut Self) -> T) -> T {
+        let outer = self.is_own_key;
+        self.is_own_key |= own;
+        let value = read(self);
+        self.is_own_key = outer;
+        value
     }
 
     /// The number of different diagnostics so far.
@@ -271,15 +303,16 @@ impl<'a> DecodeContext<'a> {
         };
         let message = || format!("{name} must be {what}, not {found}");
         let suggestion = suggestion::suggest(tree, key, node, part);
-        let text = suggestion.as_ref().and_then(|(_, text)| text.as_deref());
-        let same = text.is_some_and(|text| same_letters(tree.written(node), text));
         self.report(&codes::WRONG_TYPE, span_shown, message, |d| {
             let diagnostic = d.at(span_shown, found.clone());
-            match suggestion {
-                Some((hint, Some(text))) if same => diagnostic.replace(hint, span_shown, text),
-                Some((hint, Some(text))) => diagnostic.guess(hint, span_shown, text),
-                Some((hint, None)) => diagnostic.hint(hint),
-                None => diagnostic,
+            let Some(suggestion) = suggestion else {
+                return diagnostic;
+            };
+            let (hint, is_certain) = (suggestion.hint, suggestion.is_certain);
+            match suggestion.text {
+                Some(text) if is_certain => diagnostic.replace(hint, span_shown, text),
+                Some(text) => diagnostic.guess(hint, span, text),
+                None => diagnostic.hint(hint),
             }
         });
         None
@@ -296,6 +329,19 @@ impl<'a> DecodeContext<'a> {
         if written != suggestion && !self.spellings.iter().any(known) {
             self.spellings.push((written, suggestion, span));
         }
+    }
+
+    /// Whether the scene is written as JSON: an opening brace, then a key in quotes.
+    pub(super) fn is_json(&self) -> bool {
+        let text = self.tree.written(self.tree.root());
+        let inside = text.strip_prefix('{').map(str::trim_start);
+        inside.is_some_and(|inside| inside.starts_with('"'))
+    }
+
+    /// Whether a key was written in this spelling instead of its canonical one.
+    pub(super) fn is_spelled(&self, written: &str, canonical: &str) -> bool {
+        let mut spellings = self.spellings.iter();
+        spellings.any(|(w, c, _)| (*w, *c) == (written, canonical))
     }
 
     /// The replacement of a scalar, with the same quotes: JSON requires them.

@@ -94,12 +94,22 @@ pub(super) fn make_opaque(phong: &mut ir::Phong, span: Span, context: &mut Decod
     });
 }
 
-/// Reports an index of refraction without a weight: it has no effect.
+/// Reports an index of refraction without a weight, and a weight with an index of 0: they have no
+/// effect.
 pub(super) fn report_index_without_weight(
     material: &PhongMaterial,
     context: &mut DecodeContext<'_>,
 ) {
     let PhongMaterial { kt, eta, .. } = material;
+    if let (true, Some(span)) = (kt.value.0 > 0.0 && eta.value.0 == 0.0, eta.span) {
+        let message = || "with an `eta` of 0 the material is opaque".to_owned();
+        context.report(&codes::NO_EFFECT, span, message, |d| {
+            d.at(span, "so the weight of refraction has no effect")
+                .also(kt.span, "the weight")
+                .severity(Severity::Warning)
+                .hint("the index of glass is 1.5")
+        });
+    }
     let refracts = eta.value.0 > 0.0 && (eta.value.0 - 1.0).abs() > 1e-9;
     if let (true, None, Some(span)) = (refracts, kt.span, eta.span) {
         let message = || "an index of refraction alone has no effect".to_owned();

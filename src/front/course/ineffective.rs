@@ -20,6 +20,21 @@ pub(super) struct DependentKeys {
     specular_map: Option<(Span, bool)>,
     /// The first `shadow: false`.
     shadow: Option<Span>,
+    /// The first point light with an `intensity` instead of a `color`, unless another light has
+    /// keys of path tracing alone.
+    intensity: PlainIntensity,
+}
+
+/// The points with an `intensity` alone.
+#[derive(Clone, Copy, Debug, Default)]
+enum PlainIntensity {
+    /// There are none so far.
+    #[default]
+    Absent,
+    /// Here is the first.
+    First(Option<Span>),
+    /// Some light cannot be one of Phong shading.
+    Unlike,
 }
 
 impl DependentKeys {
@@ -37,6 +52,16 @@ impl DependentKeys {
         }
     }
 
+    /// Records a light with an `intensity`; a `plain` one is a point without other keys of path
+    /// tracing.
+    pub(super) fn record_intensity(&mut self, plain: bool, span: Option<Span>) {
+        self.intensity = match (plain, self.intensity) {
+            (false, _) | (_, PlainIntensity::Unlike) => PlainIntensity::Unlike,
+            (true, PlainIntensity::Absent) => PlainIntensity::First(span),
+            (true, first @ PlainIntensity::First(_)) => first,
+        };
+    }
+
     pub(super) fn record_shadow(&mut self, shadow: &Spanned<bool>) {
         if !shadow.value {
             self.shadow = self.shadow.or(shadow.span);
@@ -49,7 +74,8 @@ impl Lowering {
     /// entities are lowered and the mode is resolved.
     pub(super) fn report_ineffective(&self, scene: &Scene, context: &mut DecodeContext<'_>) {
         let is_path = matches!(self.scene.settings.mode, ir::Mode::Path(_));
-        let is_phong = self.scene.settings.mode == ir::Mode::Phong && scene.mode.value != Mode::Uv;
+        let is_uv = matches!(scene.mode.value, Mode::Uv | Mode::UvDown);
+        let is_phong = self.scene.settings.mode == ir::Mode::Phong && !is_uv;
         if is_phong {
             self.report_materials(context);
             self.report_light_samples(scene, context);
@@ -66,11 +92,38 @@ impl Lowering {
                 let hint = "`RenderMode: path` selects path tracing";
                 report(paths.span, message, hint, Severity::Warning, context);
             }
-        } else if scene.toon.value {
+        } else {
+            self.report_intensity(scene, context);
+        }
+        if is_path && scene.toon.value {
             let message = "`Toon` has no effect on path tracing";
             let hint = "`RenderMode: phong` has toon shading";
             report(scene.toon.span, message, hint, Severity::Warning, context);
         }
+    }
+
+    /// Reports that the `intensity` of a light alone makes the scene path traced.
+    fn report_intensity(&self, scene: &Scene, context: &mut DecodeContext<'_>) {
+        let PlainIntensity::First(Some(span)) = self.dependent.intensity else {
+            return;
+        };
+        let is_asked_for = scene.mode.span.is_some() || !scene.paths.is_absent();
+        if is_asked_for
+            || self.is_physical(|light| {
+                matches!(light, ir::Light::Punctual(light)
+            if !matches!(light.emitter, ir::PunctualKind::Point { .. }))
+            })
+        {
+            return;
+        }
+        let message = || "a light with an `intensity` makes the scene path traced".to_owned();
+        context.report(&codes::KEY_READ_DIFFERENTLY, span, message, |d| {
+            d.at(span, "in candela: it fades with the square of the distance")
+                .hint(
+                    "a light of Phong shading has a `color`, and does not fade; `RenderMode: path` \
+                     says that path tracing is meant",
+                )
+        });
     }
 
     fn report_materials(&self, context: &mut DecodeContext<'_>) {

@@ -32,7 +32,8 @@ impl<T: Keyword> Decode for T {
     }
 }
 
-/// Reads a keyword of a table; case-insensitive.
+/// Reads a keyword of a table; case-insensitive, unless the table has two that differ by case
+/// alone.
 pub(super) fn keyword<T: Copy>(
     node: NodeId,
     table: KeywordTable<T>,
@@ -43,9 +44,9 @@ pub(super) fn keyword<T: Copy>(
     let Some(text) = tree.text(node).filter(|text| !text.is_empty()) else {
         return context.expected(node, &format!("one of {}", quoted_list(keywords())));
     };
-    let meaning = table
-        .iter()
-        .find(|(keyword, ..)| keyword.eq_ignore_ascii_case(text));
+    let exact = table.iter().find(|(keyword, ..)| *keyword == text);
+    let mut words = table.iter();
+    let meaning = exact.or_else(|| words.find(|(known, ..)| known.eq_ignore_ascii_case(text)));
     if meaning.is_none() {
         let (key, span) = (context.key, tree.span(node));
         let suggestion = nearest(text, keywords())

@@ -20,52 +20,55 @@ record! {
     /// but the first two is rendered by path tracing.
     struct Light, "light" {
         /// The type of the light.
-        kind: Spanned<LightKind>, optional, &[&["type"]];
+        kind: Spanned<LightKind>, optional, &[&["type"]], own true;
         /// The position of the light.
         position: Spanned<Point>, optional, &with_canonical(POSITION, "position"), json "position";
         /// The colour: red, green, blue; values above 1 are allowed. With a `file`, a factor of its
         /// candelas.
         color: Spanned<Color>, optional, &[&["color"], &["colour"]], json "color";
         /// The radius of the emitting sphere; 0 is a point. A larger radius makes soft shadows.
-        radius: Spanned<NonNegative>, default(NonNegative(0.0)), &[&["radius"], &["size"]];
+        radius: Spanned<NonNegative>, default(NonNegative(0.0)),
+            &[&["radius"], &["size"]], own true;
         /// The width of an area light, horizontal and perpendicular to its `direction`.
-        width: Spanned<Positive>, optional, &[&["width"]];
+        width: Spanned<Positive>, optional, &[&["width"]], own true;
         /// The height of an area light, perpendicular to its width and its `direction`.
-        height: Spanned<Positive>, optional, &[&["height"]];
+        height: Spanned<Positive>, optional, &[&["height"]], own true;
         /// The number of points of an area light along its width and its height, one number for
         /// both or a list of two, each with an equal part of the colour: more points make softer
         /// shadows.
-        cells: Spanned<AreaLightCells>, default(AreaLightCells([4; 2])), &[&["cells"]];
+        cells: Spanned<AreaLightCells>, default(AreaLightCells([4; 2])), &[&["cells"]], own true;
         /// The direction from the scene to a sun; the direction in which a spot points, or that an
         /// area light faces, which is down by default; with a `file`, the direction of vertical
         /// angle 0.
-        direction: Spanned<Vector>, optional, &[&["direction"]];
+        direction: Spanned<Vector>, optional, &[&["direction"]], own true;
         /// The irradiance on a surface that faces the sun: red, green, blue, or one number for all.
         /// A white diffuse surface then has the radiance irradiance/π.
-        irradiance: Spanned<Channels>, optional, &[&["irradiance"]];
+        irradiance: Spanned<Channels>, optional, &[&["irradiance"]], own true;
         /// The radiant intensity of a point or a spot, power per steradian: red, green, blue, or
-        /// one number for all.
-        intensity: Spanned<Channels>, optional, &[&["intensity"]];
+        /// one number for all. Beside a `color` it is a factor of that: a point then keeps its
+        /// colour at any distance.
+        intensity: Spanned<Channels>, optional, &[&["intensity"]], own true;
         /// The distance at which a point or a spot with an `intensity` fades to 0, by the falloff
         /// of `KHR_lights_punctual`; unlimited by default.
-        range: Spanned<Positive>, optional, &[&["range"]];
+        range: Spanned<Positive>, optional, &[&["range"]], own true;
         /// The angle from the direction of a spot, in radians, up to which it has its full
         /// intensity.
-        inner_angle: Spanned<NonNegative>, default(NonNegative(0.0)), &[&["innerAngle"]];
+        inner_angle: Spanned<NonNegative>, default(NonNegative(0.0)), &[&["innerAngle"]], own true;
         /// The angle from the direction of a spot, in radians, from which on it is dark: more than
         /// `innerAngle`, at most π/2.
-        outer_angle: Spanned<HalfAngle>, optional, &[&["outerAngle"]];
+        outer_angle: Spanned<HalfAngle>, optional, &[&["outerAngle"]], own true;
         /// The photometric profile: an IES file (LM-63) of type C with `TILT=NONE`.
-        file: Spanned<FileName>, optional, &[&["file"]];
+        file: Spanned<FileName>, optional, &[&["file"]], own true;
         /// The direction of horizontal angle 0 of the profile; only its component perpendicular to
         /// `direction` is used.
-        horizontal: Spanned<Vector>, default(Vector([1.0, 0.0, 0.0])), &[&["horizontal"]];
+        horizontal: Spanned<Vector>, default(Vector([1.0, 0.0, 0.0])), &[&["horizontal"]], own true;
     }
     variants {
         [position color] [position color width height] [position color width height direction]
         [direction irradiance] [position direction file]
         [position direction file color]
         [position intensity] [position direction intensity outer_angle]
+        [position color intensity] [position direction color intensity outer_angle]
     }
 }
 
@@ -119,6 +122,9 @@ impl Lowering {
         let Some((light_ir, kind)) = self.light_from_keys(&light.value) else {
             return;
         };
+        if light_ir.point().is_some() {
+            report_factor(&light.value.intensity, context);
+        }
         report_unused(&light.value, kind, light_ir.point().is_none(), context);
         let index = self.scene.lights.len();
         self.scene.lights.push(light_ir);
@@ -146,13 +152,20 @@ impl Lowering {
                 FieldResult::Read(file),
                 _,
             ) => self.photometric_light(light, [position.value.0, direction.value.0], color, file),
-            (FieldResult::Read(position), _, direction, .., FieldResult::Read(intensity)) => {
+            (FieldResult::Read(_), FieldResult::Broken, .., FieldResult::Read(_)) => None,
+            (FieldResult::Read(position), color, direction, .., FieldResult::Read(intensity))
+                if color.is_absent()
+                    || !(direction.is_absent() || light.outer_angle.is_absent()) =>
+            {
                 let (emitter, kind) = point_or_spot(light, position.value.0, direction)?;
-                let intensity = intensity.value.0;
-                let light = ir::Punctual::new(emitter, intensity);
+                let is_plain = kind == LightKind::Point && light.range.is_absent();
+                self.dependent.record_intensity(is_plain, intensity.span);
+                let color = color.read().map_or([1.0; 3], |color| color.value.0);
+                let light = ir::Punctual::new(emitter, scaled(color, intensity.value.0));
                 Some((ir::Light::Punctual(light), kind))
             }
             (FieldResult::Read(position), FieldResult::Read(color), ..) => {
+                let factor = intensity.read().map_or([1.0; 3], |factor| factor.value.0);
                 let (index, radius) = (self.scene.lights.len(), &light.radius);
                 self.record_span(
                     EntityKind::Light,
@@ -167,7 +180,8 @@ impl Lowering {
                     EntityField::LightRadius,
                     radius.span,
                 );
-                let (position, color, radius) = (position.value.0, color.value.0, radius.value.0);
+                let color = scaled(color.value.0, factor);
+                let (position, radius) = (position.value.0, radius.value.0);
                 let point = ir::PointLight {
                     position,
                     color,
@@ -212,6 +226,23 @@ impl Lowering {
     }
 }
 
+/// A colour times a factor of each channel.
+fn scaled(color: [f64; 3], factor: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|channel| color[channel] * factor[channel])
+}
+
+/// Reports an `intensity` beside a `color`.
+fn report_factor(intensity: &FieldResult<Spanned<Channels>>, context: &mut DecodeContext<'_>) {
+    let Some(span) = intensity.read().and_then(|intensity| intensity.span) else {
+        return;
+    };
+    let message = || "the `intensity` of the light multiplies its `color`".to_owned();
+    context.report(&codes::KEY_READ_DIFFERENTLY, span, message, |d| {
+        d.at(span, "a factor, and no falloff with the distance")
+            .hint("the product as `color`, which may be more than 1, says so everywhere")
+    });
+}
+
 /// A point or a spot with an intensity.
 fn point_or_spot(
     light: &Light,
@@ -234,7 +265,7 @@ fn point_or_spot(
             };
             Some((spot, LightKind::Spot))
         }
-        (FieldResult::Absent, FieldResult::Absent) => Some((
+        (_, FieldResult::Absent) => Some((
             ir::PunctualKind::Point { position, range },
             LightKind::Point,
         )),

@@ -236,7 +236,7 @@ impl Lowering {
                 self.camera_from_keys(look, size, context)
             }
             (FieldResult::Absent, FieldResult::Absent, FieldResult::Read(eye)) => {
-                self.old_eye_camera(*eye, size)
+                self.old_eye_camera(*eye, size, context)
             }
             (FieldResult::Broken, ..) | (_, FieldResult::Broken, _) | (.., FieldResult::Broken) => {
             }

@@ -28,12 +28,12 @@ record! {
         /// other textures can be patterns, too.
         texture: Spanned<FileOrPattern>, optional, &[&["texture"]], json "texture";
         /// The image file of a bump map: its brightness is the height of the surface.
-        bump: Spanned<FileOrPattern>, optional, &[&["bump"]];
+        bump: Spanned<FileOrPattern>, optional, &[&["bump"]], own true;
         /// The image file of a normal map: red to the right, green upwards, blue away from the
         /// surface.
-        normal_map: Spanned<FileOrPattern>, optional, &[&["normalMap"]];
+        normal_map: Spanned<FileOrPattern>, optional, &[&["normalMap"]], own true;
         /// The image file whose red channel multiplies `ks`.
-        specular_map: Spanned<FileOrPattern>, optional, &[&["specularMap"]];
+        specular_map: Spanned<FileOrPattern>, optional, &[&["specularMap"]], own true;
         /// The weight of the ambient light.
         ka: Spanned<NonNegative>, required, &[&["ka"], &["ambient"]], json "ka";
         /// The weight of the diffuse light.
@@ -44,7 +44,7 @@ record! {
         /// The weight of the mirror reflection alone; `specularMap` does not scale it.
         kr: Spanned<NonNegative>, optional,
             &[&["kr"], &["reflect"], &["reflection"], &["reflectivity"], &["reflectance"],
-                &["mirror"]];
+                &["mirror"]], own true;
         /// The exponent of the highlight; a larger one makes it smaller and sharper.
         n: Spanned<NonNegative>, required,
             &[&["n"], &["shininess"], &["exponent"], &["specularExponent"]], json "n";
@@ -56,11 +56,11 @@ record! {
             json "nt";
         /// Whether `kt` is divided by Fresnel's equations, as in glass: a fraction is reflected,
         /// the rest transmitted (Schlick's approximation).
-        fresnel: Spanned<bool>, default(false), &[&["fresnel"]];
+        fresnel: Spanned<bool>, default(false), &[&["fresnel"]], own true;
         /// In some files the kind of material: `refraction` is glass, a `kt` of 1 without `ka` and
         /// `kd`; `reflection` and `default` have a mirror reflection of weight `ks`, though in
         /// those files `default` has none.
-        kind: Spanned<MaterialFinish>, optional, &[&["type"]];
+        kind: Spanned<MaterialFinish>, optional, &[&["type"]], own true;
         /// In some files whether it is glass: `true` is a `kt` of 1 with `fresnel` besides its `ka`
         /// and `kd`, and no other mirror image; `false` a `kt` of 0.
         is_transparent: Spanned<bool>, optional, &[&["isTransparent"]], json "isTransparent";

@@ -99,11 +99,9 @@ pub(super) fn integer(
         return context.expected(node, "a whole number");
     }
     if value < 0.0 {
-        out_of_range(&format!("at least {min}"), node, context);
-        return Some(min);
+        return out_of_range(&format!("at least {min}"), min, node, context);
     } else if value > f64::from(max) {
-        out_of_range(&format!("at most {max}"), node, context);
-        return Some(min);
+        return out_of_range(&format!("at most {max}"), min, node, context);
     }
     #[expect(
         clippy::cast_possible_truncation,
@@ -113,7 +111,13 @@ pub(super) fn integer(
     Some(value as u32)
 }
 
-fn out_of_range(range: &str, node: NodeId, context: &mut DecodeContext<'_>) {
+/// Reports a number out of its range; returns what to read instead, if that is an error.
+fn out_of_range<T>(
+    range: &str,
+    instead: T,
+    node: NodeId,
+    context: &mut DecodeContext<'_>,
+) -> Option<T> {
     let (tree, key) = (context.tree, context.key);
     let (span, scalar) = (tree.span(node), tree.text(node).unwrap_or_default());
     let message = || {
@@ -126,6 +130,7 @@ fn out_of_range(range: &str, node: NodeId, context: &mut DecodeContext<'_>) {
     context.report(&codes::OUT_OF_RANGE, span, message, |d| {
         d.at(span, "out of range")
     });
+    (!context.is_tolerant()).then_some(instead)
 }
 
 /// Warns of an angle in degrees that is probably in radians.
@@ -219,8 +224,7 @@ ranged! {
     FieldOfView(f64), |node, context| {
         let degrees = number(node, "a number", context)?;
         if degrees <= 0.0 || degrees >= 180.0 {
-            out_of_range("above 0 and below 180", node, context);
-            return Some(90.0);
+            return out_of_range("above 0 and below 180", 90.0, node, context);
         }
         if degrees < std::f64::consts::PI {
             report_likely_radians(degrees, node, context);
@@ -277,8 +281,7 @@ ranged! {
         const MOST: f64 = Display::MOST_STOPS;
         let stops = number(node, "a number", context)?;
         if !(-MOST..=MOST).contains(&stops) {
-            out_of_range("from -64 to 64", node, context);
-            return Some(0.0);
+            return out_of_range("from -64 to 64", 0.0, node, context);
         }
         Some(stops)
     }, { "type": "number", "minimum": -64, "maximum": 64, "x-unit": "stops" }

@@ -78,6 +78,7 @@ fn section(title: &str, record: &Record, page: &mut String) {
         spellings,
         json,
         requirement,
+        is_own: _,
         schema,
     } in record.fields
     {

@@ -30,6 +30,24 @@ record! {
 }
 
 impl Lowering {
+    /// Whether the scene has something that only path tracing renders, among its lights those of
+    /// `is_traced`.
+    pub(super) fn is_physical(&self, is_traced: impl Fn(&ir::Light) -> bool) -> bool {
+        let ir::Scene {
+            environment,
+            medium,
+            lights,
+            materials,
+            ..
+        } = &self.scene;
+        let mut pending_assets = self.files.pending_assets.iter();
+        environment.is_some()
+            || medium.is_some()
+            || lights.iter().any(is_traced)
+            || materials.iter().any(|material| material.phong().is_none())
+            || pending_assets.any(|pending| matches!(pending.target, AssetTarget::Gltf(_)))
+    }
+
     /// Selects path tracing if the file requests it, or if the scene needs a feature of path
     /// tracing. Call it after the lights and the objects.
     pub(super) fn resolve_mode(&mut self, scene: &Scene) {
@@ -40,24 +58,7 @@ impl Lowering {
             reflections,
             ..
         } = scene;
-        // Only path tracing renders these entities.
-        let is_physical = self.scene.environment.is_some()
-            || self.scene.medium.is_some()
-            || self
-                .scene
-                .lights
-                .iter()
-                .any(|light| light.point().is_none())
-            || self
-                .scene
-                .materials
-                .iter()
-                .any(|material| material.phong().is_none())
-            || self
-                .files
-                .pending_assets
-                .iter()
-                .any(|pending| matches!(pending.target, AssetTarget::Gltf(_)));
+        let is_physical = self.is_physical(|light| light.point().is_none());
         if mode.value != Mode::Path && (mode.span.is_some() || !is_physical) {
             return;
         }

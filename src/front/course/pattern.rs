@@ -187,10 +187,12 @@ impl FileOrPattern {
     }
 }
 
-/// The pattern that a keyword names.
+/// The pattern that a keyword names. In quotes it is a file, except in JSON, where all text is.
 pub(super) fn pattern_word(node: NodeId, context: &DecodeContext<'_>) -> Option<PatternTexture> {
-    let NodeContent::Word(word) = context.tree.shape(node) else {
-        return None;
+    let word = match context.tree.shape(node) {
+        NodeContent::Word(word) => word,
+        NodeContent::Text(text) if context.is_json() => text,
+        NodeContent::Text(_) | NodeContent::List | NodeContent::Map => return None,
     };
     let mut words = PatternKind::KEYWORDS.iter();
     let (_, pattern, _) = words.find(|(known, ..)| known.eq_ignore_ascii_case(word))?;

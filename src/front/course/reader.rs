@@ -24,6 +24,9 @@ pub(super) const COMMENT: &str = "comment";
 /// The key of the material of an object.
 pub(super) const MATERIAL: &str = "material";
 
+/// The key of the texture of a material. Some files have it beside the material.
+pub(super) const TEXTURE: &str = "texture";
+
 /// Reads one map, field by field in the order of the declaration.
 pub(super) struct MapReader {
     record: &'static Record,
@@ -33,6 +36,8 @@ pub(super) struct MapReader {
     first_entry: usize,
     /// The span of the map for diagnostics.
     head: Span,
+    /// Whether the map is that of an object with a texture beside its material.
+    offers_texture: bool,
 }
 
 impl MapReader {
@@ -59,11 +64,20 @@ impl MapReader {
         {
             context.entries.push(material);
         }
+        let is_solid = || record.fields.iter().any(|field| field.name == "of");
+        let offers_texture = takes_material() && !is_solid();
+        if offers_texture {
+            let mut entries = context.entries[first_entry..].iter();
+            context.object_texture = entries.find(|entry| entry.key == TEXTURE).copied();
+        } else if record.name == MATERIAL {
+            take_object_texture(first_entry, context);
+        }
         Some(Self {
             record,
             rows: Vec::with_capacity(record.fields.len()),
             first_entry,
             head,
+            offers_texture,
         })
     }
 
@@ -88,7 +102,16 @@ impl MapReader {
                 );
             }
         }
-        S::take(&found[..spelling.len()], context).map_or(FieldResult::Broken, FieldResult::Read)
+        let found = &found[..spelling.len()];
+        match context.reading(field.is_own, |context| S::take(found, context)) {
+            Some(value) => FieldResult::Read(value),
+            None if field.is_own && !context.options.strict => {
+                self.rows.pop();
+                self.rows.push(None);
+                FieldResult::Absent
+            }
+            None => FieldResult::Broken,
+        }
     }
 
     /// The first spelling of the field whose keys are all present and unused, with the indices of
@@ -122,7 +145,10 @@ impl MapReader {
         let (mut partial, typos) = (0_u64, context.typos.len());
         for at in self.first_entry..context.entries.len() {
             let entry = context.entries[at];
-            if !entry.claimed && entry.key != COMMENT {
+            // The material has taken the texture beside it.
+            let is_taken =
+                entry.key == TEXTURE && self.offers_texture && context.object_texture.is_none();
+            if !(entry.claimed || is_taken) && entry.key != COMMENT {
                 partial |= self.report_unused_key(entry, context);
             }
         }
@@ -394,6 +420,15 @@ fn fold_case(record: &'static Record, first_entry: usize, context: &mut DecodeCo
     }
 }
 
+/// Adds the texture beside a material to its entries, unless it has one of its own.
+fn take_object_texture(first_entry: usize, context: &mut DecodeContext<'_>) {
+    let mut entries = context.entries[first_entry..].iter();
+    if !entries.any(|entry| entry.key == TEXTURE) {
+        let texture = context.object_texture.take();
+        context.entries.extend(texture);
+    }
+}
+
 /// Adds the entries of a map to those of the context: the entries of the map itself, then the
 /// merged ones.
 fn collect_entries(map: NodeId, context: &mut DecodeContext<'_>) {
@@ -430,6 +465,10 @@ fn collect_entries(map: NodeId, context: &mut DecodeContext<'_>) {
             }
         }
         for map in merged.into_iter().rev() {
+            // Aliases can repeat a long list of maps in many maps.
+            if !context.step(map) {
+                return;
+            }
             if tree.is_map(map) {
                 open_maps.extend(seen.insert(tree.target(map)).then_some(map));
             } else {

@@ -3,7 +3,8 @@
 //!
 //! A field holds one value, or a group of values that are written with several keys. A field may
 //! have several spellings, the canonical one first; the declaration marks those of the course's
-//! JSON files. Every key of a map is either read by one field or reported.
+//! JSON files, and those that only rtc has (`own true`). Every key of a map is either read by one
+//! field or reported.
 
 use super::decode::{Decode, DecodeContext, MapEntry, Spanned, ValueKey};
 use super::schema::SchemaDefinitions;
@@ -32,6 +33,9 @@ pub(super) struct FieldDeclaration {
     /// The spellings in the JSON files of the course, by their first keys.
     pub(super) json: &'static [&'static str],
     pub(super) requirement: FieldRequirement,
+    /// Whether only rtc gives the key this meaning: no sheet of the course has it, and a file that
+    /// is older may mean something else by it. A value that is none of rtc's is a warning.
+    pub(super) is_own: bool,
     /// The schema of each value of the field.
     pub(super) schema: fn(&mut SchemaDefinitions) -> Json,
 }
@@ -95,7 +99,7 @@ macro_rules! record {
             $(
                 $(#[doc = $field_doc:literal])+
                 $field:ident: $type:ty, $requirement:ident $(($default:expr))?, $spellings:expr
-                    $(, json $json:literal)*;
+                    $(, json $json:literal)* $(, own $own:literal)?;
             )+
         }
         $(variants { $([$($member:ident)+])+ })?
@@ -118,6 +122,7 @@ macro_rules! record {
                     spellings: $spellings,
                     json: &[$($json),*],
                     requirement: record!(@requirement $requirement $type $(, $default)?),
+                    is_own: false $(|| $own)?,
                     schema: <$type as $crate::course::record::FieldValue>::schema,
                 }),+],
                 variants: &[

@@ -14,11 +14,11 @@ use serde_json::{Value as Json, json};
 record! {
     /// The number and the positions of the rays of a pixel.
     struct SamplingMap, "`SuperSampling` map" {
-        /// The number of rays along each side of a pixel.
-        factor: Spanned<Count>, required, &[&["factor"]];
+        /// The number of rays along each side of a pixel; 1 by default.
+        factor: Spanned<Count>, optional, &[&["factor"]];
         /// The position of each ray: `grid` in the middle of its cell of the pixel, `jitter`
         /// anywhere in its cell, `random` anywhere in the pixel.
-        pattern: Spanned<ir::Pattern>, default(ir::Pattern::Grid), &[&["pattern"]];
+        pattern: Spanned<ir::Pattern>, default(ir::Pattern::Grid), &[&["pattern"]], own true;
     }
 }
 
@@ -63,7 +63,12 @@ impl Decode for SuperSampling {
     fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         match context.tree.shape(node) {
             NodeContent::Map => {
+                let key = context.key.span;
                 let SamplingMap { factor, pattern } = SamplingMap::decode(node, context)?;
+                if factor.is_absent() {
+                    report_no_factor(key.unwrap_or_else(|| context.head(node)), context);
+                }
+                let factor = factor.ok().unwrap_or(Spanned::without_span(Count(1)));
                 Some(Self {
                     factor: factor.value,
                     factor_span: factor.span,
@@ -97,6 +102,15 @@ impl Decode for SuperSampling {
     fn json(&self) -> Json {
         self.factor.json()
     }
+}
+
+/// Reports a map without the number of rays.
+fn report_no_factor(span: Span, context: &mut DecodeContext<'_>) {
+    let message = || "`SuperSampling` has no `factor`: a pixel has one ray".to_owned();
+    context.report(&codes::ASSUMED, span, message, |d| {
+        d.at(span, "1 × 1 rays per pixel")
+            .hint("`factor: 2` is two along each side of a pixel")
+    });
 }
 
 /// Whether a scalar is a boolean of YAML 1.2 or 1.1.

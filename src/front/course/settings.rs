@@ -13,6 +13,7 @@ use super::path_settings::PathParameters;
 use super::record::{FieldResult, record};
 use super::sampling::SuperSampling;
 use super::schema::SchemaDefinitions;
+use super::texture::add_uv_down;
 use super::value::{AnyScalar, Color, Point, Switch};
 use super::view_size::ViewSize;
 use rtc_color::Tone;
@@ -25,7 +26,7 @@ record! {
     /// A scene of the ray-tracing course.
     struct Scene, "scene" {
         /// The schema of this file for editors; ignored.
-        _schema: Spanned<AnyScalar>, optional, &[&["$schema"]];
+        _schema: Spanned<AnyScalar>, optional, &[&["$schema"]], own true;
         /// The camera of old files: it looks at the square from (0, 0, 0) to (400, 400, 0). Newer
         /// files have `Camera`.
         eye: Spanned<Point>, optional, &[&["Eye"]], json "Eye";
@@ -37,7 +38,7 @@ record! {
         /// The render mode: `phong`, Phong shading; `path`, path tracing (the default with a light
         /// in physical units, an `Environment`, a glTF asset or a `standard` material); `zbuffer`,
         /// distances; `normal`, normals; `gooch`, Gooch shading; `texture`, texture coordinates as
-        /// the colours (u, 0, v).
+        /// the colours (u, 0, v); `texcoords`, in small letters, as (u, 1 − v, 0).
         mode: Spanned<Mode>, default(Mode::Phong),
             &[&["RenderMode"], &["renderMode"], &["rendermode"]];
         /// Whether surfaces cast shadows.
@@ -45,56 +46,57 @@ record! {
             &[&["Shadows"], &["shadows"], &["shadow"]], json "Shadows";
         /// Whether lights with a radius cast soft shadows; `Off` sets their radius to 0. Only with
         /// `Shadows` there are shadows.
-        soft_shadows: Spanned<Switch>, optional, &[&["SoftShadows"]];
+        soft_shadows: Spanned<Switch>, optional, &[&["SoftShadows"]], own true;
         /// The maximal number of reflections or refractions after the first hit.
         depth: Spanned<Natural>, default(Natural(0)), &[&["MaxRecursionDepth"], &["MaxIterations"]],
             json "MaxRecursionDepth";
         /// Whether there are mirror reflections: `false` is a `MaxRecursionDepth` of 0, `true` one
         /// of 2 unless it is given.
-        reflections: Spanned<bool>, optional, &[&["Reflections"]];
+        reflections: Spanned<bool>, optional, &[&["Reflections"]], own true;
         /// The number of rays along each side of a pixel.
         sampling: Spanned<SuperSampling>, default(SuperSampling::ONE),
             &[&["SuperSampling"], &["SuperSamplingFactor"], &["SuperSamplingRate"],
                 &["AntiAliasing"], &["AntiAlias"], &["AA"]],
             json "SuperSamplingFactor", json "AntiAliasing";
         /// Width and height of the image in pixels, beside an `Eye` or the three keys of a camera:
-        /// the image begins at the origin and has pixels of size 1. A `Camera` has its own size.
+        /// the image begins at the origin and has pixels of size 1. Beside an `Eye` a `Resolution`
+        /// keeps the width of 400 units instead. A `Camera` has its own size.
         image_size: Spanned<ViewSize>, optional,
             &[&["ImageSize"], &["Resolution"]], json "ImageSize";
         /// Width over height of the image; has no effect, because pixels are square and the size is
         /// given.
-        aspect_ratio: Spanned<Real>, optional, &[&["AspectRatio"]];
+        aspect_ratio: Spanned<Real>, optional, &[&["AspectRatio"]], own true;
         /// The number of samples of each light with a radius; 16 by default.
-        light_samples: Spanned<Count>, optional, &[&["LightSamples"]];
+        light_samples: Spanned<Count>, optional, &[&["LightSamples"]], own true;
         /// Whether `phong` uses toon shading: N·L in the steps 0, 0.25, 0.3 and 1, full highlights
         /// where R·V is at least 0.9, dark outlines; only for directly visible surfaces.
         toon: Spanned<bool>, default(false), &[&["Toon"]], json "Toon";
         /// How often the ambient term of `phong` is added: `perLight` for each light, times its
         /// colour; `once`, independent of the lights. The default is `once` for a JSON scene and
         /// `perLight` for YAML.
-        ambient: Spanned<ir::Ambient>, optional, &[&["Ambient"]], json "Ambient";
+        ambient: Spanned<ir::Ambient>, optional, &[&["Ambient"]], json "Ambient", own true;
         /// The colour of the ambient light of `phong`: with it the ambient term is added once,
         /// times this colour.
-        ambient_light: Spanned<Color>, optional, &[&["AmbientLight"]];
+        ambient_light: Spanned<Color>, optional, &[&["AmbientLight"]], own true;
         /// The colour where the camera sees nothing, in the values of the picture file; black or
         /// the environment by default. Mirrors don't show it.
-        background: Spanned<Color>, optional, &[&["Background"], &["BackgroundColor"]];
+        background: Spanned<Color>, optional, &[&["Background"], &["BackgroundColor"]], own true;
         /// The colours of `RenderMode: gooch`.
         gooch: Spanned<Gooch>, optional, &[&["GoochParameters"]];
         /// The settings of path tracing.
-        paths: Spanned<PathParameters>, optional, &[&["PathParameters"]];
+        paths: Spanned<PathParameters>, optional, &[&["PathParameters"]], own true;
         /// The tone map of a PNG: `none`, linear values; `srgb`, clamped to 1 and sRGB-encoded;
         /// `agx`, AgX; `pbr-neutral`, Khronos PBR Neutral. The default is `srgb` for path tracing,
         /// else `none`. An EXR has linear values.
-        tone: Spanned<Tone>, optional, &[&["ToneMap"]];
+        tone: Spanned<Tone>, optional, &[&["ToneMap"]], own true;
         /// The exposure of a PNG in stops: each stop doubles the values before the tone map.
-        exposure: Spanned<Stops>, default(Stops(0.0)), &[&["Exposure"]];
+        exposure: Spanned<Stops>, default(Stops(0.0)), &[&["Exposure"]], own true;
         /// The environment light.
-        environment: Spanned<Environment>, optional, &[&["Environment"]];
+        environment: Spanned<Environment>, optional, &[&["Environment"]], own true;
         /// The participating medium around the camera, for instance fog. A scene with a medium is
         /// rendered by path tracing. A medium inside an object is the `interior` of its `standard`
         /// material.
-        medium: Spanned<MediumCoefficients>, optional, &[&["Medium"], &["medium"]];
+        medium: Spanned<MediumCoefficients>, optional, &[&["Medium"], &["medium"]], own true;
         /// The lights.
         lights: Spanned<LazyList<Light>>, default(LazyList::<Light>::none()),
             &[&["Lights"]], json "Lights";
@@ -135,6 +137,8 @@ pub(super) enum Mode {
     Gooch,
     Path,
     Uv,
+    /// Texture coordinates as the colours (u, 1 − v, 0).
+    UvDown,
 }
 
 /// The keywords of the render modes.
@@ -163,6 +167,8 @@ const MODES: KeywordTable<Mode> = &[
         "Texture coordinates as the colours (u, 0, v).",
     ),
     ("textureCoordinate", Mode::Uv, ""),
+    ("texCoords", Mode::Uv, ""),
+    ("texcoords", Mode::UvDown, ""),
 ];
 
 /// The numbers of render modes in some files.
@@ -292,13 +298,15 @@ impl Lowering {
         }
     }
 
-    /// Applies `RenderMode: texture`: the texture coordinates become the ambient colour of all
-    /// surfaces, under a single white light. Call it after the lights and the objects are lowered.
+    /// Applies `RenderMode: texture` and `texcoords`: the texture coordinates become the ambient
+    /// colour of all surfaces, under a single white light. Call it after the lights and the objects
+    /// are lowered.
     pub(super) fn show_uv(&mut self, scene: &Scene) {
-        if scene.mode.value != Mode::Uv {
-            return;
-        }
-        let color_map = Some(self.files.uv(&mut self.scene));
+        let color_map = Some(match scene.mode.value {
+            Mode::Uv => self.files.uv(&mut self.scene),
+            Mode::UvDown => add_uv_down(&mut self.scene),
+            Mode::Phong | Mode::Depth | Mode::Normal | Mode::Gooch | Mode::Path => return,
+        });
         for material in &mut self.scene.materials {
             *material = ir::Material::Phong(ir::Phong {
                 ka: 1.0,
@@ -336,7 +344,7 @@ impl Lowering {
             });
         }
         match mode {
-            Mode::Phong | Mode::Uv => ir::Mode::Phong,
+            Mode::Phong | Mode::Uv | Mode::UvDown => ir::Mode::Phong,
             Mode::Depth => ir::Mode::Depth,
             Mode::Normal => ir::Mode::Normal,
             Mode::Path => ir::Mode::Path(ir::PathSettings::default()),
@@ -373,7 +381,7 @@ fn report_unused(scene: &Scene, context: &mut DecodeContext<'_>) {
     } = scene;
     match mode.value {
         Mode::Phong | Mode::Path => return,
-        Mode::Depth | Mode::Normal | Mode::Gooch | Mode::Uv => {}
+        Mode::Depth | Mode::Normal | Mode::Gooch | Mode::Uv | Mode::UvDown => {}
     }
     // Gooch shading: programs differ about shadows.
     if let (Mode::Gooch, true, Some(span)) = (mode.value, shadows.value, shadows.span) {

@@ -45,8 +45,10 @@ pub(super) fn example(record: &Record, definitions: &mut SchemaDefinitions) -> J
     let is_wanted = |field: &&FieldDeclaration| match field.requirement {
         _ if in_variant(field) => variant.contains(&field.name),
         FieldRequirement::Required | FieldRequirement::Unless(_) => true,
-        // Without one a mesh is grey, with a warning.
-        FieldRequirement::Optional => record.name == "mesh" && field.name == MATERIAL,
+        // Without one a mesh is grey, and a `csg` a union, with a warning.
+        FieldRequirement::Optional => {
+            [("mesh", MATERIAL), ("csg", "operation")].contains(&(record.name, field.name))
+        }
         FieldRequirement::Default(_) => false,
     };
     let mut example = Map::new();

@@ -1,14 +1,47 @@
-//! Suggestions for values of the wrong type: named and hexadecimal colours, units, fractions,
-//! decimal commas, round brackets, missing dashes.
+//! Suggestions for values of the wrong type: named and hexadecimal colours, units, percentages,
+//! fractions, decimal commas, round brackets, maps of channels, missing dashes.
 
 use super::decode::ValueKey;
 use super::expression;
+use super::spelling::same_letters;
 use rtc_math::shortest;
 use rtc_source::tree::{NodeContent, NodeId, SyntaxTree};
+
+/// A hint for a value of the wrong type.
+pub(super) struct Suggestion {
+    pub(super) hint: String,
+    /// What to write instead, if that is known.
+    pub(super) text: Option<String>,
+    /// Whether the text surely has the meaning of what is written.
+    pub(super) is_certain: bool,
+}
 
 /// A hint for a value of the wrong type, and the replacement if it is known. `what` describes the
 /// expected value.
 pub(super) fn suggest(
+    tree: &SyntaxTree<'_>,
+    key: ValueKey<'_>,
+    node: NodeId,
+    what: &str,
+) -> Option<Suggestion> {
+    let (hint, text) = suggest_text(tree, key, node, what)?;
+    let written = tree.written(node);
+    let is_certain = |text: &str| same_letters(written, text) && !has_other_meaning(written);
+    Some(Suggestion {
+        is_certain: text.as_deref().is_some_and(is_certain),
+        hint,
+        text,
+    })
+}
+
+/// Whether a number is written so that its digits alone do not say its value: with a unit, or with
+/// a comma that may be one of thousands.
+fn has_other_meaning(written: &str) -> bool {
+    let decimals = written.split_once(',').map(|(_, decimals)| decimals.len());
+    written.contains(['%', '°']) || decimals == Some(3)
+}
+
+fn suggest_text(
     tree: &SyntaxTree<'_>,
     key: ValueKey<'_>,
     node: NodeId,
@@ -21,7 +54,18 @@ pub(super) fn suggest(
     // Suggest how the value is written in that type.
     match tree.shape(node) {
         NodeContent::Map if what == "a list" => {
-            let hint = "each item of a list begins with a dash: `- type: sphere`";
+            let hint = match tree.written(node).starts_with('{') {
+                true => "a list is written in square brackets, each item in braces: `[{…}, {…}]`",
+                false => "each item of a list begins with a dash: `- type: sphere`",
+            };
+            Some((hint.to_owned(), None))
+        }
+        NodeContent::Map if takes_triple => {
+            let hint = "three numbers are written as a list: `[1, 2, 3]`";
+            Some((hint.to_owned(), Some(list_of_map(tree, node)?)))
+        }
+        NodeContent::Map if takes_number => {
+            let hint = "a number stands after the colon, and no other key";
             Some((hint.to_owned(), None))
         }
         NodeContent::List if what == "a map" => {
@@ -56,6 +100,9 @@ pub(super) fn suggest(
             if text.starts_with('(') {
                 return Some((hint, None));
             }
+            if let Some(axis) = axis(text) {
+                return Some((hint, Some(axis)));
+            }
             let color = color(text)?;
             Some(("a colour is three numbers".to_owned(), Some(color)))
         }
@@ -66,9 +113,63 @@ pub(super) fn suggest(
                 Some(list),
             ))
         }
+        NodeContent::Word(text) | NodeContent::Text(text) if what.starts_with("a whole number") => {
+            square(text).or_else(|| number(text))
+        }
         NodeContent::Word(text) | NodeContent::Text(text) if takes_number => number(text),
         NodeContent::Word(_) | NodeContent::Text(_) | NodeContent::List | NodeContent::Map => None,
     }
+}
+
+/// The keys of three numbers in other programs, each row in order.
+const CHANNELS: [[&str; 3]; 3] = [["r", "g", "b"], ["red", "green", "blue"], ["x", "y", "z"]];
+
+/// The list of the three numbers in a map of channels or components.
+fn list_of_map(tree: &SyntaxTree<'_>, node: NodeId) -> Option<String> {
+    let value = |key: &str| {
+        let mut pairs = tree.pairs(node).take(CHANNELS.len() + 1);
+        let is_it = |name: NodeId| {
+            tree.text(name)
+                .is_some_and(|name| name.eq_ignore_ascii_case(key))
+        };
+        let (_, value) = pairs.find(|(name, _)| is_it(*name))?;
+        let text = tree.text(value)?;
+        text.parse::<f64>()
+            .is_ok_and(f64::is_finite)
+            .then(|| text.to_owned())
+    };
+    let rows = CHANNELS.iter();
+    let mut lists = rows.filter_map(|row| row.iter().map(|key| value(key)).collect());
+    lists
+        .next()
+        .map(|numbers: Vec<_>| format!("[{}]", numbers.join(", ")))
+}
+
+/// The direction that the name of an axis says, perhaps with a sign.
+fn axis(text: &str) -> Option<String> {
+    let name = text.trim_start_matches(['+', '-']);
+    let sign = if text.starts_with('-') { "-" } else { "" };
+    let at = ["x", "y", "z"]
+        .iter()
+        .position(|axis| axis.eq_ignore_ascii_case(name))?;
+    let component = |k: usize| {
+        if k == at {
+            format!("{sign}1")
+        } else {
+            "0".to_owned()
+        }
+    };
+    Some(format!("[{}]", [0, 1, 2].map(component).join(", ")))
+}
+
+/// The side of a square that is written as `4x4`.
+fn square(text: &str) -> Option<(String, Option<String>)> {
+    let (columns, rows) = text.split_once(['x', 'X', '×', '*'])?;
+    let (columns, rows): (u32, u32) = (columns.trim().parse().ok()?, rows.trim().parse().ok()?);
+    (columns == rows).then(|| {
+        let hint = "one number counts them along each side".to_owned();
+        (hint, Some(columns.to_string()))
+    })
 }
 
 /// `count` numbers with any separators between them, as a YAML list.
@@ -100,8 +201,11 @@ const NAMED_COLORS: &[(&str, &str)] = &[
     ("grey", "[0.5, 0.5, 0.5]"),
 ];
 
-/// A colour name, `#rrggbb` or `#rgb`, as three numbers from 0 to 1.
+/// A colour name, `#rrggbb`, `#rgb` or `rgb(r, g, b)`, as three numbers from 0 to 1.
 fn color(text: &str) -> Option<String> {
+    if let Some(list) = color_function(text) {
+        return Some(list);
+    }
     let named = NAMED_COLORS
         .iter()
         .find(|(name, _)| name.eq_ignore_ascii_case(text));
@@ -119,8 +223,34 @@ fn color(text: &str) -> Option<String> {
         [r, s, g, h, b, c] => [16 * r + s, 16 * g + h, 16 * b + c],
         _ => return None,
     };
-    let item = |value: u32| shortest((f64::from(value) / 255.0 * 1e3).round() / 1e3);
-    Some(format!("[{}, {}, {}]", item(r), item(g), item(b)))
+    Some(list_of_bytes([r, g, b].map(f64::from)))
+}
+
+/// The colour that `rgb(…)` names: bytes, or percentages.
+fn color_function(text: &str) -> Option<String> {
+    let lower = text.trim().to_ascii_lowercase();
+    let inside = lower.strip_prefix("rgb")?.trim_start().strip_prefix('(')?;
+    let inside = inside.strip_suffix(')')?;
+    let channel = |item: &str| match item.trim().strip_suffix('%') {
+        Some(percent) => percent.parse().ok().map(|percent: f64| percent * 2.55),
+        None => item.trim().parse().ok(),
+    };
+    let channels: Vec<f64> = inside
+        .split(',')
+        .take(4)
+        .map(channel)
+        .collect::<Option<_>>()?;
+    let channels: [f64; 3] = channels.try_into().ok()?;
+    let are_bytes = channels
+        .iter()
+        .all(|channel| (0.0..=255.0).contains(channel));
+    are_bytes.then(|| list_of_bytes(channels))
+}
+
+/// Bytes from 0 to 255 as a list of numbers from 0 to 1.
+fn list_of_bytes(bytes: [f64; 3]) -> String {
+    let [r, g, b] = bytes.map(|value| shortest((value / 255.0 * 1e3).round() / 1e3));
+    format!("[{r}, {g}, {b}]")
 }
 
 /// The hint for a material that is given by a name instead of a map.
@@ -211,8 +341,13 @@ fn number(text: &str) -> Option<(String, Option<String>)> {
         let hint = "expressions are not evaluated: write the result".to_owned();
         return Some((hint, Some(shortest(result))));
     }
-    let number =
-        ascii.trim_end_matches(|c: char| c.is_alphabetic() || matches!(c, '°' | '%' | ' '));
+    // A percentage.
+    if let Some(percent) = ascii.strip_suffix('%') {
+        let fraction = shortest(read(percent)? / 100.0);
+        let hint = format!("a percentage is written as a fraction of 1: {ascii} is {fraction}");
+        return Some((hint, Some(fraction)));
+    }
+    let number = ascii.trim_end_matches(|c: char| c.is_alphabetic() || matches!(c, '°' | ' '));
     read(number).filter(|_| number.len() < ascii.len())?;
     Some(("a number has no unit".to_owned(), Some(number.to_owned())))
 }
@@ -242,6 +377,8 @@ mod tests {
             ("0,2", Some("0.2")),
             ("-1,25", Some("-1.25")),
             ("50cm", Some("50")),
+            ("20%", Some("0.2")),
+            ("2.5 %", Some("0.025")),
             ("45°", Some("45")),
             ("100/2", Some("50")),
             ("1/0", None),
@@ -261,6 +398,15 @@ mod tests {
             assert_eq!(suggested(text).as_deref(), expected, "{text}");
         }
         assert_eq!(color("#1e90ff").as_deref(), Some("[0.118, 0.565, 1]"));
+        assert_eq!(color("rgb(255, 0, 51)").as_deref(), Some("[1, 0, 0.2]"));
+        assert_eq!(color("rgb(100%, 0%, 20%)").as_deref(), Some("[1, 0, 0.2]"));
+        assert_eq!((color("rgb(300, 0, 0)"), color("rgb(1, 2)")), (None, None));
+        assert_eq!(axis("-y").as_deref(), Some("[0, -1, 0]"));
+        assert_eq!(
+            square("4x4").and_then(|(_, text)| text).as_deref(),
+            Some("4")
+        );
+        assert_eq!(square("4x3"), None);
         assert_eq!(color("#f00").as_deref(), Some("[1, 0, 0]"));
         assert_eq!(color("#1e90f"), None);
         assert_eq!(color("Red").as_deref(), Some("[1, 0, 0]"));

@@ -152,13 +152,55 @@ const fn is_same(a: &str, b: &str) -> bool {
 
 /// Keys of other programs with a meaning similar to a key of a record, and a hint for them.
 struct ForeignKeys {
-    /// The name of the record.
+    /// The name of the record; empty for all.
     record: &'static str,
     keys: KeyGroup,
     advice: &'static str,
 }
 
 const FOREIGN_KEYS: &[ForeignKeys] = &[
+    ForeignKeys {
+        record: "",
+        keys: &["diameter"],
+        advice: "`radius` is half of the diameter",
+    },
+    ForeignKeys {
+        record: "scene",
+        keys: &[
+            "Sphere",
+            "Spheres",
+            "Plane",
+            "Planes",
+            "Triangle",
+            "Triangles",
+            "Quads",
+            "Boxes",
+            "Box",
+            "Cylinders",
+            "Cones",
+            "Meshes",
+            "Mesh",
+            "Models",
+            "Shapes",
+            "Primitives",
+            "Geometry",
+            "Entities",
+            "Surfaces",
+        ],
+        advice: "every object is an item of the list `Objects`, with its `type`: `- type: sphere`",
+    },
+    ForeignKeys {
+        record: "scene",
+        keys: &[
+            "PointLights",
+            "PointLight",
+            "LightSources",
+            "Lamps",
+            "Lamp",
+            "Sun",
+        ],
+        advice: "every light is an item of the list `Lights`, with `position` and `color`",
+    },
     ForeignKeys {
         record: "camera",
         keys: &["direction", "dir", "forward", "gaze", "look", "view"],
@@ -241,7 +283,7 @@ const FOREIGN_KEYS: &[ForeignKeys] = &[
 /// The hint for a key of another program, if it is known.
 pub(super) fn foreign_key_advice(record: &str, key: &str) -> Option<&'static str> {
     let is_it = |entry: &&ForeignKeys| {
-        entry.record == record
+        (entry.record.is_empty() || entry.record == record)
             && entry
                 .keys
                 .iter()

@@ -147,6 +147,20 @@ pub(super) fn add_texture(scene: &mut Scene, texture: Texture) -> TextureId {
     }
 }
 
+/// The texture whose colours are (u, 1 − v, 0): an image of the colours in the four corners,
+/// between which it is interpolated. The first row is v = 1.
+pub(super) fn add_uv_down(scene: &mut Scene) -> TextureId {
+    let corners = [[0, 0, 0], [255, 0, 0], [0, 255, 0], [255, 255, 0]];
+    let image = scene.add_image(Image {
+        name: "texcoords.png".to_owned(),
+        width: 2,
+        height: 2,
+        kind: Pixels::Rgb8,
+        pixels: corners.concat().into(),
+    });
+    add(&mut scene.textures, Texture::Image(image), TextureId)
+}
+
 /// An image of one white pixel.
 fn white_image(name: String) -> Image {
     Image {

@@ -5,8 +5,7 @@ use super::keyword::{KeywordTable, keyword_schema};
 use super::number::{is_number, json_number, number, plain_number, radians};
 use super::schema::SchemaDefinitions;
 use super::suggestion::{as_list, decimal_commas};
-use rtc_diag::clip;
-use rtc_diag::codes;
+use rtc_diag::{clip, codes, nearest};
 use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
@@ -237,7 +236,7 @@ impl Decode for bool {
         let suggestion = match text.to_ascii_lowercase().as_str() {
             "true" | "yes" | "y" | "on" => "true",
             "false" | "no" | "n" | "off" => "false",
-            _ => return context.expected(node, "`true` or `false`"),
+            _ => return misspelt_boolean(text, node, context),
         };
         let (key, span) = (context.key, context.tree.span(node));
         let found = describe(context.tree.shape(node));
@@ -276,6 +275,33 @@ impl Decode for bool {
     fn json(&self) -> Json {
         json!(self)
     }
+}
+
+/// Words for booleans that are nearly what is written.
+const BOOLEANS: [(&str, &str); 6] = [
+    ("true", "true"),
+    ("false", "false"),
+    ("enabled", "true"),
+    ("disabled", "false"),
+    ("enable", "true"),
+    ("disable", "false"),
+];
+
+/// Reports a word that is no boolean, with the one that was probably meant. Always `None`.
+fn misspelt_boolean(text: &str, node: NodeId, context: &mut DecodeContext<'_>) -> Option<bool> {
+    const WHAT: &str = "`true` or `false`";
+    let word = nearest(text, BOOLEANS.iter().map(|(word, _)| *word));
+    let Some((_, meaning)) = BOOLEANS.iter().find(|(known, _)| Some(*known) == word) else {
+        return context.expected(node, WHAT);
+    };
+    let (key, span) = (context.key, context.tree.span(node));
+    let found = describe(context.tree.shape(node));
+    let message = || format!("`{}` must be {WHAT}, not {found}", clip(key.text));
+    context.report(&codes::WRONG_TYPE, span, message, |d| {
+        d.at(span, found.clone())
+            .guess(format!("did you mean `{meaning}`?"), span, *meaning)
+    });
+    None
 }
 
 /// A switch: `On`, `Off`, or a boolean.

@@ -51,7 +51,21 @@ pub(super) fn check(
     if variants.iter().any(is_variant) {
         return true;
     }
-    let present: Vec<_> = present.map(|(_, field)| field.name).collect();
+    let present: Vec<_> = present.map(|(_, field)| field).collect();
+    if !context.options.strict
+        && let Some(variant) = without_own_keys(variants, &present)
+    {
+        let is_ignored = |field: &&&FieldDeclaration| !variant.contains(&field.name);
+        let ignored = present.iter().filter(is_ignored);
+        report_ignored(
+            name,
+            head,
+            ignored.map(|field| field.spellings[0][0]),
+            context,
+        );
+        return true;
+    }
+    let present: Vec<_> = present.iter().map(|field| field.name).collect();
     if context.options.lenient && differs_only_by_rotation(record, &present) {
         let message = || format!("the {name} has no `rotation` with these keys");
         context.report(&codes::NO_EFFECT, head, message, |d| {
@@ -62,6 +76,47 @@ pub(super) fn check(
     }
     report(record, head, &present, first_typo, context);
     false
+}
+
+/// If the present fields of the course are a variant, and those that only rtc has are none: the
+/// largest variant of the fields of the course and perhaps some of the others.
+fn without_own_keys(
+    variants: &'static [&'static [&'static str]],
+    present: &[&FieldDeclaration],
+) -> Option<&'static [&'static str]> {
+    let has = |name: &&str, own: bool| {
+        let mut fields = present.iter();
+        fields.any(|field| field.name == *name && field.is_own == own)
+    };
+    let sheet = || present.iter().filter(|field| !field.is_own);
+    let is_older = |variant: &&[&str]| {
+        variant.len() == sheet().count() && variant.iter().all(|name| has(name, false))
+    };
+    let is_own = |variant: &&[&str]| variant.iter().all(|name| has(name, true));
+    if !variants.iter().any(is_older) || variants.iter().any(is_own) {
+        return None;
+    }
+    let is_read = |variant: &&&[&str]| {
+        let is_there = |name: &&str| has(name, false) || has(name, true);
+        variant.iter().all(is_there) && sheet().all(|field| variant.contains(&field.name))
+    };
+    let read = variants.iter().filter(is_read);
+    read.max_by_key(|variant| variant.len()).copied()
+}
+
+/// Warns of keys that only rtc has, beside keys of the course that are complete without them.
+fn report_ignored<'k>(
+    record_name: &str,
+    head: Span,
+    keys: impl Iterator<Item = &'k str>,
+    context: &mut DecodeContext<'_>,
+) {
+    let keys = quoted_list(keys);
+    let message = || format!("the {record_name} is read without {keys}");
+    context.report(&codes::NO_EFFECT, head, message, |d| {
+        d.at(head, "no effect beside its other keys")
+            .severity(Severity::Warning)
+    });
 }
 
 /// Whether the present fields without the rotation are one of the variants.
@@ -101,9 +156,8 @@ fn report(
     let candidates =
         candidates.flat_map(|field| field.spellings.iter().copied().flatten().copied());
     let cause = context.typo_for(&candidates.collect::<Vec<_>>(), first_typo);
-    // Show the keys of each variant.
-    let alternatives: Vec<_> = variants
-        .iter()
+    // Show the keys of the nearest variants.
+    let alternatives: Vec<_> = nearest(variants, present)
         .map(|variant| keys(record, variant))
         .collect();
     let hint = format!("a {name} takes {}", alternatives.join("; or "));
@@ -117,6 +171,30 @@ fn report(
                 .hint(hint)
         },
     );
+}
+
+/// The most variants that a hint lists.
+const MAX_ALTERNATIVES: usize = 3;
+
+/// The variants that differ by the fewest keys from those that are present, in their order; all of
+/// them if they are few.
+fn nearest<'v>(
+    variants: &'v [&'static [&'static str]],
+    present: &[&str],
+) -> impl Iterator<Item = &'v &'static [&'static str]> {
+    let difference = |variant: &[&str]| {
+        let shared = variant.iter().filter(|name| present.contains(name)).count();
+        variant.len() + present.len() - 2 * shared
+    };
+    let mut ranks: Vec<_> = variants.iter().map(|variant| difference(variant)).collect();
+    let ranked = ranks.clone();
+    ranks.sort_unstable();
+    let most = ranks.get(MAX_ALTERNATIVES - 1).or(ranks.last()).copied();
+    let near = variants
+        .iter()
+        .zip(ranked)
+        .filter(move |(_, rank)| Some(*rank) <= most);
+    near.map(|(variant, _)| variant).take(MAX_ALTERNATIVES)
 }
 
 /// For each variant that contains all present fields and lacks the fewest: the missing keys.

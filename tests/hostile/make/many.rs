@@ -9,6 +9,7 @@ const HEAD: &str = "Camera: {eye: [0, 1, 6], center: [0, 0, 0], up: [0, 1, 0], v
                     Lights: [{position: [3, 5, 5], color: [1, 1, 1]}]\nObjects:\n";
 
 /// All of them.
+#[expect(clippy::too_many_lines, reason = "a table, one row a file")]
 pub(crate) fn all() -> Vec<Repro> {
     vec![
         asked(
@@ -28,6 +29,24 @@ pub(crate) fn all() -> Vec<Repro> {
             &["check", "--fix", "--unsafe", "a.yaml"],
             vec![("a.yaml", slips(1_000))],
             Some("SC006"),
+        ),
+        asked(
+            "20 000 maps that merge an alias of a list of 20 000 maps",
+            &["check", "a.yaml"],
+            vec![("a.yaml", merged_lists(20_000))],
+            Some("SY011"),
+        ),
+        asked(
+            "an rtc.toml of 3 000 unknown codes",
+            &["check", "a.yaml"],
+            vec![
+                (
+                    "a.yaml",
+                    HEAD.replace("Objects:", "Objects: []").into_bytes(),
+                ),
+                ("rtc.toml", unknown_codes(3_000)),
+            ],
+            Some("IO004"),
         ),
         asked(
             "30 000 comments, to be laid out",
@@ -123,6 +142,19 @@ fn fan(count: u32) -> Vec<u8> {
 
 fn equal_triangles(count: usize) -> Vec<u8> {
     format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{}", "f 1 2 3\n".repeat(count)).into_bytes()
+}
+
+/// A scene of objects that each merge the same list of maps.
+fn merged_lists(count: usize) -> Vec<u8> {
+    let list = vec!["*a"; count].join(", ");
+    let objects = "- <<: *l\n".repeat(count);
+    format!("a: &a {{x: 1}}\nl: &l [{list}]\n{HEAD}{objects}").into_bytes()
+}
+
+/// Settings with levels of codes that do not exist.
+fn unknown_codes(count: usize) -> Vec<u8> {
+    let levels = (0..count).map(|code| format!("VA{code:04} = \"warn\"\n"));
+    ("[levels]\n".to_owned() + &levels.collect::<String>()).into_bytes()
 }
 
 fn slips(count: usize) -> Vec<u8> {

@@ -1,4 +1,4 @@
-//! CSG solids: union, intersection and difference.
+//! CSG solids: union, intersection and difference, and the `csg` that is one of them.
 //!
 //! The operands are lowered as objects are; then their surfaces are taken from the scene again, and
 //! become the operands of one expression. A polyhedron is the intersection of half-spaces. The
@@ -6,6 +6,7 @@
 
 use super::{LowerObject, Object};
 use crate::course::decode::{Decode, DecodeContext, SharedValue, Spanned};
+use crate::course::keyword::{Keyword, KeywordTable};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, Positive};
@@ -15,7 +16,7 @@ use crate::course::rotation::{Rotation, RotationKeys};
 use crate::course::schema::{self, SchemaDefinitions};
 use crate::course::synonym::{POSITION, ROTATION, ROTATION_ANGLE, ROTATION_AXIS, with_canonical};
 use crate::course::value::{Angles, AnyScalar, Point, Vector};
-use rtc_diag::codes;
+use rtc_diag::{Severity, codes};
 use rtc_ir::{self as ir, MaterialId, Shape, Solid};
 use rtc_math::{MAX_SET_OPERANDS, SetStep, Vec3, cross, unit};
 use rtc_source::Span;
@@ -69,10 +70,14 @@ record! {
         /// The type of the object.
         kind: Spanned<AnyScalar>, required, &[&["type"]];
         /// The two operands: objects with an inside, of any of these types, too.
-        both: [Spanned<Operand>; 2], optional, &[&["a", "b"], &["left", "right"]];
+        both: [Spanned<Operand>; 2], optional,
+            &[&["a", "b"], &["left", "right"], &["first", "second"], &["A", "B"],
+                &["object1", "object2"], &["shape1", "shape2"]];
         /// The operands instead of `a` and `b`, at most 64.
         of: Spanned<Operands>, optional,
             &[&["of"], &["operands"], &["objects"], &["children"], &["shapes"]];
+        /// Which of the three operations a `csg` is; the other types are one.
+        operation: Spanned<SetStep>, optional, &[&["operation"], &["operator"], &["op"]];
         /// The material of operands that have none.
         material: Spanned<SharedValue<Material>>, optional, &[&["material"]];
         /// The position of the origin of the operands' coordinates.
@@ -91,10 +96,10 @@ record! {
         angle: Spanned<Degrees>, optional, &ROTATION_ANGLE;
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores
         /// `false`.
-        shadow: Spanned<bool>, default(true), &[&["shadow"]];
+        shadow: Spanned<bool>, default(true), &[&["shadow"]], own true;
         /// How far it moves per second along each axis, while the `shutter` of the `Camera`
         /// is open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]], own true;
     }
     variants { [both] [of] }
 }
@@ -155,6 +160,7 @@ impl SetUnion {
             kind,
             both,
             of,
+            operation: written,
             material,
             position,
             scale,
@@ -164,6 +170,7 @@ impl SetUnion {
             shadow,
             velocity,
         } = self;
+        report_other_operation(operation, written, context);
         let operands = match (both, of) {
             (FieldResult::Read(both), _) => &both[..],
             (_, FieldResult::Read(of)) => &of.value.0,
@@ -199,6 +206,89 @@ impl SetUnion {
         }
         lowering.dependent.record_shadow(shadow);
         lowering.add_expression(expression, kind.span, (shadow.value, *velocity));
+    }
+}
+
+/// A solid whose key `operation` says which of the three it is.
+pub(super) struct Csg(SetUnion);
+
+impl SameKeys for Csg {
+    type Keys = SetUnion;
+    const NAME: &'static str = "csg";
+    const DOC: &'static str =
+        " The union, intersection or difference, as the key `operation` says.";
+
+    fn from_keys(keys: SetUnion) -> Self {
+        Self(keys)
+    }
+}
+
+impl LowerObject for Csg {
+    fn lower(&self, lowering: &mut Lowering, context: &mut DecodeContext<'_>) {
+        let operation = match &self.0.operation {
+            FieldResult::Read(operation) => operation.value,
+            FieldResult::Absent => {
+                report_no_operation(&self.0.kind, context);
+                SetStep::Union
+            }
+            FieldResult::Broken => return,
+        };
+        self.0.lower_as(operation, lowering, context);
+    }
+}
+
+impl Keyword for SetStep {
+    const KEYWORDS: KeywordTable<Self> = &[
+        ("union", SetStep::Union, "The points in any operand."),
+        (
+            "intersection",
+            SetStep::Intersection,
+            "The points in all operands.",
+        ),
+        (
+            "difference",
+            SetStep::Difference,
+            "The points in the first operand and in no other.",
+        ),
+        ("add", SetStep::Union, ""),
+        ("or", SetStep::Union, ""),
+        ("intersect", SetStep::Intersection, ""),
+        ("and", SetStep::Intersection, ""),
+        ("subtract", SetStep::Difference, ""),
+        ("subtraction", SetStep::Difference, ""),
+        ("minus", SetStep::Difference, ""),
+    ];
+}
+
+/// Reports a `csg` without its operation.
+fn report_no_operation(kind: &Spanned<AnyScalar>, context: &mut DecodeContext<'_>) {
+    let Some(span) = kind.span else { return };
+    let message = || "the csg has no `operation`: it is read as a union".to_owned();
+    context.report(&codes::ASSUMED, span, message, |d| {
+        d.at(span, "all operands together").hint(
+            "`operation` is `union`, `intersection` or `difference`, the first operand without \
+             the others",
+        )
+    });
+}
+
+/// Reports an operation other than the type of the object.
+fn report_other_operation(
+    operation: SetStep,
+    other: &FieldResult<Spanned<SetStep>>,
+    context: &mut DecodeContext<'_>,
+) {
+    if let Some(Spanned {
+        value,
+        span: Some(span),
+    }) = other.read()
+        && *value != operation
+    {
+        let message = || format!("the `operation` of a {} has no effect", word(operation));
+        context.report(&codes::NO_EFFECT, *span, message, |d| {
+            d.at(*span, "the `type` says otherwise")
+                .severity(Severity::Warning)
+        });
     }
 }
 

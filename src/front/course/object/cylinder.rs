@@ -43,7 +43,7 @@ record! {
         shadow: Spanned<bool>, default(true), &[&["shadow"]], json "shadow";
         /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
         /// open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]], own true;
     }
     variants {
         [position direction height] [ends] [position up] [position height euler_axis euler_angle]
@@ -148,10 +148,10 @@ record! {
         /// The material.
         material: Spanned<SharedValue<Material>>, required, &[&["material"]];
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
-        shadow: Spanned<bool>, default(true), &[&["shadow"]];
+        shadow: Spanned<bool>, default(true), &[&["shadow"]], own true;
         /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
         /// open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]], own true;
     }
 }
 

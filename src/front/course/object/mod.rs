@@ -99,6 +99,7 @@ pub(super) const KINDS: &[ObjectKind] = &[
     ObjectKind::of::<csg::SetUnion>(&["union"]),
     ObjectKind::of::<csg::SetIntersection>(&["intersection"]),
     ObjectKind::of::<csg::SetDifference>(&["difference"]),
+    ObjectKind::of::<csg::Csg>(&["csg", "CSG"]),
     ObjectKind::of::<solid::Cuboid>(&["box"]),
     ObjectKind::of::<solid::Tetrahedron>(&["tetrahedron"]),
     ObjectKind::of::<cube::Cube>(&["cube"]),
@@ -166,8 +167,10 @@ impl Decode for Object {
         if kind.record.fields.iter().any(|field| field.name == "of") {
             context.operand_material = own_material(node, context).or(outer);
         }
+        let outer_texture = context.object_texture.take();
         let object = (kind.decode)(kind.record, node, context);
         context.operand_material = outer;
+        context.object_texture = outer_texture;
         object
     }
 
@@ -218,12 +221,53 @@ fn report_type_as_key(node: NodeId, context: &mut DecodeContext<'_>) -> bool {
     true
 }
 
+/// Other words for the types of objects.
+const OTHER_NAMES: &[(&str, &[&str])] = &[
+    ("sphere", &["ball", "orb", "globe"]),
+    (
+        "plane",
+        &["floor", "ground", "wall", "ceiling", "halfspace"],
+    ),
+    ("triangle", &["tri", "face"]),
+    (
+        "quad",
+        &["rect", "rectangle", "square", "polygon", "parallelogram"],
+    ),
+    ("cylinder", &["tube", "pipe", "rod", "can"]),
+    ("torus", &["donut", "doughnut", "ring"]),
+    ("ellipsoid", &["ellipse", "egg", "spheroid"]),
+    (
+        "box",
+        &["cuboid", "block", "brick", "aabb", "parallelepiped"],
+    ),
+    ("tetrahedron", &["pyramid", "simplex"]),
+    (
+        "mesh",
+        &["obj", "off", "object", "geometry", "trimesh", "polymesh"],
+    ),
+    ("gltf", &["glb", "asset"]),
+    ("difference", &["subtraction", "subtract", "minus"]),
+    ("intersection", &["intersect"]),
+    ("union", &["merge", "group", "combine"]),
+];
+
+/// The type that was probably meant by another name.
+fn meant_type(name: &str) -> Option<&'static str> {
+    let is_it = |other: &&str| other.eq_ignore_ascii_case(name);
+    let mut others = OTHER_NAMES.iter();
+    let other = others.find(|(_, names)| names.iter().any(is_it));
+    let known = || KINDS.iter().flat_map(|kind| kind.names).copied();
+    match other {
+        Some((kind, _)) => Some(kind),
+        None => nearest(name, known()),
+    }
+}
+
 /// Reports an object of unknown type.
 fn report_unknown_type(name: &str, node: NodeId, context: &mut DecodeContext<'_>) {
     let (lenient, span) = (context.options.lenient, context.tree.span(node));
-    let known = KINDS.iter().flat_map(|kind| kind.names).copied();
-    let suggestion = nearest(name, known)
-        .map(|suggestion| (suggestion, context.with_quotes_of(node, suggestion)));
+    let suggestion =
+        meant_type(name).map(|suggestion| (suggestion, context.with_quotes_of(node, suggestion)));
     context.report(
         &codes::UNKNOWN_TYPE,
         span,

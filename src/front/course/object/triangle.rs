@@ -41,7 +41,7 @@ record! {
         shadow: Spanned<bool>, default(true), &[&["shadow"]], json "shadow";
         /// How far it moves per second along each axis, while the `shutter` of the `Camera` is
         /// open.
-        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]];
+        velocity: Spanned<Point>, default(Point([0.0; 3])), &[&["velocity"]], own true;
     }
 }
 

@@ -152,6 +152,7 @@ macro_rules! material {
                         spellings: &[&["type"]],
                         json: &[],
                         requirement: FieldRequirement::Required,
+                        is_own: false,
                         schema: <Spanned<AnyScalar> as FieldValue>::schema,
                     },
                     FieldDeclaration {
@@ -160,6 +161,7 @@ macro_rules! material {
                         spellings: &[&["name"]],
                         json: &[],
                         requirement: FieldRequirement::Optional,
+                        is_own: false,
                         schema: <Spanned<DisplayName> as FieldValue>::schema,
                     },
                     $(FieldDeclaration {
@@ -168,6 +170,7 @@ macro_rules! material {
                         spellings: &[&[camel_case!($field)]],
                         json: &[],
                         requirement: requirement!($kind, $default),
+                        is_own: false,
                         schema: <Spanned<written::$kind> as FieldValue>::schema,
                     },)*
                 ],
