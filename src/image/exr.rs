@@ -35,7 +35,7 @@ const TREE_TYPE: &str = "rtc:tree";
 
 /// The value of a pixel that a channel stores.
 #[derive(Clone, Copy)]
-enum ChannelSource {
+pub(super) enum ChannelSource {
     /// A colour, by its index in the pixel.
     Color(usize),
     /// The opacity.
@@ -184,12 +184,12 @@ fn ordered(
 }
 
 /// All channels, in the order of their names, as the format wants them.
-fn channels(head: &PictureHeader) -> Vec<(&'static str, ChannelSource)> {
+pub(super) fn channels(head: &PictureHeader) -> Vec<(&str, ChannelSource)> {
     let colors = ["R", "G", "B"].into_iter().enumerate();
     let colors = colors.map(|(k, name)| (name, ChannelSource::Color(k)));
     let alpha = head.has_alpha.then_some(("A", ChannelSource::Alpha));
     let layers = head.layers.iter().enumerate();
-    let layers = layers.map(|(k, name)| (*name, ChannelSource::Layer(k)));
+    let layers = layers.map(|(k, name)| (name.as_ref(), ChannelSource::Layer(k)));
     let mut all: Vec<_> = colors.chain(alpha).chain(layers).collect();
     all.sort_unstable_by_key(|(name, _)| *name);
     all
@@ -246,6 +246,32 @@ pub(super) fn samples(picture: &Picture, form: FileFormat) -> Vec<u8> {
         }
     }
     bytes
+}
+
+/// The values of a pixel whose samples are those of [`samples`]: its colour, its opacity and those
+/// of its layers; `None` if it has another number of bytes.
+pub(super) fn unpacked(
+    form: FileFormat,
+    channels: &[(&str, ChannelSource)],
+    mut bytes: &[u8],
+) -> Option<([f64; 3], f32, Vec<f32>)> {
+    let (mut color, mut alpha, mut layers) = ([0.0; 3], 1.0, vec![0.0; channels.len()]);
+    for (name, source) in channels {
+        let value;
+        if is_half(form, name) {
+            let (half, rest) = bytes.split_first_chunk()?;
+            (value, bytes) = (f16::from_le_bytes(*half).to_f32(), rest);
+        } else {
+            let (float, rest) = bytes.split_first_chunk()?;
+            (value, bytes) = (f32::from_le_bytes(*float), rest);
+        }
+        match *source {
+            ChannelSource::Color(k) => color[k] = f64::from(value),
+            ChannelSource::Alpha => alpha = value,
+            ChannelSource::Layer(k) => layers[k] = value,
+        }
+    }
+    bytes.is_empty().then_some((color, alpha, layers))
 }
 
 /// EXR text is Latin-1; other characters become question marks.

@@ -21,7 +21,7 @@ pub struct PictureHeader {
     /// Whether it has opacities.
     pub has_alpha: bool,
     /// The names of the channels of its layers.
-    pub layers: Vec<&'static str>,
+    pub layers: Vec<Cow<'static, str>>,
     /// The form of the file.
     pub form: FileFormat,
     /// Whether its values are colours as a display shows them, where its form can say so; else
@@ -39,6 +39,8 @@ pub struct StripSource<'s> {
     next: &'s mut dyn FnMut() -> io::Result<Cow<'s, Picture>>,
     /// The hashes of the tiles of the strips so far.
     tiles: Vec<TileHash>,
+    /// The tree over the tiles, of strips that have no hashes.
+    tree: Option<MerkleTree>,
 }
 
 impl<'s> StripSource<'s> {
@@ -47,7 +49,13 @@ impl<'s> StripSource<'s> {
         Self {
             next,
             tiles: Vec::new(),
+            tree: None,
         }
+    }
+
+    /// The same strips with the tree over their tiles.
+    pub(super) fn with_tree(self, tree: Option<MerkleTree>) -> Self {
+        Self { tree, ..self }
     }
 
     /// The next strip; call it while there are rows left.
@@ -65,8 +73,9 @@ impl StripSource<'_> {
     /// The tree over the tiles of all strips, once there are no more; none if the file keeps none.
     pub(super) fn tree(&mut self, head: &PictureHeader) -> Option<MerkleTree> {
         let tiles = std::mem::take(&mut self.tiles);
+        let tree = self.tree.take();
         head.has_tiles
-            .then(|| MerkleTree::new(tiles, &head.metadata))
+            .then(|| tree.unwrap_or_else(|| MerkleTree::new(tiles, &head.metadata)))
     }
 }
 
@@ -83,7 +92,7 @@ impl PictureHeader {
         Self {
             size: [*width, *height],
             has_alpha: alpha.is_some(),
-            layers: names.clone(),
+            layers: names.iter().copied().map(Cow::Borrowed).collect(),
             form,
             is_color: true,
             metadata: PictureMetadata::default(),

@@ -4,7 +4,8 @@
 use super::decode::{DecodeCost, DecodeError, ImageSize};
 use super::png::{TREE as TREE_CHUNK, pack};
 use super::{
-    FileFormat, MerkleTree, OpacityUse, Picture, PictureMetadata, PixelFile, exr, is_radiance, xmp,
+    BLOCK_ROWS, FileFormat, Image, MerkleTree, OpacityUse, Picture, PictureHeader, PictureMetadata,
+    PixelFile, PixelLayers, StripSource, exr, is_radiance, xmp,
 };
 use ::exr::meta::MetaData;
 use ::exr::meta::attribute::{AttributeValue, SampleType, Text};
@@ -12,7 +13,8 @@ use ::exr::meta::header::Header;
 use ::exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read};
 use ::png::{BitDepth, ColorType, Decoder, Limits};
 use image_webp::WebPDecoder;
-use std::io::Cursor;
+use std::borrow::Cow;
+use std::io::{self, Cursor};
 
 /// The message for a file of another program.
 const FOREIGN: DecodeError = DecodeError::Unsupported("picture of another program");
@@ -30,6 +32,11 @@ pub struct WrittenPicture {
     pub form: FileFormat,
     /// Width and height in pixels.
     pub size: [u32; 2],
+    /// Whether it has opacities.
+    has_alpha: bool,
+    /// Whether the file has the bytes that this program writes for it. Others may hold what changes
+    /// how viewers show it: further frames, colour profiles, an orientation.
+    pub is_exact: bool,
     /// The names of its channels but for red, green, blue and opacity, in the order of the file.
     pub layers: Vec<String>,
     /// Its provenance.
@@ -53,13 +60,13 @@ impl<'a> WrittenFile<'a> {
             let channels = header.channels.list.len() as u64;
             DecodeCost {
                 pixels,
-                memory: pixels.saturating_mul(8).saturating_mul(channels),
+                memory: pixels.saturating_mul(12).saturating_mul(channels),
                 scratch: (header.max_block_byte_size() as u64).saturating_mul(3),
             }
         } else {
             let cost = PixelFile::open(bytes, OpacityUse::Kept, most_pixels)?.cost();
             DecodeCost {
-                memory: cost.memory.saturating_mul(2),
+                memory: cost.memory.saturating_mul(3),
                 ..cost
             }
         };
@@ -77,13 +84,18 @@ impl<'a> WrittenFile<'a> {
     /// # Errors
     /// If the file is damaged or of a form that this program does not write.
     pub fn decode(self) -> Result<WrittenPicture, DecodeError> {
-        match self.bytes {
+        let picture = match self.bytes {
             [0x89, b'P', ..] => read_png(self.bytes),
             [0xff, 0xd8, ..] => Err(DecodeError::Unsupported("JPEG, with losses")),
             [b'R', b'I', b'F', b'F', ..] => read_webp(self.bytes),
             _ if is_radiance(self.bytes) => read_exr(self.bytes),
             _ => Err(FOREIGN),
-        }
+        }?;
+        let is_exact = picture.encoded().is_ok_and(|own| own == self.bytes);
+        Ok(WrittenPicture {
+            is_exact,
+            ..picture
+        })
     }
 }
 
@@ -101,6 +113,91 @@ impl WrittenPicture {
             .copied()
             .collect()
     }
+}
+
+impl WrittenPicture {
+    /// The file that this program writes of it.
+    fn encoded(&self) -> io::Result<Vec<u8>> {
+        let layers = self.layers.iter().cloned().map(Cow::Owned);
+        let head = PictureHeader {
+            size: self.size,
+            has_alpha: self.has_alpha,
+            layers: layers.collect(),
+            form: self.form,
+            is_color: true,
+            metadata: self.metadata.clone(),
+            has_tiles: self.tree.is_some(),
+        };
+        let mut top = 0;
+        let mut next = || {
+            let rows = BLOCK_ROWS.min(self.size[1] - top);
+            let strip = self.strip(&head, top, rows);
+            top += rows;
+            strip.map(Cow::Owned)
+        };
+        let mut file = Cursor::new(Vec::new());
+        let strips = StripSource::new(&mut next).with_tree(self.tree.clone());
+        head.write(&mut file, strips)?;
+        Ok(file.into_inner())
+    }
+
+    /// Some of its rows, as a picture that has the samples of the file.
+    fn strip(&self, head: &PictureHeader, top: u32, rows: u32) -> io::Result<Picture> {
+        let count = self.size[0] as usize * rows as usize;
+        let samples = self.part([0, top], [self.size[0], rows]);
+        let channels = exr::channels(head);
+        let (mut pixels, mut opacities, mut values) = (Vec::new(), Vec::new(), Vec::new());
+        for pixel in samples.chunks_exact((samples.len() / count).max(1)) {
+            let read = match self.form.traits() {
+                traits if traits.is_linear => exr::unpacked(self.form, &channels, pixel),
+                traits => display_values(pixel, traits.bits == 16),
+            };
+            let (color, opacity, layers) = read.ok_or(io::ErrorKind::InvalidData)?;
+            pixels.push(color);
+            opacities.push(opacity);
+            values.extend(&layers[..head.layers.len()]);
+        }
+        let image = Image {
+            width: self.size[0],
+            height: rows,
+            pixels,
+        };
+        Ok(Picture {
+            alpha: self.has_alpha.then_some(opacities),
+            layers: PixelLayers {
+                names: vec![""; head.layers.len()],
+                values,
+            },
+            ..Picture::opaque(image)
+        })
+    }
+}
+
+/// The colour and the opacity of a pixel of 8 or 16 bits a channel, in the middle between those
+/// that are stored alike; it has no layers.
+fn display_values(samples: &[u8], is_deep: bool) -> Option<([f64; 3], f32, Vec<f32>)> {
+    let numbers: Vec<f64> = match is_deep {
+        true => {
+            let pairs = samples.as_chunks::<2>().0.iter();
+            pairs
+                .map(|pair| f64::from(u16::from_be_bytes(*pair)))
+                .collect()
+        }
+        false => samples.iter().copied().map(f64::from).collect(),
+    };
+    let most = if is_deep {
+        u16::MAX
+    } else {
+        u16::from(u8::MAX)
+    };
+    let value = |number: &f64| (number + 0.5) / f64::from(most);
+    let color = numbers.first_chunk::<3>()?.each_ref().map(value);
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "steps of 16 bits are far apart"
+    )]
+    let opacity = numbers.get(3).map_or(1.0, |number| value(number) as f32);
+    Some((color, opacity, Vec::new()))
 }
 
 /// The samples of a picture as a file of this format stores them, pixel by pixel: of a PNG in the
@@ -151,6 +248,8 @@ fn read_png(bytes: &[u8]) -> Result<WrittenPicture, DecodeError> {
     Ok(WrittenPicture {
         form,
         size: [info.width, info.height],
+        has_alpha: info.color_type == ColorType::Rgba,
+        is_exact: false,
         layers: Vec::new(),
         metadata: PictureMetadata {
             software: text("Software"),
@@ -194,6 +293,8 @@ fn read_webp(bytes: &[u8]) -> Result<WrittenPicture, DecodeError> {
     Ok(WrittenPicture {
         form: FileFormat::Webp,
         size: decoder.dimensions().into(),
+        has_alpha: decoder.has_alpha(),
+        is_exact: false,
         layers: Vec::new(),
         metadata,
         tree,
@@ -267,6 +368,8 @@ fn read_exr(bytes: &[u8]) -> Result<WrittenPicture, DecodeError> {
             _ => return Err(FOREIGN),
         },
         size,
+        has_alpha: channels.iter().any(|channel| channel.name == *"A"),
+        is_exact: false,
         layers: names.filter(is_layer).collect(),
         metadata: PictureMetadata {
             software: own
@@ -286,7 +389,7 @@ fn read_exr(bytes: &[u8]) -> Result<WrittenPicture, DecodeError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Image, PictureHeader, PixelLayers, TileHash, tile_count};
+    use super::super::{TileHash, tile_count};
     use super::*;
     use ::png::text_metadata::ITXtChunk;
 
@@ -354,6 +457,7 @@ mod tests {
             );
             let written = decoded(&bytes);
             assert_eq!((written.form, written.size), (form, SIZE));
+            assert!(written.is_exact, "{form:?}");
             assert_eq!(written.metadata, head.metadata, "{form:?}");
             let tree = MerkleTree::new(picture.tiles.clone(), &head.metadata);
             assert_eq!(written.tree, Some(tree), "{form:?}");
@@ -367,6 +471,73 @@ mod tests {
                 false => &[],
             };
             assert_eq!(written.layers, layers);
+        }
+    }
+
+    /// A PNG with one more chunk before its pixels, or behind the tree.
+    fn with_chunk(png: &[u8], name: [u8; 4], content: &[u8], is_first: bool) -> Vec<u8> {
+        let before: &[u8; 4] = if is_first { b"IDAT" } else { b"IEND" };
+        let at = png.windows(4).position(|word| word == before).unwrap() - 4;
+        let named = [&name, content].concat();
+        let length = u32::try_from(content.len()).unwrap().to_be_bytes();
+        let sum = crc32fast::hash(&named).to_be_bytes();
+        [&png[..at], &length, &named, &sum, &png[at..]].concat()
+    }
+
+    #[test]
+    fn a_file_that_holds_more_than_its_picture_is_not_exact() {
+        for form in FORMS {
+            let picture = picture(form);
+            let sound = head(&picture, form).encode(&picture).unwrap();
+            let mut others = vec![[&sound[..], b"x"].concat(), [&sound[..], &sound].concat()];
+            if matches!(form, FileFormat::Png8 | FileFormat::Png16) {
+                let chunks: [([u8; 4], &[u8]); 9] = [
+                    (*b"acTL", &[0, 0, 0, 1, 0, 0, 0, 0]),
+                    (*b"gAMA", &[0, 15, 66, 64]),
+                    (*b"cICP", &[9, 16, 0, 1]),
+                    (*b"bKGD", &[0, 255, 0, 0, 0, 0]),
+                    (*b"pHYs", &[0, 0, 0, 1, 0, 0, 3, 232, 0]),
+                    (
+                        *b"eXIf",
+                        b"MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x03\0\0",
+                    ),
+                    (*b"iCCP", b"a\0\0x\x9c\x03\0\0\0\0\x01"),
+                    (*b"tEXt", b"a\0b"),
+                    (*b"rtMT", &[1]),
+                ];
+                others.extend(chunks.iter().flat_map(|(name, content)| {
+                    [true, false].map(|is_first| with_chunk(&sound, *name, content, is_first))
+                }));
+            } else if form == FileFormat::Webp {
+                let mut more = sound.clone();
+                more.extend(b"EXIF\x04\0\0\0MM\0*");
+                let length = u32::try_from(more.len() - 8).unwrap();
+                more[4..8].copy_from_slice(&length.to_le_bytes());
+                others.push(more);
+                // The orientation within the text of its provenance.
+                let old = b"rdf:about=\"\"";
+                let at = sound
+                    .windows(old.len())
+                    .position(|word| word == old)
+                    .unwrap();
+                let mut turned = sound.clone();
+                turned[at..at + old.len()].copy_from_slice(b"xmp:Rota=\"3\"");
+                others.push(turned);
+            } else {
+                // Another white, and pixels that are not square: floats in the head.
+                for float in [0.3127_f32, 1.0] {
+                    let at = sound
+                        .windows(4)
+                        .position(|word| word == float.to_le_bytes());
+                    let mut changed = sound.clone();
+                    changed[at.unwrap()..][..4].copy_from_slice(&0.5_f32.to_le_bytes());
+                    others.push(changed);
+                }
+            }
+            for other in others {
+                let read = WrittenFile::open(&other, 1 << 20).and_then(WrittenFile::decode);
+                assert!(!read.is_ok_and(|read| read.is_exact), "{form:?}");
+            }
         }
     }
 

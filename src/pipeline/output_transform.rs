@@ -12,6 +12,7 @@ use rtc_plan::Arithmetic;
 use rtc_render::{Aov, Background, FilmMonitor, Values};
 use rtc_valid::Mode;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// An exposure.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -403,7 +404,7 @@ impl ResolvedOutputTransform {
             layers: aovs
                 .iter()
                 .flat_map(|aov| aov.channels())
-                .copied()
+                .map(|name| Cow::Borrowed(*name))
                 .collect(),
             form: self.kind,
             is_color: true,

@@ -21,7 +21,7 @@ pub(crate) struct AuditReport {
     picture: String,
     /// Its scene.
     scene: String,
-    /// Whether no tile differs.
+    /// Whether nothing differs.
     passes: bool,
     /// The seed by which tiles were drawn; a string, as it has 64 bits.
     seed: String,
@@ -47,7 +47,8 @@ pub(crate) struct AuditReport {
 #[derive(Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 struct ReportedFinding {
-    /// The subject: `root`, `scene`, `settings`, `view`, `size`, `values` or `samples`.
+    /// The subject: `root`, `scene`, `settings`, `view`, `size`, `values`, `samples`
+    /// or `file`.
     subject: &'static str,
     /// The number of the tile.
     tile: Option<u64>,
@@ -125,6 +126,9 @@ impl AuditReport {
         lines.push(match (self.passes, tiles) {
             (true, _) => format!("{picture}: {drawn}, are the same"),
             (false, 0) => format!("{picture}: its metadata are wrong"),
+            (false, _) if findings.iter().all(|finding| finding.subject == "file") => {
+                format!("{picture}: {drawn}, are the same, but not its file")
+            }
             (false, _) => format!("{picture}: {drawn}, and {} differ", findings.len()),
         });
         if let Some((bound, fraction)) = self.fewer_than.zip(self.fraction) {
@@ -175,6 +179,7 @@ impl ReportedFinding {
                 AuditSubject::Size => "size",
                 AuditSubject::Values => "values",
                 AuditSubject::Samples => "samples",
+                AuditSubject::File => "file",
             },
             tile: finding.tile,
             area: finding.area.map(area),
@@ -206,6 +211,7 @@ impl ReportedFinding {
             "settings" => "its settings",
             "view" => "its view",
             "size" => "its size",
+            "file" => "the bytes of the file",
             "values" => "the hash of the values of which it was made",
             _ => "its pixels, by their hash",
         };
