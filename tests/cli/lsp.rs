@@ -358,6 +358,48 @@ fn a_value_is_told_with_its_unit_and_as_it_is_in_effect() {
     assert_eq!(effect["phong"]["kt"], 0, "{material}");
 }
 
+/// A material that is an alias is one of a list: its index says nothing.
+#[test]
+fn an_alias_of_a_map_is_in_effect_no_number() {
+    let text = "Camera: {eye: [0, 0, 9], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, 8]}\n\
+        Objects:\n- type: sphere\n  position: [0, 0, 0]\n  radius: 1\n  material: &red \
+        {color: [1, 0, 0], ka: 0.2, kd: 0.8, ks: 0, n: 1}\n- type: sphere\n  \
+        position: [2, 0, 0]\n  radius: 1\n  material: *red\n";
+    let mut editor = Editor::with(text);
+    editor.findings("a.yaml");
+    let reported = editor.ask_at("textDocument/hover", 9, 13);
+    let reported = reported["contents"]["value"].as_str().unwrap();
+    assert!(!reported.contains("in effect `"), "{reported}");
+}
+
+/// Editors send all YAML and JSON that is open.
+#[test]
+fn texts_of_other_programs_are_left_alone() {
+    for text in [
+        "apiVersion: v1\nkind: Service\nmetadata:\n  name: a\n",
+        "name: ci\non: push\njobs:\n  test:\n    runs-on: ubuntu-latest\n",
+        "services:\n  web:\n    image: a\nenvironment:\n  A: b\n",
+        "replicaCount: 1\nimage: {{ .Values.image }}\n",
+        "{\"name\": \"x\", \"version\": \"1.0.0\"}",
+        "light:\n  - platform: mqtt\ncamera:\n  - platform: generic\n",
+        "{\"camera\":{\"fov\":3},\"objects\":[]}",
+    ] {
+        let mut editor = Editor::with(text);
+        assert_eq!(editor.findings("a.yaml"), Vec::<Value>::new(), "{text}");
+        for method in ["hover", "completion", "definition"] {
+            let answer = editor.ask_at(&format!("textDocument/{method}"), 0, 2);
+            assert_eq!(answer, Value::Null, "{method}: {text}");
+        }
+    }
+    // A new text may become a scene, and one that is a scene has findings.
+    let mut editor = Editor::with("# Mine.\n\n");
+    assert_eq!(editor.findings("a.yaml"), Vec::<Value>::new());
+    let keys = editor.ask_at("textDocument/completion", 1, 0);
+    assert!(labels(&keys).contains(&"Camera"), "{keys}");
+    editor.change(2, json!([{"text": "Objcts: [{type: sphere}]\n"}]));
+    assert!(codes(&editor.findings("a.yaml")).contains(&"SC001"));
+}
+
 #[test]
 fn texts_follow_changes_in_columns_of_utf_16() {
     let mut editor = Editor::with("Lights: [] # 😀😀 x\n");

@@ -54,21 +54,21 @@ impl Workspace {
         let columns = self.columns;
         match method {
             method::REFERENCES => reply(id, params, |params: ReferenceParams| {
-                let document = self.document(&params.text_document.uri)?;
+                let document = self.scene(&params.text_document.uri)?;
                 let has_anchor = params.context.include_declaration;
                 anchor::references(document, params.position, has_anchor, columns)
             }),
             method::PREPARE_RENAME => reply(id, params, |at: TextDocumentPositionParams| {
-                let document = self.document(&at.text_document.uri)?;
+                let document = self.scene(&at.text_document.uri)?;
                 anchor::name_range(document, at.position, columns)
             }),
             method::RENAME => self.renamed(id, params),
             method::FOLDING_RANGE => reply(id, params, |params: TextDocumentParams| {
-                let document = self.document(&params.text_document.uri)?;
+                let document = self.scene(&params.text_document.uri)?;
                 Some(folding::folding(document, columns))
             }),
             method::SELECTION_RANGE => reply(id, params, |params: SelectionRangeParams| {
-                let document = self.document(&params.text_document.uri)?;
+                let document = self.scene(&params.text_document.uri)?;
                 Some(folding::selections(document, &params.positions, columns))
             }),
             method::DOCUMENT_LINK => reply(id, params, |params: TextDocumentParams| {
@@ -76,7 +76,7 @@ impl Workspace {
                 Some(links::links(document, schema, columns))
             }),
             method::CODE_LENS => reply(id, params, |params: TextDocumentParams| {
-                Some(lens::lenses(self.document(&params.text_document.uri)?))
+                Some(lens::lenses(self.scene(&params.text_document.uri)?))
             }),
             method::SEMANTIC_TOKENS => reply(id, params, |params: TextDocumentParams| {
                 let (document, schema) = self.known(&params.text_document.uri)?;
@@ -110,7 +110,7 @@ impl Workspace {
             position,
             new_name,
         } = params;
-        let renamed = self.document(&text_document.uri).map_or(Ok(None), |own| {
+        let renamed = self.scene(&text_document.uri).map_or(Ok(None), |own| {
             anchor::rename(own, position, &new_name, self.columns)
         });
         match renamed {
@@ -128,11 +128,11 @@ impl Workspace {
     fn answer_of_whole(&self, id: RequestId, method: &str, params: Value) -> Response {
         match method {
             method::DOCUMENT_SYMBOL => reply(id, params, |params: TextDocumentParams| {
-                let document = self.document(&params.text_document.uri)?;
+                let document = self.scene(&params.text_document.uri)?;
                 Some(outline::symbols(document, self.columns))
             }),
             method::DOCUMENT_COLOR => reply(id, params, |params: TextDocumentParams| {
-                let document = self.document(&params.text_document.uri);
+                let document = self.scene(&params.text_document.uri);
                 // The protocol has no null here.
                 Some(document.map_or_else(Vec::new, |own| outline::colors(own, self.columns)))
             }),
@@ -150,9 +150,14 @@ impl Workspace {
         }
     }
 
+    /// An open document, unless it belongs to another program.
+    fn scene(&self, uri: &DocumentUri) -> Option<&OpenText> {
+        self.document(uri).filter(|document| document.is_scene())
+    }
+
     /// An open document, and the schema of its format.
     fn known(&self, uri: &DocumentUri) -> Option<(&OpenText, &Vocabulary)> {
-        let document = self.document(uri)?;
+        let document = self.scene(uri)?;
         Some((document, self.vocabulary(document)))
     }
 
@@ -172,7 +177,7 @@ impl Workspace {
 
     /// The document as `rtc fmt` formats it.
     fn formatted(&self, uri: &DocumentUri) -> Option<Vec<TextEdit>> {
-        let document = self.document(uri)?;
+        let document = self.scene(uri)?;
         let (options, _) = document.options(&self.reading).ok()?;
         let bytes = document.text.as_bytes().to_vec();
         let formatted = Input::edited(&document.path, bytes, options).format_text();

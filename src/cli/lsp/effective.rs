@@ -29,7 +29,10 @@ pub(super) fn value(
         .map(|node| tree.span(node));
     let spans = spans.map(|own| Span::new(file, own.start, own.end));
     let places = spans.flat_map(|span| lowered.source_spans.paths(span));
-    let mut values = places.filter_map(|path| of(&lowered.scene, path));
+    // A map that is one of a list is also known by its index.
+    let is_index = |found: &Value| tree.is_map(target) && found.is_number();
+    let values = places.filter_map(|path| of(&lowered.scene, path));
+    let mut values = values.filter(|found| !is_index(found));
     let found = plain(values.next()?);
     let written = tree.written(target);
     let is_same = match serde_json::from_str(written) {

@@ -11,6 +11,7 @@ use super::text::{Columns, LineTable, TextLines};
 use super::uri::DocumentUri;
 use ropey::Rope;
 use rtc_diag::{Diagnostic, Severity};
+use rtc_front::course;
 use rtc_ir::LoweredScene;
 use rtc_pipeline::{Input, Options, SourceKind};
 use rtc_source::tree::yaml::{self, ReplacedBytes};
@@ -58,6 +59,8 @@ pub(super) enum CheckedText {
     Read(Box<CheckedScene>),
     /// It could not be checked, for this reason.
     Failed(String),
+    /// It is the text of another program.
+    Other,
 }
 
 /// A scene that was checked.
@@ -129,6 +132,15 @@ impl OpenText {
         SourceKind::of(&self.path.to_string_lossy(), self.text.as_bytes())
     }
 
+    /// Whether it is a scene or may become one: editors send all YAML and JSON, which mostly belongs
+    /// to other programs.
+    pub(super) fn is_scene(&self) -> bool {
+        let mut lines = self.text.lines().map(str::trim_start);
+        self.kind() != SourceKind::Scene
+            || course::is_scene_text(self.text.as_bytes())
+            || lines.all(|line| line.is_empty() || line.starts_with('#'))
+    }
+
     /// The same after changes, each of the text that the one before has left.
     pub(super) fn change(
         &mut self,
@@ -183,13 +195,17 @@ impl OpenText {
     pub(super) fn scene(&self) -> Option<&CheckedScene> {
         match self.checked.as_ref()? {
             CheckedText::Read(scene) => Some(scene.as_ref()),
-            CheckedText::Failed(_) => None,
+            CheckedText::Failed(_) | CheckedText::Other => None,
         }
     }
 
     /// Checks the document under the path of its file, as `rtc check` does, unless it is checked.
     pub(super) fn check(&mut self, reading: &ReadArgs) {
         if self.checked.is_some() {
+            return;
+        }
+        if !self.is_scene() {
+            self.checked = Some(CheckedText::Other);
             return;
         }
         let check = AssertUnwindSafe(|| self.checked_anew(reading));

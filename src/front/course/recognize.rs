@@ -1,6 +1,7 @@
 //! Recognises scene texts by their top-level keys, without parsing them: a text that is broken may
 //! be a scene, and a text without mistakes may be the settings of another program.
 
+use super::object::KINDS;
 use super::record::HasRecord;
 use super::settings::Scene;
 use rtc_diag::nearest;
@@ -15,9 +16,10 @@ const SHORTEST_MISSPELT: usize = 5;
 /// few top-level keys.
 const MOST_MISSPELT: usize = 256;
 
-/// Whether a text looks like a scene of the course: a top-level key is one of the format, or one of
-/// the first 256 nearly so, or the text names the schema of scenes. Takes time linear in the length
-/// of the text.
+/// Whether a text looks like a scene of the course: it names the schema of scenes, a top-level key
+/// is one that no other program has, or one is a common word of the format or, among the first 256,
+/// nearly one, and something below is a thing of a scene. Takes time linear in the length of the
+/// text.
 #[must_use]
 pub fn is_scene_text(bytes: &[u8]) -> bool {
     let Ok(text) = std::str::from_utf8(bytes) else {
@@ -26,11 +28,39 @@ pub fn is_scene_text(bytes: &[u8]) -> bool {
     let text = text.trim_start_matches('\u{feff}').trim_start();
     let keys = top_level_keys(text);
     let mut first = keys.iter().take(MOST_MISSPELT);
-    text.contains(SCHEMA)
-        || keys
-            .iter()
-            .any(|key| scene_keys().any(|known| known == *key))
-        || first.any(|key| is_nearly_scene_key(key))
+    let mut known = keys
+        .iter()
+        .filter(|key| scene_keys().any(|known| known == **key))
+        .peekable();
+    let may_be = known.peek().is_some() || first.any(|key| is_nearly_scene_key(key));
+    text.contains(SCHEMA) || known.any(|key| is_telling(key)) || (may_be && holds_thing(text))
+}
+
+/// Whether a key of a scene is no common word, which is at the top of other files, too.
+fn is_telling(key: &str) -> bool {
+    const THINGS: [&str; 4] = ["Camera", "Eye", "Lights", "Objects"];
+    let capitals = key.chars().filter(|c| c.is_uppercase()).count();
+    THINGS.contains(&key) || (capitals > 1 && key.len() > 2)
+}
+
+/// Whether a text has a key of a camera or a material of a scene, or a type of its objects.
+fn holds_thing(text: &str) -> bool {
+    const KEYS: [&str; 6] = ["eye", "viewSize", "ka", "kd", "ks", "baseColor"];
+    let is_other = |c: char| !(c.is_alphanumeric() || c == '_' || c == '-');
+    let (mut rest, mut is_type) = (text, false);
+    loop {
+        rest = rest.trim_start_matches(is_other);
+        let (word, after) = rest.split_at(rest.find(is_other).unwrap_or(rest.len()));
+        let is_key = after.trim_start_matches(['"', '\'', ' ']).starts_with(':');
+        let is_kind = || KINDS.iter().any(|kind| kind.names.contains(&word));
+        if (is_key && KEYS.contains(&word)) || (is_type && is_kind()) {
+            return true;
+        }
+        if word.is_empty() {
+            return false;
+        }
+        (rest, is_type) = (after, is_key && word == "type");
+    }
 }
 
 /// The top-level keys of a scene, without that of its schema, which other formats have.
@@ -122,6 +152,9 @@ mod tests {
             "\u{feff}\"Camera\": {}\n",
             "# yaml-language-server: $schema=../schema/scene.schema.json\nx: 1\n",
             "Objects: [{a: 1}\nLights\n",
+            "camera: {eye: [0, 0, 1]}\nobjects: []\n",
+            "objects:\n- position: [0, 0, 0]\n  type: 'sphere'\n",
+            "{\"Shadows\": true, \"objcts\": [{\"type\": \"triangle\"}]}",
         ] {
             assert!(is_scene_text(text.as_bytes()), "{text}");
         }
@@ -135,8 +168,9 @@ mod tests {
                 .collect::<String>()
         };
         let is_scene = |text: String| is_scene_text(text.as_bytes());
-        assert!(is_scene(keys(MOST_MISSPELT - 1) + "Objcts: []\n"));
-        assert!(!is_scene(keys(MOST_MISSPELT) + "Objcts: []\n"));
+        let misspelt = "Objcts: [{type: sphere}]\n";
+        assert!(is_scene(keys(MOST_MISSPELT - 1) + misspelt));
+        assert!(!is_scene(keys(MOST_MISSPELT) + misspelt));
         assert!(is_scene(keys(MOST_MISSPELT) + "Objects: []\n"));
     }
 
@@ -151,6 +185,13 @@ mod tests {
             "# Objects: []\nx: y\n",
             "{\"$schema\": \"https://json.schemastore.org/package.json\", \"version\": 1}",
             "\u{0}Objects",
+            "light:\n  - platform: mqtt\ncamera:\n  - platform: generic\n",
+            "{\"camera\":{\"fov\":3},\"objects\":[]}",
+            "{\"metadata\": {\"type\": \"Object\"}, \"object\": {\"type\": \"Scene\", \"camera\": {}}}",
+            "apiVersion: v1\nkind: Service\nmetadata:\n  name: a\n",
+            "services:\n  web:\n    image: a\nvolumes: {}\n",
+            "{\"Logging\": {}, \"Environment\": \"Production\"}",
+            "shadow: 1px\nbackground: red\n",
         ] {
             assert!(!is_scene_text(text.as_bytes()), "{text}");
         }
