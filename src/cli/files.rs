@@ -5,9 +5,10 @@
 //! is a scene.
 //!
 //! Only a link named on the command line is followed: others may form cycles or leave the folder.
+//! What is [`ignored`] is not found, either.
 
 use super::input::is_picture;
-use super::{Failure, reporter};
+use super::{Failure, ignored, reporter};
 use globset::{GlobBuilder, GlobMatcher};
 use rtc_front::{is_scene_name, is_scene_text_name};
 use rtc_pipeline::is_scene;
@@ -32,6 +33,9 @@ const LONGEST_READ: u64 = 64 << 20;
 /// The scenes that are meant.
 pub(super) struct SceneFiles {
     pub(super) paths: Vec<PathBuf>,
+    /// The folder of each, within the folder or the pattern by which it was found; of a path that
+    /// was named, its folder there.
+    pub(super) folders: Vec<PathBuf>,
     /// The number of files that have the name of a scene and are none.
     pub(super) skipped: usize,
 }
@@ -79,6 +83,7 @@ fn named(
     skip_others: bool,
 ) -> Result<SceneFiles, Failure> {
     let (mut scenes, mut known, mut skipped) = (Vec::new(), BTreeSet::new(), 0);
+    let mut folders = Vec::new();
     for path in paths {
         let found = if path.is_dir() {
             below(path, is_meant)?
@@ -89,8 +94,16 @@ fn named(
             continue;
         } else {
             known.insert(path.clone());
+            folders.push(folder_within(Path::new(""), path));
             scenes.push(path.clone());
             continue;
+        };
+        let base = match path.is_dir() {
+            true => path.clone(),
+            false => path
+                .components()
+                .take_while(|part| !is_wild(part))
+                .collect(),
         };
         // Keep the scenes among the files that were not found before.
         let new = found.into_iter().filter(|path| known.insert(path.clone()));
@@ -103,12 +116,28 @@ fn named(
             )));
         }
         skipped += others.len();
+        folders.extend(found_scenes.iter().map(|scene| folder_within(&base, scene)));
         scenes.extend(found_scenes);
     }
     Ok(SceneFiles {
         paths: scenes,
+        folders,
         skipped,
     })
+}
+
+/// The folder of a file below another folder, without what leads upwards.
+fn folder_within(base: &Path, file: &Path) -> PathBuf {
+    let folder = file.strip_prefix(base).unwrap_or(file).parent();
+    let parts = folder.unwrap_or(Path::new("")).components();
+    parts
+        .filter(|part| matches!(part, Component::Normal(_)))
+        .collect()
+}
+
+/// Whether a component of a path is a pattern.
+fn is_wild(part: &Component<'_>) -> bool {
+    part.as_os_str().to_string_lossy().contains(WILD)
 }
 
 /// Whether a path is none of a file but a pattern.
@@ -149,7 +178,6 @@ struct FilePattern {
 
 impl FilePattern {
     fn new(path: &Path) -> Result<Self, String> {
-        let is_wild = |part: &Component<'_>| part.as_os_str().to_string_lossy().contains(WILD);
         let parts: Vec<_> = path.components().collect();
         let first = parts.iter().position(is_wild).unwrap_or(parts.len());
         let (base, rest) = parts.split_at(first);
@@ -185,10 +213,7 @@ impl FilePattern {
             let own = self.parts.get(entry.depth().saturating_sub(1));
             !is_hidden(entry) || own.is_some_and(|part| part.starts_with('.'))
         };
-        traverse
-            .sort_by_file_name()
-            .into_iter()
-            .filter_entry(is_named)
+        ignored::walk(base, traverse, is_named)
     }
 
     /// The path of an entry in the style of the pattern.
@@ -210,8 +235,7 @@ impl FilePattern {
 fn below(folder: &Path, is_meant: FileNameFilter) -> Result<Vec<PathBuf>, Failure> {
     let refused = |message: &str| Failure::Failed(format!("`{}`: {message}", folder.display()));
     let mut found = Vec::new();
-    let entries = WalkDir::new(folder).sort_by_file_name().into_iter();
-    for entry in entries.filter_entry(|entry| !is_hidden(entry)) {
+    for entry in ignored::walk(folder, WalkDir::new(folder), |entry| !is_hidden(entry)) {
         let entry = entry.map_err(|error| refused(&reason(&error)))?;
         let is_scene = is_meant(&entry.file_name().to_string_lossy());
         if is_scene && entry.file_type().is_file() {

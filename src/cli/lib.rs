@@ -44,6 +44,7 @@ mod files;
 mod fix;
 mod fmt;
 mod gate;
+mod ignored;
 mod info;
 mod input;
 mod interrupt;

@@ -13,8 +13,57 @@ use tempfile::{NamedTempFile, TempDir};
 pub struct AtomicFile {
     /// The path, with a canonical folder.
     target: PathBuf,
+    folder: FolderIdentity,
     /// The permissions of the file that it replaces.
     permissions: Option<Permissions>,
+}
+
+/// A folder, whatever has its name later.
+pub struct FolderIdentity {
+    folder: PathBuf,
+    key: FolderKey,
+}
+
+/// Device and inode.
+#[cfg(unix)]
+type FolderKey = (u64, u64);
+
+/// The canonical path.
+#[cfg(not(unix))]
+type FolderKey = PathBuf;
+
+impl FolderIdentity {
+    /// That of the folder of a file.
+    ///
+    /// # Errors
+    /// An error of the system.
+    pub fn of_file(file: &Path) -> io::Result<Self> {
+        let folder = folder_of(file).to_owned();
+        let key = Self::key(&folder)?;
+        Ok(Self { folder, key })
+    }
+
+    /// Checks that its name still leads to it.
+    ///
+    /// # Errors
+    /// If it does not, or an error of the system.
+    pub fn check(&self) -> io::Result<()> {
+        match Self::key(&self.folder)? == self.key {
+            true => Ok(()),
+            false => Err(io::Error::other("its folder was replaced in the meantime")),
+        }
+    }
+
+    #[cfg(unix)]
+    fn key(folder: &Path) -> io::Result<FolderKey> {
+        use std::os::unix::fs::MetadataExt;
+        fs::metadata(folder).map(|own| (own.dev(), own.ino()))
+    }
+
+    #[cfg(not(unix))]
+    fn key(folder: &Path) -> io::Result<FolderKey> {
+        folder.canonicalize()
+    }
 }
 
 /// Observes the writing of a file.
@@ -83,11 +132,12 @@ impl AtomicFile {
             Some(meta) => Some(meta.permissions()),
             None => None,
         };
-        let folder = folder_of(&target);
+        let folder = FolderIdentity::of_file(&target)?;
         // The errors name the temporary file, which the user does not know; their kind suffices.
-        draft(folder).map_err(|error| io::Error::from(error.kind()))?;
+        draft(&folder.folder).map_err(|error| io::Error::from(error.kind()))?;
         Ok(Some(Self {
             target,
+            folder,
             permissions,
         }))
     }
@@ -113,8 +163,8 @@ impl AtomicFile {
         write: &mut dyn FnMut(&mut File) -> io::Result<()>,
         observer: &dyn WriteObserver,
     ) -> io::Result<()> {
-        let draft =
-            draft(folder_of(&self.target)).map_err(|error| io::Error::from(error.kind()))?;
+        self.folder.check()?;
+        let draft = draft(&self.folder.folder).map_err(|error| io::Error::from(error.kind()))?;
         observer.draft(Some(draft.path()));
         let written = self.finish(draft, write, observer);
         observer.draft(None);
@@ -136,6 +186,7 @@ impl AtomicFile {
         if observer.is_stopped() {
             return Err(ErrorKind::Interrupted.into());
         }
+        self.folder.check()?;
         let placed = draft.persist(&self.target);
         placed.map_err(|error| error.error).map(drop)
     }

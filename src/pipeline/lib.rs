@@ -57,7 +57,7 @@ pub use explanation::{explain_code, explanation};
 pub use export::{ExportFormat, ExportedFiles, sidecar_folder};
 pub use exposure::LightMeasurement;
 #[cfg(not(target_family = "wasm"))]
-pub use file::{AtomicFile, AtomicFolder, WriteObserver};
+pub use file::{AtomicFile, AtomicFolder, FolderIdentity, WriteObserver};
 pub use fix::{DiagnosticRef, FixFilter, FixedText, diagnostic_ref, fix};
 pub use input::{Input, LoadedScene, Provenance, ValidatedScene};
 pub use layout::{FormatTextError, SourceKind, is_scene};

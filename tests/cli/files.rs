@@ -151,8 +151,9 @@ fn what_can_not_be_meant_is_told_before_anything_is_rendered() {
     let before = names(shelf.path());
     let cases = [
         (
-            &["set"][..],
-            "error: `a.png` would be the picture of both `set/a.json` and `set/deep/a.json`\n",
+            &["set", "-o", "x-{stem}.png"][..],
+            "error: `x-a.png` would be the picture of both `set/a.json` and `set/deep/a.json`; \
+             `-o '{dir}/{stem}.png'` names the folder of each\n",
         ),
         (
             &["ball.json", "away.json", "-o", "x.png"],
@@ -180,6 +181,100 @@ fn what_can_not_be_meant_is_told_before_anything_is_rendered() {
         assert!(said.starts_with(words), "{args:?}: {said}");
     }
     assert_eq!(names(shelf.path()), before);
+}
+
+/// Pictures of one name lie in folders as their scenes do.
+#[test]
+fn scenes_of_one_name_have_a_picture_each() {
+    let shelf = shelf();
+    let path = |name: &str| shelf.path().join(name);
+    fs::create_dir_all(path("class/anna/one")).unwrap();
+    fs::create_dir_all(path("class/ben")).unwrap();
+    for name in ["class/anna/one/a.json", "class/ben/a.json", "class/b.json"] {
+        fs::copy(path("set/a.json"), path(name)).unwrap();
+    }
+    for (args, expected) in [
+        (
+            &["class", "-o", "out/"][..],
+            ["out/anna/one/a.png", "out/b.png", "out/ben/a.png"],
+        ),
+        (&["class"], ["anna/one/a.png", "b.png", "ben/a.png"]),
+        (
+            &["class/**/*.json", "-o", "p/{dir}-{stem}.png"],
+            ["p/anna/one-a.png", "p/.-b.png", "p/ben-a.png"],
+        ),
+        (
+            &[
+                "class/anna/one/a.json",
+                "class/b.json",
+                "class/ben/a.json",
+                "-o",
+                "n/",
+            ],
+            [
+                "n/class/anna/one/a.png",
+                "n/class/b.png",
+                "n/class/ben/a.png",
+            ],
+        ),
+    ] {
+        let made = rtc(&shelf, &[&["render"], args].concat());
+        let mut told = reported(&made);
+        assert_eq!(code(&made), 0, "{args:?}: {}", stderr(&made));
+        let mut expected = expected.map(str::to_owned);
+        told.sort();
+        expected.sort();
+        assert_eq!(told, expected, "{args:?}");
+        assert!(expected.iter().all(|name| path(name).exists()), "{args:?}");
+    }
+    // Folders that hold no picture go again.
+    fs::write(path("class/ben/a.json"), "Objects: [{}]").unwrap();
+    assert_eq!(code(&rtc(&shelf, &["render", "class", "-o", "new/"])), 1);
+    assert!(path("new/anna/one/a.png").exists() && !path("new/ben").exists());
+}
+
+#[test]
+fn what_git_ignores_and_a_project_excludes_is_not_found() {
+    let shelf = shelf();
+    let path = |name: &str| shelf.path().join(name);
+    let found = |args: &[&str]| {
+        let made = rtc(&shelf, &[&["render"], args, &["-o", "out/"]].concat());
+        let names = reported(&made).into_iter();
+        names
+            .map(|name| name.replace("out/", ""))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(found(&["set"]), ["a.png", "b.png", "c.png"]);
+    fs::write(path("set/.gitignore"), "a.*\n").unwrap();
+    assert_eq!(found(&["set"]), ["b.png", "c.png"]);
+    assert_eq!(found(&["set/*.json"]), ["b.png"]);
+    // What is named is meant.
+    assert_eq!(found(&["set/a.json"]), ["a.png"]);
+    // Above the folder, up to the root of the repository.
+    fs::write(path(".gitignore"), "deep/\nb.json\n").unwrap();
+    assert_eq!(
+        found(&["set"]),
+        ["b.png", "c.png"],
+        "there is no repository"
+    );
+    fs::create_dir(path(".git")).unwrap();
+    fs::write(path("set/b.yaml"), "x: 1").unwrap();
+    assert_eq!(found(&["set"]), Vec::<String>::new());
+    fs::write(path("set/.gitignore"), "!b.json").unwrap();
+    assert_eq!(found(&["set"]), ["a.png", "b.png"]);
+    assert_eq!(found(&["set/deep"]), ["c.png"], "the folder is named");
+    fs::write(path("rtc.toml"), "exclude = [\"set/b*\"]").unwrap();
+    assert_eq!(
+        found(&["set"]),
+        ["a.png", "b.png"],
+        "the inner list comes first"
+    );
+    fs::write(path("set/.gitignore"), "").unwrap();
+    fs::write(path(".gitignore"), "").unwrap();
+    assert_eq!(found(&["set"]), ["a.png", "c.png"]);
+    fs::write(path("rtc.toml"), "exclude = \"set\"").unwrap();
+    let told = stderr(&rtc(&shelf, &["check", "set"]));
+    assert!(told.contains("`exclude` is a list of patterns"), "{told}");
 }
 
 #[test]
@@ -286,6 +381,11 @@ fn repository() -> TempDir {
         "site_name:    x\nnav:\n    - Objects:   a.md\n",
     );
     write("pom.xml", "<project><scene/></project>");
+    write(
+        "home.yaml",
+        "light:\n  - platform: mqtt\ncamera:\n  - platform: generic\n",
+    );
+    write("three.json", "{\"camera\":{\"fov\":3},\"objects\":[]}");
     repository
 }
 
@@ -297,10 +397,16 @@ fn the_files_of_other_programs_are_no_scenes_in_folders_and_patterns() {
     let text = stderr(&checked);
     assert!(text.contains("broken.yaml"), "{text}");
     assert!(
-        text.contains("3 files skipped that are no scenes"),
+        text.contains("5 files skipped that are no scenes"),
         "{text}"
     );
-    for other in ["package.json", "mkdocs.yml", "pom.xml"] {
+    for other in [
+        "package.json",
+        "mkdocs.yml",
+        "pom.xml",
+        "home.yaml",
+        "three.json",
+    ] {
         assert!(!text.contains(other), "{text}");
         let named = rtc(&repository, &["check", other]);
         assert_eq!(code(&named), 1, "a named file is a scene: {other}");

@@ -31,8 +31,9 @@ pub(crate) struct RenderArgs {
     /// Write the picture to this file [default: the scene's name with .png, here]
     ///
     /// The extension selects the format: .png, .jpg, .webp (lossless), .exr or .hdr; `-` is
-    /// PNG on standard output. For many scenes: a folder, as `out/`, or a name with `{stem}` for
-    /// the name of the scene, as `out/{stem}.png`.
+    /// PNG on standard output. For many scenes: a folder, as `out/`, where pictures of one name
+    /// lie in folders as their scenes do; or a name with `{stem}` for the name of the scene and
+    /// `{dir}` for its folder, as `out/{dir}/{stem}.png`.
     #[arg(
         short,
         long,

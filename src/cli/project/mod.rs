@@ -75,6 +75,8 @@ struct ProjectSettings {
     up_axis: Option<UpAxis>,
     cache: Option<PathBuf>,
     cache_limit: Option<u64>,
+    /// Patterns of files for which its folder is not searched.
+    exclude: Vec<String>,
     render: Overrides,
 }
 
@@ -186,6 +188,15 @@ impl Project {
             input.push(found);
         }
     }
+}
+
+/// The patterns of files for which a folder without links is not searched, by its own file.
+pub(super) fn excluded(folder: &Path) -> Vec<String> {
+    let file = Loader.owned(&folder.join(NAME), MAX_BYTES).ok();
+    let file = file.filter(|file| file.is_trusted && file.path.starts_with(folder));
+    let trust = || ProjectTrust::Within(folder.to_owned());
+    let settings = file.map(|file| read::read(&file.bytes, folder, trust()).0);
+    settings.map_or_else(Vec::new, |own| own.exclude)
 }
 
 /// The settings of pictures of a scene. A compiled scene already has them; a picture with a target

@@ -18,10 +18,11 @@ use toml::de::{DeString, DeTable, DeValue};
 const MAX_SUGGESTIONS: usize = 20;
 
 /// The keys at the top.
-const KEYS: [&str; 7] = [
+const KEYS: [&str; 8] = [
     "asset-root",
     "cache",
     "cache-limit",
+    "exclude",
     "levels",
     "limits",
     "render",
@@ -79,6 +80,7 @@ impl ProjectReader<'_> {
                 "asset-root" => self.asset_root(value),
                 "cache" => self.cache(value),
                 "cache-limit" => self.cache_limit(value),
+                "exclude" => self.exclude(value),
                 "levels" => self.section(key, value, Self::level),
                 "limits" => self.section(key, value, Self::limit),
                 "render" => self.section(key, value, Self::render),
@@ -143,6 +145,20 @@ impl ProjectReader<'_> {
         if self.settings.cache_limit.is_none() {
             let message = "`cache-limit` is a number of bytes, which a unit may follow".to_owned();
             self.fault(value.span(), message, "write it as `\"2GiB\"`");
+        }
+    }
+
+    fn exclude(&mut self, value: &Value<'_>) {
+        let list = value.get_ref().as_array();
+        let patterns = list.map(|list| list.iter().map(|own| own.get_ref().as_str()));
+        let patterns = patterns.and_then(|own| own.map(|own| own.map(str::to_owned)).collect());
+        match patterns {
+            Some(patterns) => self.settings.exclude = patterns,
+            None => self.fault(
+                value.span(),
+                "`exclude` is a list of patterns, as in a `.gitignore`".to_owned(),
+                "write it as `[\"old/\", \"*.part.yaml\"]`",
+            ),
         }
     }
 
