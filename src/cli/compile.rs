@@ -215,7 +215,11 @@ fn explain(args: &CompileArgs, validated: &ValidatedScene, input: &Input) -> Res
     } else {
         form
     };
-    output::to_stdout(PlanReport::new(validated, input)?.print(form).as_bytes())
+    let text = PlanReport::new(validated, input)?.print(form);
+    match form {
+        Explanation::Json => output::print_json(&text),
+        Explanation::Table => output::print(&text),
+    }
 }
 
 /// Writes the scene in its canonical spelling, and beside it the files that it needs: those of a

@@ -1,6 +1,7 @@
 //! A text file that is changed: shown as a unified diff, or written.
 
 use super::Failure;
+use rtc_diag::clean;
 use rtc_pipeline::AtomicFile;
 use rtc_source::{Loader, SourceMap};
 use similar::TextDiff;
@@ -12,10 +13,7 @@ const AROUND: usize = 3;
 
 /// The changes as a unified diff.
 pub(super) fn diff(name: &str, before: &str, after: &str) -> String {
-    let name: String = name
-        .chars()
-        .map(|c| if c.is_control() { '\u{fffd}' } else { c })
-        .collect();
+    let name = clean(name);
     TextDiff::from_lines(before, after)
         .unified_diff()
         .context_radius(AROUND)

@@ -3,6 +3,7 @@
 use super::args::FmtArgs;
 use super::reporter::{self, Reporter};
 use super::{Failure, edit, files, input, output};
+use rtc_diag::clean;
 use rtc_pipeline::{FormatTextError, Input, Options};
 use std::path::Path;
 
@@ -46,7 +47,7 @@ fn one(path: &Path, args: &FmtArgs, reporter: &mut Reporter) -> Result<(), Failu
     if args.diff && !is_same {
         output::to_stdout(edit::diff(input.name(), before, &text).as_bytes())?;
     } else if args.check && !is_same {
-        output::to_stdout(format!("{}\n", input.name()).as_bytes())?;
+        output::print(&format!("{}\n", clean(input.name())))?;
     } else if is_stdin && !args.diff && !args.check {
         output::to_stdout(text.as_bytes())?;
     } else if !is_same {

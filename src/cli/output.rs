@@ -2,6 +2,7 @@
 
 use super::Failure;
 use super::interrupt::Interrupt;
+use rtc_diag::{clean_json, clean_lines};
 use rtc_pipeline::{AtomicFile, Input, sidecar_folder};
 use rtc_source::{Loader, SourceMap};
 use std::fs::{self, File, OpenOptions};
@@ -274,6 +275,16 @@ fn failure(name: &str, error: &io::Error) -> Failure {
 /// Writes to standard output; a closed pipe is no failure.
 pub(super) fn to_stdout(bytes: &[u8]) -> Result<(), Failure> {
     through_stdout(&|out| out.write_all(bytes)).map_err(|error| failure("standard output", &error))
+}
+
+/// Prints a text of lines to standard output, without characters that command a terminal.
+pub(super) fn print(text: &str) -> Result<(), Failure> {
+    to_stdout(clean_lines(text).as_bytes())
+}
+
+/// The same for JSON.
+pub(super) fn print_json(json: &str) -> Result<(), Failure> {
+    to_stdout(clean_json(json).as_bytes())
 }
 
 fn through_stdout(write: OutputWriter<'_>) -> io::Result<()> {

@@ -4,7 +4,10 @@
 use super::render::FinishedPicture;
 use super::{Failure, args, output};
 use anstream::{AutoStream, ColorChoice};
-use rtc_diag::{Diagnostic, DiagnosticPrinter, DiagnosticSink, Format, PrintOptions, Severity};
+use rtc_diag::{
+    Diagnostic, DiagnosticPrinter, DiagnosticSink, Format, PrintOptions, Severity, clean_json,
+    clean_lines,
+};
 use rtc_source::SourceMap;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -20,6 +23,21 @@ pub(super) enum ReportedMessage {
     Diagnostics(String),
     /// A warning about the arguments or the machine.
     Warning(String),
+}
+
+impl ReportedMessage {
+    /// Whether it commands a terminal to nothing but colours, as what was printed does.
+    pub(super) fn is_harmless(&self) -> bool {
+        let (Self::Diagnostics(text) | Self::Warning(text)) = self;
+        let mut pieces = text.split("\x1b[");
+        let is_clean = |text: &str| clean_lines(text) == text;
+        // A colour is numbers and semicolons, and ends with an `m`.
+        let after_color = |piece: &str| {
+            let rest = piece.trim_start_matches(|c: char| c.is_ascii_digit() || c == ';');
+            rest.strip_prefix('m').is_some_and(is_clean)
+        };
+        pieces.next().is_none_or(is_clean) && pieces.all(after_color)
+    }
 }
 
 /// Reports the diagnostics of one file after another.
@@ -163,7 +181,7 @@ impl Reporter {
             return;
         }
         match self.tells_objects {
-            true => print_message(&picture.object()),
+            true => print_object(&picture.object()),
             false => print_message(&picture.text(self.verbose)),
         }
     }
@@ -217,10 +235,15 @@ impl Reporter {
     }
 }
 
-/// Prints to standard error, without control characters. A closed stream is ignored.
+/// Prints to standard error, without characters that command a terminal. A closed stream is
+/// ignored.
 pub(super) fn print_message(message: &str) {
-    let harmless = message.replace(|c: char| c.is_control() && c != '\n', "\u{fffd}");
-    let _ = writeln!(io::stderr(), "{harmless}");
+    let _ = writeln!(io::stderr(), "{}", clean_lines(message));
+}
+
+/// The same for an object of JSON.
+pub(super) fn print_object(json: &str) {
+    let _ = writeln!(io::stderr(), "{}", clean_json(json));
 }
 
 fn write(to_stdout: bool, text: &str) -> Result<(), Failure> {

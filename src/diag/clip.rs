@@ -1,5 +1,6 @@
 //! Quotes of the input in a message: short, and without control characters.
 
+use super::clean;
 use std::borrow::Cow;
 
 /// A key or value, cut to 40 characters.
@@ -23,23 +24,8 @@ pub fn clip_words(words: &str) -> Cow<'_, str> {
 /// At most `limit` characters, and `…` if there are more.
 fn clipped(text: &str, limit: usize) -> Cow<'_, str> {
     match text.char_indices().nth(limit) {
-        Some((end, _)) => Cow::Owned(format!("{}…", visible(text.split_at(end).0))),
-        None => visible(text),
-    }
-}
-
-fn visible(text: &str) -> Cow<'_, str> {
-    let visible = |c: char| {
-        if c.is_control() {
-            c.escape_default().to_string()
-        } else {
-            c.to_string()
-        }
-    };
-    if text.contains(char::is_control) {
-        Cow::Owned(text.chars().map(visible).collect())
-    } else {
-        Cow::Borrowed(text)
+        Some((end, _)) => Cow::Owned(format!("{}…", clean(text.split_at(end).0))),
+        None => clean(text),
     }
 }
 
@@ -49,7 +35,7 @@ mod tests {
 
     #[test]
     fn long_words_are_clipped_between_characters() {
-        assert_eq!(clip("a\u{1b}é"), "a\\u{1b}é");
+        assert_eq!(clip("a\u{1b}é\u{202e}"), "a\\u{1b}é\\u{202e}");
         assert_eq!(clip(&"é".repeat(41)), format!("{}…", "é".repeat(40)));
         assert_eq!(clip(&"é".repeat(40)), "é".repeat(40));
     }

@@ -35,7 +35,9 @@ pub use clip::{clip, clip_path, clip_words};
 pub use codes::{Code, Severity};
 pub use levels::{DiagnosticLevel, DiagnosticLevels, LevelSubject};
 pub use nearest::nearest;
-pub use print::{DiagnosticPrinter, Format, PrintOptions, each, json_schema, one};
+pub use print::{
+    DiagnosticPrinter, Format, PrintOptions, clean, clean_json, clean_lines, each, json_schema, one,
+};
 pub use sink::DiagnosticSink;
 
 use rtc_source::Span;

@@ -5,12 +5,13 @@
 //! bounded: the entries whose last use is longest ago are removed. Several processes may use it at
 //! once, because no entry depends on another one and each is replaced as a whole.
 //!
-//! The hash finds damage, not forgery: whoever may write the folder may write wrong entries.
+//! The hash finds damage, not forgery: whoever may write the folder may write wrong entries. So a
+//! folder of another user, or one that all may write, is not used.
 
 use super::{AtomicFile, WriteObserver};
 use rtc_codec::{self as codec, Encoding};
 use rtc_ir::Scene;
-use rtc_source::{LoadError, Loader, SourceMap};
+use rtc_source::{LoadError, Loader, SourceMap, is_own_folder};
 use sha2::{Digest, Sha256};
 use std::ffi::OsStr;
 use std::fmt;
@@ -151,10 +152,14 @@ impl CacheFolder {
     /// bytes together.
     ///
     /// # Errors
-    /// If it can't be made.
+    /// If it can't be made, or others may write entries there.
     pub fn at(path: &Path, limit: u64) -> io::Result<Self> {
         fs::create_dir_all(path)?;
         let folder = path.canonicalize()?;
+        if !is_own_folder(&folder)? {
+            let message = "it belongs to another user, or all may write it";
+            return Err(io::Error::other(message));
+        }
         Ok(Self { folder, limit })
     }
 
@@ -322,6 +327,26 @@ mod tests {
         assert!(matches!(cache.get(key(1)), Err(CacheMiss::Damaged)));
         cache.put(key(0), b"content", &Unobserved).unwrap();
         assert_eq!(cache.get(key(0)).unwrap(), b"content");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_folder_that_all_may_write_is_not_used() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        for (mode, is_used) in [
+            (0o777, false),
+            (0o1777, false),
+            (0o770, true),
+            (0o755, true),
+        ] {
+            fs::set_permissions(folder.path(), fs::Permissions::from_mode(mode)).unwrap();
+            assert_eq!(
+                CacheFolder::at(folder.path(), 1).is_ok(),
+                is_used,
+                "{mode:o}"
+            );
+        }
     }
 
     #[test]

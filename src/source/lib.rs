@@ -32,7 +32,7 @@ pub mod tree;
 pub use budget::{Budget, LimitExceeded, Limits, Resource};
 pub use edited::EditedFiles;
 pub use escape::uri_path;
-pub use loader::{ByteLimit, FileIdentity, LoadError, Loader, OwnedFile};
+pub use loader::{ByteLimit, FileIdentity, LoadError, Loader, OwnedFile, is_own_folder};
 pub use map::{FileId, LineColumn, SourceMap, Span};
 pub use memory::MemoryFiles;
 pub use record::ReadRecord;

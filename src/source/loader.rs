@@ -171,6 +171,15 @@ pub struct OwnedFile {
     pub is_trusted: bool,
 }
 
+/// Whether a folder belongs to the user or to root and is not writable by others; true on systems
+/// without file owners.
+///
+/// # Errors
+/// An error of the system.
+pub fn is_own_folder(path: &Path) -> io::Result<bool> {
+    fs::metadata(path).map(|folder| is_trusted(&folder))
+}
+
 #[cfg(unix)]
 fn is_trusted(file: &Metadata) -> bool {
     use std::os::unix::fs::MetadataExt;

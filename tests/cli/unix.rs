@@ -92,3 +92,48 @@ fn what_is_read_only_is_not_replaced() {
         (2, b"before".to_vec())
     );
 }
+
+/// Of a name nothing gets to a terminal or onto a page that commands it or turns a line round.
+#[test]
+fn names_of_files_are_printed_harmless() {
+    let folder = tempfile::tempdir().unwrap();
+    let [new, old] = ["a\u{1b}]0;x\u{7}\u{202e}\u{9b}.yaml", "b\u{202e}.yaml"];
+    let scene = "Camera: {eye: [0, 0, 9], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, 8]}\n\
+        Lights: [{position: [9, 9, 90], color: [1, 1, 1]}]\nObjcts:   []\nObjects:\n\
+        - {type: sphere, position: [0, 0, 0], radius: 3, material: {color: [1, 0, 0], ka: 1}}\n";
+    let is_harmful = |text: &str| text.contains(['\u{1b}', '\u{7}', '\u{202e}', '\u{9b}']);
+    for name in [new, old] {
+        fs::write(folder.path().join(name), scene).unwrap();
+    }
+    let cases: [&[&str]; 12] = [
+        &["check", new],
+        &["check", "--fix", "--unsafe", "--diff", new],
+        &["check", "--message-format", "json", new],
+        &["fmt", "--check", new],
+        &["fmt", "--diff", new],
+        &["render", new, "-v"],
+        &["render", new, "--message-format", "json"],
+        &["render", new, "none\u{202e}.yaml"],
+        &["diff", new, old, "--html", "page.html"],
+        &["diff", new, old, "--json"],
+        &["info", new],
+        &[
+            "compile",
+            "--explain",
+            new,
+            "--emit",
+            "json",
+            "-o",
+            "/dev/null",
+        ],
+    ];
+    for args in cases {
+        let output = rtc(&folder, args);
+        let said = stderr(&output) + &String::from_utf8_lossy(&output.stdout);
+        assert!(!said.is_empty() && !is_harmful(&said), "{args:?}: {said:?}");
+    }
+    let page = fs::read_to_string(folder.path().join("page.html")).unwrap();
+    assert!(!is_harmful(&page) && page.contains("\\u{202e}"));
+    let printed = rtc(&folder, &["diff", new, old, "--json"]);
+    assert!(serde_json::from_slice::<serde_json::Value>(&printed.stdout).is_ok());
+}

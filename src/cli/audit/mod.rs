@@ -27,9 +27,9 @@ pub(super) fn run(args: &AuditArgs) -> Result<(), Failure> {
     let (result, seed) = outcome?;
     let report = AuditReport::new([&args.picture, &args.scene], seed, &result);
     if args.format.is_json() {
-        output::to_stdout(report.json()?.as_bytes())?;
+        output::print_json(&report.json()?)?;
     } else if !args.reporter.quiet || !result.findings.is_empty() {
-        output::to_stdout(report.to_text().as_bytes())?;
+        output::print(&report.to_text())?;
     }
     match result.findings.is_empty() {
         true => Ok(()),

@@ -25,9 +25,9 @@ pub(super) fn run(args: &CertifyArgs) -> Result<(), Failure> {
     reporter.finish()?;
     let report = outcome?;
     if args.format.is_json() {
-        output::to_stdout(report.json()?.as_bytes())?;
+        output::print_json(&report.json()?)?;
     } else if !args.reporter.quiet || !report.agrees() {
-        output::to_stdout(report.to_text().as_bytes())?;
+        output::print(&report.to_text())?;
     }
     match report.agrees() {
         true => Ok(()),

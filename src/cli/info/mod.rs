@@ -12,6 +12,7 @@ use report::{
     BoundsReport, CameraReport, ContentCounts, ContentReport, EffectReport, GltfAssetReport,
     ImageReport, PictureReport, SettingsReport,
 };
+use rtc_diag::clean;
 use rtc_ir::{Light, Mesh, Mode, Projection, Scene, Shape};
 use rtc_math::{Vec3, shortest};
 use rtc_pipeline::{Input, ValidatedScene};
@@ -51,10 +52,10 @@ fn carry_out(args: &InfoArgs, input: &mut Input, reporter: &mut Reporter) -> Res
     };
     let facts = serde_json::to_value(report).map_err(|error| Failure::Failed(error.to_string()))?;
     let text = match args.format.is_json() {
-        true => format!("{facts:#}\n"),
+        true => return output::print_json(&format!("{facts:#}\n")),
         false => lines(&facts),
     };
-    output::to_stdout(text.as_bytes())
+    output::print(&text)
 }
 
 /// The content of the scene itself, without a studio or other additions.
@@ -281,8 +282,7 @@ struct FactLines(String);
 
 impl FactLines {
     fn put(&mut self, name: &str, value: &str) {
-        let harmless = value.replace(char::is_control, "\u{fffd}");
-        self.0 += &format!("{name:<INDENT$}{harmless}\n");
+        self.0 += &format!("{name:<INDENT$}{}\n", clean(value));
     }
 }
 

@@ -21,7 +21,7 @@ use rtc_pipeline::{
 use rtc_render::SimdLevel;
 use rtc_source::{Loader, ReadRecord, SourceMap};
 use serde::{Deserialize, Serialize};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -41,6 +41,8 @@ pub(super) struct PictureCache {
     request: String,
     /// The entry of the request; standard input has none.
     key: Option<CacheKey>,
+    /// The number of files of a picture: itself, then its layers.
+    files: usize,
 }
 
 /// An entry of a request.
@@ -65,7 +67,7 @@ struct CachedPicture {
     /// Whether its pixels gave warnings, which only the entry of its request has.
     has_warnings: bool,
     /// The object of `--message-format json`.
-    object: Value,
+    object: Map<String, Value>,
     /// The length of each file: the picture, then its layers.
     lengths: Vec<usize>,
 }
@@ -116,6 +118,7 @@ impl PictureCache {
             reading: args.reading.clone(),
             request,
             key: None,
+            files: 1 + LayerFiles::count(&setup.picture.look),
         };
         cache.key = cache.request_key(project.as_ref());
         reporter.record();
@@ -175,7 +178,9 @@ impl PictureCache {
         if let Some((path, _)) = request.files.iter().find(|file| !is_same(file)) {
             return Err(format!("`{}` has changed", path.display()));
         }
-        let key = CacheKey::parse(&request.picture).ok_or(CacheMiss::Damaged.to_string())?;
+        let are_harmless = request.messages.iter().all(ReportedMessage::is_harmless);
+        let key = CacheKey::parse(&request.picture).filter(|_| are_harmless);
+        let key = key.ok_or(CacheMiss::Damaged.to_string())?;
         let (picture, files) = self.picture(key)?;
         Ok(RecalledPicture {
             picture,
@@ -191,7 +196,7 @@ impl PictureCache {
             CacheMiss::Absent => "no picture of this scene and these settings".to_owned(),
             CacheMiss::Damaged | CacheMiss::Unreadable(_) => miss.to_string(),
         })?;
-        unpacked(&entry).ok_or_else(|| CacheMiss::Damaged.to_string())
+        unpacked(&entry, self.files).ok_or_else(|| CacheMiss::Damaged.to_string())
     }
 
     /// Keeps an entry; a failure is a warning.
@@ -320,33 +325,32 @@ impl RenderSetup {
         let layers = LayerFiles::open(&self.picture.look, &self.output, read)?;
         let (first, rest) = files
             .split_first()
-            .expect("the key says how many files there are");
-        assert_eq!(
-            rest.len(),
-            layers.count(),
-            "the key says how many layers there are"
-        );
+            .expect("an entry has as many files as its picture");
         output.commit(first, interrupt)?;
         layers.commit(rest, interrupt)?;
         if !reporter.is_quiet() {
-            reporter::print_message(&picture.message(&self.output, reporter.tells_objects()));
+            match reporter.tells_objects() {
+                true => reporter::print_object(&picture.object(&self.output)),
+                false => reporter::print_message(&picture.text(&self.output)),
+            }
         }
         Ok(())
     }
 }
 
 impl CachedPicture {
+    /// The object about the picture at its new place.
+    fn object(&self, output: &Path) -> String {
+        let mut object = self.object.clone();
+        object.insert("output".to_owned(), json!(output.display().to_string()));
+        object.insert("cached".to_owned(), json!(true));
+        json!({ "rendered": object }).to_string()
+    }
+
     /// The message about the picture at its new place.
-    fn message(&self, output: &Path, is_object: bool) -> String {
-        let output = output.display().to_string();
-        if is_object {
-            let mut object = self.object.clone();
-            object["output"] = json!(output);
-            object["cached"] = json!(true);
-            return json!({ "rendered": object }).to_string();
-        }
+    fn text(&self, output: &Path) -> String {
         let [width, height] = self.size;
-        let line = format!("{output}: {width}×{height}, from the cache");
+        let line = format!("{}: {width}×{height}, from the cache", output.display());
         let lines = [Some(line), self.quality.clone()];
         lines.into_iter().flatten().collect::<Vec<_>>().join("\n")
     }
@@ -358,7 +362,7 @@ fn packed(made: &FinishedPicture, files: &[Vec<u8>], has_warnings: bool) -> Vec<
         size: made.size(),
         quality: made.quality_text(),
         has_warnings,
-        object: made.facts(),
+        object: made.facts().as_object().cloned().unwrap_or_default(),
         lengths: files.iter().map(Vec::len).collect(),
     };
     let head = serde_json::to_vec(&head).expect("texts and numbers have JSON");
@@ -368,8 +372,8 @@ fn packed(made: &FinishedPicture, files: &[Vec<u8>], has_warnings: bool) -> Vec<
     entry
 }
 
-/// The head and the files of an entry; `None` if it is none.
-fn unpacked(entry: &[u8]) -> Option<(CachedPicture, Vec<Vec<u8>>)> {
+/// The head and the files of an entry; `None` if it is none of a picture of so many files.
+fn unpacked(entry: &[u8], count: usize) -> Option<(CachedPicture, Vec<Vec<u8>>)> {
     let (length, rest) = entry.split_first_chunk::<8>()?;
     let length = usize::try_from(u64::from_le_bytes(*length)).ok()?;
     let (head, mut rest) = rest.split_at_checked(length)?;
@@ -380,7 +384,8 @@ fn unpacked(entry: &[u8]) -> Option<(CachedPicture, Vec<Vec<u8>>)> {
         files.push(file.to_vec());
         rest = others;
     }
-    rest.is_empty().then_some((head, files))
+    let is_whole = rest.is_empty() && files.len() == count;
+    is_whole.then_some((head, files))
 }
 
 /// The key of the picture of a scene as it is rendered, with at most this number of rays.
@@ -428,4 +433,55 @@ fn obstacle(args: &args::RenderArgs) -> Option<&'static str> {
     ];
     let mut found = obstacles.into_iter().filter(|(is_so, _)| *is_so);
     found.next().map(|(_, reason)| reason)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An entry with this head and these bytes of files, which somebody wrote.
+    fn entry(head: &Value, files: &[u8]) -> Vec<u8> {
+        let head = head.to_string();
+        [&(head.len() as u64).to_le_bytes(), head.as_bytes(), files].concat()
+    }
+
+    #[test]
+    fn an_entry_that_is_no_picture_is_damaged() {
+        let head = |lengths: Value, object: Value| {
+            json!({ "size": [1, 1], "quality": null, "has_warnings": false, "object": object,
+                "lengths": lengths })
+        };
+        let sound = entry(&head(json!([2, 1]), json!({})), b"abc");
+        let (_, files) = unpacked(&sound, 2).unwrap();
+        assert_eq!(files, [b"ab".to_vec(), b"c".to_vec()]);
+        assert!(unpacked(&sound, 1).is_none() && unpacked(&sound, 3).is_none());
+        for lengths in [
+            json!([]),
+            json!([9999]),
+            json!([u64::MAX, u64::MAX]),
+            json!([1, 1, 1]),
+        ] {
+            assert!(unpacked(&entry(&head(lengths.clone(), json!({})), b"abc"), 2).is_none());
+        }
+        for object in [json!([]), json!("a"), json!(1)] {
+            assert!(unpacked(&entry(&head(json!([3]), object), b"abc"), 1).is_none());
+        }
+        assert!(unpacked(&u64::MAX.to_le_bytes(), 1).is_none());
+    }
+
+    #[test]
+    fn messages_that_are_printed_again_have_colours_only() {
+        let is_harmless = |text: &str| ReportedMessage::Warning(text.to_owned()).is_harmless();
+        assert!(is_harmless("\x1b[1;31merror\x1b[0m: no\n\tmore"));
+        for text in [
+            "\x1b]0;title\x07",
+            "\x1b[2J",
+            "a\x1b",
+            "\u{202e}",
+            "\x1b[31",
+            "\u{9b}31m",
+        ] {
+            assert!(!is_harmless(text), "{text:?}");
+        }
+    }
 }

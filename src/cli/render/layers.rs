@@ -45,9 +45,13 @@ impl LayerFiles {
         self.0.iter().map(encode).collect()
     }
 
-    /// The number of files.
-    pub(super) fn count(&self) -> usize {
-        self.0.len()
+    /// The number of files of a picture with this output transform.
+    pub(super) fn count(look: &OutputTransform) -> usize {
+        if look.kind.is_linear() {
+            0
+        } else {
+            look.aovs.len()
+        }
     }
 
     /// Writes their bytes.

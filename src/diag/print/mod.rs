@@ -19,6 +19,8 @@ mod window;
 #[cfg(test)]
 mod tests;
 
+pub use text::{clean, clean_json, clean_lines};
+
 use super::{Diagnostic, DiagnosticSink, Severity, codes};
 use fold::FoldedDiagnostic;
 use rtc_source::SourceMap;

@@ -37,6 +37,10 @@ fn rule(code: &'static codes::Code) -> Value {
         "id": code.id,
         "shortDescription": { "text": code.summary },
         "fullDescription": { "text": code.explanation() },
+        "help": {
+            "text": format!("{}\n`rtc explain {}` has an example.", code.explanation(), code.id),
+            "markdown": code.page(),
+        },
         "defaultConfiguration": { "level": level(code.severity) },
     })
 }

@@ -241,7 +241,10 @@ fn sarif_is_one_run_with_all_rules() {
     );
     for result in run["results"].as_array().unwrap() {
         let rule = usize::try_from(result["ruleIndex"].as_u64().unwrap()).unwrap();
-        assert_eq!(run["tool"]["driver"]["rules"][rule]["id"], result["ruleId"]);
+        let rule = &run["tool"]["driver"]["rules"][rule];
+        assert_eq!(rule["id"], result["ruleId"]);
+        let help = ["text", "markdown"].map(|form| rule["help"][form].as_str().unwrap());
+        assert!(help.iter().all(|text| text.len() > 40));
     }
     log["runs"][0]["results"][1]
         .as_object_mut()

@@ -11,9 +11,17 @@ pub(super) fn is_unsafe(c: char) -> bool {
     c.is_control() || is_bidi || matches!(c, '\u{2028}' | '\u{2029}' | '\u{feff}')
 }
 
-/// The text on one line, with every unsafe character escaped, as in `\u{1b}`.
-pub(super) fn clean(text: &str) -> Cow<'_, str> {
+/// The text on one line, as a name is printed: characters that command a terminal or change the
+/// direction of a line are escaped, as in `\u{1b}`.
+#[must_use]
+pub fn clean(text: &str) -> Cow<'_, str> {
     clean_except(text, &[])
+}
+
+/// The same for a text of lines, which may have tabs.
+#[must_use]
+pub fn clean_lines(text: &str) -> Cow<'_, str> {
+    clean_except(text, &['\n', '\t'])
 }
 
 /// The text with every unsafe character escaped except those in `kept`.
@@ -47,7 +55,8 @@ pub(super) fn picture(c: char) -> char {
 
 /// JSON with a `\u` escape for every unsafe character except line ends; such characters occur only
 /// in strings.
-pub(super) fn clean_json(json: &str) -> String {
+#[must_use]
+pub fn clean_json(json: &str) -> String {
     let mut cleaned = String::with_capacity(json.len());
     for c in json.chars() {
         if is_unsafe(c) && c != '\n' {
