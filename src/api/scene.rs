@@ -317,7 +317,9 @@ impl SceneRun<'_> {
         let order = (window, options.rays.unwrap_or(self.input.rays()));
         let rendered = if has_goal {
             let progress = (&counter, &stopwatch);
-            approach(setup, subject, order, &observer(&on_step), progress)?
+            let (rendered, unmet) = approach(setup, subject, order, &observer(&on_step), progress)?;
+            unmet.into_iter().for_each(|found| self.input.push(found));
+            rendered
         } else {
             let monitor = on_progress.map(|_| &monitor);
             let traced = setup.trace_monitored(subject, order, &observer(&on_step), monitor)?;
@@ -326,6 +328,9 @@ impl SceneRun<'_> {
                 probed,
                 quality,
             } = traced;
+            let unmet = probed.as_ref();
+            let unmet = unmet.and_then(|own| setup.unmet(own.error, own.undersampled));
+            unmet.into_iter().for_each(|found| self.input.push(found));
             let verified = probed.filter(|probed| probed.undersampled.is_none());
             (film, quality, verified.map(|probed| probed.error))
         };
@@ -357,14 +362,14 @@ impl SceneRun<'_> {
     }
 }
 
-/// Renders towards a target error, or within a time.
+/// Renders towards a target error, or within a time; with a warning if the error is larger.
 fn approach(
     setup: &PictureSetup,
     subject: &mut RenderSubject,
     order: (Crop, u64),
     observer: &RenderObserver<'_>,
     (counter, stopwatch): (&ProgressReporter<'_>, &Stopwatch),
-) -> Result<RenderedFilm, pipeline::RenderError> {
+) -> Result<(RenderedFilm, Option<rtc_diag::Diagnostic>), pipeline::RenderError> {
     let RenderGoal { error, time } = setup.goal;
     let elapsed = || stopwatch.elapsed();
     let begin = |progress: rtc_study::Progress| {
@@ -380,11 +385,13 @@ fn approach(
         begin: &begin,
     };
     let grown = setup.approach(subject, order, observer, &rounds)?;
+    let unmet = setup.unmet(grown.error, grown.undersampled);
     let is_bounded = grown.undersampled.is_none() && grown.coarse.is_none();
     let film = Film {
         image: grown.image,
         coverage: grown.coverage,
         counts: grown.counts,
     };
-    Ok((film, grown.quality, is_bounded.then_some(grown.error)))
+    let error = is_bounded.then_some(grown.error);
+    Ok(((film, grown.quality, error), unmet))
 }

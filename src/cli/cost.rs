@@ -7,12 +7,13 @@ use super::interrupt::Interrupt;
 use super::merge::unfit;
 use super::output::Output;
 use super::progress::RenderProgress;
-use super::render::{or_restart, print_saved, try_save};
+use super::render::{or_restart, or_unsaved, print_saved, try_save};
 use super::reporter::Reporter;
 use super::simd;
 use super::system;
 use super::versus;
 use cpu_time::ThreadTime;
+use rtc_diag::clean;
 use rtc_image::{FileFormat, Picture};
 use rtc_ir::Scene;
 use rtc_pipeline::{self as pipeline, Input};
@@ -46,6 +47,7 @@ fn alone(args: &args::CostArgs, file: &Path) -> Result<(), Failure> {
     input.use_threads(threads(args));
     let outcome = carry_out(args, &mut input, &mut reporter);
     reporter.finish()?;
+    or_unsaved(&outcome, args.checkpoint.as_deref(), args.reporter.quiet);
     outcome
 }
 
@@ -211,7 +213,7 @@ pub(super) fn about(name: &str, scene: &Scene) -> StudyProvenance {
     StudyProvenance {
         scene: Path::new(name).file_name().map_or_else(
             || name.to_owned(),
-            |name| name.to_string_lossy().into_owned(),
+            |name| clean(&name.to_string_lossy()).into_owned(),
         ),
         hash: pipeline::hash(scene),
         software: concat!("rtc ", env!("CARGO_PKG_VERSION")).to_owned(),

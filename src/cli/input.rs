@@ -11,8 +11,8 @@ use rtc_passes::{
     self as passes, EnvironmentOverride, FillLight, StudioChoice, View, ViewAndLight,
 };
 use rtc_pipeline::{
-    Input, Options, PictureSetup, Provenance, RenderError, RenderObserver, RenderSubject,
-    ValidatedScene,
+    Input, LoadedScene, Options, PictureSetup, Provenance, RenderError, RenderObserver,
+    RenderSubject, ValidatedScene,
 };
 use rtc_source::EditedFiles;
 use rtc_valid as valid;
@@ -239,6 +239,32 @@ pub(super) fn subject(
         Some(loaded) => setup.validate(loaded, input),
         None => Ok(None),
     };
+    judged(subject, input, reporter)
+}
+
+/// The scene of an input before its overrides; its diagnostics are reported.
+pub(super) fn load(input: &mut Input, reporter: &mut Reporter) -> Result<LoadedScene, Failure> {
+    let loaded = input.load();
+    unless_refused(loaded, input, reporter)
+}
+
+/// A loaded scene in the requested settings; its diagnostics are reported.
+pub(super) fn validated(
+    setup: &mut PictureSetup,
+    loaded: LoadedScene,
+    input: &mut Input,
+    reporter: &mut Reporter,
+) -> Result<RenderSubject, Failure> {
+    let subject = setup.validate(loaded, input);
+    judged(subject, input, reporter)
+}
+
+/// The subject of a picture, if there is one; its diagnostics are reported.
+fn judged(
+    subject: Result<Option<RenderSubject>, RenderError>,
+    input: &mut Input,
+    reporter: &mut Reporter,
+) -> Result<RenderSubject, Failure> {
     match subject {
         Ok(subject) => unless_refused(subject, input, reporter),
         Err(error) => {

@@ -1,6 +1,7 @@
 //! Tables of the files of a folder, a row each, with a total: as text, CSV or one JSON object.
 
 use super::args::TableFormat;
+use rtc_diag::clean;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
@@ -21,7 +22,7 @@ impl TableCell {
     /// The cell as text; a program wants all digits of a measure.
     fn text(&self, is_exact: bool) -> String {
         match self {
-            Self::Text(text) => printable(text),
+            Self::Text(text) => clean(text).into_owned(),
             Self::Count(count) => count.to_string(),
             Self::Measure(value, _) if is_exact => value.to_string(),
             Self::Measure(value, decimals) => format!("{value:.decimals$}"),
@@ -41,17 +42,6 @@ impl TableCell {
     fn is_text(&self) -> bool {
         matches!(self, Self::Text(_))
     }
-}
-
-/// A text without characters that control a terminal or turn the direction of writing.
-fn printable(text: &str) -> String {
-    let is_harmless = |c: char| !c.is_control() && !"\u{200e}\u{200f}\u{2028}\u{2029}".contains(c);
-    let is_plain = |c: char| is_harmless(c) && !('\u{202a}'..='\u{202e}').contains(&c);
-    let shown = |c: char| match is_plain(c) && !('\u{2066}'..='\u{2069}').contains(&c) {
-        true => c,
-        false => '\u{fffd}',
-    };
-    text.chars().map(shown).collect()
 }
 
 /// A table of files.
@@ -181,14 +171,14 @@ mod tests {
 
     #[test]
     fn text_is_aligned() {
-        let expected = "file         rmse  count\na,\u{fffd}\"b\".png   0.50     11\n\
-                        =c          12.25      2\n2 files                12\n";
+        let expected = "file                rmse  count\na,\\u{202e}\"b\".png   0.50     11\n\
+                        =c                 12.25      2\n2 files                       12\n";
         assert_eq!(table().print(TableFormat::Text), expected);
     }
 
     #[test]
     fn csv_is_quoted() {
-        let expected = "file,rmse,count\n\"a,\u{fffd}\"\"b\"\".png\",0.5,11\n'=c,12.25,2\n\
+        let expected = "file,rmse,count\n\"a,\\u{202e}\"\"b\"\".png\",0.5,11\n'=c,12.25,2\n\
                         2 files,,12\n";
         assert_eq!(table().print(TableFormat::Csv), expected);
     }

@@ -149,6 +149,13 @@ impl DisplayedPicture {
         }
     }
 
+    /// Whether all its pixels, at least two, have one value.
+    #[must_use]
+    pub fn is_flat(&self) -> bool {
+        let first = (self.pixels() > 1).then(|| self.display(0));
+        first.is_some_and(|first| (1..self.pixels()).all(|index| self.display(index) == first))
+    }
+
     /// The display values of a part: its first column and row, and its width and height, all within
     /// the picture.
     #[must_use]

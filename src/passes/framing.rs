@@ -58,20 +58,31 @@ impl Framing {
     /// spans 85 % of the picture in one direction. The subject of an animation is what it shows at
     /// all times. A scene without bounded surfaces keeps its camera.
     pub fn apply(&self, scene: &mut Scene, source_spans: &SourceSpans) {
-        let camera = match &source_spans.swept {
-            Some(swept) => Self {
-                ground: None,
-                ..*self
-            }
-            .camera(swept),
-            None => self.camera(scene),
-        };
-        scene.camera = camera.unwrap_or_else(|| scene.camera.clone());
+        if let Some(camera) = self.camera(&[self.subject(scene, source_spans)]) {
+            scene.camera = camera;
+        }
     }
 
-    /// The camera that shows a scene so; `None` without bounded surfaces.
-    fn camera(&self, scene: &Scene) -> Option<Camera> {
-        let sphere = scene.bounding_sphere()?;
+    /// What is framed of a scene: of an animation what it shows at all times; and the index of its
+    /// studio's ground.
+    #[must_use]
+    pub fn subject<'scene>(
+        &self,
+        scene: &'scene Scene,
+        source_spans: &'scene SourceSpans,
+    ) -> (&'scene Scene, Option<usize>) {
+        match &source_spans.swept {
+            Some(swept) => (swept, None),
+            None => (scene, self.ground),
+        }
+    }
+
+    /// The camera that shows the subjects of all these scenes, each with the index of its studio's
+    /// ground; `None` if they have no bounded surfaces.
+    #[must_use]
+    pub fn camera(&self, scenes: &[(&Scene, Option<usize>)]) -> Option<Camera> {
+        let mut spheres = scenes.iter().map(|(scene, _)| scene.bounding_sphere());
+        let sphere = spheres.find_map(|sphere| sphere)?;
         let axes = self.orbit.axes();
         let size = self.size.unwrap_or(SIZE);
         let half = self.yfov.unwrap_or(DEFAULT_YFOV_DEGREES.to_radians()) / 2.0;
@@ -79,8 +90,10 @@ impl Framing {
         let aspect = f64::from(size[0]) / f64::from(size[1]);
         let tangents = [tangent * aspect, tangent];
         let mut fit = CameraFit::new(axes, tangents.map(|tangent| tangent * SUBJECT_FRACTION));
-        FramingSubject::of(scene, self.ground)
-            .corners(&mut |corner| fit.add(corner - sphere.center));
+        for (scene, ground) in scenes {
+            FramingSubject::of(scene, *ground)
+                .corners(&mut |corner| fit.add(corner - sphere.center));
+        }
         let (eye, depth) = fit.eye()?;
         let [x, y, z] = axes;
         // Place the image plane in the middle of the subject's depth.

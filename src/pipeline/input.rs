@@ -59,6 +59,12 @@ impl LoadedScene {
         }
     }
 
+    /// Whether it has a camera of its own.
+    #[must_use]
+    pub fn has_camera(&self) -> bool {
+        !self.is_asset || self.has_camera
+    }
+
     /// Replaces the scene. From now on its camera is its own if `has_camera`.
     pub fn replace(&mut self, lowered: LoweredScene, has_camera: bool) {
         self.lowered = lowered;

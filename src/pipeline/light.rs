@@ -4,7 +4,7 @@
 use super::setup::{PictureSetup, RenderError, RenderObserver, RenderSubject};
 use super::{Input, LightMeasurement, RayCounter, exposure, picture_diagnostics};
 use rtc_ir::{Camera, Scene};
-use rtc_passes::{self as passes, FillLight};
+use rtc_passes::{self as passes, FillLight, Framing};
 use rtc_render::SeenBehind;
 use rtc_valid::{Material, ValidScene, revalidate};
 
@@ -18,6 +18,8 @@ pub(super) struct FirstView {
     pub(super) camera: Camera,
     /// Whether paths are traced.
     pub(super) is_traced: bool,
+    /// How it was framed, if the scene has no camera.
+    pub(super) framing: Option<Framing>,
     /// Whether it is a glTF asset with lights.
     pub(super) is_lit_asset: bool,
     pub(super) fill: FillLight,

@@ -16,6 +16,30 @@ pub(super) fn nothing_in_view(camera: Option<Span>) -> Diagnostic {
         .hint("check where the camera stands and looks, and where the objects are")
 }
 
+/// A warning that all surfaces in view are black, though the scene has light.
+pub(super) fn dark(light: Option<Span>) -> Diagnostic {
+    let message = "all surfaces in view are black: no light was found to reach them";
+    Diagnostic::new(&codes::DARK, message)
+        .at(light, "this light shines elsewhere")
+        .hint("the `direction` of a sun points to it; see where lamps are, and how strong")
+}
+
+/// A warning that a picture ended above its target error, in grey levels; `error` is its bound, if
+/// it has one.
+pub(super) fn unmet(target: f64, error: Option<f64>) -> Diagnostic {
+    let message = match error {
+        Some(error) => format!(
+            "the error of the picture is at most {error:.2} grey levels, and was to be {target}"
+        ),
+        None => format!("the error of the picture is not bounded, and was to be {target}"),
+    };
+    let hint = match error {
+        Some(_) => "few pixels have most of the noise, or `--limit rays` ended the picture",
+        None => "light that no sample has hit may be there; larger lights are hit sooner",
+    };
+    Diagnostic::new(&codes::UNMET, message).hint(hint)
+}
+
 /// A note that the picture was exposed automatically, by this many stops.
 pub(super) fn exposed(stops: f64) -> Diagnostic {
     let message =

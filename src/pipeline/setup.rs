@@ -10,7 +10,9 @@ use super::{
 use rayon::ThreadPoolBuildError;
 use rtc_diag::Diagnostic;
 use rtc_image::{Image, Picture, PictureHeader, PictureMetadata, PixelLayers};
-use rtc_ir::{EntityField, EntityKind, Lens, LoweredScene, Mode, Scene, Settings, ValuePath};
+use rtc_ir::{
+    Camera, EntityField, EntityKind, Lens, Light, LoweredScene, Mode, Scene, Settings, ValuePath,
+};
 use rtc_passes::{self as passes, Framing, Overrides};
 use rtc_plan::{self as plan, Plan, Rule, RuleSet};
 use rtc_render::{Aov, Crop, FilmMonitor, RayCounts, RenderSelection, RenderStep, SimdLevel};
@@ -144,6 +146,7 @@ impl PictureSetup {
             first = Some(FirstView {
                 camera: lowered.scene.camera.clone(),
                 is_traced,
+                framing: provenance.framing,
                 is_lit_asset: provenance.is_lit_asset && is_traced,
                 fill: provenance.fill,
                 adds_lamps: provenance.adds_lamps,
@@ -319,6 +322,7 @@ impl PictureSetup {
         is_stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Picture, RenderError> {
         self.report_empty_picture(subject, counts, input);
+        self.report_dark_picture(subject, (&image, &coverage), input);
         let job = RenderSelection {
             crop: Some(self.window(&subject.validated.lowered.scene)?),
             ..RenderSelection::default()
@@ -346,6 +350,43 @@ impl PictureSetup {
             let camera = subject.validated.lowered.source_spans.span(camera);
             input.push(picture_diagnostics::nothing_in_view(camera));
         }
+    }
+
+    /// Reports a picture of black surfaces of a scene with light.
+    fn report_dark_picture(
+        &self,
+        subject: &RenderSubject,
+        (image, coverage): (&Image, &[f32]),
+        input: &mut Input,
+    ) {
+        let LoweredScene {
+            scene,
+            source_spans,
+        } = &subject.validated.lowered;
+        let is_shaded = matches!(scene.settings.mode, Mode::Phong | Mode::Path(_));
+        let light = scene.lights.iter().position(Light::emits);
+        let has_light = light.is_some() || passes::emissive_surfaces(scene).contains(&true);
+        if self.crop.is_some() || !is_shaded || !has_light {
+            return;
+        }
+        // Pixels that show nothing but surfaces.
+        let shown = image.pixels.iter().zip(coverage);
+        let mut shown = shown.filter(|(_, coverage)| **coverage >= 1.0).peekable();
+        if shown.peek().is_some() && shown.all(|(pixel, _)| *pixel == [0.0; 3]) {
+            let light = light.map(|at| ValuePath::new(EntityKind::Light, at, EntityField::Whole));
+            let span = light.and_then(|light| source_spans.span(light));
+            input.push(picture_diagnostics::dark(span));
+        }
+    }
+
+    /// A warning about a picture without a time budget that ended above its target error: with
+    /// this bound on its error in grey levels, if it is not `undersampled`.
+    #[must_use]
+    pub fn unmet(&self, error: f64, undersampled: Option<f64>) -> Option<Diagnostic> {
+        let target = self.goal.error.filter(|_| self.goal.time.is_none())?;
+        let error = undersampled.is_none().then_some(error);
+        let is_unmet = error.is_none_or(|error| error > target);
+        is_unmet.then(|| picture_diagnostics::unmet(target, error))
     }
 
     /// Rejects layers of sample statistics of pictures that show something else than the mean of
@@ -491,6 +532,23 @@ impl PictureSetup {
 }
 
 impl RenderSubject {
+    /// How its view was framed, if its scene has no camera.
+    #[must_use]
+    pub fn framing(&self) -> Option<Framing> {
+        self.first.framing
+    }
+
+    /// Shows it, and measures its light, by another camera. `None` if the camera can't see it.
+    #[must_use]
+    pub fn see_by(&mut self, camera: &Camera) -> Option<()> {
+        let validated = &mut self.validated;
+        validated.scene = validated.scene.seen_by(camera)?;
+        validated.lowered.scene.camera = camera.clone();
+        self.first.camera = camera.clone();
+        self.turn();
+        Some(())
+    }
+
     /// Updates the renderer after the camera of the scene was changed.
     pub fn turn(&mut self) {
         if let Some(renderer) = &mut self.renderer {

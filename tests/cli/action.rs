@@ -113,6 +113,96 @@ fn names_of_files_stand_for_themselves() {
     assert!(!summary.contains(is_markup), "{summary}");
 }
 
+#[test]
+fn scenes_of_one_name_have_thumbnails_each() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["x", "y"] {
+        fs::create_dir(folder.path().join(name)).unwrap();
+        fs::write(folder.path().join(name).join("scene.json"), SCENE).unwrap();
+    }
+    let out = tempfile::tempdir().unwrap();
+    let made = Command::new("bash")
+        .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("dist/action.sh"))
+        .arg("thumbnails")
+        .arg(out.path())
+        .current_dir(folder.path())
+        .envs([("PATH", path().as_str()), ("SIZE", "8")])
+        .output()
+        .unwrap();
+    assert!(made.status.success(), "{}", stderr(&made));
+    for name in [
+        "thumbnails/x/scene.png",
+        "thumbnails/y/scene.png",
+        "sheet.png",
+    ] {
+        assert!(out.path().join(name).exists(), "{name}");
+    }
+}
+
+/// A model without lights and camera is lit and framed where it is compared.
+#[test]
+fn a_model_without_lights_is_compared_in_the_light() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("model.obj");
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    fs::write(&model, triangle).unwrap();
+    git(folder.path(), &["init", "-q", "-b", "main"]);
+    git(folder.path(), &["add", "."]);
+    git(folder.path(), &["commit", "-q", "-m", "before"]);
+    fs::write(&model, triangle.replace("v 0 1 0", "v 1 1 0")).unwrap();
+    git(folder.path(), &["commit", "-q", "-a", "-m", "after"]);
+    let out = tempfile::tempdir().unwrap();
+    let made = Command::new("bash")
+        .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("dist/action.sh"))
+        .arg("compare")
+        .arg(out.path())
+        .current_dir(folder.path())
+        .envs([
+            ("PATH", path().as_str()),
+            ("BASE", "HEAD~1"),
+            ("SIZE", "16"),
+        ])
+        .output()
+        .unwrap();
+    assert!(made.status.success(), "{}", stderr(&made));
+    let page = fs::read_to_string(out.path().join("compare/index.html")).unwrap();
+    assert!(
+        page.contains("rmse") && !page.contains("no difference"),
+        "{page}"
+    );
+}
+
+/// The archives have the licences of what the program is made of, and of nothing else.
+#[test]
+fn notices_are_of_the_packages_of_the_program() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let made = Command::new("bash")
+        .arg(root.join("dist/notices.sh"))
+        .arg("x86_64-unknown-linux-musl")
+        .env("CARGO_NET_OFFLINE", "true")
+        .output()
+        .unwrap();
+    assert!(made.status.success(), "{}", stderr(&made));
+    let notices = String::from_utf8_lossy(&made.stdout);
+    let has = |name: &str| {
+        notices
+            .lines()
+            .any(|line| line.starts_with(&format!("{name} v")))
+    };
+    assert!(
+        ["clap", "png", "exr", "rayon", "serde_json"]
+            .into_iter()
+            .all(has),
+        "{notices}"
+    );
+    assert!(
+        !["proptest", "insta", "rtc-cli", "windows-sys"]
+            .into_iter()
+            .any(has)
+    );
+    assert!(notices.contains("Permission is hereby granted") && notices.contains("Apache License"));
+}
+
 /// What runs in a workflow is named by the hash of its commit: a tag can be moved.
 #[test]
 fn actions_are_named_by_their_hashes() {

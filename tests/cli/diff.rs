@@ -332,3 +332,130 @@ fn a_gate_holds_for_each_picture_of_a_folder() {
     let (exit, _, said) = diff(&folder, &["one.png", "two.png", "--table", "csv"]);
     assert!(exit == 2 && said.contains("of two folders"), "{said}");
 }
+
+/// Two scenes without light of their own, which differ in one colour, of each front end: the name,
+/// and the text where `COLOR` stands for red, green and blue.
+const UNLIT: [(&str, &str, [&str; 2]); 4] = [
+    ("ball.yaml", UNLIT_YAML, ["1, 1, 1", "1, 0, 0"]),
+    ("square.usda", UNLIT_USD, ["1, 1, 1", "1, 0, 0"]),
+    ("square.obj", UNLIT_OBJ, ["1 1 1", "1 0 0"]),
+    ("triangle.gltf", UNLIT_GLTF, ["1, 1, 1", "1, 0, 0"]),
+];
+const UNLIT_YAML: &str = "Camera: {eye: [0, 0, 5], center: [0, 0, 0], up: [0, 1, 0], fov: 40, \
+    viewSize: [32, 32]}\nObjects:\n- {type: sphere, position: [0, 0, 0], radius: 1, material: \
+    {type: standard, baseColor: [COLOR, 1], metallic: 0}}\n";
+const UNLIT_USD: &str = "#usda 1.0\n(upAxis = \"Y\")\ndef Mesh \"m\" {\n\
+    int[] faceVertexCounts = [4]\n    int[] faceVertexIndices = [0, 1, 2, 3]\n\
+    point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]\n\
+    color3f[] primvars:displayColor = [(COLOR)]\n}\n";
+/// Colours of vertices.
+const UNLIT_OBJ: &str = "v 0 0 0 COLOR\nv 1 0 0 COLOR\nv 1 1 0 COLOR\nf 1 2 3\n";
+const UNLIT_GLTF: &str = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0}],
+    "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [COLOR, 1], "metallicFactor": 0}}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+        "min": [0, 0, 0], "max": [1, 1, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri":
+        "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}"#;
+
+/// Scenes that `render` places in the studio are compared there: a white one and a red one.
+#[test]
+fn scenes_without_lights_are_lit_and_framed_as_rendered() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text, colors) in UNLIT {
+        let [old, new] = ["old-", "new-"].map(|prefix| format!("{prefix}{name}"));
+        for (file, color) in [(&old, colors[0]), (&new, colors[1])] {
+            fs::write(folder.path().join(file), text.replace("COLOR", color)).unwrap();
+        }
+        let small = ["--size", "32x32", "--spp", "16", "--json"];
+        let gate = ["--gate", "rmse<=2"];
+        let args = [&[new.as_str(), &old][..], &small, &gate].concat();
+        let (code, reported, said) = diff(&folder, &args);
+        assert_eq!(code, 1, "{name}: {reported}{said}");
+        let report: serde_json::Value = serde_json::from_str(&reported).unwrap();
+        // Green and blue are gone where the subject is.
+        assert!(
+            report["difference"]["max"].as_f64().unwrap() > 50.0,
+            "{reported}"
+        );
+        assert!(!said.contains("RD016"), "{name}: {said}");
+        // What is told is what the files say, not the studio.
+        let changes = report["changes"].as_array().unwrap();
+        let is_of_view = |change: &serde_json::Value| {
+            let path = change["path"].as_str().unwrap();
+            ["camera", "environment", "images", "surfaces"]
+                .iter()
+                .any(|own| path.starts_with(own))
+        };
+        assert!(
+            !changes.is_empty() && !changes.iter().any(is_of_view),
+            "{name}: {reported}"
+        );
+        // The pictures are those of `rtc render`.
+        for file in [&old, &new] {
+            let picture = format!("{file}.png");
+            let shown = [&["render", file, "-q", "-o", &picture][..], &small[..4]].concat();
+            assert_eq!(code_of(&folder, &shown), 0);
+        }
+        let pictures = [format!("{new}.png"), format!("{old}.png")];
+        let (_, rendered, _) = diff(&folder, &[&pictures[0], &pictures[1], "--json"]);
+        let rendered: serde_json::Value = serde_json::from_str(&rendered).unwrap();
+        let rmse = |report: &serde_json::Value| report["difference"]["rmse"].as_f64().unwrap();
+        assert!(
+            (rmse(&rendered) - rmse(&report)).abs() < 0.5,
+            "{name}: {rendered} {report}"
+        );
+    }
+}
+
+fn code_of(folder: &TempDir, args: &[&str]) -> i32 {
+    code(&rtc(folder, args))
+}
+
+/// The view holds both subjects, whichever scene is the new one.
+#[test]
+fn the_view_of_two_assets_holds_both() {
+    let folder = tempfile::tempdir().unwrap();
+    let near = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    fs::write(folder.path().join("near.obj"), near).unwrap();
+    fs::write(folder.path().join("far.obj"), near.replace("v ", "v 1")).unwrap();
+    let compare = |files: [&str; 2]| {
+        let map = format!("{}.png", files[0]);
+        let args = [
+            &files[..],
+            &["--size", "32x32", "--spp", "16", "-o", &map, "--json"],
+        ]
+        .concat();
+        let (code, reported, said) = diff(&folder, &args);
+        assert_eq!(code, 0, "{said}");
+        let report: serde_json::Value = serde_json::from_str(&reported).unwrap();
+        report["difference"]["rmse"].as_f64().unwrap()
+    };
+    let there = compare(["near.obj", "far.obj"]);
+    let back = compare(["far.obj", "near.obj"]);
+    assert!(
+        there > 2.0 && (there - back).abs() < 0.02 * there,
+        "{there} {back}"
+    );
+}
+
+#[test]
+fn two_pictures_of_one_value_each_are_a_warning() {
+    let folder = folder();
+    for (name, level) in [("black.png", 0), ("white.png", 0xff)] {
+        fs::write(folder.path().join(name), flat(8, 8, level)).unwrap();
+    }
+    let (code, _, said) = diff(&folder, &["white.png", "black.png"]);
+    assert!(code == 0 && said.contains("warning[RD016]"), "{said}");
+    assert_eq!(
+        diff(&folder, &["white.png", "black.png", "--deny", "RD016"]).0,
+        1
+    );
+    assert_eq!(diff(&folder, &["white.png", "black.png", "-q"]).2, "");
+    let args = ["away.json", "away.json"];
+    assert!(diff(&folder, &args).2.contains("warning[RD016]"));
+    let args = ["ball.json", "away.json"];
+    assert!(!diff(&folder, &args).2.contains("RD016"));
+}

@@ -369,3 +369,52 @@ fn messages_name_the_output_and_not_the_draft() {
         }
     }
 }
+
+/// A folder that becomes a link while the picture is made is not written through.
+#[test]
+fn a_folder_that_is_swapped_for_a_link_gets_no_picture() {
+    let (folder, elsewhere) = (folder(), tempfile::tempdir().unwrap());
+    let path = |name: &str| folder.path().join(name);
+    fs::create_dir(path("out")).unwrap();
+    let slow = ["--size", "900x675", "--supersampling", "8"];
+    let args = [&["render", "ball.json", "-o", "out/a.png"][..], &slow].concat();
+    let mut child = command(folder.path(), &args)
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    until_it_renders(&mut child);
+    fs::rename(path("out"), path("gone")).unwrap();
+    symlink(elsewhere.path(), path("out")).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(code(&output), 2, "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("its folder was replaced"),
+        "{}",
+        stderr(&output)
+    );
+    assert_eq!(names(elsewhere.path()), Vec::<String>::new());
+    assert_eq!(names(&path("gone")), Vec::<String>::new());
+}
+
+#[test]
+fn an_interrupt_tells_of_checkpoints() {
+    let folder = folder();
+    let slow = [
+        "render",
+        "ball.json",
+        "--size",
+        "2000x1500",
+        "--supersampling",
+        "16",
+    ];
+    for (more, is_told) in [(&[][..], true), (&["--checkpoint", "c.rtp"], false)] {
+        let mut command = command(folder.path(), &[&slow, more].concat());
+        let mut child = command.stderr(Stdio::piped()).spawn().unwrap();
+        until_it_renders(&mut child);
+        kill(&child, "-INT");
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(code(&output), 130);
+        let said = stderr(&output);
+        assert_eq!(said.contains("with `--checkpoint FILE`"), is_told, "{said}");
+    }
+}

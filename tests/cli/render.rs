@@ -271,3 +271,62 @@ fn an_arithmetic_too_coarse_for_the_scene_is_a_warning_at_the_surface() {
     );
     assert_eq!((warning("plain"), warning("robust")), (None, None));
 }
+
+/// A scene of paths: a white ball in a sun from this direction.
+fn in_a_sun(direction: &str) -> String {
+    format!(
+        "Camera: {{eye: [0, 2, 6], center: [0, 0, 0], up: [0, 1, 0], fov: 45, viewSize: [32, 24]}}\n\
+         Lights:\n- {{type: sun, direction: {direction}, irradiance: [3, 3, 3]}}\n\
+         Objects:\n- {{type: sphere, position: [0, 0, 0], radius: 1, material: {{type: standard, \
+         baseColor: [1, 0.2, 0.1, 1], metallic: 0, roughness: 0.3}}}}\n"
+    )
+}
+
+/// The warning is of the picture, so the picture is there when it is denied.
+#[test]
+fn a_target_that_is_not_met_is_a_warning_and_the_picture_is_not_lost() {
+    let folder = folder();
+    fs::write(folder.path().join("a.yaml"), in_a_sun("[1, 2, 1]")).unwrap();
+    let render = |more: &[&str]| {
+        let fixed = ["render", "a.yaml", "-o", "a.png", "--limit", "rays=12000"];
+        let output = rtc(&folder, &[&fixed, more].concat());
+        (code(&output), stderr(&output))
+    };
+    let (done, said) = render(&["--target-error", "0.05"]);
+    assert!(done == 0 && said.contains("warning[RD017]"), "{said}");
+    fs::remove_file(folder.path().join("a.png")).unwrap();
+    let (done, said) = render(&["--target-error", "0.05", "--deny", "RD017", "-q"]);
+    assert!(done == 1 && said.contains("error[RD017]"), "{said}");
+    assert!(folder.path().join("a.png").exists());
+    let (_, said) = render(&["--target-error", "50"]);
+    assert!(!said.contains("RD017"), "{said}");
+    // A time that ends before is what was asked for.
+    let (_, said) = render(&["--target-error", "0.05", "--time-budget", "0.2"]);
+    assert!(!said.contains("RD017"), "{said}");
+}
+
+#[test]
+fn surfaces_that_no_light_reaches_are_told() {
+    let folder = folder();
+    for (direction, is_dark) in [("[0, -2, -9]", true), ("[0, 2, 9]", false)] {
+        fs::write(folder.path().join("a.yaml"), in_a_sun(direction)).unwrap();
+        let output = rtc(&folder, &["render", "a.yaml", "--spp", "2", "-o", "a.png"]);
+        let said = stderr(&output);
+        assert_eq!(
+            said.contains("warning[RD018]"),
+            is_dark,
+            "{direction}: {said}"
+        );
+    }
+    // Darkness that is asked for is none to tell.
+    let dark = [
+        "render",
+        "a.yaml",
+        "--no-scene-lights",
+        "--env-color",
+        "0,0,0",
+        "-o",
+        "a.png",
+    ];
+    assert!(!stderr(&rtc(&folder, &dark)).contains("RD018"));
+}

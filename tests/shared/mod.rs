@@ -18,6 +18,7 @@ mod exports;
 mod fates;
 mod figures;
 mod gltf;
+mod hosts;
 mod laws;
 mod looks;
 mod models;
@@ -47,6 +48,7 @@ pub(crate) fn trials() -> Vec<Trial> {
         fates::trials(),
         figures::trials(),
         gltf::trials(),
+        hosts::trials(),
         laws::trials(),
         looks::trials(),
         models::trials(),

@@ -11,10 +11,12 @@ use super::gate::{self, GateResult};
 use super::input;
 use super::interrupt::Interrupt;
 use super::output::{self, Output};
+use super::reporter::Reporter;
 use super::shown::over_limit;
 use rtc_codec::ValueChange;
+use rtc_diag::{Diagnostic, DiagnosticSink, clean, clean_lines, codes};
 use rtc_image::{DisplayedPicture, FileFormat, Image, Picture};
-use rtc_source::{Budget, Resource};
+use rtc_source::{Budget, Resource, SourceMap};
 use rtc_study::{Difference, SliderPage, heat_map, slider_page, value_text};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -47,9 +49,10 @@ pub(super) fn run(args: &DiffArgs) -> Result<(), Failure> {
         let message = "`--table` is of two folders; `--format` is of two files";
         return Err(Failure::Failed(message.to_owned()));
     }
-    match [&args.new, &args.old].map(|path| input::is_picture(path)) {
-        [true, true] => pictures::run(args),
-        [false, false] => scenes::run(args),
+    let mut reporter = Reporter::beside_result(&args.reporter);
+    let outcome = match [&args.new, &args.old].map(|path| input::is_picture(path)) {
+        [true, true] => pictures::run(args, &mut reporter),
+        [false, false] => scenes::run(args, &mut reporter),
         [is_picture, _] => {
             let files = [&args.new, &args.old].map(|path| path.display());
             let (picture, scene) = (
@@ -61,7 +64,9 @@ pub(super) fn run(args: &DiffArgs) -> Result<(), Failure> {
                 render the scene"
             )))
         }
-    }
+    };
+    reporter.finish()?;
+    outcome
 }
 
 /// The inputs of the comparison.
@@ -100,9 +105,11 @@ fn report(
     args: &DiffArgs,
     outputs: DiffOutputs,
     compared: &ComparedInputs<'_>,
-    budget: &Budget,
+    (map, reporter): (&SourceMap, &mut Reporter),
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
+    let is_denied = warn_of_flat(args, compared, map, reporter)?;
+    let budget = map.budget();
     let found = match compared.pictures {
         None => Difference::none(args.levels),
         Some([new, old]) if outputs.are_none() => Difference::of(new, old, args.levels),
@@ -113,12 +120,37 @@ fn report(
         gates.results(|name| measure(&found, name))
     });
     if args.format.is_json() {
-        output::to_stdout(json(args, compared, &found, &results)?.as_bytes())?;
+        output::print_json(&json(args, compared, &found, &results)?)?;
     } else if !args.reporter.quiet {
         let scenes = compared.changes.map_or_else(String::new, changed);
-        output::to_stdout((scenes + &message(args, compared.size, &found)).as_bytes())?;
+        output::print(&(scenes + &message(args, compared.size, &found)))?;
     }
-    gate::pass(&results, args.reporter.quiet)
+    gate::pass(&results, args.reporter.quiet)?;
+    match is_denied {
+        true => Err(Failure::Reported),
+        false => Ok(()),
+    }
+}
+
+/// Warns of two pictures of one value each; true if that is an error.
+fn warn_of_flat(
+    args: &DiffArgs,
+    compared: &ComparedInputs<'_>,
+    map: &SourceMap,
+    reporter: &mut Reporter,
+) -> Result<bool, Failure> {
+    let are_flat = |pictures: &[&DisplayedPicture; 2]| pictures.iter().all(|own| own.is_flat());
+    if !compared.pictures.as_ref().is_some_and(are_flat) {
+        return Ok(false);
+    }
+    let message = "both pictures are of one value each, so that they say little of their scenes";
+    let found = Diagnostic::new(&codes::FLAT, message);
+    let levels = args.reading.levels().map_err(Failure::Failed)?;
+    let mut sink = DiagnosticSink::default().with_levels(levels);
+    sink.push(found.hint("see whether anything is in view and lit"));
+    let is_denied = sink.has_errors();
+    reporter.file(&args.new.to_string_lossy(), sink, map)?;
+    Ok(is_denied)
 }
 
 /// Writes the map and the page of two pictures, and hands on how they differ.
@@ -150,7 +182,7 @@ fn write(
             flips: &flips,
             changes: compared.changes,
         });
-        output.commit(page.as_bytes(), interrupt)?;
+        output.commit(clean_lines(&page).as_bytes(), interrupt)?;
     }
     Ok(found)
 }
@@ -202,11 +234,8 @@ fn changed(changes: &[ValueChange]) -> String {
 }
 
 fn message(args: &DiffArgs, [width, height]: [u32; 2], found: &Difference) -> String {
-    let names = format!(
-        "{} and {}: {width}×{height}",
-        args.new.display(),
-        args.old.display()
-    );
+    let [new, old] = [&args.new, &args.old].map(|path| path.display().to_string());
+    let names = format!("{} and {}: {width}×{height}", clean(&new), clean(&old));
     if found.is_none() {
         return format!("{names}, no difference\n");
     }

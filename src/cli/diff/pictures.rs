@@ -4,6 +4,7 @@ use super::super::Failure;
 use super::super::args::DiffArgs;
 use super::super::interrupt::Interrupt;
 use super::super::output::Output;
+use super::super::reporter::Reporter;
 use super::super::shown::{charge, decoded, opened, read};
 use super::{ComparedInputs, DiffOutputs, report};
 use rtc_image::{DisplayedFile, DisplayedPicture};
@@ -12,7 +13,7 @@ use rtc_study::Difference;
 use std::path::Path;
 
 /// Compares two pictures, and reports the differences.
-pub(super) fn run(args: &DiffArgs) -> Result<(), Failure> {
+pub(super) fn run(args: &DiffArgs, reporter: &mut Reporter) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()?;
     let map = SourceMap::with_limits(args.reading.limits(|_| ()));
     let (new, old) = (read(&args.new, &map)?, read(&args.old, &map)?);
@@ -33,7 +34,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<(), Failure> {
         changes: None,
     };
     if new == old && outputs.are_none() {
-        return report(args, outputs, &same, budget, &interrupt);
+        return report(args, outputs, &same, (&map, reporter), &interrupt);
     }
     let pictures = both(
         [&args.new, &args.old],
@@ -46,7 +47,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<(), Failure> {
         size: pictures[0].size(),
         changes: None,
     };
-    report(args, outputs, &compared, budget, &interrupt)
+    report(args, outputs, &compared, (&map, reporter), &interrupt)
 }
 
 /// How the pictures in two files differ; `None` of the same bytes.

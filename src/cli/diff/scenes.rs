@@ -10,8 +10,11 @@ use super::super::{input, simd};
 use super::{ComparedInputs, DiffOutputs, report};
 use rtc_codec::changes;
 use rtc_image::{BackgroundFill, DisplayedPicture, FileFormat, Picture};
-use rtc_ir::{Camera, Scene};
-use rtc_pipeline::{Input, OutputTransform, PictureSetup, RenderObserver, RenderSubject};
+use rtc_ir::{Camera, LoweredScene, Scene};
+use rtc_passes::{Framing, ViewAndLight};
+use rtc_pipeline::{
+    Input, LoadedScene, OutputTransform, PictureSetup, RenderObserver, RenderSubject,
+};
 use rtc_render::Film;
 use std::path::Path;
 
@@ -23,7 +26,7 @@ struct ComparedScene {
 }
 
 /// Compares two scenes, and reports the differences.
-pub(super) fn run(args: &DiffArgs) -> Result<(), Failure> {
+pub(super) fn run(args: &DiffArgs, reporter: &mut Reporter) -> Result<(), Failure> {
     if [&args.new, &args.old]
         .iter()
         .all(|file| file.as_os_str() == "-")
@@ -31,18 +34,22 @@ pub(super) fn run(args: &DiffArgs) -> Result<(), Failure> {
         let message = "standard input is one scene; give a file for the other";
         return Err(Failure::Failed(message.to_owned()));
     }
-    let mut reporter = Reporter::beside_result(&args.reporter);
-    let outcome = carry_out(args, &mut reporter);
-    reporter.finish()?;
-    outcome
-}
-
-fn carry_out(args: &DiffArgs, reporter: &mut Reporter) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()?;
-    let mut new = ComparedScene::read(args, &args.new, None, reporter)?;
-    let mut old = ComparedScene::read(args, &args.old, Some(new.size()), reporter)?;
-    let changed = changes(new.scene(), old.scene());
+    // What differs is told of the scenes as they are written, without the view and the studio that
+    // an asset gets.
+    let new = read(args, &args.new, reporter)?;
+    let mut old = read(args, &args.old, reporter)?;
+    if !new.1.has_camera() && !old.1.has_camera() {
+        old.1.lowered.scene.camera = new.1.lowered.scene.camera.clone();
+    }
+    let changed = changes(&new.1.lowered.scene, &old.1.lowered.scene);
+    let mut new = ComparedScene::validate(args, new, None, reporter)?;
+    let mut old = ComparedScene::validate(args, old, Some(new.size()), reporter)?;
     let changed = changed.expect("proven scenes hold finite numbers only");
+    if let Some(camera) = shared_view(&new, &old) {
+        new.see_by(&camera)?;
+    }
+    old.see_by(&new.scene().camera)?;
     let open = |path: &Option<_>| {
         let path: Option<&Path> = path.as_deref();
         let open = |path: &Path| {
@@ -56,26 +63,60 @@ fn carry_out(args: &DiffArgs, reporter: &mut Reporter) -> Result<(), Failure> {
         page: open(&args.html)?,
     };
     let first = new.picture(reporter, &interrupt)?;
-    old.see_by(&new.scene().camera)?;
     let second = old.picture(reporter, &interrupt)?;
     let compared = ComparedInputs {
         pictures: Some([&first, &second]),
         size: first.size(),
         changes: Some(&changed),
     };
-    let budget = new.input.map().budget();
-    report(args, outputs, &compared, budget, &interrupt)
+    report(
+        args,
+        outputs,
+        &compared,
+        (new.input.map(), reporter),
+        &interrupt,
+    )
+}
+
+/// Reads a scene, to be lit and framed as `rtc render` does, and reports its diagnostics.
+fn read(
+    args: &DiffArgs,
+    file: &Path,
+    reporter: &mut Reporter,
+) -> Result<(Input, LoadedScene), Failure> {
+    let mut input = input::read(file, &args.reading)?;
+    input.stage(ViewAndLight::default());
+    let loaded = input::load(&mut input, reporter)?;
+    Ok((input, loaded))
+}
+
+/// The view of both scenes, if the new one has no camera.
+fn shared_view(new: &ComparedScene, old: &ComparedScene) -> Option<Camera> {
+    let framing = Framing {
+        size: Some(new.size()),
+        ..new.subject.framing()?
+    };
+    let old_framing = old.subject.framing().unwrap_or_default();
+    framing.camera(&[subject(framing, new), subject(old_framing, old)])
+}
+
+/// What is framed of a scene.
+fn subject(framing: Framing, compared: &ComparedScene) -> (&Scene, Option<usize>) {
+    let LoweredScene {
+        scene,
+        source_spans,
+    } = &compared.subject.validated.lowered;
+    framing.subject(scene, source_spans)
 }
 
 impl ComparedScene {
-    /// Reads a scene, for a picture of the given size if any, and reports its diagnostics.
-    fn read(
+    /// Validates a scene, for a picture of the given size if any, and reports its diagnostics.
+    fn validate(
         args: &DiffArgs,
-        file: &Path,
+        (mut input, loaded): (Input, LoadedScene),
         size: Option<[u32; 2]>,
         reporter: &mut Reporter,
     ) -> Result<Self, Failure> {
-        let mut input = input::read(file, &args.reading)?;
         let look = OutputTransform::new(FileFormat::Png8, None, None, BackgroundFill::Film, &[]);
         let look = look.map_err(|message| Failure::Failed(message.to_owned()))?;
         let mut setup = PictureSetup {
@@ -87,7 +128,7 @@ impl ComparedScene {
             ..PictureSetup::new(look)
         };
         setup.overrides.size = size.or(setup.overrides.size);
-        let subject = input::subject(&mut setup, &mut input, reporter)?;
+        let subject = input::validated(&mut setup, loaded, &mut input, reporter)?;
         Ok(Self {
             input,
             setup,
@@ -105,15 +146,9 @@ impl ComparedScene {
 
     /// Lets another camera, of the same size, look at it.
     fn see_by(&mut self, camera: &Camera) -> Result<(), Failure> {
-        let validated = &mut self.subject.validated;
-        let unseen = || {
-            let message = "the camera of the new scene can't see the old one";
-            Failure::Failed(message.to_owned())
-        };
-        validated.scene = validated.scene.seen_by(camera).ok_or_else(unseen)?;
-        validated.lowered.scene.camera = camera.clone();
-        self.subject.turn();
-        Ok(())
+        let unseen = "the camera of the new scene can't see the old one";
+        let seen = self.subject.see_by(camera);
+        seen.ok_or_else(|| Failure::Failed(unseen.to_owned()))
     }
 
     /// Its picture, as `rtc render` shows it.

@@ -3,7 +3,7 @@
 
 use super::super::output::Output;
 use super::super::turntable::{Turntable, TurntableViews};
-use super::super::{Failure, args, reporter};
+use super::super::{Failure, args, input as scene_input, reporter};
 use super::RenderSetup;
 use super::checkpoint::RunContext;
 use rtc_image::{AnimatedGif, AnimatedPng, FileFormat, Picture, PictureHeader};
@@ -93,6 +93,7 @@ impl RenderSetup {
             if let Some(animation) = &mut begun {
                 animation.add(&picture)?;
             }
+            scene_input::report_diagnostics(input, reporter)?;
             reporter.made(&made);
         }
         // Report a limit of the format, and end the file.

@@ -127,7 +127,6 @@ impl RenderSetup {
             false => self.share_by_share(saving, subject, &mut done, order, run_context)?,
             true => self.round_by_round(saving, subject, &mut done, order, run_context)?,
         };
-        input::report_diagnostics(input, reporter)?;
         let bytes = self.picture.encode(&picture, subject)?;
         let written = output.commit(&bytes, interrupt);
         if interrupt.is_raised() {
@@ -135,6 +134,7 @@ impl RenderSetup {
         }
         written?;
         saving.finished.push(hash_of_file(&bytes));
+        input::report_diagnostics(input, reporter)?;
         reporter.made(&made);
         Ok(())
     }
@@ -224,6 +224,8 @@ impl RenderSetup {
             }
         };
         // Develop the picture.
+        let unmet = rendering.unmet(&self.picture);
+        unmet.into_iter().for_each(|found| input.push(found));
         let size = [rendering.image.width, rendering.image.height];
         let work = (rendering.counts, rendering.elapsed);
         let made =
@@ -321,6 +323,15 @@ pub(crate) fn print_saved(file: &Path, what: &str) {
     reporter::print_message(&format!(
         "saved {what} in `{file}`; the same command resumes"
     ));
+}
+
+/// Tells after an interrupt, unless there was a checkpoint, that one keeps the work.
+pub(crate) fn or_unsaved(outcome: &Result<(), Failure>, checkpoint: Option<&Path>, quiet: bool) {
+    if matches!(outcome, Err(Failure::Interrupted)) && checkpoint.is_none() && !quiet {
+        reporter::print_message(
+            "interrupted: nothing is saved; with `--checkpoint FILE` the same command resumes",
+        );
+    }
 }
 
 /// Saves the state atomically, with a warning if that fails: the work continues.

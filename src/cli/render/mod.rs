@@ -33,14 +33,14 @@ use super::turntable::{self, Turntable, TurntableViews};
 use budget::PictureClock;
 use cache::PictureCache;
 use checkpoint::{Checkpoint, CheckpointedRender, RunContext};
-pub(super) use checkpoint::{ended, or_restart, print_saved, try_save};
+pub(super) use checkpoint::{ended, or_restart, or_unsaved, print_saved, try_save};
 use layers::LayerFiles;
 pub(super) use look::{kind, refuse_layers};
 pub(super) use made::{FinishedPicture, effects};
 use part::PartSetup;
 use rtc_image::{BackgroundFill, Picture};
 use rtc_passes::Overrides;
-use rtc_pipeline::{Input, PictureSetup, RenderError, RenderSubject};
+use rtc_pipeline::{FolderIdentity, Input, PictureSetup, RenderError, RenderSubject};
 use rtc_plan::{Rule, RuleSet};
 use rtc_render::Crop;
 use rtc_study::RenderGoal;
@@ -88,6 +88,7 @@ pub(super) fn run(args: args::RenderArgs, typed: &[OsString]) -> Result<(), Fail
     let mut reporter = Reporter::beside_result(&args.reporter);
     let outcome = plan.begin(args.file(), &args, &mut reporter);
     reporter.finish()?;
+    or_unsaved(&outcome, args.checkpoint.as_deref(), args.reporter.quiet);
     outcome
 }
 
@@ -252,7 +253,13 @@ impl RenderSetup {
         };
         let mut frames = views.shown.clone();
         frames.try_for_each(|frame| Output::open(&path(frame), input).map(drop))?;
+        let folder = FolderIdentity::of_file(&self.output);
+        let folder = folder.map_err(|error| Failure::Failed(error.to_string()))?;
         for frame in views.shown.clone() {
+            let is_there = folder.check();
+            is_there.map_err(|error| {
+                Failure::Failed(format!("can't write `{}`: {error}", path(frame).display()))
+            })?;
             table.turn(&mut subject.validated, frame)?;
             subject.turn();
             match &self.part {
@@ -309,11 +316,13 @@ impl RenderSetup {
         files.extend(layers.encode(&self.picture, &picture, subject)?);
         output.commit(&files[0], interrupt)?;
         layers.commit(&files[1..], interrupt)?;
+        input::report_diagnostics(input, reporter)?;
         reporter.made(&made);
         Ok((files, made))
     }
 
-    /// Renders one picture; returns it with its messages.
+    /// Renders one picture; returns it with its messages. Its diagnostics are not reported yet: one
+    /// that is denied is no reason to lose the picture.
     fn take(
         &self,
         subject: &mut RenderSubject,
@@ -332,6 +341,7 @@ impl RenderSetup {
         let rendering = rendering.map_err(|error| ended(error, input, reporter))?;
         // Develop the film into the picture.
         let coarse = rendering.coarse();
+        let unmet = rendering.unmet(&self.picture);
         let size = [rendering.image.width, rendering.image.height];
         let work = (rendering.counts, rendering.elapsed);
         let made = FinishedPicture::new(path, &self.picture, size, work).with(rendering.quality);
@@ -343,10 +353,8 @@ impl RenderSetup {
         // Report what the time budget did not allow.
         let time = self.picture.goal.time;
         let found = self.clock.stop(time, (coarse, window));
-        found
-            .into_iter()
-            .for_each(|diagnostic| input.push(diagnostic));
-        input::report_diagnostics(input, reporter)?;
+        let found = found.into_iter().chain(unmet);
+        found.for_each(|diagnostic| input.push(diagnostic));
         Ok((picture, made))
     }
 }

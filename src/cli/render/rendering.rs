@@ -6,6 +6,7 @@ use super::super::{Failure, input, interrupt::Interrupt, output::Output, reporte
 use super::budget::PictureClock;
 use super::made::{EstimateSource, PictureQuality, error};
 use super::{FinishedPicture, RenderSetup, halted};
+use rtc_diag::Diagnostic;
 use rtc_image::Image;
 use rtc_pipeline::{
     Input, PictureSetup, RayCounter, RenderError, RenderObserver, RenderSubject, Traced,
@@ -74,6 +75,16 @@ impl RenderResult {
                 },
             }),
         }
+    }
+
+    /// A warning if it ended above its target error.
+    pub(super) fn unmet(&self, setup: &PictureSetup) -> Option<Diagnostic> {
+        let PictureQuality {
+            error,
+            undersampled,
+            ..
+        } = self.quality.as_ref()?;
+        setup.unmet(*error, *undersampled)
     }
 
     /// If the time was too short for it.
