@@ -14,14 +14,19 @@ summary() {
     printf '%s\n' "$*" >>"${GITHUB_STEP_SUMMARY:-/dev/null}"
 }
 
+# Without characters that command a terminal or turn a line round, which a name may have.
+clean() {
+    LC_ALL=C tr -d '\000-\010\013\014\016-\037\177' | LC_ALL=C sed 's/\xe2\x80[\x8e\x8f\xaa-\xae]//g; s/\xe2\x81[\xa6-\xa9]//g; s/\xc2[\x80-\x9f]//g'
+}
+
 # What stands for itself in HTML, also within quotes.
 escaped() {
-    sed "s/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g; s/\"/\&quot;/g; s/'/\&#39;/g"
+    clean | sed "s/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g; s/\"/\&quot;/g; s/'/\&#39;/g"
 }
 
 # What stands for itself on a line of Markdown: names are those of strangers.
 plain() {
-    tr '\n\r\t' '   ' | sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g; s/\\/\&#92;/g; s/`/\&#96;/g; s/\*/\&#42;/g; s/_/\&#95;/g
+    clean | tr '\n\r\t' '   ' | sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g; s/\\/\&#92;/g; s/`/\&#96;/g; s/\*/\&#42;/g; s/_/\&#95;/g
         s/\[/\&#91;/g; s/]/\&#93;/g; s/!/\&#33;/g; s/|/\&#124;/g; s/~/\&#126;/g; s/@/\&#64;/g; s/:/\&#58;/g'
 }
 

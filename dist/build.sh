@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What is handed out: one archive a target with the program, its licences, its manual page and completions, and SHA256SUMS.
+# What is handed out: one archive a target with the program, its licences and those of its packages, its manual page and completions, and SHA256SUMS.
 # `dist/build.sh [TARGET…]`; without a word the static programs for Linux and the one for Windows. Needs rustup, for arm64
 # qemu-aarch64-static, for Windows x86_64-w64-mingw32-gcc and zip. What runs here without an emulator is optimised by a profile of
 # the pictures of scenes/ (`dist/profile.sh`). What can be run here must print its version and make the picture of a scene with the
@@ -44,7 +44,8 @@ pack() {
     folder=$out/$name
     rm -rf "$folder"
     mkdir -p "$folder"
-    cp "$2" LICENSE-APACHE LICENSE-MIT README.md CHANGELOG.md "$folder"
+    cp "$2" LICENSE-APACHE LICENSE-MIT README.md CHANGELOG.md SECURITY.md "$folder"
+    dist/notices.sh "$1" >"$folder/THIRD-PARTY-NOTICES.txt"
     "$out/native" man >"$folder/rtc.1"
     for shell in bash zsh fish powershell; do
         "$out/native" completions "$shell" >"$folder/rtc.$shell"

@@ -11,7 +11,9 @@ targets=(scene_parser check ir_decode validate render_tiny gltf glb mesh image f
 # Of the clock, for one input. The tables of the materials, made once a process, take 4 s of CPU time in such a build.
 patience=30
 
-command -v cargo-fuzz >/dev/null || cargo install --quiet cargo-fuzz
+command -v cargo-fuzz >/dev/null || cargo install --locked --quiet cargo-fuzz
+# It has no such flag itself.
+cargo metadata --quiet --locked --format-version 1 --manifest-path fuzz/Cargo.toml >/dev/null
 cargo fuzz build -s none
 
 new=$(mktemp -d)

@@ -383,6 +383,12 @@ fn a_picture_is_saved_by_its_kind_or_not_at_all() {
     let picture = ball().render(&Options::new()).unwrap();
     let error = picture.save(to("a.exr")).unwrap_err();
     assert!(matches!(error, Error::Refused(_)), "{error}");
+    assert!(
+        error
+            .to_string()
+            .ends_with("render it with the format `exr`"),
+        "{error}"
+    );
     let error = picture.save(to("none/a.png")).unwrap_err();
     assert!(matches!(error, Error::Unwritable { .. }), "{error}");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);

@@ -18,7 +18,13 @@ const GUIDE: &[&str] = &["tutorial", "cookbook", "gallery.md", "getting-started.
 
 /// The pages whose links are checked.
 fn pages() -> Vec<PathBuf> {
-    let single = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"].map(root);
+    let single = [
+        "README.md",
+        "CONTRIBUTING.md",
+        "CHANGELOG.md",
+        "SECURITY.md",
+    ]
+    .map(root);
     let folders = ["docs", "schema", "benches"].map(|folder| files(&root(folder), &["md"]));
     single.into_iter().chain(folders.concat()).collect()
 }

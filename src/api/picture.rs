@@ -209,8 +209,15 @@ impl Picture {
         let extension = path.extension().unwrap_or_default().to_string_lossy();
         if extension.to_lowercase() != expected {
             let path = path.display();
+            let formats = [Format::Png, Format::Exr, Format::Hdr].map(Format::extension);
+            let other = formats
+                .into_iter()
+                .find(|own| *own == extension.to_lowercase());
+            let remedy = other.map_or_else(String::new, |other| {
+                format!("; render it with the format `{other}`")
+            });
             return Err(Error::Refused(format!(
-                "the picture was made for a .{expected}; `{path}` is none"
+                "the picture was made for a .{expected}; `{path}` is none{remedy}"
             )));
         }
         let bytes = self.encode()?;

@@ -90,7 +90,8 @@ fn style(rays: Arc<AtomicU64>) -> ProgressStyle {
     let left = |state: &ProgressState, text: &mut dyn Write| {
         let _ = write!(text, "{:#} left", HumanDuration(state.eta()));
     };
-    ProgressStyle::with_template("{bar:30} {percent:>3} %  {rate}  {left}  {msg}")
+    // Short, as a line that is wider than the terminal is left there: the message is cut to it.
+    ProgressStyle::with_template("{bar:12} {percent:>3} %  {left}  {rate}  {wide_msg}")
         .expect("the template is a constant and well formed")
         .with_key("rate", rate)
         .with_key("left", left)

@@ -3,7 +3,9 @@
 use super::metrics::PictureErrors;
 use super::outcome::{MoreBounces, Study, StudyRow};
 use super::parameter::Parameter;
+use super::pareto::EQUAL_ERROR;
 use super::setting::Setting;
+use super::statistics::Estimate;
 use rtc_math::pow;
 use rtc_plan::Arithmetic;
 
@@ -177,15 +179,26 @@ fn about_scene_setting(study: &Study, scene_row: &StudyRow, front: &[&StudyRow])
     }
     let better = front
         .iter()
-        .rfind(|row| row.seconds.value <= scene_row.seconds.high);
-    let better = better.or(front.first());
+        .rfind(|row| is_clearly_better(&row.errors, &scene_row.errors, row.ratio));
     match better {
         Some(row) => format!(
             "The scene's own setting, {label}, is off the front: {}.",
             improvement(study, row, scene_row)
         ),
-        None => format!("The scene's own setting is {label}."),
+        None => format!(
+            "The scene's own setting, {label}, is as good as the front, as far as this study can \
+             tell."
+        ),
     }
+}
+
+/// Whether a setting is better than that of the scene beyond the intervals of both: certainly lower
+/// in error for a time that may be the same, or certainly cheaper for an error that may be the same.
+/// `ratio` is its time over that of the scene's.
+fn is_clearly_better(errors: &PictureErrors, own: &PictureErrors, ratio: Estimate) -> bool {
+    let is_lower = EQUAL_ERROR * errors.rmse_high < own.rmse_low;
+    let is_no_higher = errors.rmse <= EQUAL_ERROR * own.rmse;
+    (is_lower && ratio.low <= 1.0) || (is_no_higher && ratio.high < 1.0)
 }
 
 /// The advantage of a row over the scene's own setting.
@@ -252,6 +265,26 @@ pub(super) fn seconds(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_time_that_may_be_the_same_is_no_gain() {
+        let errors = |rmse: f64| PictureErrors {
+            rmse,
+            rmse_low: rmse,
+            rmse_high: rmse,
+            relative_mse: 0.0,
+            max: 0.0,
+            visible: 0.0,
+            flip: 0.0,
+            delta_e: 0.0,
+        };
+        let better = |rmse: f64, [low, value, high]: [f64; 3]| {
+            is_clearly_better(&errors(rmse), &errors(1.0), Estimate { value, low, high })
+        };
+        assert!(!better(1.0, [0.73, 1.02, 1.31]) && !better(1.0, [0.7, 0.9, 1.1]));
+        assert!(better(1.0, [0.7, 0.8, 0.9]) && better(0.5, [0.9, 1.02, 1.1]));
+        assert!(!better(0.5, [1.1, 1.2, 1.3]) && !better(1.1, [0.4, 0.5, 0.6]));
+    }
 
     #[test]
     fn numbers_of_paths_are_rounded_up() {

@@ -1,6 +1,7 @@
 """Scenes from code, and scenes that are changed."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -105,3 +106,39 @@ def test_a_spot_keeps_what_python_does_not_see():
     assert rtc.diff(before, scene.render(spp=1)).max == 0
     with pytest.raises(ValueError, match="angles"):
         scene.lights = [replace(scene.lights[0], position=(0, 1, 3))]
+
+
+def test_a_sun_lights_the_side_that_its_direction_points_from():
+    builder = rtc.SceneBuilder(rtc.Camera(eye=(0, 0, 6), size=(24, 24)))
+    builder.add(rtc.sphere((0, 0, 0), 1), rtc.Standard(base_color=(1, 1, 1), metallic=0))
+    builder.light(rtc.sun((0, 1, 0), (3, 3, 3)))
+    rows = builder.build().render(spp=4).array.sum(axis=(1, 2))
+    assert rows[:12].sum() > 20 * rows[12:].sum()
+
+
+def test_the_scene_of_the_readme_is_lit_from_above():
+    readme = Path(__file__).parent.parent / "README.md"
+    block = next(block for block in readme.read_text().split("```python\n") if "rtc.sun(" in block)
+    names = {
+        "rtc": rtc,
+        "vertices": np.array([[-3, -1, -3], [3, -1, -3], [3, -1, 3], [-3, -1, 3]], np.float32),
+        "faces": np.array([[0, 2, 1], [0, 3, 2]]),
+        "uvs": UVS,
+        "pixels": np.full((2, 2, 3), 255, np.uint8),
+        "matrix": np.eye(4),
+        "radiance": (0.1, 0.1, 0.1),
+    }
+    exec(block.split("```")[0], names)
+    image = names["image"]
+    assert image.findings == [] and image.array.mean() > 0.1
+    # The ball is brighter above its middle than below it.
+    column = image.array[:, image.array.shape[1] // 2, 0]
+    middle = len(column) // 2
+    assert column[middle - 60 : middle].mean() > 1.2 * column[middle : middle + 60].mean()
+
+
+def test_light_that_reaches_nothing_in_view_is_a_finding():
+    builder = rtc.SceneBuilder(rtc.Camera(eye=(0, 0, 6), size=(24, 24)))
+    builder.add(rtc.sphere((0, 0, 0), 1), rtc.Standard(base_color=(1, 1, 1), metallic=0))
+    builder.light(rtc.sun((0, -1, -9), (3, 3, 3)))
+    assert "RD017" in [found.code for found in builder.build().render(spp=1).findings]

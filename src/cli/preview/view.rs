@@ -73,12 +73,11 @@ impl ViewOverride {
         }
     }
 
-    /// The upward direction, as long as a pixel of a camera that looks so: along an axis of the
-    /// world, unless the view is rolled about its direction.
-    fn upward(&self, camera: &Camera, axis: Vec3) -> [f64; 3] {
+    /// The upward direction of this length: along an axis of the world, unless the view is rolled
+    /// about its direction.
+    fn upward(&self, length: f64, axis: Vec3) -> [f64; 3] {
         /// The sine of an angle that rounding leaves.
         const ROLL: f64 = 1e-4;
-        let pixel = Vec3::from_array(camera.up).length();
         let [eye, center, up] = [self.eye, self.center, self.up].map(Vec3::from_array);
         let side = unit(cross(up, eye - center));
         let is_rolled = side.is_none_or(|side| side.dot(axis).abs() > ROLL);
@@ -86,7 +85,9 @@ impl ViewOverride {
             true => unit(up).unwrap_or(Vec3::Y),
             false => axis * up.dot(axis).signum(),
         };
-        rounded(up * pixel, pixel, UP_DIGITS)
+        // A length of 1 is to be exact enough to be taken for it.
+        let digits = if length == 1.0 { 8 } else { UP_DIGITS };
+        rounded(up * length, length, digits)
     }
 
     /// The same as passes use it.
@@ -207,14 +208,34 @@ pub(super) fn written(
     let mut lowered = input.load().ok_or("the scene can't be read")?.lowered;
     let own = keys(&lowered, input.map(), input.name());
     let own = own.ok_or("the scene has no `eye`, `center` and `up` of its own")?;
-    let before = lowered.scene.camera.clone();
-    let axis = before.upright();
+    let axis = lowered.scene.camera.upright();
     if !view_override.aim(&mut lowered) {
         return Err("it is no view");
     }
+    // With a field of view its length has no effect, else it is that of a pixel.
+    let pixel = Vec3::from_array(lowered.scene.camera.up).length();
     let Camera { eye, center, .. } = lowered.scene.camera;
-    let up = view_override.upward(&lowered.scene.camera, axis);
-    let mut edits: Vec<_> = own.into_iter().zip([eye, center, up]).collect();
+    let mut outcome = Err("its keys do not say the view alone");
+    for length in [1.0, pixel] {
+        let up = view_override.upward(length, axis);
+        let new = replaced(text, &own, [eye, center, up]);
+        let mut changed = Input::edited(path, new.clone().into_bytes(), options.clone());
+        let changed = changed.load().map(|loaded| loaded.lowered.scene);
+        let mut changed = changed.ok_or("the scene can't be read afterwards")?;
+        let is_seen = is_near(&changed.camera, &lowered.scene.camera);
+        // No other value may change: one value can set more than the camera.
+        changed.camera = lowered.scene.camera.clone();
+        if is_seen && changed == lowered.scene {
+            outcome = Ok(new);
+            break;
+        }
+    }
+    outcome
+}
+
+/// A text with other values of three keys.
+fn replaced(text: &str, keys: &[Range<usize>; 3], values: [[f64; 3]; 3]) -> String {
+    let mut edits: Vec<_> = keys.iter().zip(values).collect();
     edits.sort_by_key(|(range, _)| range.start);
     let (mut new, mut from) = (String::with_capacity(text.len()), 0);
     for (range, value) in edits {
@@ -223,17 +244,7 @@ pub(super) fn written(
         from = range.end;
     }
     new.push_str(text.get(from..).unwrap_or_default());
-    let mut changed = Input::edited(path, new.clone().into_bytes(), options.clone());
-    let changed = changed.load().map(|loaded| loaded.lowered.scene);
-    let mut changed = changed.ok_or("the scene can't be read afterwards")?;
-    let is_seen = is_near(&changed.camera, &lowered.scene.camera);
-    // No other value may change: one value can set more than the camera.
-    changed.camera = before.clone();
-    lowered.scene.camera = before;
-    match is_seen && changed == lowered.scene {
-        true => Ok(new),
-        false => Err("its keys do not say the view alone"),
-    }
+    new
 }
 
 /// Whether two cameras show the same, but for rounding.
@@ -314,6 +325,21 @@ mod tests {
         let eye = [0.0, 200.0 * half, 200.0 * half];
         assert_eq!(up_of(eye, [0.0, half, -half]), "0, 0.5, 0");
         assert_ne!(up_of(eye, [0.3, half, -half]), "0, 0.5, 0");
+    }
+
+    /// Beside a field of view the length of `up` says nothing.
+    #[test]
+    fn with_a_field_of_view_up_is_one_long() {
+        let text = |eye: &str| {
+            format!(
+                "Camera: {{eye: {eye}, center: [0, 0, 0], up: [0, 1, 0], fov: 35, viewSize: \
+                [480, 320]}}\nObjects: []\n"
+            )
+        };
+        let new = turned(&text("[0, 0, 8]"));
+        assert_eq!(new, Ok(text("[50, 0, 0]")));
+        let mut input = Input::edited(Path::new("a.yaml"), new.unwrap().into(), Options::default());
+        assert!(input.load().is_some() && input.take_diagnostics().kept().is_empty());
     }
 
     /// A view from the mouse has 16 digits; digits below a hundredth of a pixel are not written.

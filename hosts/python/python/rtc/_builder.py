@@ -92,7 +92,7 @@ class Light:
 
 
 def sun(direction: ArrayLike, irradiance: ArrayLike) -> Light:
-    """Parallel light of an irradiance in W/m² on a surface that faces it; `direction` is that in which it travels."""
+    """Parallel light of an irradiance in W/m² on a surface that faces it; `direction` points to it."""
     return Light("sun", vector(irradiance), direction=vector(direction))
 
 
@@ -299,7 +299,7 @@ class SceneBuilder:
 
     >>> builder = rtc.SceneBuilder(rtc.Camera(eye=(0, 0, 6), size=(320, 240)))
     >>> builder.add(rtc.sphere((0, 0, 0), 1), rtc.Standard(base_color=(1, 0.2, 0.1), roughness=0.4))
-    >>> builder.light(rtc.sun((-1, -1, -1), (3, 3, 3)))
+    >>> builder.light(rtc.sun((1, 1, 1), (3, 3, 3)))
     >>> image = builder.build().render(spp=16)
     """
 
