@@ -141,4 +141,4 @@ def test_light_that_reaches_nothing_in_view_is_a_finding():
     builder = rtc.SceneBuilder(rtc.Camera(eye=(0, 0, 6), size=(24, 24)))
     builder.add(rtc.sphere((0, 0, 0), 1), rtc.Standard(base_color=(1, 1, 1), metallic=0))
     builder.light(rtc.sun((0, -1, -9), (3, 3, 3)))
-    assert "RD017" in [found.code for found in builder.build().render(spp=1).findings]
+    assert "RD018" in [found.code for found in builder.build().render(spp=1).findings]
