@@ -200,7 +200,7 @@ fn carry_out_text(
     let validated = displayed(&mut input, &interrupt, reporter)?;
     explain(args, &validated, &input)?;
     match target(args) {
-        Some(target) => write_text(target, &validated, &input, &interrupt),
+        Some(target) => write_text(args, target, &validated, &input, &interrupt),
         None => Ok(()),
     }
 }
@@ -222,9 +222,10 @@ fn explain(args: &CompileArgs, validated: &ValidatedScene, input: &Input) -> Res
     }
 }
 
-/// Writes the scene in its canonical spelling, and beside it the files that it needs: those of a
-/// scene text without assets are there.
+/// Writes the scene in its canonical spelling, and beside it the files that it needs: a text in the
+/// folder of a scene text finds those of that.
 fn write_text(
+    args: &CompileArgs,
     target: &Path,
     validated: &ValidatedScene,
     input: &Input,
@@ -233,13 +234,17 @@ fn write_text(
     let scene = &validated.lowered.scene;
     let output = Output::open(target, input)?;
     let refuse = |reason: String| cannot(input, &reason);
-    if input.has_original_files(&validated.lowered) {
+    let folder = output.sidecar_folder(target);
+    let has_files = input.has_original_files(&validated.lowered);
+    if has_files && (folder.is_none() || is_beside(target, &args.file)) {
         let text = emit::course::emit(scene).map_err(refuse)?;
         return output.commit(text.as_bytes(), interrupt);
     }
-    let folder = output.sidecar_folder(target);
-    let WrittenScene { text, files } =
-        emit::course::emit_with_files(scene, folder.as_deref()).map_err(refuse)?;
+    let written = match &folder {
+        Some(folder) => emit::course::emit_elsewhere(scene, folder),
+        None => emit::course::emit_with_files(scene, None),
+    };
+    let WrittenScene { text, files } = written.map_err(refuse)?;
     let mut companions = SidecarFiles::beside(target);
     for file in &files {
         let bytes = file.bytes().map_err(refuse)?;
@@ -248,6 +253,15 @@ fn write_text(
     output.commit(text.as_bytes(), interrupt)?;
     companions.keep();
     Ok(())
+}
+
+/// Whether two files are in one folder.
+fn is_beside(a: &Path, b: &Path) -> bool {
+    let folder = |path: &Path| {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Path::new(".").join(folder).canonicalize().ok()
+    };
+    folder(a) == folder(b)
 }
 
 fn cannot(input: &Input, reason: &str) -> Failure {

@@ -118,7 +118,10 @@ impl Input {
             ExportFormat::IrBinary => encoded(Encoding::Binary),
             // The course format has images and meshes beside it.
             ExportFormat::Text => {
-                let written = emit::course::emit_with_files(scene, Some(folder))?;
+                let written = match self.has_original_files(lowered) {
+                    true => emit::course::emit_with_files(scene, Some(folder)),
+                    false => emit::course::emit_elsewhere(scene, folder),
+                }?;
                 let file =
                     |file: emit::course::SidecarFile<'_>| Ok((file.name.clone(), file.bytes()?));
                 Ok(Some(ExportedFiles {

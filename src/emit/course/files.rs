@@ -72,6 +72,15 @@ impl<'s> FileNames<'s> {
         }
     }
 
+    /// Writes new files to a folder for all images and meshes.
+    pub(super) fn all_new(folder: &str) -> Self {
+        Self {
+            uses_original_names: false,
+            folder: Some(folder.to_owned()),
+            ..Self::original()
+        }
+    }
+
     pub(super) fn into_files(self) -> Vec<SidecarFile<'s>> {
         self.new.into_values().collect()
     }

@@ -2,7 +2,7 @@
 //! shortest decimal of each number that reads back exactly.
 //!
 //! [`emit`] refers to the original files of images and meshes, [`emit_with_files`] also writes new
-//! ones. `files` names them. Lowering the text gives the same scene.
+//! ones, [`emit_elsewhere`] writes all anew. `files` names them. Lowering the text gives the same scene.
 
 mod camera;
 mod csg;
@@ -57,6 +57,15 @@ pub fn emit_with_files<'s>(
     folder: Option<&str>,
 ) -> Result<WrittenScene<'s>, String> {
     write(scene, FileNames::with_new_files(scene, folder))
+}
+
+/// The same with files in `folder` for all images and meshes, for a text that does not find those of
+/// the scene.
+///
+/// # Errors
+/// As [`emit`].
+pub fn emit_elsewhere<'s>(scene: &'s Scene, folder: &str) -> Result<WrittenScene<'s>, String> {
+    write(scene, FileNames::all_new(folder))
 }
 
 fn write<'s>(scene: &'s Scene, names: FileNames<'s>) -> Result<WrittenScene<'s>, String> {

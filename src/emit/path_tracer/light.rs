@@ -1,6 +1,6 @@
 //! Lights as path tracers have them.
 
-use crate::export::mean_over_directions;
+use crate::export::{NOT_PROJECTED, mean_over_directions};
 use crate::reporter::ExportReporter;
 use rtc_ir::{
     EntityField, EntityKind, Light, Photometry, PointLight, Punctual, PunctualKind, Scene,
@@ -61,10 +61,18 @@ pub(crate) fn lights(
         let path = ValuePath::new(EntityKind::Light, index, EntityField::Whole);
         let light = match light {
             Light::Point(light) => with_falloff(scene, light, reporter, path),
-            Light::Punctual(light) => photometric_spot(light).unwrap_or_else(|| {
-                reporter.simplified_light(light, renderer, path);
-                punctual(light)
-            }),
+            Light::Punctual(light) => match photometric_spot(light) {
+                Some(spot) => {
+                    if light.projected.is_some() {
+                        reporter.unsupported(NOT_PROJECTED, path);
+                    }
+                    spot
+                }
+                None => {
+                    reporter.simplified_light(light, renderer, path);
+                    punctual(light)
+                }
+            },
         };
         (light, path)
     });
