@@ -176,15 +176,13 @@ impl Photometry {
 
 /// The spelling of an emitter in the scene format.
 #[derive(Clone, Debug, PartialEq)]
-pub struct EmitterSpelling<'a> {
+pub struct EmitterSpelling {
     /// The value of its key `type`.
     pub kind: &'static str,
     /// The keys of its points and directions, with their values.
     pub triples: Vec<(&'static str, [f64; 3])>,
     /// The keys of its numbers, with their values.
     pub numbers: Vec<(&'static str, f64)>,
-    /// The file of its IES profile.
-    pub file: Option<&'a str>,
     /// The key of the intensity.
     pub intensity: &'static str,
 }
@@ -297,7 +295,7 @@ impl PunctualKind {
 
     /// The spelling of this emitter in the scene format.
     #[must_use]
-    pub fn spelling(&self) -> EmitterSpelling<'_> {
+    pub fn spelling(&self) -> EmitterSpelling {
         // Each kind lists its vectors and numbers by their keys.
         let range = self.range().map(|range| ("range", range));
         match self {
@@ -305,14 +303,12 @@ impl PunctualKind {
                 kind: "sun",
                 triples: vec![("direction", *direction)],
                 numbers: Vec::new(),
-                file: None,
                 intensity: "irradiance",
             },
             Self::Point { position, range: _ } => EmitterSpelling {
                 kind: "point",
                 triples: vec![("position", *position)],
                 numbers: range.into_iter().collect(),
-                file: None,
                 intensity: "intensity",
             },
             Self::Spot {
@@ -327,7 +323,6 @@ impl PunctualKind {
                     kind: "spot",
                     triples: vec![("position", *position), ("direction", *direction)],
                     numbers: angles.into_iter().chain(range).collect(),
-                    file: None,
                     intensity: "intensity",
                 }
             }
@@ -335,7 +330,7 @@ impl PunctualKind {
                 position,
                 direction,
                 horizontal,
-                photometry,
+                photometry: _,
             } => EmitterSpelling {
                 kind: "ies",
                 triples: vec![
@@ -344,7 +339,6 @@ impl PunctualKind {
                     ("horizontal", *horizontal),
                 ],
                 numbers: Vec::new(),
-                file: Some(&photometry.name),
                 intensity: "color",
             },
         }

@@ -1,9 +1,10 @@
 //! The files to which a text refers: the original files of images and meshes, or new sidecar files.
 
 use super::quoted;
+use crate::export::joined;
 use crate::{ply, sidecar};
 use rtc_image::{FileFormat, Image as Radiances, Picture, png_bytes};
-use rtc_ir::{Image, ImageId, Material, Mesh, MeshId, Pixels, Scene};
+use rtc_ir::{Image, ImageId, Material, Mesh, MeshId, Photometry, Pixels, Scene};
 use std::collections::BTreeMap;
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
@@ -22,6 +23,7 @@ pub struct SidecarFile<'s> {
 enum SidecarContent<'s> {
     Mesh(&'s Mesh),
     Image(&'s Image),
+    Photometry(&'s Photometry),
 }
 
 impl SidecarFile<'_> {
@@ -33,11 +35,12 @@ impl SidecarFile<'_> {
         match self.content {
             SidecarContent::Mesh(mesh) => Ok(ply::encode(mesh)),
             SidecarContent::Image(image) => encode(image),
+            SidecarContent::Photometry(photometry) => Ok(profile(photometry).into_bytes()),
         }
     }
 }
 
-/// The names of image and mesh files.
+/// The names of the files of images, meshes and lamps.
 pub(super) struct FileNames<'s> {
     /// Whether the original file names are used.
     uses_original_names: bool,
@@ -125,6 +128,11 @@ impl<'s> FileNames<'s> {
         Ok((name, part))
     }
 
+    /// The quoted file name of the profile of a lamp.
+    pub(super) fn photometry(&mut self, photometry: &'s Photometry) -> Result<String, String> {
+        self.name(&photometry.name, SidecarContent::Photometry(photometry))
+    }
+
     fn name(&mut self, original: &str, content: SidecarContent<'s>) -> Result<String, String> {
         let original_file = file_name(original);
         if self.uses_original_names && (original_file.is_ok() || self.folder.is_none()) {
@@ -137,6 +145,9 @@ impl<'s> FileNames<'s> {
         let (fallback, extension, hash) = match content {
             SidecarContent::Mesh(mesh) => ("mesh", "ply", xxh3_64(&ply::encode(mesh))),
             SidecarContent::Image(image) => ("image", extension(image), hash(image)),
+            SidecarContent::Photometry(photometry) => {
+                ("lamp", "ies", xxh3_64(profile(photometry).as_bytes()))
+            }
         };
         let name = sidecar::path(folder, original, fallback, hash, extension);
         let quoted = quoted(&name);
@@ -148,10 +159,10 @@ impl<'s> FileNames<'s> {
 }
 
 /// A file name in quotes, if it is one.
-pub(super) fn file_name(name: &str) -> Result<String, String> {
+fn file_name(name: &str) -> Result<String, String> {
     if name.is_empty() || name.eq_ignore_ascii_case(UV) || name.contains('\\') {
         return Err(format!(
-            "an image or mesh of the name `{}` comes from no file",
+            "an image, mesh or lamp of the name `{}` comes from no file",
             name.escape_debug()
         ));
     }
@@ -173,6 +184,24 @@ fn hash(image: &Image) -> u64 {
     hasher.update(&(image.kind.bytes() as u64).to_le_bytes());
     hasher.update(&image.pixels);
     hasher.digest()
+}
+
+/// A photometric profile as an IES file (LM-63-2002, type C) of one lamp, in candela.
+fn profile(photometry: &Photometry) -> String {
+    let Photometry {
+        name: _,
+        vertical,
+        horizontal,
+        candela,
+    } = photometry;
+    let [rows, columns] = [vertical.len(), horizontal.len()];
+    let list = |numbers: &[f64]| joined(numbers.iter().copied(), "\n");
+    let [vertical, horizontal, candela] =
+        [vertical, horizontal, candela].map(|list_of| list(list_of));
+    format!(
+        "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 {rows} {columns} 1 2 0 0 0\n1 1 0\n{vertical}\n\
+         {horizontal}\n{candela}\n"
+    )
 }
 
 /// An image as a file without loss: PNG, or OpenEXR with 32-bit floats.

@@ -1,11 +1,10 @@
 //! Writes the lights and the environment.
 
 use super::SceneWriter;
-use super::files::file_name;
-use rtc_ir::{Environment, Light, PointLight, Punctual, Scene};
+use rtc_ir::{Environment, Light, PointLight, Punctual, PunctualKind, Scene};
 
 impl<'s> SceneWriter<'s> {
-    pub(super) fn light(&mut self, light: &Light) -> Result<(), String> {
+    pub(super) fn light(&mut self, light: &'s Light) -> Result<(), String> {
         match light {
             Light::Point(PointLight {
                 position,
@@ -34,8 +33,9 @@ impl<'s> SceneWriter<'s> {
                 for (key, value) in &spelling.numbers {
                     self.number(key, *value, 4);
                 }
-                if let Some(file) = spelling.file {
-                    self.line(4, &format!("file: {}", file_name(file)?));
+                if let PunctualKind::Photometric { photometry, .. } = emitter {
+                    let name = self.names.photometry(photometry)?;
+                    self.line(4, &format!("file: {name}"));
                 }
                 self.numbers(spelling.intensity, intensity, 4);
             }

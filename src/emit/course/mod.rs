@@ -165,7 +165,7 @@ impl<'s> SceneWriter<'s> {
         }
     }
 
-    fn lights(&mut self, lights: &[Light]) -> Result<(), String> {
+    fn lights(&mut self, lights: &'s [Light]) -> Result<(), String> {
         if lights.is_empty() {
             self.line(0, "Lights: []");
         } else {
