@@ -325,8 +325,9 @@ pub fn page() -> String {
 # Limits
 
 The resource limits of a run, printed by `rtc schema limits`. Resources are charged before memory
-is taken, for all files of a run together; shared ones are charged once. `--limit NAME=NUMBER` sets
-a limit (`KiB`, `MiB` and `GiB` may follow the number), `--allow-huge` removes all of them.
+is taken, for all files of a run together; shared ones are charged once. Limits grow with the bytes
+of files, of each once, not with what these are unpacked to. `--limit NAME=NUMBER` sets a limit
+(`KiB`, `MiB` and `GiB` may follow the number), `--allow-huge` removes all of them.
 
 | name | limit | and for every KiB read | resource |
 | --- | ---: | --- | --- |
