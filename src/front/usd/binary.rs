@@ -148,13 +148,14 @@ fn paths(
     tokens: usize,
     budget: &Budget,
 ) -> Result<Vec<PathEntry>, LayerParseError> {
-    cursor.count(0).ok_or(CUT)?;
+    // The empty path has an index, and no place in the tree.
+    let total = cursor.count(0).ok_or(CUT)?;
     let count = cursor.count(0).ok_or(CUT)?;
     let columns = [(); 3].map(|()| cursor.integers(count, 4, budget));
     let [indices, names, jumps] = columns;
     let (indices, names, jumps) = (indices?, names?, jumps?);
-    charge(budget, PATH * count as u64)?;
-    let mut paths = vec![PathEntry::default(); count];
+    charge(budget, PATH.saturating_mul(total as u64))?;
+    let mut paths = vec![PathEntry::default(); total];
     // The places that are read next, with their parents.
     let mut pending = vec![(0_usize, None)];
     let mut seen = 0;
@@ -166,7 +167,7 @@ fn paths(
             }
             let index = u32::try_from(indices[at])
                 .ok()
-                .filter(|index| (*index as usize) < count);
+                .filter(|index| (*index as usize) < total);
             let index = index.ok_or(BAD)?;
             let depth = match parent {
                 Some(parent) => paths[parent as usize].depth + 1,

@@ -451,7 +451,7 @@ fn binary() -> Vec<Repro> {
                 ("STRINGS", words(&[0])),
                 ("PATHS", [words(&[1, u64::MAX / 5, 1]), vec![0]].concat()),
             ]),
-            "IO003",
+            "US002",
         ),
         file(
             "a binary layer of random bytes",
