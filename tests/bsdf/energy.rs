@@ -263,3 +263,45 @@ fn a_coat_with_its_back_to_the_viewer_is_not_seen() {
         Bsdf::new(&bare, wo).evaluate(wi)
     );
 }
+
+/// A coat leans away from the viewer and reflects some of its facets below its own horizon: such a
+/// direction is of no lobe.
+#[test]
+fn a_leaning_coat_is_sampled_as_it_is_evaluated() {
+    let coat = Clearcoat {
+        factor: 1.0,
+        roughness: 1.0,
+        normal: Vec3::new(-0.3, -0.2, 1.0).normalize(),
+    };
+    for (base_color, sheen) in [(0.05, 0.0), (0.0, 1.0), (1.0, 0.5)] {
+        let coated = StandardParameters {
+            base_color: Vec3::splat(base_color),
+            specular: 0.0,
+            clearcoat: Some(coat),
+            sheen: (sheen > 0.0).then(|| Sheen {
+                color: Vec3::splat(sheen),
+                roughness: 0.15,
+            }),
+            ..StandardParameters::default()
+        };
+        let wo = view(0.6);
+        let bsdf = Bsdf::new(&coated, wo);
+        // By the midpoint rule over the cosine and the azimuth.
+        let steps = 400;
+        let middle = |k: u32| (f64::from(k) + 0.5) / f64::from(steps);
+        let cells = (0..steps).flat_map(|i| (0..steps).map(move |j| [middle(i), middle(j)]));
+        let sum: f64 = cells
+            .map(|[cosine, turn]| {
+                let sine = (1.0 - cosine * cosine).sqrt();
+                let (y, x) = (std::f64::consts::TAU * turn).sin_cos();
+                bsdf.evaluate(Vec3::new(sine * x, sine * y, cosine)).f.x * cosine
+            })
+            .sum();
+        let expected = sum * std::f64::consts::TAU / f64::from(steps * steps);
+        let found = albedo(&coated, wo, 1 << 16).x;
+        assert!(
+            (found - expected).abs() < 0.01,
+            "{base_color} {sheen}: {found}, not {expected}"
+        );
+    }
+}

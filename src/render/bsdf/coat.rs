@@ -48,13 +48,14 @@ impl CoatLayer {
         (f * (wi.z / above), self.ggx.vndf_pdf(self.wo, h) / 4.0)
     }
 
-    /// Samples a direction that the coat reflects to the viewer.
-    pub(super) fn sample(&self, u: [f64; 2]) -> Vec3 {
+    /// Samples a direction that the coat reflects to the viewer; `None` below its own horizon.
+    pub(super) fn sample(&self, u: [f64; 2]) -> Option<Vec3> {
         let h = if self.is_smooth() {
             Vec3::Z
         } else {
             self.ggx.visible_normal(self.wo, u)
         };
-        self.basis.to_world(h * (2.0 * self.wo.dot(h)) - self.wo)
+        let wi = h * (2.0 * self.wo.dot(h)) - self.wo;
+        (wi.z > 0.0).then(|| self.basis.to_world(wi))
     }
 }

@@ -393,7 +393,7 @@ impl<'world, const F: u32> BsdfLobes<'world, F> {
         }
         // Sample the coat.
         let layer = self.coat()?;
-        let wi = layer.sample(rest(left - through, coat));
+        let wi = layer.sample(rest(left - through, coat))?;
         match layer.is_smooth() {
             _ if wi.z <= 0.0 => None,
             true => self.single(wi, Vec3::splat(layer.weight), coat),
