@@ -287,9 +287,9 @@ fn a_leaning_coat_is_sampled_as_it_is_evaluated() {
         let wo = view(0.6);
         let bsdf = Bsdf::new(&coated, wo);
         // By the midpoint rule over the cosine and the azimuth.
-        let steps = 400;
+        let steps = 400_u32;
         let middle = |k: u32| (f64::from(k) + 0.5) / f64::from(steps);
-        let cells = (0..steps).flat_map(|i| (0..steps).map(move |j| [middle(i), middle(j)]));
+        let cells = (0..steps * steps).map(|k| [middle(k % steps), middle(k / steps)]);
         let sum: f64 = cells
             .map(|[cosine, turn]| {
                 let sine = (1.0 - cosine * cosine).sqrt();

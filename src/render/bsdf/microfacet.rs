@@ -347,21 +347,19 @@ impl<const F: u32> Microfacet<F> {
     #[inline(never)]
     fn integrated(&self, wo: Vec3) -> [f64; 2] {
         /// The error is about one per cent.
-        const NORMALS: u32 = 64;
+        const NORMALS: u32 = 128;
         /// The inverse of the golden ratio.
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
         let mut sum = [0.0; 2];
         for k in 0..NORMALS {
             let k = f64::from(k) + 0.5;
-            // Take more samples in the long tail of the slopes, with smaller weights.
-            let rest = 1.0 - k / f64::from(NORMALS);
-            let u = [1.0 - rest * rest, (k * GOLDEN).fract()];
+            let u = [k / f64::from(NORMALS), (k * GOLDEN).fract()];
             let h = self.facets.visible_normal(wo, u);
             let cosine = wo.dot(h);
             let reflectance = self.dielectric_at(cosine).max_element();
             let reflected = h * (2.0 * cosine) - wo;
             if reflected.z > 0.0 {
-                sum[0] += rest * reflectance * self.facets.unhidden(wo, reflected);
+                sum[0] += reflectance * self.facets.unhidden(wo, reflected);
             }
             let through = self.transmitted(wo, h, cosine);
             if let Some(wi) = through.filter(|wi| wi.z < 0.0) {
@@ -369,10 +367,10 @@ impl<const F: u32> Microfacet<F> {
                     BoundaryCrossing::Refracted => wi,
                     BoundaryCrossing::Wall | BoundaryCrossing::Straight => reflected,
                 };
-                sum[1] += rest * (1.0 - reflectance) * self.facets.unhidden(wo, towards);
+                sum[1] += (1.0 - reflectance) * self.facets.unhidden(wo, towards);
             }
         }
-        sum.map(|sum| 2.0 * sum / f64::from(NORMALS))
+        sum.map(|sum| sum / f64::from(NORMALS))
     }
 
     /// The Fresnel reflectance of the dielectric. Schlick's formula takes the angle in the medium
