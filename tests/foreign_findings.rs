@@ -120,6 +120,36 @@ fn what_has_no_effect_in_mitsuba_is_told() {
         (r#"<emitter type="constant"/><bsdf type="diffuse" id="a"/><bsdf type="diffuse" id="a"/>"#.to_owned(), "MI006", "the id `a`"),
         (r#"<emitter type="constant"/><integrator type="path"><boolean name="hide_emitters" value="true"/></integrator>"#.to_owned(), "MI004", "lights are seen"),
         (r#"<emitter type="constant"/><float name="exposure" value="1"/>"#.to_owned(), "MI005", "`exposure`"),
+        (
+            in_sphere(r#"<bsdf type="diffuse"/><bsdf type="plastic"/>"#),
+            "MI006",
+            "a second `<bsdf>`",
+        ),
+        (
+            in_sphere(r#"<sampler type="independent"/>"#),
+            "MI005",
+            "`<sampler>` has no effect here",
+        ),
+        (
+            in_bsdf("twosided", ""),
+            "MI004",
+            "holds no BSDF",
+        ),
+        (
+            in_bsdf("normalmap", r#"<bsdf type="diffuse"/>"#),
+            "MI004",
+            "has no texture",
+        ),
+        (
+            in_bsdf("diffuse", r#"<texture name="reflectance" type="bitmap"/>"#),
+            "MI003",
+            "names no file",
+        ),
+        (
+            r#"<emitter type="envmap"/>"#.to_owned(),
+            "MI003",
+            "names no file",
+        ),
     ];
     for (body, code, text) in cases {
         mitsuba(&body).tells(code, text);
@@ -379,9 +409,11 @@ fn what_has_no_effect_in_pbrt_is_told() {
     // A default that a plugin does not have is one of others.
     let silent = pbrt(
         "Attribute \"shape\" \"float radius\" 2\nShape \"sphere\"\nShape \"trianglemesh\" \
-         \"integer indices\" [0 1 2] \"point3 P\" [0 0 0 1 0 0 0 1 0]\nOption \"integer seed\" 7",
+         \"integer indices\" [0 1 2] \"point3 P\" [0 0 0 1 0 0 0 1 0]\nOption \"integer seed\" 7\nAttribute \"light\" \"bool twosided\" true",
     );
     assert_eq!(silent.findings, []);
+    let early = PBRT.replace("WorldBegin\n", "Shape \"sphere\"\nWorldBegin\n");
+    outcome(&[("a.pbrt", early.as_bytes())]).tells("PB006", "before `WorldBegin`");
     let film = PBRT.replace(
         "Film \"rgb\"",
         "Film \"rgb\" \"float maxcomponentvalue\" 0.5",

@@ -18,6 +18,9 @@ use rtc_ir::{Mode, PathSettings, Settings};
 use rtc_math::PixelFilter;
 use rtc_source::Span;
 
+/// The memory of a surface and its span while their lists grow, in bytes, rounded up.
+pub(crate) const SURFACE_BYTES: u64 = 768;
+
 /// A string of a text and its span.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct SpannedText {

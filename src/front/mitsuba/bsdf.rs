@@ -9,7 +9,6 @@ use super::number::{NumberOrMap, NumberUse};
 use super::plugins::{BSDFS, TEXTURES};
 use super::xml::{PluginNode, Value};
 use super::{AssetTarget, Lowering};
-use crate::exchange::SpannedText;
 use crate::exchange::checkerboard::checkerboard;
 use crate::exchange::color::{MIRROR, copper, metal, named_ior};
 use crate::exchange::material::{matte, opaque};
@@ -296,7 +295,11 @@ impl<'run> Lowering<'run> {
         }
         match children.first() {
             Some(child) => self.standard(child, flip, depth + 1),
-            None => Some(matte([0.5; 3])),
+            None => {
+                let message = format!("`{}` holds no BSDF: grey replaces it", node.plugin.text);
+                self.approximate(node.plugin.span, message);
+                Some(matte([0.5; 3]))
+            }
         }
     }
 
@@ -609,9 +612,12 @@ impl<'run> Lowering<'run> {
     /// The map of a texture child.
     pub(super) fn map(&mut self, node: &'run PluginNode, name: &str, flip: bool) -> Option<Map> {
         let texture = node.child(name).and_then(|child| self.resolve(child));
-        let texture =
-            texture.or_else(|| node.children.iter().find(|child| child.tag == "texture"))?;
-        self.texture(texture, flip)
+        let texture = texture.or_else(|| node.children.iter().find(|child| child.tag == "texture"));
+        if texture.is_none() {
+            let message = format!("`{}` has no texture, and no effect", node.plugin.text);
+            self.approximate(node.plugin.span, message);
+        }
+        self.texture(texture?, flip)
     }
 
     /// A texture as a map; `None` for one that is not supported.
@@ -619,7 +625,10 @@ impl<'run> Lowering<'run> {
         // Find the image and the filter.
         let (image, filter) = match TEXTURES.known(&node.plugin.text) {
             "bitmap" => {
-                let path: &SpannedText = node.string("filename")?;
+                let Some(path) = node.string("filename") else {
+                    self.unsupported(node, "it names no file, and white replaces it");
+                    return None;
+                };
                 let filter = match node.string("filter_type") {
                     Some(name) if name.text == "nearest" => Filter::Nearest,
                     _ => Filter::Linear,

@@ -127,6 +127,9 @@ impl<'run> Lowering<'run> {
         }
         self.record(EntityKind::Environment, 0, node.span);
         let path = has_image.then(|| node.string("filename")).flatten();
+        if has_image && path.is_none() {
+            self.unsupported(node, "it names no file, and white light replaces it");
+        }
         let image = path.map(|path| self.image(path, AssetTarget::Environment));
         let to_world = node.transform("to_world");
         let [x, y, z] = to_world

@@ -5,7 +5,7 @@ use super::one_sided::OneSided;
 use super::plugins::SHAPES;
 use super::xml::PluginNode;
 use crate::exchange::transform::AffineTransform;
-use crate::exchange::{round, tessellate};
+use crate::exchange::{SURFACE_BYTES, round, tessellate};
 use crate::mesh::PlyColors;
 use rtc_ir::{EntityKind, Material, MaterialId, Mesh, MeshId, Scene, Shape, Surface, VertexColumn};
 use rtc_math::Vec3;
@@ -24,11 +24,15 @@ impl<'run> Lowering<'run> {
     fn shape_at(&mut self, node: &'run PluginNode, outer: &AffineTransform, depth: usize) {
         // Charge each visit and what it looks through, as groups of groups multiply.
         let parts = (node.children.len() + node.properties.len()) as u64;
-        let charged = self.charge(Resource::Surfaces, 1, node.span);
-        if charged
-            .and_then(|()| self.charge(Resource::Nodes, parts, node.span))
-            .is_none()
-        {
+        let charges = [
+            (Resource::Surfaces, 1),
+            (Resource::Memory, SURFACE_BYTES),
+            (Resource::Nodes, parts),
+        ];
+        let is_charged = charges
+            .into_iter()
+            .all(|(resource, amount)| self.charge(resource, amount, node.span).is_some());
+        if !is_charged {
             return;
         }
         let to_world = outer.after(&node.transform("to_world"));

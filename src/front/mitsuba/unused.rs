@@ -88,6 +88,9 @@ impl<'run> Lowering<'run> {
                 (value.element(), &is_read),
             );
         }
+        if node.tag != "scene" {
+            self.report_misplaced(node);
+        }
         if plugin.is_some_and(|plugin| TAKE_ANY_TEXTURE.contains(&plugin.name)) {
             return;
         }
@@ -111,6 +114,26 @@ impl<'run> Lowering<'run> {
                 types.any(|own| own == kind || own == "volume" || is_constant && own == "rgb")
             };
             self.report_unread(node, plugin, (name, child.span), (kind, &is_read));
+        }
+    }
+
+    /// Warns of elements that have no effect in another one, and of a second one where one counts.
+    fn report_misplaced(&mut self, node: &'run PluginNode) {
+        /// The elements of which one counts.
+        const SINGLE: [&str; 6] = ["bsdf", "emitter", "film", "sampler", "rfilter", "phase"];
+        let known = plugins::find(&node.tag).map_or(&[][..], |element| element.children);
+        let mut seen = BTreeSet::new();
+        for child in &node.children {
+            let tag = self.shared_node(child).unwrap_or(child).tag.as_str();
+            let is_value = matches!(
+                tag,
+                "texture" | "spectrum" | "rgb" | "srgb" | "volume" | "ref"
+            );
+            if !is_value && !known.contains(&tag) {
+                self.ignored_element(child);
+            } else if SINGLE.contains(&tag) && node.tag != "bsdf" && !seen.insert(tag) {
+                self.doubtful(child.span, format!("a second `<{tag}>` has no effect here"));
+            }
         }
     }
 

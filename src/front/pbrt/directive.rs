@@ -2,11 +2,12 @@
 
 use super::Lowering;
 use super::parameter::{self, Parameters};
-use super::plugins::{DIRECTIVES, TARGETS};
+use super::plugins::{AREA_LIGHTS, DIRECTIVES, TARGETS};
 use super::state::{ActiveTransform, StateOpener};
 use super::token::{PbrtToken, PbrtTokenKind};
 use crate::exchange::SpannedText;
 use crate::exchange::transform::AffineTransform;
+use crate::plugin::PluginKind;
 use rtc_diag::{Diagnostic, clip, codes, nearest};
 use rtc_math::Vec3;
 use rtc_source::{FileId, Resource, Span};
@@ -262,8 +263,13 @@ impl Lowering<'_> {
         };
         for parameter in &parameters.list {
             let name = &parameter.name;
-            let mut plugins = kind.plugins.iter();
-            if !plugins.any(|plugin| kind.has(plugin.name, &name.text)) {
+            // Area lights are lights, too.
+            let is_of = |kind: &PluginKind| {
+                let mut plugins = kind.plugins.iter();
+                plugins.any(|plugin| kind.has(plugin.name, &name.text))
+            };
+            let is_read = is_of(kind) || target.text == "light" && is_of(&AREA_LIGHTS);
+            if !is_read {
                 let name_text = clip(&name.text);
                 let message = format!("`{name_text}` has no effect on any {}", target.text);
                 self.report(&codes::PBRT_IGNORED, name.span, message);
@@ -517,6 +523,11 @@ impl Lowering<'_> {
             return self.mistake(span, "`WorldBegin` stands here a second time");
         }
         self.in_world = true;
+        let scene = &self.scene;
+        if !scene.surfaces.is_empty() || !scene.lights.is_empty() || scene.environment.is_some() {
+            let message = "shapes and lights before `WorldBegin` are shown; pbrt leaves them out";
+            self.doubtful(span, message);
+        }
         self.finish_view();
         self.state.transform = AffineTransform::IDENTITY;
         self.state.active = ActiveTransform::All;

@@ -6,11 +6,11 @@ use super::material::LoweredMaterial;
 use super::medium::InterfaceMedia;
 use super::parameter::Parameters;
 use super::plugins::SHAPES;
-use crate::exchange::SpannedText;
 use crate::exchange::one_sided::{behind, flat, flat_mesh};
 use crate::exchange::round::{disc, sphere};
 use crate::exchange::tessellate;
 use crate::exchange::transform::AffineTransform;
+use crate::exchange::{SURFACE_BYTES, SpannedText};
 use crate::mesh::{self, TextParseError};
 use crate::over_limit;
 use rtc_diag::{clip_words, codes};
@@ -25,8 +25,6 @@ const PLY: FileKind = FileKind {
     begins: |head| head.starts_with(b"ply") || super::file::is_gzip(head),
 };
 
-/// The memory of a surface and its span while their lists grow, in bytes, rounded up.
-const SURFACE_BYTES: u64 = 768;
 /// The memory of a vertex with its triangles, in bytes, rounded up.
 const VERTEX_BYTES: u64 = 128;
 /// The rows of a round profile.
