@@ -292,7 +292,7 @@ fn the_pictures_of_two_folders_are_compared_in_one_table() {
 
     let (_, csv, _) = diff(&folder, &["handed-in", "solutions", "--table", "csv"]);
     assert!(
-        csv.starts_with("picture,result,rmse,max,flip,share\na/other.png,differs,"),
+        csv.starts_with("file,result,rmse,max,flip,share\na/other.png,differs,"),
         "{csv}"
     );
     assert!(csv.contains("\nsame.png,same,0,0,0,0\n"), "{csv}");
@@ -458,4 +458,29 @@ fn two_pictures_of_one_value_each_are_a_warning() {
     assert!(diff(&folder, &args).2.contains("warning[RD016]"));
     let args = ["ball.json", "away.json"];
     assert!(!diff(&folder, &args).2.contains("RD016"));
+}
+
+#[test]
+fn the_scenes_of_folders_without_pictures_are_compared() {
+    let folder = folder();
+    for (class, scene) in [
+        ("handed-in", scene_with("[1, 0, 0]", "[0, 1, 0]")),
+        ("solutions", SCENE.to_owned()),
+    ] {
+        fs::create_dir(folder.path().join(class)).unwrap();
+        fs::write(folder.path().join(class).join("ball.json"), scene).unwrap();
+        fs::write(folder.path().join(class).join("same.json"), SCENE).unwrap();
+        fs::copy(
+            folder.path().join("bad.json"),
+            folder.path().join(class).join("wrong.json"),
+        )
+        .unwrap();
+    }
+    let (exit, csv, said) = diff(&folder, &["handed-in", "solutions", "--table", "csv"]);
+    let lines: Vec<_> = csv.lines().collect();
+    assert_eq!(exit, 2, "one has errors: {said}");
+    assert!(lines[1].starts_with("ball.json,differs,"), "{csv}");
+    assert_eq!(lines[2], "same.json,same,0,0,0,0");
+    assert_eq!(lines[3], "wrong.json,one has errors,,,,");
+    assert!(lines[4].starts_with("3 scenes,"), "{csv}");
 }

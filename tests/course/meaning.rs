@@ -131,6 +131,8 @@ fn an_intensity_says_that_it_makes_paths_and_beside_a_color_is_a_factor() {
     for asked in ["RenderMode: path\n", "PathParameters: {samples: 2}\n"] {
         assert_eq!(accepted(&format!("{asked}{alone}")).1, [""; 0]);
     }
+    let (_, warnings) = accepted(&format!("RenderMode: phong\n{alone}"));
+    assert_eq!(warnings, ["SC013"], "it fades");
     let spot = "{position: [5, 9, 800], direction: [0, 0, -1], outerAngle: 0.5, intensity: 5}";
     assert_eq!(
         accepted(&lit_by(spot)).1,

@@ -18,9 +18,10 @@ Examples:
   rtc diff new.yaml old.yaml --html page.html
   rtc diff handed-in/ solutions/ --gate 'share<=1%' --table csv")]
 pub(crate) struct DiffArgs {
-    /// The new picture (PNG, JPEG, WebP, EXR or HDR) or scene, or a folder of pictures
+    /// The new picture (PNG, JPEG, WebP, EXR or HDR) or scene, or a folder
     ///
-    /// Of two folders, pictures of one name are compared, those in folders below, too.
+    /// Of two folders, pictures of one name are compared, those in folders below, too; of folders
+    /// without pictures, scenes.
     #[arg(value_name = "NEW", value_hint = ValueHint::FilePath)]
     pub(crate) new: PathBuf,
     /// The old picture, of the same size, or the old scene

@@ -85,7 +85,7 @@ pub(super) enum Command {
     Farm(Box<FarmArgs>),
     /// Show the error and the time of each setting, and recommend one
     Cost(CostArgs),
-    /// Compare two pictures, scenes or folders of pictures, and apply gates
+    /// Compare two pictures, scenes or folders, and apply gates
     Diff(DiffArgs),
     /// Verify a picture against its metadata: render some tiles again
     Audit(Box<AuditArgs>),

@@ -1,12 +1,15 @@
-//! The pictures of two folders: those of one name are compared, in one table with a total.
+//! The pictures of two folders, or the scenes of folders without pictures: those of one name are
+//! compared, in one table with a total.
 
 use super::super::args::{DiffArgs, TableFormat};
 use super::super::interrupt::Interrupt;
+use super::super::reporter::Reporter;
 use super::super::table::{FileTable, TableCell};
 use super::super::{Failure, files, output, reporter};
-use super::{measure, pictures};
+use super::{measure, pictures, scenes};
 use rtc_study::Difference;
-use std::path::Path;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
 /// What was found of one name.
 enum Comparison {
@@ -16,24 +19,53 @@ enum Comparison {
     Failed(String),
 }
 
-/// Compares the pictures of two folders, prints their table, and applies the gates to each pair.
-pub(super) fn run(args: &DiffArgs) -> Result<(), Failure> {
+/// What is compared in the folders.
+#[derive(Clone, Copy, PartialEq)]
+enum FileKind {
+    Pictures,
+    Scenes,
+}
+
+/// The files that the new and the old folder have of one kind: pictures, or else scenes.
+fn listed(args: &DiffArgs) -> Result<(FileKind, [BTreeSet<PathBuf>; 2]), Failure> {
+    let found = [files::pictures(&args.new)?, files::pictures(&args.old)?];
+    if found.iter().any(|files| !files.is_empty()) {
+        return Ok((FileKind::Pictures, found));
+    }
+    let scenes = |folder: &PathBuf| {
+        let found = files::scenes(std::slice::from_ref(folder), false);
+        let paths = found.map_or_else(|_| Vec::new(), |found| found.paths);
+        let within = |path: PathBuf| path.strip_prefix(folder).map(Path::to_owned).ok();
+        paths.into_iter().filter_map(within).collect()
+    };
+    let found: [BTreeSet<PathBuf>; 2] = [scenes(&args.new), scenes(&args.old)];
+    match found.iter().all(BTreeSet::is_empty) {
+        true => {
+            let message = "there are no pictures and no scenes in these folders";
+            Err(Failure::Failed(message.to_owned()))
+        }
+        false => Ok((FileKind::Scenes, found)),
+    }
+}
+
+/// Compares the files of two folders, prints their table, and applies the gates to each pair.
+pub(super) fn run(args: &DiffArgs, reporter: &mut Reporter) -> Result<(), Failure> {
     if args.output.is_some() || args.html.is_some() {
-        let message = "`--output` and `--html` are of two pictures; compare those that differ";
+        let message = "`--output` and `--html` are of two files; compare those that differ";
         return Err(Failure::Failed(message.to_owned()));
     }
     let interrupt = Interrupt::listen()?;
-    let [new, old] = [files::pictures(&args.new)?, files::pictures(&args.old)?];
-    if new.is_empty() && old.is_empty() {
-        let message = "there are no pictures in these folders; render their scenes first";
-        return Err(Failure::Failed(message.to_owned()));
-    }
+    let (kind, [new, old]) = listed(args)?;
     let (mut rows, mut failed, mut lacking) = (Vec::new(), false, false);
     for path in new.union(&old) {
         if interrupt.is_raised() {
             return Err(Failure::Interrupted);
         }
-        let found = compare(args, path, [new.contains(path), old.contains(path)])?;
+        let found = match [new.contains(path), old.contains(path)] {
+            [true, true] => compare(args, kind, path, (reporter, &interrupt))?,
+            [true, false] => alone(&args.new),
+            [false, _] => alone(&args.old),
+        };
         let has_passed = has_passed(args, &found);
         failed |= has_passed == Some(false);
         lacking |= matches!(found, Comparison::Failed(_));
@@ -45,7 +77,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<(), Failure> {
         (None, false) => TableFormat::Text,
     };
     if !args.reporter.quiet || format != TableFormat::Text {
-        output::to_stdout(table(rows).print(format).as_bytes())?;
+        output::to_stdout(table(kind, rows).print(format).as_bytes())?;
     }
     match (failed, lacking) {
         (true, _) => {
@@ -57,21 +89,32 @@ pub(super) fn run(args: &DiffArgs) -> Result<(), Failure> {
     }
 }
 
-/// Compares the two pictures of a name, of which one may be missing.
-fn compare(args: &DiffArgs, path: &Path, is_there: [bool; 2]) -> Result<Comparison, Failure> {
-    let alone = |folder: &Path| Comparison::Failed(format!("only in {}", folder.display()));
+/// A file that one folder alone has.
+fn alone(folder: &Path) -> Comparison {
+    Comparison::Failed(format!("only in {}", folder.display()))
+}
+
+/// Compares the two files of a name.
+fn compare(
+    args: &DiffArgs,
+    kind: FileKind,
+    path: &Path,
+    (reporter, interrupt): (&mut Reporter, &Interrupt),
+) -> Result<Comparison, Failure> {
     let paths = [args.new.join(path), args.old.join(path)];
-    match is_there {
-        [true, true] => {}
-        [true, false] => return Ok(alone(&args.new)),
-        [false, _] => return Ok(alone(&args.old)),
-    }
-    match pictures::difference(paths.each_ref().map(AsRef::as_ref), args) {
+    let paths = paths.each_ref().map(AsRef::as_ref);
+    let found = match kind {
+        FileKind::Pictures => pictures::difference(paths, args),
+        FileKind::Scenes => scenes::difference(paths, args, reporter, interrupt).map(Some),
+    };
+    match found {
         Ok(found) => Ok(Comparison::Of(
             found.unwrap_or_else(|| Difference::none(args.levels)),
         )),
-        Err(Failure::Failed(message)) => Ok(Comparison::Failed(message)),
-        Err(failure) => Err(failure),
+        Err(Failure::Failed(message) | Failure::Input(message)) => Ok(Comparison::Failed(message)),
+        Err(Failure::Reported) => Ok(Comparison::Failed("one has errors".to_owned())),
+        Err(Failure::Unreadable) => Ok(Comparison::Failed("one can't be read".to_owned())),
+        Err(stopped @ (Failure::Interrupted | Failure::ClosedPipe)) => Err(stopped),
     }
 }
 
@@ -115,7 +158,7 @@ fn measures(found: &Difference) -> [TableCell; 4] {
 }
 
 /// The table of all pairs; the total has the largest of each measure.
-fn table(rows: Vec<(Vec<TableCell>, Comparison)>) -> FileTable {
+fn table(kind: FileKind, rows: Vec<(Vec<TableCell>, Comparison)>) -> FileTable {
     let most = |of: fn(&Difference) -> f64| {
         let values = rows.iter().filter_map(|(_, found)| match found {
             Comparison::Of(found) => Some(of(found)),
@@ -131,7 +174,10 @@ fn table(rows: Vec<(Vec<TableCell>, Comparison)>) -> FileTable {
         rows.len() - same - lacking
     );
     let total = vec![
-        TableCell::Text(format!("{} pictures", rows.len())),
+        TableCell::Text(match kind {
+            FileKind::Pictures => format!("{} pictures", rows.len()),
+            FileKind::Scenes => format!("{} scenes", rows.len()),
+        }),
         TableCell::Text(result),
         TableCell::Measure(most(|found| found.rmse), 4),
         TableCell::Measure(most(|found| found.max), 2),
@@ -140,7 +186,7 @@ fn table(rows: Vec<(Vec<TableCell>, Comparison)>) -> FileTable {
     ];
     FileTable {
         schema: "rtc-diff-table/1",
-        columns: &["picture", "result", "rmse", "max", "flip", "share"],
+        columns: &["file", "result", "rmse", "max", "flip", "share"],
         total,
         rows: rows.into_iter().map(|(row, _)| row).collect(),
     }

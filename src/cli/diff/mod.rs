@@ -1,5 +1,5 @@
 //! `rtc diff`: the differences between two pictures, or two scenes and their pictures, or the
-//! pictures of two folders, with gates.
+//! pictures or scenes of two folders, with gates.
 
 mod folders;
 mod pictures;
@@ -43,7 +43,10 @@ const PAGE_PIXEL: u64 = 104;
 /// Compares two pictures or two scenes, and reports the differences.
 pub(super) fn run(args: &DiffArgs) -> Result<(), Failure> {
     if args.new.is_dir() && args.old.is_dir() {
-        return folders::run(args);
+        let mut reporter = Reporter::beside_result(&args.reporter);
+        let outcome = folders::run(args, &mut reporter);
+        reporter.finish()?;
+        return outcome;
     }
     if args.table.is_some() {
         let message = "`--table` is of two folders; `--format` is of two files";

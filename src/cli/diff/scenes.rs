@@ -8,7 +8,7 @@ use super::super::render::ended;
 use super::super::reporter::Reporter;
 use super::super::{input, simd};
 use super::{ComparedInputs, DiffOutputs, report};
-use rtc_codec::changes;
+use rtc_codec::{ValueChange, changes};
 use rtc_image::{BackgroundFill, DisplayedPicture, FileFormat, Picture};
 use rtc_ir::{Camera, LoweredScene, Scene};
 use rtc_passes::{Framing, ViewAndLight};
@@ -16,6 +16,7 @@ use rtc_pipeline::{
     Input, LoadedScene, OutputTransform, PictureSetup, RenderObserver, RenderSubject,
 };
 use rtc_render::Film;
+use rtc_study::Difference;
 use std::path::Path;
 
 /// A scene to be compared, as its picture is set up.
@@ -35,26 +36,12 @@ pub(super) fn run(args: &DiffArgs, reporter: &mut Reporter) -> Result<(), Failur
         return Err(Failure::Failed(message.to_owned()));
     }
     let interrupt = Interrupt::listen()?;
-    // What differs is told of the scenes as they are written, without the view and the studio that
-    // an asset gets.
-    let new = read(args, &args.new, reporter)?;
-    let mut old = read(args, &args.old, reporter)?;
-    if !new.1.has_camera() && !old.1.has_camera() {
-        old.1.lowered.scene.camera = new.1.lowered.scene.camera.clone();
-    }
-    let changed = changes(&new.1.lowered.scene, &old.1.lowered.scene);
-    let mut new = ComparedScene::validate(args, new, None, reporter)?;
-    let mut old = ComparedScene::validate(args, old, Some(new.size()), reporter)?;
-    let changed = changed.expect("proven scenes hold finite numbers only");
-    if let Some(camera) = shared_view(&new, &old) {
-        new.see_by(&camera)?;
-    }
-    old.see_by(&new.scene().camera)?;
+    let mut pair = ScenePair::read(args, [&args.new, &args.old], reporter)?;
     let open = |path: &Option<_>| {
         let path: Option<&Path> = path.as_deref();
         let open = |path: &Path| {
-            Output::open(path, &old.input)?;
-            Output::open(path, &new.input)
+            Output::open(path, &pair.old.input)?;
+            Output::open(path, &pair.new.input)
         };
         path.map(open).transpose()
     };
@@ -62,20 +49,70 @@ pub(super) fn run(args: &DiffArgs, reporter: &mut Reporter) -> Result<(), Failur
         map: open(&args.output)?,
         page: open(&args.html)?,
     };
-    let first = new.picture(reporter, &interrupt)?;
-    let second = old.picture(reporter, &interrupt)?;
+    let [first, second] = pair.pictures(reporter, &interrupt)?;
     let compared = ComparedInputs {
         pictures: Some([&first, &second]),
         size: first.size(),
-        changes: Some(&changed),
+        changes: Some(&pair.changes),
     };
     report(
         args,
         outputs,
         &compared,
-        (new.input.map(), reporter),
+        (pair.new.input.map(), reporter),
         &interrupt,
     )
+}
+
+/// How the pictures of two scenes differ, whose diagnostics are reported.
+pub(super) fn difference(
+    paths: [&Path; 2],
+    args: &DiffArgs,
+    reporter: &mut Reporter,
+    interrupt: &Interrupt,
+) -> Result<Difference, Failure> {
+    let mut pair = ScenePair::read(args, paths, reporter)?;
+    let [new, old] = pair.pictures(reporter, interrupt)?;
+    Ok(Difference::of(&new, &old, args.levels))
+}
+
+/// Two scenes, which one camera sees, and what differs in them.
+struct ScenePair {
+    new: ComparedScene,
+    old: ComparedScene,
+    changes: Vec<ValueChange>,
+}
+
+impl ScenePair {
+    /// Reads the scenes, the new one first, and reports their diagnostics.
+    fn read(args: &DiffArgs, paths: [&Path; 2], reporter: &mut Reporter) -> Result<Self, Failure> {
+        // What differs is told of the scenes as they are written, without the view and the studio
+        // that an asset gets.
+        let new = read(args, paths[0], reporter)?;
+        let mut old = read(args, paths[1], reporter)?;
+        if !new.1.has_camera() && !old.1.has_camera() {
+            old.1.lowered.scene.camera = new.1.lowered.scene.camera.clone();
+        }
+        let changes = changes(&new.1.lowered.scene, &old.1.lowered.scene);
+        let mut new = ComparedScene::validate(args, new, None, reporter)?;
+        let mut old = ComparedScene::validate(args, old, Some(new.size()), reporter)?;
+        let changes = changes.expect("proven scenes hold finite numbers only");
+        if let Some(camera) = shared_view(&new, &old) {
+            new.see_by(&camera)?;
+        }
+        old.see_by(&new.scene().camera)?;
+        Ok(Self { new, old, changes })
+    }
+
+    /// The pictures of both.
+    fn pictures(
+        &mut self,
+        reporter: &mut Reporter,
+        interrupt: &Interrupt,
+    ) -> Result<[DisplayedPicture; 2], Failure> {
+        let new = self.new.picture(reporter, interrupt)?;
+        Ok([new, self.old.picture(reporter, interrupt)?])
+    }
 }
 
 /// Reads a scene, to be lit and framed as `rtc render` does, and reports its diagnostics.

@@ -92,9 +92,8 @@ impl Lowering {
                 let hint = "`RenderMode: path` selects path tracing";
                 report(paths.span, message, hint, Severity::Warning, context);
             }
-        } else {
-            self.report_intensity(scene, context);
         }
+        self.report_intensity(scene, context);
         if is_path && scene.toon.value {
             let message = "`Toon` has no effect on path tracing";
             let hint = "`RenderMode: phong` has toon shading";
@@ -102,21 +101,28 @@ impl Lowering {
         }
     }
 
-    /// Reports that the `intensity` of a light alone makes the scene path traced.
+    /// Reports that the `intensity` of a light alone makes the scene path traced, or that the light
+    /// fades.
     fn report_intensity(&self, scene: &Scene, context: &mut DecodeContext<'_>) {
         let PlainIntensity::First(Some(span)) = self.dependent.intensity else {
             return;
         };
-        let is_asked_for = scene.mode.span.is_some() || !scene.paths.is_absent();
-        if is_asked_for
-            || self.is_physical(|light| {
-                matches!(light, ir::Light::Punctual(light)
-            if !matches!(light.emitter, ir::PunctualKind::Point { .. }))
-            })
-        {
+        let is_other = |light: &ir::Light| {
+            let ir::Light::Punctual(light) = light else {
+                return false;
+            };
+            !matches!(light.emitter, ir::PunctualKind::Point { .. })
+        };
+        let is_asked_for = scene.mode.value == Mode::Path || !scene.paths.is_absent();
+        if is_asked_for || self.is_physical(is_other) {
             return;
         }
-        let message = || "a light with an `intensity` makes the scene path traced".to_owned();
+        let message = match self.scene.settings.mode {
+            ir::Mode::Path(_) => "a light with an `intensity` makes the scene path traced",
+            ir::Mode::Phong | ir::Mode::Gooch(_) => "a light with an `intensity` fades",
+            ir::Mode::Depth | ir::Mode::Normal => return,
+        };
+        let message = || message.to_owned();
         context.report(&codes::KEY_READ_DIFFERENTLY, span, message, |d| {
             d.at(span, "in candela: it fades with the square of the distance")
                 .hint(

@@ -258,6 +258,16 @@ const FOREIGN_KEYS: &[ForeignKeys] = &[
             all directions",
     },
     ForeignKeys {
+        record: "`SuperSampling` map",
+        keys: &["samples", "rays", "count", "size", "level", "n", "rate"],
+        advice: "`factor` is the number of rays along each side of a pixel",
+    },
+    ForeignKeys {
+        record: "`SuperSampling` map",
+        keys: &["jitter", "jittered", "random", "stratified", "type", "mode"],
+        advice: "`pattern` is `grid`, `jitter` or `random`",
+    },
+    ForeignKeys {
         record: "light",
         keys: &["power", "brightness", "strength", "energy"],
         advice: "the strength of a light is that of its `color`, which may be more than 1",
