@@ -174,9 +174,11 @@ fn table(kind: FileKind, rows: Vec<(Vec<TableCell>, Comparison)>) -> FileTable {
         rows.len() - same - lacking
     );
     let total = vec![
-        TableCell::Text(match kind {
-            FileKind::Pictures => format!("{} pictures", rows.len()),
-            FileKind::Scenes => format!("{} scenes", rows.len()),
+        TableCell::Text(match (rows.len(), kind) {
+            (1, FileKind::Pictures) => "1 picture".to_owned(),
+            (1, FileKind::Scenes) => "1 scene".to_owned(),
+            (count, FileKind::Pictures) => format!("{count} pictures"),
+            (count, FileKind::Scenes) => format!("{count} scenes"),
         }),
         TableCell::Text(result),
         TableCell::Measure(most(|found| found.rmse), 4),
