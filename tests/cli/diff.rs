@@ -464,7 +464,10 @@ fn two_pictures_of_one_value_each_are_a_warning() {
 fn the_scenes_of_folders_without_pictures_are_compared() {
     let folder = folder();
     for (class, scene) in [
-        ("handed-in", scene_with("[1, 0, 0]", "[0, 1, 0]")),
+        (
+            "handed-in",
+            scene_with("\"color\": [1, 0, 0]", "\"color\": [0, 1, 0]"),
+        ),
         ("solutions", SCENE.to_owned()),
     ] {
         fs::create_dir(folder.path().join(class)).unwrap();

@@ -20,7 +20,7 @@ enum Comparison {
 }
 
 /// What is compared in the folders.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy)]
 enum FileKind {
     Pictures,
     Scenes,
@@ -62,7 +62,7 @@ pub(super) fn run(args: &DiffArgs, reporter: &mut Reporter) -> Result<(), Failur
             return Err(Failure::Interrupted);
         }
         let found = match [new.contains(path), old.contains(path)] {
-            [true, true] => compare(args, kind, path, (reporter, &interrupt))?,
+            [true, true] => compare(args, kind, path, reporter, &interrupt)?,
             [true, false] => alone(&args.new),
             [false, _] => alone(&args.old),
         };
@@ -99,7 +99,8 @@ fn compare(
     args: &DiffArgs,
     kind: FileKind,
     path: &Path,
-    (reporter, interrupt): (&mut Reporter, &Interrupt),
+    reporter: &mut Reporter,
+    interrupt: &Interrupt,
 ) -> Result<Comparison, Failure> {
     let paths = [args.new.join(path), args.old.join(path)];
     let paths = paths.each_ref().map(AsRef::as_ref);

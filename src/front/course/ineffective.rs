@@ -113,7 +113,8 @@ impl Lowering {
             };
             !matches!(light.emitter, ir::PunctualKind::Point { .. })
         };
-        let is_asked_for = scene.mode.value == Mode::Path || !scene.paths.is_absent();
+        let is_expected = matches!(scene.mode.value, Mode::Path | Mode::Uv | Mode::UvDown);
+        let is_asked_for = is_expected || !scene.paths.is_absent();
         if is_asked_for || self.is_physical(is_other) {
             return;
         }
