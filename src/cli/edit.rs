@@ -1,11 +1,11 @@
 //! A text file that is changed: shown as a unified diff, or written.
 
-use super::Failure;
+use super::{Failure, output};
 use rtc_diag::clean;
 use rtc_pipeline::AtomicFile;
 use rtc_source::{Loader, SourceMap};
 use similar::TextDiff;
-use std::io;
+use std::io::{self, IsTerminal};
 use std::path::Path;
 
 /// Lines shown around each change.
@@ -19,6 +19,14 @@ pub(super) fn diff(name: &str, before: &str, after: &str) -> String {
         .context_radius(AROUND)
         .header(&name, &name)
         .to_string()
+}
+
+/// Prints such changes; a terminal is shown no characters of the text that command it.
+pub(super) fn print(diff: &str) -> Result<(), Failure> {
+    match io::stdout().is_terminal() {
+        true => output::print(&diff.replace("\r\n", "\n")),
+        false => output::to_stdout(diff.as_bytes()),
+    }
 }
 
 /// Puts the text into the file, unless someone else has changed it since it was read.

@@ -3,7 +3,7 @@
 use super::args::CheckArgs;
 use super::project::Project;
 use super::reporter::{self, Reporter};
-use super::{Failure, edit, input, output};
+use super::{Failure, edit, input};
 use rtc_pipeline::{self as pipeline, FixFilter, FixedText, Input};
 use std::path::Path;
 
@@ -40,7 +40,7 @@ pub(super) fn run(
     }
     // Show the changes, or write the text and go on with it.
     if args.diff {
-        output::to_stdout(edit::diff(read.name(), text, &fixed.text).as_bytes())?;
+        edit::print(&edit::diff(read.name(), text, &fixed.text))?;
         return Ok(read);
     }
     edit::write(path, text, &fixed.text)?;

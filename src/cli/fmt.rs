@@ -45,7 +45,7 @@ fn one(path: &Path, args: &FmtArgs, reporter: &mut Reporter) -> Result<(), Failu
     let is_stdin = path.as_os_str() == "-";
     let is_same = before == text;
     if args.diff && !is_same {
-        output::to_stdout(edit::diff(input.name(), before, &text).as_bytes())?;
+        edit::print(&edit::diff(input.name(), before, &text))?;
     } else if args.check && !is_same {
         output::print(&format!("{}\n", clean(input.name())))?;
     } else if is_stdin && !args.diff && !args.check {

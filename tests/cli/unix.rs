@@ -100,7 +100,8 @@ fn names_of_files_are_printed_harmless() {
     let [new, old] = ["a\u{1b}]0;x\u{7}\u{202e}\u{9b}.yaml", "b\u{202e}.yaml"];
     let scene = "Camera: {eye: [0, 0, 9], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, 8]}\n\
         Lights: [{position: [9, 9, 90], color: [1, 1, 1]}]\nObjcts:   []\nObjects:\n\
-        - {type: sphere, position: [0, 0, 0], radius: 3, material: {color: [1, 0, 0], ka: 1}}\n";
+        - {type: sphere, position: [0, 0, 0], radius: 3, material: \
+        {color: [1, 0, 0], ka: 1, kd: 0, ks: 0, n: 1}}\n";
     let is_harmful = |text: &str| text.contains(['\u{1b}', '\u{7}', '\u{202e}', '\u{9b}']);
     for name in [new, old] {
         fs::write(folder.path().join(name), scene).unwrap();
@@ -122,7 +123,7 @@ fn names_of_files_are_printed_harmless() {
             "--explain",
             new,
             "--emit",
-            "json",
+            "ir",
             "-o",
             "/dev/null",
         ],
