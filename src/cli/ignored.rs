@@ -55,25 +55,22 @@ pub(super) fn walk(
 }
 
 impl IgnoreLists {
-    /// The lists of the folders above a folder, up to the root of its repository.
+    /// The lists of a folder and of those above it, up to the root of its repository.
     fn above(root: &Path) -> Self {
         let resolved = root.canonicalize().unwrap_or_else(|_| root.to_owned());
-        let mut folders: Vec<&Path> = Vec::new();
-        let mut is_in_repository = resolved.join(REPOSITORY).exists();
-        if !is_in_repository {
-            for folder in resolved.ancestors().skip(1) {
-                folders.push(folder);
-                is_in_repository = folder.join(REPOSITORY).exists();
-                if is_in_repository {
-                    break;
-                }
+        let mut folders = Vec::new();
+        let mut is_in_repository = false;
+        for folder in resolved.ancestors() {
+            folders.push(folder);
+            is_in_repository = folder.join(REPOSITORY).exists();
+            if is_in_repository {
+                break;
             }
         }
-        let lists = folders.iter().rev();
-        let lists = lists.map(|folder| IgnoreList::of(folder, is_in_repository));
+        let list = |folder: &&Path| IgnoreList::of(folder, is_in_repository || *folder == resolved);
         Self {
             root: root.to_owned(),
-            lists: lists.collect(),
+            lists: folders.iter().rev().map(list).collect(),
             resolved: resolved.clone(),
         }
     }
@@ -84,7 +81,10 @@ impl IgnoreLists {
         let path = self.resolved.join(below.unwrap_or(Path::new("")));
         self.lists.retain(|list| path.starts_with(&list.folder));
         let is_folder = entry.file_type().is_dir();
-        if entry.depth() > 0 && self.ignore(&path, is_folder) {
+        if entry.depth() == 0 {
+            return true;
+        }
+        if self.ignore(&path, is_folder) {
             return false;
         }
         if is_folder {
