@@ -29,7 +29,9 @@ pub(super) fn dark(light: Option<Span>) -> Diagnostic {
 pub(super) fn unmet(target: f64, error: Option<f64>) -> Diagnostic {
     let message = match error {
         Some(error) => format!(
-            "the error of the picture is at most {error:.2} grey levels, and was to be {target}"
+            "the error of the picture is at most {:.2} grey levels, and was to be {target}",
+            // Rounded up, so that the text promises no more than the bound.
+            (100.0 * error).ceil() / 100.0
         ),
         None => format!("the error of the picture is not bounded, and was to be {target}"),
     };

@@ -288,20 +288,20 @@ fn a_target_that_is_not_met_is_a_warning_and_the_picture_is_not_lost() {
     let folder = folder();
     fs::write(folder.path().join("a.yaml"), in_a_sun("[1, 2, 1]")).unwrap();
     let render = |more: &[&str]| {
-        let fixed = ["render", "a.yaml", "-o", "a.png", "--limit", "rays=12000"];
+        let fixed = ["render", "a.yaml", "-o", "a.png"];
         let output = rtc(&folder, &[&fixed, more].concat());
         (code(&output), stderr(&output))
     };
-    let (done, said) = render(&["--target-error", "0.05"]);
+    let (done, said) = render(&["--target-error", "0.1"]);
     assert!(done == 0 && said.contains("warning[RD017]"), "{said}");
     fs::remove_file(folder.path().join("a.png")).unwrap();
-    let (done, said) = render(&["--target-error", "0.05", "--deny", "RD017", "-q"]);
+    let (done, said) = render(&["--target-error", "0.1", "--deny", "RD017", "-q"]);
     assert!(done == 1 && said.contains("error[RD017]"), "{said}");
     assert!(folder.path().join("a.png").exists());
     let (_, said) = render(&["--target-error", "50"]);
     assert!(!said.contains("RD017"), "{said}");
     // A time that ends before is what was asked for.
-    let (_, said) = render(&["--target-error", "0.05", "--time-budget", "0.2"]);
+    let (_, said) = render(&["--target-error", "0.1", "--time-budget", "0.2"]);
     assert!(!said.contains("RD017"), "{said}");
 }
 
