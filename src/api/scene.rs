@@ -317,8 +317,11 @@ impl SceneRun<'_> {
         let order = (window, options.rays.unwrap_or(self.input.rays()));
         let rendered = if has_goal {
             let progress = (&counter, &stopwatch);
-            let (rendered, unmet) = approach(setup, subject, order, &observer(&on_step), progress)?;
-            unmet.into_iter().for_each(|found| self.input.push(found));
+            let (rendered, above_target) =
+                approach(setup, subject, order, &observer(&on_step), progress)?;
+            above_target
+                .into_iter()
+                .for_each(|found| self.input.push(found));
             rendered
         } else {
             let monitor = on_progress.map(|_| &monitor);
@@ -328,9 +331,12 @@ impl SceneRun<'_> {
                 probed,
                 quality,
             } = traced;
-            let unmet = probed.as_ref();
-            let unmet = unmet.and_then(|own| setup.unmet(own.error, own.undersampled));
-            unmet.into_iter().for_each(|found| self.input.push(found));
+            let above_target = probed.as_ref();
+            let above_target =
+                above_target.and_then(|own| setup.above_target(own.error, own.undersampled));
+            above_target
+                .into_iter()
+                .for_each(|found| self.input.push(found));
             let verified = probed.filter(|probed| probed.undersampled.is_none());
             (film, quality, verified.map(|probed| probed.error))
         };
@@ -385,7 +391,7 @@ fn approach(
         begin: &begin,
     };
     let grown = setup.approach(subject, order, observer, &rounds)?;
-    let unmet = setup.unmet(grown.error, grown.undersampled);
+    let above_target = setup.above_target(grown.error, grown.undersampled);
     let is_bounded = grown.undersampled.is_none() && grown.coarse.is_none();
     let film = Film {
         image: grown.image,
@@ -393,5 +399,5 @@ fn approach(
         counts: grown.counts,
     };
     let error = is_bounded.then_some(grown.error);
-    Ok(((film, grown.quality, error), unmet))
+    Ok(((film, grown.quality, error), above_target))
 }

@@ -213,7 +213,7 @@ impl FilePattern {
             let own = self.parts.get(entry.depth().saturating_sub(1));
             !is_hidden(entry) || own.is_some_and(|part| part.starts_with('.'))
         };
-        ignored::walk(base, traverse, is_named)
+        ignored::traverse(base, traverse, is_named)
     }
 
     /// The path of an entry in the style of the pattern.
@@ -235,7 +235,7 @@ impl FilePattern {
 fn below(folder: &Path, is_meant: FileNameFilter) -> Result<Vec<PathBuf>, Failure> {
     let refused = |message: &str| Failure::Failed(format!("`{}`: {message}", folder.display()));
     let mut found = Vec::new();
-    for entry in ignored::walk(folder, WalkDir::new(folder), |entry| !is_hidden(entry)) {
+    for entry in ignored::traverse(folder, WalkDir::new(folder), |entry| !is_hidden(entry)) {
         let entry = entry.map_err(|error| refused(&reason(&error)))?;
         let is_scene = is_meant(&entry.file_name().to_string_lossy());
         if is_scene && entry.file_type().is_file() {

@@ -44,13 +44,13 @@ struct IgnoreLists {
 }
 
 /// Walks below a folder by names, past what is ignored or not `wanted`.
-pub(super) fn walk(
+pub(super) fn traverse(
     root: &Path,
-    walk: WalkDir,
+    folders: WalkDir,
     wanted: impl Fn(&DirEntry) -> bool,
 ) -> impl Iterator<Item = walkdir::Result<DirEntry>> {
     let mut lists = IgnoreLists::above(root);
-    let entries = walk.sort_by_file_name().into_iter();
+    let entries = folders.sort_by_file_name().into_iter();
     entries.filter_entry(move |entry| wanted(entry) && lists.enter(entry))
 }
 
@@ -94,9 +94,9 @@ impl IgnoreLists {
     }
 
     fn ignore(&self, path: &Path, is_folder: bool) -> bool {
-        let verdicts = self.lists.iter().rev();
-        let mut verdicts = verdicts.filter_map(|list| list.verdict(path, is_folder));
-        verdicts.next().unwrap_or(false)
+        let statuses = self.lists.iter().rev();
+        let mut statuses = statuses.filter_map(|list| list.status(path, is_folder));
+        statuses.next().unwrap_or(false)
     }
 }
 
@@ -119,7 +119,7 @@ impl IgnoreList {
     }
 
     /// Whether it ignores a path; `None` if no pattern fits.
-    fn verdict(&self, path: &Path, is_folder: bool) -> Option<bool> {
+    fn status(&self, path: &Path, is_folder: bool) -> Option<bool> {
         let path = path.strip_prefix(&self.folder).ok()?;
         let mut fitting = self
             .patterns
@@ -178,10 +178,10 @@ mod tests {
             folder: PathBuf::from("/r"),
             patterns: lines.lines().filter_map(IgnorePattern::read).collect(),
         };
-        let verdict = |lines: &str, path: &str| {
+        let status = |lines: &str, path: &str| {
             let is_folder = path.ends_with('/');
             let path = Path::new("/r").join(path.trim_end_matches('/'));
-            list(lines).verdict(&path, is_folder)
+            list(lines).status(&path, is_folder)
         };
         for (lines, path, expected) in [
             ("a.yaml", "a.yaml", Some(true)),
@@ -202,7 +202,7 @@ mod tests {
             ("a.yaml   ", "a.yaml", Some(true)),
             ("a[", "a[", None),
         ] {
-            assert_eq!(verdict(lines, path), expected, "{lines:?}: {path}");
+            assert_eq!(status(lines, path), expected, "{lines:?}: {path}");
         }
     }
 }

@@ -239,7 +239,7 @@ pub(super) fn subject(
         Some(loaded) => setup.validate(loaded, input),
         None => Ok(None),
     };
-    judged(subject, input, reporter)
+    reported_subject(subject, input, reporter)
 }
 
 /// The scene of an input before its overrides; its diagnostics are reported.
@@ -256,11 +256,11 @@ pub(super) fn validated(
     reporter: &mut Reporter,
 ) -> Result<RenderSubject, Failure> {
     let subject = setup.validate(loaded, input);
-    judged(subject, input, reporter)
+    reported_subject(subject, input, reporter)
 }
 
 /// The subject of a picture, if there is one; its diagnostics are reported.
-fn judged(
+fn reported_subject(
     subject: Result<Option<RenderSubject>, RenderError>,
     input: &mut Input,
     reporter: &mut Reporter,

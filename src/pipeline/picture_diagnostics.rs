@@ -26,7 +26,7 @@ pub(super) fn dark(light: Option<Span>) -> Diagnostic {
 
 /// A warning that a picture ended above its target error, in grey levels; `error` is its bound, if
 /// it has one.
-pub(super) fn unmet(target: f64, error: Option<f64>) -> Diagnostic {
+pub(super) fn above_target(target: f64, error: Option<f64>) -> Diagnostic {
     let message = match error {
         Some(error) => format!(
             "the error of the picture is at most {:.2} grey levels, and was to be {target}",

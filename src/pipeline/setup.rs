@@ -382,11 +382,11 @@ impl PictureSetup {
     /// A warning about a picture without a time budget that ended above its target error: with
     /// this bound on its error in grey levels, if it is not `undersampled`.
     #[must_use]
-    pub fn unmet(&self, error: f64, undersampled: Option<f64>) -> Option<Diagnostic> {
+    pub fn above_target(&self, error: f64, undersampled: Option<f64>) -> Option<Diagnostic> {
         let target = self.goal.error.filter(|_| self.goal.time.is_none())?;
         let error = undersampled.is_none().then_some(error);
         let is_unmet = error.is_none_or(|error| error > target);
-        is_unmet.then(|| picture_diagnostics::unmet(target, error))
+        is_unmet.then(|| picture_diagnostics::above_target(target, error))
     }
 
     /// Rejects layers of sample statistics of pictures that show something else than the mean of

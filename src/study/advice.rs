@@ -193,8 +193,8 @@ fn about_scene_setting(study: &Study, scene_row: &StudyRow, front: &[&StudyRow])
 }
 
 /// Whether a setting is better than that of the scene beyond the intervals of both: certainly lower
-/// in error for a time that may be the same, or certainly cheaper for an error that may be the same.
-/// `ratio` is its time over that of the scene's.
+/// in error for a time that may be the same, or certainly cheaper for an error that may be. `ratio`
+/// is its time over that of the scene's.
 fn is_clearly_better(errors: &PictureErrors, own: &PictureErrors, ratio: Estimate) -> bool {
     let is_lower = EQUAL_ERROR * errors.rmse_high < own.rmse_low;
     let is_no_higher = errors.rmse <= EQUAL_ERROR * own.rmse;

@@ -132,8 +132,8 @@ impl OpenText {
         SourceKind::of(&self.path.to_string_lossy(), self.text.as_bytes())
     }
 
-    /// Whether it is a scene or may become one: editors send all YAML and JSON, which mostly belongs
-    /// to other programs.
+    /// Whether it is a scene or may become one: editors send all YAML and JSON, most of which
+    /// belongs to other programs.
     pub(super) fn is_scene(&self) -> bool {
         let mut lines = self.text.lines().map(str::trim_start);
         self.kind() != SourceKind::Scene

@@ -224,8 +224,8 @@ impl RenderSetup {
             }
         };
         // Develop the picture.
-        let unmet = rendering.unmet(&self.picture);
-        unmet.into_iter().for_each(|found| input.push(found));
+        let above_target = rendering.above_target(&self.picture);
+        above_target.into_iter().for_each(|found| input.push(found));
         let size = [rendering.image.width, rendering.image.height];
         let work = (rendering.counts, rendering.elapsed);
         let made =

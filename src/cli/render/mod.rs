@@ -341,7 +341,7 @@ impl RenderSetup {
         let rendering = rendering.map_err(|error| ended(error, input, reporter))?;
         // Develop the film into the picture.
         let coarse = rendering.coarse();
-        let unmet = rendering.unmet(&self.picture);
+        let above_target = rendering.above_target(&self.picture);
         let size = [rendering.image.width, rendering.image.height];
         let work = (rendering.counts, rendering.elapsed);
         let made = FinishedPicture::new(path, &self.picture, size, work).with(rendering.quality);
@@ -353,7 +353,7 @@ impl RenderSetup {
         // Report what the time budget did not allow.
         let time = self.picture.goal.time;
         let found = self.clock.stop(time, (coarse, window));
-        let found = found.into_iter().chain(unmet);
+        let found = found.into_iter().chain(above_target);
         found.for_each(|diagnostic| input.push(diagnostic));
         Ok((picture, made))
     }

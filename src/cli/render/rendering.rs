@@ -78,13 +78,13 @@ impl RenderResult {
     }
 
     /// A warning if it ended above its target error.
-    pub(super) fn unmet(&self, setup: &PictureSetup) -> Option<Diagnostic> {
+    pub(super) fn above_target(&self, setup: &PictureSetup) -> Option<Diagnostic> {
         let PictureQuality {
             error,
             undersampled,
             ..
         } = self.quality.as_ref()?;
-        setup.unmet(*error, *undersampled)
+        setup.above_target(*error, *undersampled)
     }
 
     /// If the time was too short for it.
