@@ -5,13 +5,14 @@ use glam::{DMat3, DQuat};
 use rtc_color::srgb_decoded;
 use rtc_ir::{Mesh, VertexColumn};
 use rtc_math::{Vec3, exp, ln, to_u32};
+use std::collections::BTreeMap;
 
 /// The first spherical harmonic, 1/(2·√π).
 const HARMONIC: f64 = 0.282_094_791_773_878_14;
 /// An ellipsoid ends where the opacity of its splat falls below this.
 const EDGE: f64 = 0.25;
-/// The number of splats from which on they are octahedra.
-const SIMPLIFIED_FROM: usize = 1 << 15;
+/// The numbers of splats from which on they are icosahedra, and octahedra.
+const SIMPLIFIED_FROM: [usize; 2] = [1 << 12, 1 << 15];
 
 /// The coordinates of an icosahedron of radius 1.
 const A: f64 = 0.525_731_112_119_133_6;
@@ -19,11 +20,17 @@ const B: f64 = 0.850_650_808_352_039_9;
 
 /// A solid about the origin, of radius 1.
 struct Solid {
+    corners: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+}
+
+/// A solid in a table.
+struct StaticSolid {
     corners: &'static [[f64; 3]],
     triangles: &'static [[u32; 3]],
 }
 
-static ICOSAHEDRON: Solid = Solid {
+static ICOSAHEDRON: StaticSolid = StaticSolid {
     corners: &[
         [-A, B, 0.0],
         [A, B, 0.0],
@@ -62,7 +69,7 @@ static ICOSAHEDRON: Solid = Solid {
     ],
 };
 
-static OCTAHEDRON: Solid = Solid {
+static OCTAHEDRON: StaticSolid = StaticSolid {
     corners: &[
         [1.0, 0.0, 0.0],
         [0.0, 1.0, 0.0],
@@ -82,6 +89,44 @@ static OCTAHEDRON: Solid = Solid {
         [0, 3, 5],
     ],
 };
+
+impl Solid {
+    /// The solid for so many splats: a ball of 80 triangles for few.
+    fn of(count: usize) -> Self {
+        let [few, many] = SIMPLIFIED_FROM;
+        match count {
+            _ if count < few => Self::stored(&ICOSAHEDRON).subdivided(),
+            _ if count < many => Self::stored(&ICOSAHEDRON),
+            _ => Self::stored(&OCTAHEDRON),
+        }
+    }
+
+    fn stored(of: &StaticSolid) -> Self {
+        Self {
+            corners: of.corners.iter().copied().map(Vec3::from_array).collect(),
+            triangles: of.triangles.to_vec(),
+        }
+    }
+
+    /// Each triangle becomes four, whose corners are on the ball.
+    fn subdivided(mut self) -> Self {
+        let mut middles = BTreeMap::new();
+        let mut triangles = Vec::new();
+        for [a, b, c] in std::mem::take(&mut self.triangles) {
+            let [ab, bc, ca] = [[a, b], [b, c], [c, a]].map(|[from, to]| {
+                *middles
+                    .entry((from.min(to), from.max(to)))
+                    .or_insert_with(|| {
+                        let [from, to] = [from, to].map(|corner| self.corners[corner as usize]);
+                        self.corners.push((from + to).normalize());
+                        to_u32(self.corners.len() - 1)
+                    })
+            });
+            triangles.extend([[a, ab, ca], [b, bc, ab], [c, ca, bc], [ab, bc, ca]]);
+        }
+        Self { triangles, ..self }
+    }
+}
 
 /// What is told of a file of splats.
 pub(crate) const APPROXIMATION: &str = "Gaussian splats are drawn as opaque ellipsoids of one \
@@ -132,10 +177,7 @@ impl Splat {
 
 /// The mesh of the ellipsoids of splats, with the colours of its vertices, which are radiance.
 pub(crate) fn mesh(splats: &[Splat]) -> Mesh {
-    let solid = match splats.len() < SIMPLIFIED_FROM {
-        true => &ICOSAHEDRON,
-        false => &OCTAHEDRON,
-    };
+    let solid = Solid::of(splats.len());
     let (mut positions, mut colors, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
     for splat in splats {
         let Some(axes) = splat.axes() else {
@@ -143,8 +185,8 @@ pub(crate) fn mesh(splats: &[Splat]) -> Mesh {
         };
         let first = to_u32(positions.len());
         let [r, g, b] = splat.color.map(srgb_decoded);
-        for corner in solid.corners {
-            let corner = splat.center + axes * Vec3::from_array(*corner);
+        for corner in &solid.corners {
+            let corner = splat.center + axes * *corner;
             positions.push(corner.to_array());
             colors.push([r, g, b, 1.0]);
         }
@@ -173,16 +215,19 @@ mod tests {
 
     #[test]
     fn solids_are_closed_and_turn_outward() {
-        for (solid, volume) in [
-            (&ICOSAHEDRON, 2.536_150_710_120_96),
-            (&OCTAHEDRON, 4.0 / 3.0),
+        for (count, triangles, volume) in [
+            (1, 80, 3.66),
+            (SIMPLIFIED_FROM[0], 20, 2.536_15),
+            (SIMPLIFIED_FROM[1], 8, 4.0 / 3.0),
         ] {
+            let solid = Solid::of(count);
             let parts = solid.triangles.iter().map(|triangle| {
-                let corner = |at: u32| Vec3::from_array(solid.corners[at as usize]);
-                let [a, b, c] = triangle.map(corner);
+                let [a, b, c] = triangle.map(|corner| solid.corners[corner as usize]);
                 a.dot(b.cross(c)) / 6.0
             });
-            assert!((parts.sum::<f64>() - volume).abs() < 1e-9);
+            let found = parts.sum::<f64>();
+            assert!((found - volume).abs() < 0.01, "{found}");
+            assert_eq!(solid.triangles.len(), triangles);
         }
     }
 
@@ -197,7 +242,7 @@ mod tests {
                 .map(offset)
                 .fold(Vec3::ZERO, Vec3::max)
         };
-        let radius = B * (2.0 * ln(4.0)).sqrt();
+        let radius = (2.0 * ln(4.0)).sqrt();
         assert!((reach(BALL) - Vec3::splat(radius)).length() < 1e-6);
         // Twice as long along x, which is turned to y.
         let turned = Splat {

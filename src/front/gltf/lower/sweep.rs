@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 /// The most poses that are looked at, from the first keyframe to the last.
 const MOST_POSES: usize = 33;
 /// The most vertices and hull points that are moved, over all poses.
-const MOST_POINTS: usize = 1 << 22;
+const MOST_POINTS: usize = 1 << 21;
 
 /// The hulls of the primitives of nodes, over the poses so far.
 #[derive(Default)]
