@@ -42,6 +42,18 @@ impl Map {
     }
 }
 
+impl Map {
+    /// Whether tangents along its coordinates may differ from those along the first coordinates of
+    /// the vertices: it has others, or they are turned, sheared or mirrored.
+    #[must_use]
+    pub fn turns_tangents(&self) -> bool {
+        let is_turned = |[[a, b, _], [c, d, _]]: [[f64; 3]; 2]| {
+            b != 0.0 || c != 0.0 || a.is_sign_negative() || d.is_sign_negative()
+        };
+        self.set != 0 || self.texture_from_surface.is_some_and(is_turned)
+    }
+}
+
 impl From<TextureId> for Map {
     /// The texture, over the first set of texture coordinates.
     fn from(texture: TextureId) -> Self {

@@ -5,8 +5,8 @@ use crate::suite::{absent, files, name, root, shared, trial, trial_if};
 use libtest_mimic::Trial;
 use rtc::internals::diag::{DiagnosticSink, Severity};
 use rtc::internals::ir::{
-    Camera, Environment, Image, Light, LoweredScene, Material, Mesh, Pixels, Punctual,
-    PunctualKind, Scene, Shape, Surface, VertexColumn,
+    Camera, Environment, Filter, Image, Light, LoweredScene, Map, Material, Mesh, Pixels, Punctual,
+    PunctualKind, Sampled, Scene, Shape, Surface, Texture, TextureId, VertexColumn, Wrap,
 };
 use rtc::internals::pipeline::{self, Options};
 use serde_json::Value;
@@ -31,6 +31,10 @@ pub(crate) fn trials() -> Vec<Trial> {
     trials.extend([
         trial("to glTF: every light comes back", lights_come_back),
         trial("to glTF: every camera comes back", cameras_come_back),
+        trial(
+            "to glTF: tangents of a surface come back",
+            tangents_come_back,
+        ),
         trial(
             "to glTF: what is left out is told",
             what_is_left_out_is_told,
@@ -285,6 +289,49 @@ fn cameras_come_back() {
         "Camera: {eye: [1, 2, 3], center: [0, 0.5, 0], up: [0, 0.01, 0], right: [0.02, 0, 0], viewSize: [40, 30]}",
     ] {
         comes_back(&with(camera));
+    }
+}
+
+/// A surface without tangents has those along its own texture coordinates, however a normal map is
+/// transformed.
+fn tangents_come_back() {
+    let text = format!(
+        "{EYE}\nRenderMode: path\nObjects: [{{type: quad, v0: [0, 0, 0], v1: [1, 0, 0], v2: [1, 1, 0], \
+         v3: [0, 1, 0], material: {{type: standard}}}}]\n"
+    );
+    let tangents = |texture_from_surface| {
+        let mut lowered = scene(&text);
+        let image = lowered.scene.add_image(Image {
+            name: "bumps".to_owned(),
+            width: 2,
+            height: 1,
+            kind: Pixels::Rgb8,
+            pixels: vec![128, 128, 255, 90, 128, 240].into(),
+        });
+        lowered.scene.textures.push(Texture::Sampled(Sampled {
+            image,
+            wrap: [Wrap::Repeat; 2],
+            filter: Filter::Linear,
+        }));
+        let Material::Standard(standard) = &mut lowered.scene.materials[0] else {
+            panic!("a material of glTF");
+        };
+        standard.normal_map = Some(Map {
+            texture_from_surface,
+            ..Map::from(TextureId(0))
+        });
+        let back = read(&write(&lowered, None).0.unwrap());
+        let tangents = &back.scene.meshes[0].tangents;
+        assert!(!tangents.is_empty());
+        tangents.iter().collect::<Vec<_>>()
+    };
+    let plain = tangents(None);
+    for rows in [
+        [[-1.0, 0.0, 1.0], [0.0, 1.0, 0.0]],
+        [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
+        [[2.0, 0.0, 0.0], [0.0, 3.0, 0.5]],
+    ] {
+        assert_eq!(tangents(Some(rows)), plain, "{rows:?}");
     }
 }
 

@@ -15,9 +15,9 @@ use serde::Serialize;
 use serde_json::{Map as JsonObject, Value, json};
 use std::any::Any;
 
-/// A material of the scene, on meshes with or without each set of texture coordinates. Maps of a
-/// missing set have no effect and are dropped.
-pub(super) type GltfMaterialKey = (u32, [bool; 2]);
+/// A material of the scene, on meshes with or without each set of texture coordinates, and whether
+/// it says that tangents follow the surface. Maps of a missing set have no effect and are dropped.
+pub(super) type GltfMaterialKey = (u32, [bool; 2], bool);
 
 impl GltfWriter<'_> {
     /// The material for a mesh.
@@ -27,16 +27,23 @@ impl GltfWriter<'_> {
         mesh_id: MeshId,
     ) -> GltfIndex<document::Material> {
         let mesh = &self.scene.meshes[mesh_id.0 as usize];
-        let key = (id.0, [!mesh.uvs.is_empty(), !mesh.second_uvs.is_empty()]);
+        let material = &self.scene.materials[id.0 as usize];
+        let keeps_tangents = mesh.tangents.is_empty() && turns_tangents(material);
+        let parts = [!mesh.uvs.is_empty(), !mesh.second_uvs.is_empty()];
+        let key = (id.0, parts, keeps_tangents);
         if let Some(known) = self.materials.get(&key) {
             return *known;
         }
         let path = ValuePath::new(EntityKind::Material, id.0 as usize, EntityField::Whole);
-        let material = &self.scene.materials[id.0 as usize];
         let (mut standard, base_coding, mut rtc_extras) = match material {
             Material::Standard(standard) => {
                 let mut rtc_extras = self.conductor(standard, path);
                 self.facets(standard, &mut rtc_extras, path);
+                if keeps_tangents {
+                    let what = "that tangents follow the surface, not the normal map";
+                    self.reporter.in_extras(what, path);
+                    rtc_extras.insert("surfaceTangents".to_owned(), json!(true));
+                }
                 (without_index(standard), ColorCoding::Srgb, rtc_extras)
             }
             Material::Phong(phong) => {
@@ -437,4 +444,18 @@ impl GltfWriter<'_> {
         }
         JsonObject::from_iter([("phong".to_owned(), rtc_extras)])
     }
+}
+
+/// Whether tangents along the coordinates of a map that follows them may differ from those along the
+/// surface, which a mesh without tangents has.
+fn turns_tangents(material: &Material) -> bool {
+    let Material::Standard(standard) = material else {
+        return false;
+    };
+    let maps = [
+        &standard.normal_map,
+        &standard.clearcoat_normal_map,
+        &standard.anisotropy_map,
+    ];
+    maps.into_iter().flatten().any(Map::turns_tangents)
 }

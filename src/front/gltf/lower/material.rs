@@ -19,7 +19,7 @@ use rtc_source::tree::SyntaxTree;
 use rtc_tables::MATERIAL_EXTENSIONS;
 use serde::de::DeserializeOwned;
 use std::any::Any;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What became of the materials of the asset.
 pub(super) struct ImportedMaterials {
@@ -31,6 +31,8 @@ pub(super) struct ImportedMaterials {
     textures: LoweredTextures,
     /// The sets of texture coordinates that materials look at, where these are not the first two.
     uv_sets: BTreeMap<u32, TexCoordSets>,
+    /// The materials whose tangents follow the surface, by `extras.rtc`.
+    surface_tangents: BTreeSet<u32>,
     /// The materials of points and lines, by that of their primitive and whether they have normals.
     point_and_line_materials: BTreeMap<(u32, bool), MaterialId>,
 }
@@ -57,6 +59,7 @@ impl ImportedMaterials {
             default: None,
             textures: LoweredTextures::new(doc),
             uv_sets: BTreeMap::new(),
+            surface_tangents: BTreeSet::new(),
             point_and_line_materials: BTreeMap::new(),
         }
     }
@@ -111,14 +114,20 @@ impl ImportedMaterials {
     }
 
     /// What the tangents of the material follow, if it uses them.
-    #[expect(clippy::unused_self, reason = "materials answer for what they need")]
     pub(super) fn tangent_coords(
         &self,
         material: MaterialId,
         scene: &Scene,
     ) -> Option<TangentCoords> {
         match scene.materials.get(material.0 as usize)? {
-            ir::Material::Standard(standard) => TangentCoords::of(standard),
+            ir::Material::Standard(standard) => {
+                let is_of_surface = self.surface_tangents.contains(&material.0);
+                let coords = TangentCoords::of(standard);
+                coords.map(|coords| match is_of_surface {
+                    true => TangentCoords::SURFACE,
+                    false => coords,
+                })
+            }
             ir::Material::Phong(_) => None,
         }
     }
@@ -166,6 +175,10 @@ impl ImportedMaterials {
             Some(material) => {
                 let fields = ObjectFields::new(report.json, doc.materials[material])
                     .animated(&self.animated);
+                let extras = fields.rtc_extras();
+                if extras.is_some_and(|extras| extras.boolean("surfaceTangents")) {
+                    self.surface_tangents.insert(id.0);
+                }
                 let mut reader = MaterialReader {
                     doc,
                     textures: &mut self.textures,

@@ -47,6 +47,12 @@ impl Ops for LibmMath {
 }
 
 impl TangentCoords {
+    /// The first coordinates of the vertices as they are.
+    pub(super) const SURFACE: Self = Self {
+        set: 0,
+        linear: [[1.0_f64.to_bits(), 0], [0, 1.0_f64.to_bits()]],
+    };
+
     /// The coordinates of the first map of a material that follows tangents; `None` if the material
     /// does not use tangents.
     pub(super) fn of(material: &Standard) -> Option<Self> {
@@ -55,7 +61,7 @@ impl TangentCoords {
         let stretch = material.anisotropy_map.as_ref().filter(|_| is_anisotropic);
         let map = maps.into_iter().flatten().chain(stretch).next();
         map.map(Self::of_map)
-            .or(is_anisotropic.then(|| Self::new(0, [[1.0, 0.0], [0.0, 1.0]])))
+            .or(is_anisotropic.then_some(Self::SURFACE))
     }
 
     /// The coordinates of a map.
@@ -277,11 +283,7 @@ mod tests {
     use super::*;
     use rtc_ir::TextureId;
 
-    /// The first coordinates as they are.
-    const PLAIN: TangentCoords = TangentCoords {
-        set: 0,
-        linear: [[1.0_f64.to_bits(), 0], [0, 1.0_f64.to_bits()]],
-    };
+    const PLAIN: TangentCoords = TangentCoords::SURFACE;
 
     /// Triangles about a point: with one vertex for it, one each that are alike, or that differ.
     fn fan(count: u32, hub: usize) -> Mesh {

@@ -169,6 +169,7 @@ static MATERIAL: ObjectSchema = rtc_object(&[
     optional("microfacets", Keyword(&["separableGgx", "beckmann"])),
     optional("plastic", Keyword(&["linear", "nonlinear", "single"])),
     optional("blackBack", Boolean),
+    optional("surfaceTangents", Boolean),
     optional("opacityTexture", One(&TEXTURE_INFO)),
     optional("bumpTexture", One(&TEXTURE_INFO)),
     optional("bumpScale", Number(FREE)),
