@@ -115,7 +115,8 @@ pub(super) fn lower<'s>(
     strokes.set_radius(&mut lowering.scene, options.point_size);
     let has_camera = lowering.camera(options.camera.as_deref());
     // Pictures of different times have one view.
-    let animation = animation.filter(|_| options.time.is_some() && !has_camera);
+    let is_framed = options.time.is_some() && !has_camera && !lowering.report.has_errors();
+    let animation = animation.filter(|_| is_framed);
     let swept = animation.and_then(|animation| lowering.swept(animation, axes));
     lowering.source_spans.swept = swept.map(Box::new);
     lowering.finish()

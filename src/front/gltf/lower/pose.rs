@@ -108,6 +108,12 @@ pub(super) fn span(doc: &Document<'_>, animation: &Animation) -> Option<[f64; 2]
     spans.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
 }
 
+/// The numbers of a pose of an animation.
+pub(super) fn numbers(doc: &Document<'_>, animation: &Animation) -> usize {
+    let widths = channels(doc, animation).map(|(_, keys)| keys.width());
+    widths.fold(0, usize::saturating_add)
+}
+
 /// The channels of an animation that have keyframes.
 fn channels<'d>(
     doc: &'d Document<'_>,

@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 
 /// The most poses that are looked at, from the first keyframe to the last.
 const MOST_POSES: usize = 33;
-/// The most vertices and hull points that are moved, over all poses.
+/// The most vertices and hull points that are moved, and numbers of their poses, over all poses.
 const MOST_POINTS: usize = 1 << 21;
 
 /// The hulls of the primitives of nodes, over the poses so far.
@@ -39,7 +39,8 @@ impl<'l> Lowering<'l, '_, '_> {
     ) -> Option<Scene> {
         let shown = transform::shown(self.doc);
         let points = shown.iter().map(|node| self.moved_points(*node));
-        let points = points.fold(0, usize::saturating_add).max(1);
+        let numbers = pose::numbers(self.doc, animation);
+        let points = points.fold(numbers, usize::saturating_add).max(1);
         let poses = (MOST_POINTS / points).min(MOST_POSES);
         let [first, last] = pose::span(self.doc, animation).filter(|_| poses >= 2)?;
         // Move a hull of each primitive through the poses.
