@@ -40,7 +40,7 @@ pub struct LightMeasurement {
     /// The fraction of the non-emissive surface pixels that are visible at this exposure, in [0,
     /// 1].
     pub visible: f64,
-    /// For each pixel of the small render, whether it shows a surface that is not visible.
+    /// For each pixel of the small render, whether it shows a surface that no path lights.
     pub is_dark: Vec<bool>,
 }
 
@@ -82,7 +82,7 @@ impl Renderer {
         let visible = visible(&film, &is_emissive, stops);
         let mut is_dark = vec![false; film.coverage.len()];
         for (index, pixel) in surfaces(&film) {
-            is_dark[index] = luminance(pixel) < least_visible(stops);
+            is_dark[index] = luminance(pixel) <= 0.0;
         }
         Some(LightMeasurement {
             stops,
@@ -137,15 +137,10 @@ fn stops(film: &Film) -> f64 {
     (3.0 * stops).round() / 3.0
 }
 
-/// The least luminance that is visible at an exposure.
-fn least_visible(stops: f64) -> f64 {
-    VISIBLE * pow(2.0, -stops)
-}
-
 /// The fraction of non-emissive surface pixels that are visible at an exposure; 1 if there are
 /// none.
 fn visible(film: &Film, is_emissive: &[bool], stops: f64) -> f64 {
-    let least = least_visible(stops);
+    let least = VISIBLE * pow(2.0, -stops);
     let illuminated = surfaces(film).filter(|(index, _)| is_emissive.get(*index) != Some(&true));
     let (all, visible) = illuminated.fold((0_u32, 0_u32), |(all, visible), (_, pixel)| {
         (all + 1, visible + u32::from(luminance(pixel) >= least))
