@@ -129,7 +129,6 @@ doubleSided: true, baseColor: [1, 0.5, 1, 1], baseColorMap: p.png}}\n",
         "noise in space",
         pyramid!("{pattern: noise, mapping: world, scale: 2, octaves: 2}"),
     ),
-    objects("the coordinates as colours", pyramid!("UV")),
     objects("a texture of floats", pyramid!("e.exr")),
     objects(
         "checks for a roughness",
