@@ -11,7 +11,7 @@ const EXACT: [&str; 3] = ["x.json", "x.rtir", "x.yaml"];
 /// The form that has meshes for shapes.
 const MESHES: &str = "x.glb";
 /// The greatest mean difference of a picture of meshes, in levels of 8 bits.
-const LEVELS: f64 = 3.0;
+const LEVELS: f64 = 4.0;
 
 /// All its trials.
 pub(crate) fn trials() -> Vec<Trial> {
