@@ -1,6 +1,8 @@
 //! Each path rule with two scenes: one where it applies, and one as similar as possible where it
 //! does not. The rule is applied to the first only, and no picture changes a bit.
 
+use super::path_materials::FIRST;
+use super::path_scenes::sky;
 use super::scenes::{ball, base_scene, disc};
 use super::validated;
 use crate::ray_counts::{difference, film};
@@ -346,4 +348,33 @@ fn half_a_million_pairs_are_tested_and_no_more() {
     };
     assert_eq!(leaves_out(1000, 500), 500);
     assert_eq!(leaves_out(1000, 501), 0);
+}
+
+#[test]
+fn a_pane_that_takes_no_bounce_is_seen_through_at_depth_0() {
+    let pane = Standard {
+        thin_dielectric: true,
+        transmission: 1.0,
+        transmission_map: Some(FIRST),
+        roughness: 0.0,
+        specular: 1.0,
+        ..white()
+    };
+    let mut scene = traced(&[(ball([0.0; 3], 1.0), pane)]);
+    (scene.settings.max_depth, scene.lights) = (0, Vec::new());
+    sky(&mut scene, 1.0, Some([50, 200]));
+    scene.textures = vec![ir::Texture::Image(ImageId(0))];
+    // In a scene that names a medium, if only a clear one.
+    scene.medium = Some(ir::Medium {
+        sigma_a: [0.0; 3],
+        sigma_s: [0.0; 3],
+        g: 0.0,
+    });
+    let proof = validated(&scene);
+    let unpruned = film(&proof, RuleSet::NONE);
+    assert_eq!(difference(&proof, &unpruned, RuleSet::ALL), None);
+    // Without the medium the ball is black.
+    scene.medium = None;
+    let opaque = film(&validated(&scene), RuleSet::NONE);
+    assert_ne!(unpruned.image.pixels, opaque.image.pixels);
 }

@@ -142,9 +142,20 @@ impl PathPlanBuilder<'_> {
             .map(|index| (index, &self.materials[index]))
     }
 
+    /// Whether light crosses panes without a bounce, as it does in a scene that names media.
+    fn has_free_panes(&self) -> bool {
+        let is_pane = |m: &Standard| m.thin_dielectric && !m.unlit && is_transmissive(m);
+        has_media(self.scene) && self.used_materials().any(|(_, material)| is_pane(material))
+    }
+
+    /// Whether a path may go on after its first hit.
+    pub(super) fn goes_on(&self) -> bool {
+        self.max_depth > 0 || self.has_free_panes()
+    }
+
     /// Whether any material that scatters light has a property.
     fn any(&self, has: impl Fn(&Standard) -> bool) -> bool {
-        self.max_depth > 0
+        self.goes_on()
             && self
                 .used_materials()
                 .any(|(_, material)| !material.unlit && has(material))
@@ -153,8 +164,8 @@ impl PathPlanBuilder<'_> {
     /// Whether a path may continue after the first hit, or scattering in a medium.
     pub(super) fn bounces(&self) -> bool {
         let mut used = self.used_materials();
-        self.max_depth > u32::from(!self.last_ray)
-            && (used.next().is_some() || self.medium.is_some())
+        let has_bounces = self.max_depth > u32::from(!self.last_ray);
+        (has_bounces || self.has_free_panes()) && (used.next().is_some() || self.medium.is_some())
     }
 
     /// The participating media of the world.
@@ -209,7 +220,7 @@ impl PathPlanBuilder<'_> {
             Effect::Textures => self.any_map(false),
             Effect::NormalMapping => self.any_map(true),
             Effect::NormalInterpolation => {
-                let is_shaded = |material: &Standard| self.max_depth > 0 && !material.unlit;
+                let is_shaded = |material: &Standard| self.goes_on() && !material.unlit;
                 self.used_meshes()
                     .any(|(material, mesh)| is_shaded(material) && !mesh.normals.is_empty())
             }

@@ -18,7 +18,7 @@ pub(crate) const UNSEEN: PathRule = PathRule {
 fn without_unused_maps(builder: &PathPlanBuilder<'_>, index: MaterialId, m: &Standard) -> Standard {
     let mut new = m.clone();
     let is_nonzero = |weight: UnitInterval| weight > UnitInterval::ZERO;
-    let is_shaded = builder.max_depth > 0 && !m.unlit;
+    let is_shaded = builder.goes_on() && !m.unlit;
     let is_clear = !is_nonzero(m.transmission);
     let is_metal_or_rough = is_shaded && (is_nonzero(m.metallic) || is_nonzero(m.roughness));
     let conditions = [
