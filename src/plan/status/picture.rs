@@ -142,6 +142,9 @@ fn textures(findings: &RuleResults<'_>) -> EffectStatus {
             facts,
         );
     }
+    if let Some(status) = kept(findings, effect, MaterialSummary::has_map) {
+        return status;
+    }
     let unseen = findings.first_unseen(MaterialSummary::has_map);
     let facts = first_n(
         unseen
@@ -150,6 +153,19 @@ fn textures(findings: &RuleResults<'_>) -> EffectStatus {
     );
     let reason = "all textures are on surfaces without uv, on invisible surfaces, or of weight 0";
     EffectStatus::pruned(effect, Rule::TextureUnseen, reason, facts)
+}
+
+/// The status of maps that change nothing, but are looked up: the rule may not be applied.
+fn kept(
+    findings: &RuleResults<'_>,
+    effect: Effect,
+    has_map: impl Fn(&MaterialSummary) -> bool,
+) -> Option<EffectStatus> {
+    if findings.facts.rules.contains(Rule::TextureUnseen) {
+        return None;
+    }
+    let facts = vec![findings.surface(findings.first(has_map)?, EntityField::Whole)];
+    Some(EffectStatus::needed(effect, "all maps are kept", facts))
 }
 
 fn interpolation(findings: &RuleResults<'_>) -> EffectStatus {
@@ -212,6 +228,9 @@ fn mapping(findings: &RuleResults<'_>) -> EffectStatus {
             "a depth buffer has no normals",
             vec![settings(EntityField::Mode)],
         );
+    }
+    if let Some(status) = kept(findings, effect, |summary| summary.has_normal_map) {
+        return status;
     }
     let reason = "all such maps are on surfaces that have no uv, are invisible, or are neither \
      illuminated nor reflective";
