@@ -207,7 +207,7 @@ pub(super) fn verification_failure(mismatch: &PlanMismatch) -> String {
         what,
     } = mismatch;
     let effect = effect.map_or(String::new(), |effect| format!("{}, ", effect.name()));
-    let rule = rule.map_or("a plan of no rules", Rule::name);
+    let rule = rule.map_or("the choice of features", Rule::name);
     let version = env!("CARGO_PKG_VERSION");
     format!(
         "internal error: {effect}left out by {rule}: {what} at pixel {x}, {y}\n\

@@ -135,6 +135,12 @@ impl Rule {
         ROWS[self as usize].1
     }
 
+    /// Whether it is a rule for path tracing.
+    #[must_use]
+    pub fn is_of_paths(self) -> bool {
+        PATH_RULES.iter().any(|(rule, _)| *rule == self)
+    }
+
     /// The rule with this name.
     #[must_use]
     pub fn find(name: &str) -> Option<Self> {

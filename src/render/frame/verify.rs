@@ -13,7 +13,8 @@ pub struct PlanMismatch {
     pub pixel: [u32; 2],
     /// The effect that was left out, if it is known.
     pub effect: Option<Effect>,
-    /// The rule that is wrong; `None` for a plan that its rules do not make.
+    /// The rule that is wrong; `None` if all are right, but the plan is not what they make, or its
+    /// features are too few.
     pub rule: Option<Rule>,
     /// The observation.
     pub what: &'static str,

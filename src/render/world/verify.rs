@@ -8,7 +8,7 @@ use crate::film::{Crop, Film, RenderSelection};
 use crate::frame::verify::{PlanMismatch, PlanVerification, first_difference};
 use crate::shape::{PlainShape, PlainShapeF32, Shape};
 use rtc_plan::{Arithmetic, Plan, Rule, RuleSet};
-use rtc_valid::ValidScene;
+use rtc_valid::{Mode, ValidScene};
 
 /// Renders as planned and without rules, and compares: `None` if `on_pixel` said stop, else the
 /// planned film, or the first difference.
@@ -71,7 +71,8 @@ fn naively<S: Prepare>(
 }
 
 /// The mismatch with the rule that is wrong: the last of a few that differ at its pixel without the
-/// others. `None` if `on_pixel` said stop.
+/// others. It has none if the plan is not that of its rules, or the features of the integrator
+/// alone are too few. `None` if `on_pixel` said stop.
 fn blame(
     scene: &ValidScene,
     plan: &Plan,
@@ -91,7 +92,11 @@ fn blame(
         let job = RenderSelection { crop, ..*job };
         Some(compare(scene, &plan, &job, on_pixel)?.1.is_some())
     };
-    if !is_wrong(plan.rules)? {
+    // A rule of the other integrator chooses its features, and does nothing else.
+    let is_path = matches!(scene.settings().mode, Mode::Path(_));
+    let mut others = Rule::ALL.into_iter();
+    let idle = others.find(|rule| rule.is_of_paths() != is_path)?;
+    if !is_wrong(plan.rules)? || is_wrong(RuleSet::NONE.with(idle))? {
         return Some(mismatch);
     }
     let all = Rule::ALL.into_iter();
