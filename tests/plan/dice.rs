@@ -16,7 +16,7 @@ impl Dice {
         Self(seed ^ 0x5DEE_CE66_D1CE_4E5B)
     }
 
-    fn roll(&mut self, sides: u32) -> u32 {
+    pub(super) fn roll(&mut self, sides: u32) -> u32 {
         let bits = mix(self.0);
         self.0 = self.0.wrapping_add(GAMMA);
         u32::try_from((bits >> 33) % u64::from(sides)).unwrap()
@@ -26,7 +26,7 @@ impl Dice {
         self.roll(sides) == 0
     }
 
-    fn pick<T: Copy>(&mut self, choices: &[T]) -> T {
+    pub(super) fn pick<T: Copy>(&mut self, choices: &[T]) -> T {
         choices[self.roll(u32::try_from(choices.len()).unwrap()) as usize]
     }
 

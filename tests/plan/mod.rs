@@ -14,6 +14,7 @@ mod dice;
 mod effort;
 mod emitters;
 mod extreme;
+mod features;
 mod law;
 mod need;
 mod path_effects;
