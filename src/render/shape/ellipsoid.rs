@@ -61,9 +61,9 @@ impl Ellipsoid {
 
     /// The stretch of a ray of the unit sphere inside; `ray` is the same in the world.
     fn stretch(&self, ray: &Ray, local: &Ray) -> Option<[f64; 2]> {
-        let axes = self.axes.map(Vec3::abs).into_iter();
-        let sizes = axes.fold(ray.origin.abs() + self.center.abs(), |sum, axis| sum + axis);
-        let size: f64 = self.inverse.map(|row| row.abs().dot(sizes)).iter().sum();
+        let sum = |vectors: [Vec3; 3]| vectors.iter().fold(Vec3::ZERO, |sum, v| sum + v.abs());
+        let sizes = ray.origin.abs() + self.center.abs() + sum(self.axes);
+        let size = sum(self.inverse).dot(sizes);
         let (f, d) = (local.origin, local.direction);
         let stretch = UNIT_SPHERE.sphere.stretch(local);
         if off_surface(f.length() - 1.0, size) != 0.0 {
