@@ -10,7 +10,7 @@ use super::settings::{camera, settings};
 use super::shape::Prepare;
 use super::small_scene::SmallScene;
 use super::texture::Textures;
-use super::{MaterialId, ObjectBvh, Surface, SurfaceId, World, light};
+use super::{Material, MaterialId, ObjectBvh, Surface, SurfaceId, World, light};
 use crate::accel::bvh::Bvh;
 use crate::accel::simd::SimdLevel;
 use crate::material::standard::{MediumInterface, StandardMaterial};
@@ -37,6 +37,7 @@ impl<S: Prepare> World<S> {
         let (textures, meshes) = (Textures::new(scene), scene.meshes().iter());
         let assets = PreparedAssets {
             lights: light::lights_for(scene, plan, &textures),
+            standards: standards(plan, &textures),
             textures,
             meshes: meshes
                 .map(|mesh| Arc::new(S::prepare_mesh(mesh, simd)))
@@ -67,26 +68,21 @@ impl<S: Prepare> World<S> {
             textures,
             lights,
             meshes,
+            standards: (standards, media),
         } = assets;
-        // Prepare the materials that the plan needs.
-        let mut media = IdTable::default();
-        let (surfaces, phongs, standards) = match &plan.paths {
+        // Select the materials that the surfaces need.
+        let (standards, mut media) = (standards.iter().cloned().collect(), media.clone());
+        let (surfaces, phongs) = match &plan.paths {
             None => {
                 let materials = material::phongs(scene.materials());
                 let materials = materials.into_iter().collect();
                 let mut list = PhongList::new(materials, scene, plan);
                 let surfaces = surfaces(scene, plan, meshes, |surface| list.of(surface));
-                (surfaces, list.prepared(textures), IdTable::default())
+                (surfaces, list.prepared(textures))
             }
-            Some(paths) => {
-                let materials = paths.materials.entries();
-                let prepared = materials.map(|(index, material)| StandardMaterial {
-                    media: interface(material, &mut media),
-                    ..standard(index, material, textures, paths)
-                });
-                let prepared = prepared.collect();
+            Some(_) => {
                 let surfaces = surfaces(scene, plan, meshes, |surface| unchanged(surface.material));
-                (surfaces, IdTable::default(), with_requests(prepared))
+                (surfaces, IdTable::default())
             }
         };
         // Build the hierarchies over the surfaces.
@@ -142,6 +138,27 @@ struct PreparedAssets<S: Prepare> {
     textures: Textures,
     lights: LightList,
     meshes: IdTable<valid::Mesh, Arc<S::Mesh>>,
+    standards: StandardList,
+}
+
+/// The materials of path tracing, and the media that they separate.
+type StandardList = (
+    IdTable<Material, StandardMaterial>,
+    IdTable<HomogeneousMedium>,
+);
+
+/// The materials of a plan of paths, prepared.
+fn standards(plan: &Plan, textures: &Textures) -> StandardList {
+    let mut media = IdTable::default();
+    let Some(paths) = &plan.paths else {
+        return (IdTable::default(), media);
+    };
+    let materials = paths.materials.entries();
+    let prepared = materials.map(|(index, material)| StandardMaterial {
+        media: interface(material, &mut media),
+        ..standard(index, material, textures, paths)
+    });
+    (with_requests(prepared.collect()), media)
 }
 
 /// The media that the surfaces of a material separate; they come into the list.
