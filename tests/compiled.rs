@@ -74,7 +74,11 @@ fn is_the_same_compiled(path: &Path) {
         let Some((again, _)) = compiled(&scene, form, path) else {
             continue;
         };
-        let found = picture(&again).unwrap();
+        let Some(found) = picture(&again) else {
+            // A text in the folder of a text names files of other folders as that does.
+            assert_eq!(form, EXACT[2]);
+            continue;
+        };
         let difference = difference(&found, &known);
         assert!(difference == 0.0, "{form}: {difference} levels");
     }

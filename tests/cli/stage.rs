@@ -216,9 +216,14 @@ fn what_has_no_light_stands_in_the_studio() {
         0
     );
     assert_eq!(
-        values(folder.path(), "square.rtir --spp 64"),
+        values(folder.path(), "square.rtir --spp 64 --tonemap srgb"),
         studio,
         "the studio is part of the IR"
+    );
+    assert_eq!(
+        values(folder.path(), "square.rtir --spp 64"),
+        values(folder.path(), "square.gltf --spp 64"),
+        "and so is the tone map"
     );
 }
 
@@ -362,7 +367,7 @@ fn an_environment_is_turned_as_a_shape_is() {
             format!("Environment: {{file: half.hdr, rotation: {rotation}}}\nObjects:\n- {ball}\n");
         fs::write(
             folder.path().join("turned.yaml"),
-            holding("[0, 0, 9]", "[0, 0, 0]", &rest),
+            holding("[0, 0, 6]", "[0, 0, 0]", &rest),
         )
         .unwrap();
         values(folder.path(), "turned.yaml --spp 64")[3 * (4 * 8 + 4)]
