@@ -20,7 +20,7 @@ record! {
     /// A texture: an image and its placement on the surface. v = 0 is the top row. A file name
     /// alone is a texture too.
     struct TextureMap, "texture" {
-        /// The image file: PNG, JPEG, WebP or KTX2; its alpha channel is used.
+        /// The image file: PNG, JPEG, WebP, KTX2, EXR or HDR; its alpha channel is used.
         file: Spanned<FileName>, required, &[&["file"]];
         /// The set of texture coordinates of the mesh, 0 or 1.
         set: Spanned<SetIndex>, default(SetIndex(0)), &[&["set"]];
