@@ -304,7 +304,7 @@ fn small_lamps_of_solids_rods_and_patches_are_aimed_at() {
         let [aimed, by_chance] = [SamplingStrategy::Mis, SamplingStrategy::BsdfSampling]
             .map(|strategy| noise(&scene, strategy));
         assert!(
-            aimed < 0.2 && by_chance > 3.0 * aimed,
+            aimed < 0.5 && by_chance > 5.0 * aimed,
             "{aimed} {by_chance}: {shape:?}"
         );
     }
@@ -354,10 +354,12 @@ fn a_lamp_behind_panes_is_aimed_at_through_them() {
         (2, pane(false)),
     ] {
         let scene = behind_panes(panes, &standard, lamp(400.0, 0.05));
-        let found = noise(&scene, SamplingStrategy::Mis);
+        let [aimed, by_chance] = [SamplingStrategy::Mis, SamplingStrategy::BsdfSampling]
+            .map(|strategy| noise(&scene, strategy));
+        // Between two panes the lamp is reflected again and again, which stays a matter of chance.
         assert!(
-            found < 0.15,
-            "{panes} {}: {found}",
+            aimed < 0.5 && by_chance > 5.0 * aimed,
+            "{panes} {}: {aimed} {by_chance}",
             standard.thin_dielectric
         );
         // A lamp that paths find by chance, too, has the same light by each strategy.
@@ -371,7 +373,7 @@ fn a_lamp_behind_panes_is_aimed_at_through_them() {
             let chance = mean(&render_by(&scene, SamplingStrategy::BsdfSampling));
             let error = (both - chance).abs().max_element();
             assert!(
-                error < 0.02 * both.max_element().max(1e-3),
+                error < 0.03 * both.max_element().max(1e-3),
                 "{panes} {max_depth}: {both} {chance}"
             );
         }
