@@ -200,6 +200,10 @@ pub(super) fn grazing_share(covering: &Covering, wo: Vec3) -> f64 {
     let f0 = covering.at(1.0);
     let f90 = covering.dielectric.f90.max_element();
     let reflected = covering.albedo(wo);
+    if covering.is_pane || covering.dielectric.film.is_some() {
+        // What a film or a pane lets through to the half-way vectors has no table.
+        return (1.0 - reflected).max(0.0);
+    }
     let base = 1.0 - f0 - (f90 - f0) * half_way(wo.z);
     if base > 0.0 {
         ((1.0 - reflected) / base).clamp(0.0, 1.0)

@@ -330,7 +330,8 @@ impl<const F: u32> Microfacet<F> {
     /// inside, both together.
     fn tabulated(&self, ior: f64, cosine: f64) -> [f64; 2] {
         let roughness = self.facets.mean_roughness();
-        let [f0, f90] = [self.f0.max_element(), self.f90];
+        let Fresnel { f0, f90, .. } = self.dielectric();
+        let [f0, f90] = [f0, f90].map(Vec3::max_element);
         if self.eta < 1.0 {
             return [dielectric::inside(ior, roughness, cosine).at(f0, f90), 0.0];
         }
