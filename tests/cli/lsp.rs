@@ -394,9 +394,13 @@ fn texts_of_other_programs_are_left_alone() {
     // A new text may become a scene, and one that is a scene has findings.
     let mut editor = Editor::with("# Mine.\n\n");
     assert_eq!(editor.findings("a.yaml"), Vec::<Value>::new());
-    let keys = editor.ask_at("textDocument/completion", 1, 0);
-    assert!(labels(&keys).contains(&"Camera"), "{keys}");
-    editor.change(2, json!([{"text": "Objcts: [{type: sphere}]\n"}]));
+    for (version, text) in [(2, "# Mine.\n\n"), (3, "# Mine.\nCam")] {
+        editor.change(version, json!([{"text": text}]));
+        assert_eq!(editor.findings("a.yaml"), Vec::<Value>::new());
+        let keys = editor.ask_at("textDocument/completion", 1, text.len() as u32 - 8);
+        assert!(labels(&keys).contains(&"Camera"), "{keys}");
+    }
+    editor.change(4, json!([{"text": "Objcts: [{type: sphere}]\n"}]));
     assert!(codes(&editor.findings("a.yaml")).contains(&"SC001"));
 }
 
@@ -445,7 +449,7 @@ fn nothing_that_an_editor_says_ends_it() {
     editor.note("textDocument/didOpen", json!([1]));
     editor.change(9, json!([{"text": "not open"}]));
     assert!(editor.ask_at("textDocument/hover", 7, 7).is_null());
-    editor.open("a.yaml", "a: [\n");
+    editor.open("a.yaml", "Eye: [\n");
     let beyond = json!([{"range": {"start": {"line": 9, "character": 9}, "end": {"line": 0, "character": 0}}, "text": "]"}]);
     editor.change(2, beyond);
     assert!(!editor.findings("a.yaml").is_empty());

@@ -152,7 +152,8 @@ impl Workspace {
 
     /// An open document, unless it belongs to another program.
     fn scene(&self, uri: &DocumentUri) -> Option<&OpenText> {
-        self.document(uri).filter(|document| document.is_scene())
+        self.document(uri)
+            .filter(|document| document.may_be_scene())
     }
 
     /// An open document, and the schema of its format.

@@ -44,6 +44,8 @@ pub(super) struct OpenText {
     pub(super) checks: u64,
     /// Whether it is to be checked again although the editor did not change it.
     pub(super) is_stale: bool,
+    /// Whether it was a scene before a change: it stays one while it is written.
+    was_scene: bool,
 }
 
 /// The tree of a text of YAML or JSON.
@@ -107,6 +109,7 @@ impl OpenText {
             reported: Vec::new(),
             checks: 0,
             is_stale: false,
+            was_scene: false,
         }
     }
 
@@ -132,13 +135,19 @@ impl OpenText {
         SourceKind::of(&self.path.to_string_lossy(), self.text.as_bytes())
     }
 
-    /// Whether it is a scene or may become one: editors send all YAML and JSON, most of which
-    /// belongs to other programs.
-    pub(super) fn is_scene(&self) -> bool {
-        let mut lines = self.text.lines().map(str::trim_start);
-        self.kind() != SourceKind::Scene
+    /// Whether it is a scene, or was one before it was changed: editors send all YAML and JSON, most
+    /// of which belongs to other programs.
+    fn is_scene(&self) -> bool {
+        self.was_scene
+            || self.kind() != SourceKind::Scene
             || course::is_scene_text(self.text.as_bytes())
-            || lines.all(|line| line.is_empty() || line.starts_with('#'))
+    }
+
+    /// Whether it is a scene or may become one: it has no key yet.
+    pub(super) fn may_be_scene(&self) -> bool {
+        let mut lines = self.text.lines().map(str::trim_start);
+        let is_begun = |line: &str| line.contains(':') || line.starts_with(['-', '[', '{']);
+        self.is_scene() || lines.all(|line| line.starts_with('#') || !is_begun(line))
     }
 
     /// The same after changes, each of the text that the one before has left.
@@ -148,6 +157,7 @@ impl OpenText {
         changes: Vec<TextDocumentContentChangeEvent>,
         columns: Columns,
     ) {
+        self.was_scene = self.is_scene();
         let mut rope = Rope::from_str(&self.text);
         // A single change inside an object leaves most of the tree as it is.
         let mut only = None;
