@@ -1,6 +1,6 @@
 //! Quotes of the input in a message: short, and without control characters.
 
-use super::clean;
+use super::print::is_unsafe;
 use std::borrow::Cow;
 
 /// A key or value, cut to 40 characters.
@@ -24,8 +24,20 @@ pub fn clip_words(words: &str) -> Cow<'_, str> {
 /// At most `limit` characters, and `…` if there are more.
 fn clipped(text: &str, limit: usize) -> Cow<'_, str> {
     match text.char_indices().nth(limit) {
-        Some((end, _)) => Cow::Owned(format!("{}…", clean(text.split_at(end).0))),
-        None => clean(text),
+        Some((end, _)) => Cow::Owned(format!("{}…", visible(text.split_at(end).0))),
+        None => visible(text),
+    }
+}
+
+/// The text without characters that command a terminal or turn a line round.
+fn visible(text: &str) -> Cow<'_, str> {
+    let visible = |c: char| match is_unsafe(c) {
+        true => c.escape_default().to_string(),
+        false => c.to_string(),
+    };
+    match text.contains(is_unsafe) {
+        true => Cow::Owned(text.chars().map(visible).collect()),
+        false => Cow::Borrowed(text),
     }
 }
 

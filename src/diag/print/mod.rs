@@ -19,6 +19,7 @@ mod window;
 #[cfg(test)]
 mod tests;
 
+pub(super) use text::is_unsafe;
 pub use text::{clean, clean_json, clean_lines};
 
 use super::{Diagnostic, DiagnosticSink, Severity, codes};
