@@ -446,8 +446,8 @@ impl GltfWriter<'_> {
     }
 }
 
-/// Whether tangents along the coordinates of a map that follows them may differ from those along the
-/// surface, which a mesh without tangents has.
+/// Whether tangents along the coordinates of a map that follows them may differ from those along
+/// the surface, which a mesh without tangents has.
 fn turns_tangents(material: &Material) -> bool {
     let Material::Standard(standard) = material else {
         return false;

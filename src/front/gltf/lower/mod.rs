@@ -8,7 +8,8 @@
 //! the IR mesh with `topology` (strips and fans to triangles), `uv` (two of the texture
 //! coordinate sets) and `tangent` (MikkTSpace). `stroke` turns points and lines into meshes,
 //! `splat` Gaussian splats.
-//! `sweep` finds what an animation shows at all its times, for the view of an asset without a camera.
+//! `sweep` finds what an animation shows at all its times, for the view of an asset without a
+//! camera.
 //! `material` and `texture` lower materials once each. `light` and `camera` follow, and
 //! `settings` reads the render settings that `rtc` writes into `extras.rtc`.
 
