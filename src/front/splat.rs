@@ -93,10 +93,10 @@ static OCTAHEDRON: StaticSolid = StaticSolid {
 impl Solid {
     /// The solid for so many splats: a ball of 80 triangles for few.
     fn of(count: usize) -> Self {
-        let [few, many] = SIMPLIFIED_FROM;
+        let [icosahedra, octahedra] = SIMPLIFIED_FROM;
         match count {
-            _ if count < few => Self::stored(&ICOSAHEDRON).subdivided(),
-            _ if count < many => Self::stored(&ICOSAHEDRON),
+            _ if count < icosahedra => Self::stored(&ICOSAHEDRON).subdivided(),
+            _ if count < octahedra => Self::stored(&ICOSAHEDRON),
             _ => Self::stored(&OCTAHEDRON),
         }
     }
