@@ -49,9 +49,13 @@ pub(crate) fn reduced(file: FileId, map: &mut SourceMap, options: &Options) -> S
     let mut scene = scene.unwrap().scene;
     let sampling = scene.settings.supersampling.min(2);
     let depth = scene.settings.max_depth.min(8);
-    let size = Some([48, 40]);
+    // The view keeps its height.
+    let camera = &mut scene.camera;
+    let ratio = f64::from(camera.size[1]) / 40.0;
+    camera.right = camera.right.map(|component| component * ratio);
+    camera.up = camera.up.map(|component| component * ratio);
+    camera.size = [48, 40];
     Overrides {
-        size,
         supersampling: Some(sampling),
         depth: Some(depth),
         spp: Some(4),
