@@ -473,7 +473,10 @@ fn a_wrong_camera_has_the_code_of_a_file() {
         let built = SceneBuilder::new(camera).build().unwrap_err();
         let read = read(&format!("Camera: {text}\n"), &[]).check();
         let code = |found: &[Diagnostic]| errors(found).first().map(|(code, _)| *code);
-        assert_eq!(code(&built), code(&read), "{text}");
+        // A `fov` in a file that is older than the key is a warning.
+        let mut told = read.iter().filter(|found| found.severity != Severity::Note);
+        let of_file = code(&read).or_else(|| told.next().map(|found| found.code));
+        assert_eq!(code(&built), of_file, "{text}");
         assert_eq!(built[0].path.as_deref(), Some(path), "{text}");
     }
     // Straight down, +y is no upward direction, and none was asked for.
