@@ -268,7 +268,7 @@ fn the_pictures_of_two_folders_are_compared_in_one_table() {
     assert_eq!(exit, 2, "some have no counterpart");
     let lines: Vec<_> = reported.lines().collect();
     assert!(
-        lines[0].starts_with("picture") && lines[0].ends_with("share"),
+        lines[0].starts_with("file") && lines[0].ends_with("share"),
         "{reported}"
     );
     assert!(
