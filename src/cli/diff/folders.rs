@@ -21,16 +21,16 @@ enum Comparison {
 
 /// What is compared in the folders.
 #[derive(Clone, Copy)]
-enum FileKind {
+enum ComparedKind {
     Pictures,
     Scenes,
 }
 
 /// The files that the new and the old folder have of one kind: pictures, or else scenes.
-fn listed(args: &DiffArgs) -> Result<(FileKind, [BTreeSet<PathBuf>; 2]), Failure> {
+fn listed(args: &DiffArgs) -> Result<(ComparedKind, [BTreeSet<PathBuf>; 2]), Failure> {
     let found = [files::pictures(&args.new)?, files::pictures(&args.old)?];
     if found.iter().any(|files| !files.is_empty()) {
-        return Ok((FileKind::Pictures, found));
+        return Ok((ComparedKind::Pictures, found));
     }
     let scenes = |folder: &PathBuf| {
         let found = files::scenes(std::slice::from_ref(folder), false);
@@ -44,7 +44,7 @@ fn listed(args: &DiffArgs) -> Result<(FileKind, [BTreeSet<PathBuf>; 2]), Failure
             let message = "there are no pictures and no scenes in these folders";
             Err(Failure::Failed(message.to_owned()))
         }
-        false => Ok((FileKind::Scenes, found)),
+        false => Ok((ComparedKind::Scenes, found)),
     }
 }
 
@@ -97,7 +97,7 @@ fn alone(folder: &Path) -> Comparison {
 /// Compares the two files of a name.
 fn compare(
     args: &DiffArgs,
-    kind: FileKind,
+    kind: ComparedKind,
     path: &Path,
     reporter: &mut Reporter,
     interrupt: &Interrupt,
@@ -105,8 +105,8 @@ fn compare(
     let paths = [args.new.join(path), args.old.join(path)];
     let paths = paths.each_ref().map(AsRef::as_ref);
     let found = match kind {
-        FileKind::Pictures => pictures::difference(paths, args),
-        FileKind::Scenes => scenes::difference(paths, args, reporter, interrupt).map(Some),
+        ComparedKind::Pictures => pictures::difference(paths, args),
+        ComparedKind::Scenes => scenes::difference(paths, args, reporter, interrupt).map(Some),
     };
     match found {
         Ok(found) => Ok(Comparison::Of(
@@ -159,7 +159,7 @@ fn measures(found: &Difference) -> [TableCell; 4] {
 }
 
 /// The table of all pairs; the total has the largest of each measure.
-fn table(kind: FileKind, rows: Vec<(Vec<TableCell>, Comparison)>) -> FileTable {
+fn table(kind: ComparedKind, rows: Vec<(Vec<TableCell>, Comparison)>) -> FileTable {
     let most = |of: fn(&Difference) -> f64| {
         let values = rows.iter().filter_map(|(_, found)| match found {
             Comparison::Of(found) => Some(of(found)),
@@ -176,10 +176,10 @@ fn table(kind: FileKind, rows: Vec<(Vec<TableCell>, Comparison)>) -> FileTable {
     );
     let total = vec![
         TableCell::Text(match (rows.len(), kind) {
-            (1, FileKind::Pictures) => "1 picture".to_owned(),
-            (1, FileKind::Scenes) => "1 scene".to_owned(),
-            (count, FileKind::Pictures) => format!("{count} pictures"),
-            (count, FileKind::Scenes) => format!("{count} scenes"),
+            (1, ComparedKind::Pictures) => "1 picture".to_owned(),
+            (1, ComparedKind::Scenes) => "1 scene".to_owned(),
+            (count, ComparedKind::Pictures) => format!("{count} pictures"),
+            (count, ComparedKind::Scenes) => format!("{count} scenes"),
         }),
         TableCell::Text(result),
         TableCell::Measure(most(|found| found.rmse), 4),
