@@ -152,7 +152,8 @@ fn lit(
     Ok((setup.look, subject.validated))
 }
 
-/// The scene in the light of its picture and with its display settings: what is compiled is rendered
+/// The scene in the light of its picture and with its display settings: what is compiled is
+/// rendered
 /// to the same picture, which an asset does not determine alone.
 fn displayed(
     input: &mut Input,

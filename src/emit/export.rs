@@ -197,12 +197,13 @@ pub(super) fn facet_widths(material: &Standard) -> [f64; 2] {
     [across, shortest_preimage(along, anisotropy, strength)]
 }
 
-/// The decimal of the fewest digits near a number that a function maps to a value; the number
-/// itself if there is none.
+/// The decimal of the fewest digits near a number that a function maps to a value, but for
+/// rounding; the number itself if there is none.
 fn shortest_preimage(number: f64, value: f64, function: impl Fn(f64) -> f64) -> f64 {
     let rounded = |digits: usize| format!("{number:.digits$e}").parse::<f64>().ok();
     let mut rounded = (0..17).filter_map(rounded);
-    let found = rounded.find(|rounded| function(*rounded).to_bits() == value.to_bits());
+    let tolerance = 4.0 * f64::EPSILON * value.abs();
+    let found = rounded.find(|rounded| (function(*rounded) - value).abs() <= tolerance);
     found.unwrap_or(number)
 }
 

@@ -198,7 +198,8 @@ impl<'s> TexturePicture<'s> {
         (png_bytes(self.size, false, &bytes), is_clipped)
     }
 
-    /// The PNG of its texels changed by a function to colours with an opacity, coded as sRGB: a texel
+    /// The PNG of its texels changed by a function to colours with an opacity, coded as sRGB: a
+    /// texel
     /// as a colour, and as numbers.
     pub(super) fn png_with_alpha(
         &self,

@@ -145,7 +145,7 @@ impl PovWriter<'_> {
         ))
     }
 
-    /// The pigment of a colour, times its texture if it has one, whose opacity is that of a picture.
+    /// The pigment of a colour, times its texture if it has one, with the opacity of a picture.
     fn cut_pigment(
         &mut self,
         color: [f64; 3],

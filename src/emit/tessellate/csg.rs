@@ -1,11 +1,11 @@
 //! Tessellates CSG solids by dual contouring (Ju, Losasso, Schaefer and Warren, "Dual contouring of
 //! Hermite data", SIGGRAPH 2002).
 //!
-//! A grid of cells covers the solid. Where an edge of the grid crosses the boundary of the solid, it
+//! A grid of cells covers the solid. Where an edge of it crosses the boundary of the solid, it
 //! crosses a face of an operand. A cell with such edges has a vertex that lies on all these faces,
 //! so that edges and corners of the solid stay sharp. The four cells around the edge give a
-//! quadrilateral, and all of them a mesh without holes, as each face of a cell has an even number of
-//! edges that cross.
+//! quadrilateral, and all of them a mesh without holes, as each face of a cell has an even number
+//! of edges that cross.
 
 use super::face::{self, FaceSample};
 use super::{ShapeMesh, Tessellator};
@@ -342,7 +342,7 @@ impl<'c> Grid<'c> {
         }
     }
 
-    /// The cells around an edge by their first points, counterclockwise as seen from its end; `None`
+    /// The cells around an edge by their first points, counterclockwise seen from its end; `None`
     /// for those outside of the grid.
     fn cells_around(&self, crossing: &Crossing) -> [Option<[u32; 3]>; 4] {
         let [b, c] = [1, 2].map(|next| (crossing.axis + next) % 3);
@@ -355,7 +355,8 @@ impl<'c> Grid<'c> {
         })
     }
 
-    /// The point of a cell on all faces that cross it, by damped Gauss-Newton steps from the mean of
+    /// The point of a cell on all faces that cross it, by damped Gauss-Newton steps from the mean
+    /// of
     /// the points where its edges do; that point where they lead out of the cell.
     fn vertex(&self, cell: [u32; 3], faces: &CellFaces) -> Vec3 {
         let mean = faces.sum / f64::from(faces.count);

@@ -160,7 +160,8 @@ static PHOTOMETRY: ObjectSchema = rtc_object(&[
 
 /// Phong's model, or of the standard material the index of a metal with its base colour, the
 /// distribution of facets, the kind of plastic, whether its back reflects nothing, the opacity, the
-/// heights, whether it is a pane of two faces, the other material of a blend, and media; of both the
+/// heights, whether it is a pane of two faces, the other material of a blend, and media; of both
+/// the
 /// patterns, for which other programs see pictures.
 static MATERIAL: ObjectSchema = rtc_object(&[
     optional("phong", One(&PHONG)),
