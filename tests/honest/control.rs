@@ -129,8 +129,8 @@ fn passing_lamp() -> Scene {
 #[test]
 fn a_bright_lamp_that_may_be_unmet_takes_no_more_than_a_few_times_what_noise_needs() {
     let scene = passing_lamp();
-    let references = references(&scene, 2.0);
-    for target in [9.0, 5.0] {
+    let references = references(&scene, 8.0);
+    for target in [12.0, 9.0] {
         let needed = needed(&scene, target, &references).max(128.0);
         let reached = render(&scene, target, 1);
         let taken = reached.samples.mean;
