@@ -568,7 +568,7 @@ fn work_grows_with_the_text_of_a_scene() {
         outcome(&[("a.pbrt", scene.as_bytes()), ("part.pbrt", part.as_bytes())]).work
     };
     assert_linear("comments", comments);
-    assert!(comments(50) > 49 * 4000, "{}", comments(50));
+    assert!(comments(50) >= 49 * 4000, "{}", comments(50));
 }
 
 #[test]
