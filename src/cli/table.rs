@@ -171,14 +171,14 @@ mod tests {
 
     #[test]
     fn text_is_aligned() {
-        let expected = "file                rmse  count\na,\\u{202e}\"b\".png   0.50     11\n\
-                        =c                 12.25      2\n2 files                       12\n";
+        let expected = "file                rmse  count\na,\\u{202e}\"b\".png   0.50     12\n\
+                        =c                 12.25      2\n2 files                      12\n";
         assert_eq!(table().print(TableFormat::Text), expected);
     }
 
     #[test]
     fn csv_is_quoted() {
-        let expected = "file,rmse,count\n\"a,\\u{202e}\"\"b\"\".png\",0.5,11\n'=c,12.25,2\n\
+        let expected = "file,rmse,count\n\"a,\\u{202e}\"\"b\"\".png\",0.5,12\n'=c,12.25,2\n\
                         2 files,,12\n";
         assert_eq!(table().print(TableFormat::Csv), expected);
     }

@@ -369,7 +369,7 @@ mod tests {
         let is_there = [0, 1, 2, 3].map(|number| cache.get(key(number)).is_ok());
         assert_eq!(is_there, [true, false, true, true]);
         // What is too large for the folder is not added.
-        cache.put(key(4), &[4; 400], &Unobserved).unwrap();
+        cache.put(key(4), &[4; 1000], &Unobserved).unwrap();
         assert!(matches!(cache.get(key(4)), Err(CacheMiss::Absent)));
         assert!(cache.get(key(3)).is_ok() && folder.path().join("other.rtc-entry").exists());
     }

@@ -135,8 +135,8 @@ impl OpenText {
         SourceKind::of(&self.path.to_string_lossy(), self.text.as_bytes())
     }
 
-    /// Whether it is a scene, or was one before it was changed: editors send all YAML and JSON, most
-    /// of which belongs to other programs.
+    /// Whether it is a scene, or was one before it was changed: editors send all YAML and JSON,
+    /// most of which belongs to other programs.
     fn is_scene(&self) -> bool {
         self.was_scene
             || self.kind() != SourceKind::Scene

@@ -189,8 +189,11 @@ pub(super) fn keys(
         lowered
             .source_spans
             .span(ValuePath::new(EntityKind::Camera, 0, EntityField::Right));
-    let is_square =
-        right.is_none_or(|right| own.iter().any(|range| range.start == right.start as usize));
+    // A number, such as a field of view, sets no direction.
+    let is_square = right.is_none_or(|right| {
+        let is_number = !map.slice(right).starts_with('[');
+        is_number || own.iter().any(|range| range.start == right.start as usize)
+    });
     (are_disjoint && is_square).then_some(own)
 }
 

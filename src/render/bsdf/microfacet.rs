@@ -38,8 +38,8 @@ pub(super) struct Microfacet<const F: u32> {
     eta: f64,
     /// The index inside, if the material transmits: its reflectance is that of a dielectric.
     ior: Option<f64>,
-    /// The factors of the reflection of the dielectric and of the transmission: they make up for the
-    /// light of further bounces, and from inside only the part that transmits reflects.
+    /// The factors of the reflection of the dielectric and of the transmission: they make up for
+    /// the light of further bounces, and from inside only the part that transmits reflects.
     gain: [f64; 2],
 }
 

@@ -11,8 +11,8 @@ pub(super) const WIDTHS: usize = 12;
 /// Entries along the cosine, denser towards grazing as in the other tables.
 pub(super) const COSINES: usize = 16;
 
-/// Entries along √|cos φ|, from across the wider axis to along it: across it, at grazing angles, the
-/// albedo is steep.
+/// Entries along √|cos φ|, from across the wider axis to along it: across it, at grazing angles,
+/// the albedo is steep.
 pub(super) const TURNS: usize = 5;
 
 /// The axes of the table.
