@@ -157,8 +157,7 @@ impl Lowering {
                     up.span
                 },
             ),
-            // With a field of view its length is not that of `up`.
-            (EntityField::Up, up.span.filter(|_| fov.is_none())),
+            (EntityField::Up, up.span),
             (EntityField::Size, view_size.span),
             (EntityField::LensRadius, aperture_radius.span),
             (EntityField::LensSamples, aperture_samples.span),

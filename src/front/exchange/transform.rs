@@ -37,7 +37,7 @@ impl AffineTransform {
         ]))
     }
 
-    /// The map cos θ · 1 + sin θ · [a]ₓ + (1 − cos θ) · a aᵀ of an axis a: a rotation about it if
+    /// The map cos θ · 1 + sin θ · \[a\]ₓ + (1 − cos θ) · a aᵀ of an axis a: a rotation about it if
     /// its length is 1 (Rodrigues' formula).
     pub(crate) fn rodrigues(axis: Vec3, degrees: f64) -> Self {
         let angle = degrees.to_radians();
