@@ -29,6 +29,18 @@ pub(crate) fn trials() -> Vec<Trial> {
             },
         ),
         needs(
+            "exports: checks of any scale",
+            "round-4/export/export-checkerboard-to_uv-becomes-one-colour.xml",
+            |path| {
+                has(
+                    path,
+                    "x.xml",
+                    r#"<texture type="bitmap" name="reflectance">"#,
+                );
+                has(path, "x.pbrt", r#""texture reflectance""#);
+            },
+        ),
+        needs(
             "exports: a closed mesh of a solid",
             "round-4/export/csg-export-to-glb-has-open-edges-and-wrong-volume.yaml",
             |path| {

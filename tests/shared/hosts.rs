@@ -15,7 +15,7 @@ const PROGRAM: &str = env!("CARGO_BIN_EXE_rtc");
 type NamedTest = (&'static str, fn(&Path));
 
 /// The inputs, each in a folder of `../shared`.
-const INPUTS: [NamedTest; 12] = [
+const INPUTS: [NamedTest; 16] = [
     ("diff/a.gltf", |new| differ(new, "c.gltf")),
     ("diff/diff-scenes-without-lights-B.obj", |new| {
         differ(new, "diff-scenes-without-lights-A.obj");
@@ -44,6 +44,20 @@ const INPUTS: [NamedTest; 12] = [
     (
         "hostile/cache-entry-forged-lengths-internal-error.py",
         forged_entries_are_damaged,
+    ),
+    (
+        "hostile/hang-render-usd-camera-focal-length-9e18.usda",
+        the_search_for_an_exposure_ends,
+    ),
+    ("hostile/mitsuba-serialized-name-bomb.make.py", |path| {
+        made_file_is_refused(path, "m.xml", "MI002");
+    }),
+    ("hostile/pbrt-gz-lifts-limits.make.py", |path| {
+        made_file_is_refused(path, "n.pbrt", "IO003");
+    }),
+    (
+        "promises/parts-of-huge-scene-do-not-merge.yaml",
+        parts_are_the_picture,
     ),
 ];
 
@@ -232,6 +246,52 @@ fn forgeries_fail(path: &Path) {
         said.contains("id.png") && said.contains("exif.png"),
         "{said}"
     );
+}
+
+fn the_search_for_an_exposure_ends(path: &Path) {
+    let out = folder();
+    let scene = path.to_str().unwrap();
+    let words = "--size 4x3 --spp 1 --limit rays=2000 -o a.png";
+    let args: Vec<&str> = ["render", scene]
+        .into_iter()
+        .chain(words.split(' '))
+        .collect();
+    let said = rtc(out.path(), &args);
+    let words = String::from_utf8_lossy(&said.stderr);
+    assert!(
+        said.status.code() == Some(1) && words.contains("RD006"),
+        "{words}"
+    );
+}
+
+/// The file that a script makes is refused with a code.
+fn made_file_is_refused(path: &Path, made: &str, code: &str) {
+    let out = folder();
+    script(path, out.path());
+    let said = rtc(out.path(), &["check", made]);
+    let words = String::from_utf8_lossy(&said.stderr);
+    assert!(
+        said.status.code() == Some(1) && words.contains(&format!("error[{code}]")),
+        "{words}"
+    );
+}
+
+fn parts_are_the_picture(path: &Path) {
+    let out = folder();
+    fs::copy(path, out.path().join("s.yaml")).unwrap();
+    for words in [
+        "render -q s.yaml -o whole.png",
+        "render -q s.yaml --part 1/2 -o 1.rtp",
+        "render -q s.yaml --part 2/2 -o 2.rtp",
+        "merge 1.rtp 2.rtp -o merged.png",
+    ] {
+        let args: Vec<&str> = words.split(' ').collect();
+        let said = rtc(out.path(), &args);
+        let told = String::from_utf8_lossy(&said.stderr);
+        assert!(said.status.success(), "{words}: {told}");
+    }
+    let bytes = |name: &str| fs::read(out.path().join(name)).unwrap();
+    assert!(bytes("whole.png") == bytes("merged.png"));
 }
 
 fn forged_entries_are_damaged(path: &Path) {

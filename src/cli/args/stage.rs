@@ -45,7 +45,7 @@ pub(crate) struct StageArgs {
     #[arg(long, value_name = "AZ,EL[,ROLL]", value_parser = orbit, allow_hyphen_values = true,
         conflicts_with_all = ["eye", "center", "up"], help_heading = "View")]
     pub(crate) orbit: Option<passes::OrbitAngles>,
-    /// Light the scene by an environment map, .hdr or .exr
+    /// Light the scene by an environment map: .hdr, .exr or a picture
     ///
     /// The map is equirectangular; its centre is towards -z.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = "Light")]
