@@ -13,9 +13,9 @@
 //!    validates it. The work itself is done by `pipeline`, `study` and `render`.
 //! 4. `reporter` prints diagnostics in the requested format; `output` writes results atomically.
 //!
-//! Shared parts: `files` expands folders and patterns, `table` prints a row for each file, `gate` parses and checks limits, `interrupt`
-//! turns signals into a flag, `progress` draws the bar, `suggest` completes errors of the
-//! arguments. [`trial`] has the entry points of the fuzz targets.
+//! Shared parts: `files` expands folders and patterns, `table` prints a row for each file, `gate`
+//! parses and checks limits, `interrupt` turns signals into a flag, `progress` draws the bar,
+//! `suggest` completes errors of the arguments. [`trial`] has the entry points of the fuzz targets.
 //!
 //! # Streams and exit codes
 //!

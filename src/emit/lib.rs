@@ -14,8 +14,9 @@
 //!
 //! Shared parts: `approximation` (the Phong model as a glTF material), `flat` (planes as squares),
 //! `tessellate` (meshes instead of shapes), `ply` (meshes as PLY files), `picture` (textures as
-//! image files), `texture_area` (the part of a texture that is seen), `sidecar` (names of sidecar files), `export` (helpers for other renderers),
-//! `path_tracer` (what Mitsuba and pbrt have in common).
+//! image files), `texture_area` (the part of a texture that is seen), `sidecar` (names of sidecar
+//! files), `export` (helpers for other renderers), `path_tracer` (what Mitsuba and pbrt have in
+//! common).
 
 mod approximation;
 pub mod course;

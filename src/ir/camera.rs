@@ -109,8 +109,8 @@ impl Camera {
     }
 
     /// The matrix from world to camera coordinates (the camera looks along −z, y is up), row-major
-    /// and for row vectors; `None` if `right` or `up` has no direction, or if the eye is too far away
-    /// for 32 bits to hold its position.
+    /// and for row vectors; `None` if `right` or `up` has no direction, or if the eye is too far
+    /// away for 32 bits to hold its position.
     #[must_use]
     pub fn world_to_camera(&self) -> Option<[f32; 16]> {
         let [eye, center, right, up] =

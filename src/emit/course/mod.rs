@@ -2,7 +2,8 @@
 //! shortest decimal of each number that reads back exactly.
 //!
 //! [`emit`] refers to the original files of images and meshes, [`emit_with_files`] also writes new
-//! ones, [`emit_elsewhere`] writes all anew. `files` names them. Lowering the text gives the same scene.
+//! ones, [`emit_elsewhere`] writes all anew. `files` names them. Lowering the text gives the same
+//! scene.
 
 mod camera;
 mod csg;
@@ -59,8 +60,8 @@ pub fn emit_with_files<'s>(
     write(scene, FileNames::with_new_files(scene, folder))
 }
 
-/// The same with files in `folder` for all images and meshes, for a text that does not find those of
-/// the scene.
+/// The same with files in `folder` for all images and meshes, for a text that does not find those
+/// of the scene.
 ///
 /// # Errors
 /// As [`emit`].

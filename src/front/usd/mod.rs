@@ -8,8 +8,8 @@
 //!   as one [`layer`].
 //! - [`stage`] composes prims of the layers: sublayers, inherits, variants, references, payloads
 //!   and specializes. [`attribute`] finds values at one time.
-//! - [`mesh`], [`shape`], [`light`], [`camera`] and [`material`] with [`texture`] and [`udim`] lower
-//!   one kind of prim each, in the world of the scene: metres, y up.
+//! - [`mesh`], [`shape`], [`light`], [`camera`] and [`material`] with [`texture`] and [`udim`]
+//!   lower one kind of prim each, in the world of the scene: metres, y up.
 //! - [`files`] finds and reads the files that a layer names. Without one the picture is made, too,
 //!   and a warning says what it lacks.
 //!

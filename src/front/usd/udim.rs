@@ -1,5 +1,5 @@
-//! Pictures in tiles (UDIM): `c.<UDIM>.png` stands for `c.1001.png`, `c.1002.png` and so on, one for
-//! each unit square of the texture coordinates, ten in a row. They become one picture.
+//! Pictures in tiles (UDIM): `c.<UDIM>.png` stands for `c.1001.png`, `c.1002.png` and so on, one
+//! for each unit square of the texture coordinates, ten in a row. They become one picture.
 
 use super::Lowering;
 use super::texture::{INSTEAD, TEXTURES};

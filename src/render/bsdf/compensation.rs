@@ -135,8 +135,8 @@ impl Compensation {
         albedo(self.surface, wi)
     }
 
-    /// The BSDF of a white base, by the albedo [`Self::towards`] the light and an uneven reflectance
-    /// there.
+    /// The BSDF of a white base, by the albedo [`Self::towards`] the light and an uneven
+    /// reflectance there.
     #[must_use]
     pub(super) fn base_f(&self, e: SchlickAlbedo, uneven: f64) -> f64 {
         product(
