@@ -32,7 +32,7 @@ static TETRAHEDRON: StrokeShape = StrokeShape {
     triangles: &[[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]],
 };
 
-static OCTAHEDRON: StrokeShape = StrokeShape {
+pub(crate) static OCTAHEDRON: StrokeShape = StrokeShape {
     corners: &[
         (0, [1.0, 0.0, 0.0]),
         (0, [0.0, 1.0, 0.0]),

@@ -1,6 +1,7 @@
 //! Gaussian splats (Kerbl et al., "3D Gaussian splatting for real-time radiance field rendering",
 //! 2023), drawn as ellipsoids of one colour.
 
+use crate::glyph::{OCTAHEDRON, StrokeShape};
 use glam::{DMat3, DQuat};
 use rtc_color::srgb_decoded;
 use rtc_ir::{Mesh, VertexColumn};
@@ -24,26 +25,20 @@ struct Solid {
     triangles: Vec<[u32; 3]>,
 }
 
-/// A solid in a table.
-struct StaticSolid {
-    corners: &'static [[f64; 3]],
-    triangles: &'static [[u32; 3]],
-}
-
-static ICOSAHEDRON: StaticSolid = StaticSolid {
+static ICOSAHEDRON: StrokeShape = StrokeShape {
     corners: &[
-        [-A, B, 0.0],
-        [A, B, 0.0],
-        [-A, -B, 0.0],
-        [A, -B, 0.0],
-        [0.0, -A, B],
-        [0.0, A, B],
-        [0.0, -A, -B],
-        [0.0, A, -B],
-        [B, 0.0, -A],
-        [B, 0.0, A],
-        [-B, 0.0, -A],
-        [-B, 0.0, A],
+        (0, [-A, B, 0.0]),
+        (0, [A, B, 0.0]),
+        (0, [-A, -B, 0.0]),
+        (0, [A, -B, 0.0]),
+        (0, [0.0, -A, B]),
+        (0, [0.0, A, B]),
+        (0, [0.0, -A, -B]),
+        (0, [0.0, A, -B]),
+        (0, [B, 0.0, -A]),
+        (0, [B, 0.0, A]),
+        (0, [-B, 0.0, -A]),
+        (0, [-B, 0.0, A]),
     ],
     triangles: &[
         [0, 11, 5],
@@ -69,27 +64,6 @@ static ICOSAHEDRON: StaticSolid = StaticSolid {
     ],
 };
 
-static OCTAHEDRON: StaticSolid = StaticSolid {
-    corners: &[
-        [1.0, 0.0, 0.0],
-        [0.0, 1.0, 0.0],
-        [-1.0, 0.0, 0.0],
-        [0.0, -1.0, 0.0],
-        [0.0, 0.0, 1.0],
-        [0.0, 0.0, -1.0],
-    ],
-    triangles: &[
-        [0, 1, 4],
-        [1, 2, 4],
-        [2, 3, 4],
-        [3, 0, 4],
-        [1, 0, 5],
-        [2, 1, 5],
-        [3, 2, 5],
-        [0, 3, 5],
-    ],
-};
-
 impl Solid {
     /// The solid for so many splats: a ball of 80 triangles for few.
     fn of(count: usize) -> Self {
@@ -101,9 +75,12 @@ impl Solid {
         }
     }
 
-    fn stored(of: &StaticSolid) -> Self {
+    fn stored(of: &StrokeShape) -> Self {
+        let corners = of.corners.iter();
         Self {
-            corners: of.corners.iter().copied().map(Vec3::from_array).collect(),
+            corners: corners
+                .map(|(_, corner)| Vec3::from_array(*corner))
+                .collect(),
             triangles: of.triangles.to_vec(),
         }
     }
