@@ -5,6 +5,7 @@ use super::args::CheckArgs;
 use super::reporter::{self, Reporter};
 use super::table::{FileTable, TableCell};
 use super::{files, fix, input, output};
+use rtc_diag::plural;
 use std::path::Path;
 
 /// Checks the files and reports their diagnostics.
@@ -59,10 +60,7 @@ fn row(path: &Path, counts: [usize; 3]) -> (TableCell, [usize; 3]) {
 /// The table of the files, and their total.
 fn table(rows: Vec<(TableCell, [usize; 3])>) -> FileTable {
     let sum = |k: usize| rows.iter().map(|(_, counts)| counts[k]).sum();
-    let files = match rows.len() {
-        1 => "1 file".to_owned(),
-        count => format!("{count} files"),
-    };
+    let files = plural(rows.len(), "file");
     let line = |name, counts: [usize; 3]| {
         let counts = counts.map(TableCell::Count);
         [name].into_iter().chain(counts).collect()

@@ -5,7 +5,7 @@
 //! is a scene.
 //!
 //! Only a link named on the command line is followed: others may form cycles or leave the folder.
-//! What is [`ignored`] is not found, either.
+//! Scenes that are [`ignored`] are not found, either.
 
 use super::input::is_picture;
 use super::{Failure, ignored, reporter};

@@ -4,6 +4,7 @@ use super::args::CheckArgs;
 use super::project::Project;
 use super::reporter::{self, Reporter};
 use super::{Failure, edit, input};
+use rtc_diag::plural;
 use rtc_pipeline::{self as pipeline, FixFilter, FixedText, Input};
 use std::path::Path;
 
@@ -53,10 +54,7 @@ pub(super) fn run(
 
 /// Reports the applied fixes, and the rejected ones with reasons.
 fn report_changes(name: &str, fixed: &FixedText, is_shown: bool) {
-    let changes = |count| match count {
-        1 => "1 change".to_owned(),
-        _ => format!("{count} changes"),
-    };
+    let changes = |count| plural(count, "change");
     let FixedText {
         text: _,
         changes: made,

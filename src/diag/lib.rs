@@ -36,7 +36,8 @@ pub use codes::{Code, Severity};
 pub use levels::{DiagnosticLevel, DiagnosticLevels, LevelSubject};
 pub use nearest::nearest;
 pub use print::{
-    DiagnosticPrinter, Format, PrintOptions, clean, clean_json, clean_lines, each, json_schema, one,
+    DiagnosticPrinter, Format, PrintOptions, clean, clean_json, clean_lines, each, json_schema,
+    one, plural,
 };
 pub use sink::DiagnosticSink;
 

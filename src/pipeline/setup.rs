@@ -584,8 +584,8 @@ fn difference(path: &str, new: &Value, old: &Value, found: &mut Vec<[String; 3]>
     }
 }
 
-/// Changes the picture size. A view that was framed is framed again; any other shows at least its
-/// former contents, which may give a diagnostic.
+/// Frames a framed view again for the requested size. The overrides fit any other view, which may
+/// give a diagnostic.
 fn resize(
     LoweredScene {
         scene,
@@ -599,9 +599,7 @@ fn resize(
         Framing { size, ..framing }.apply(scene, source_spans);
         return None;
     }
-    let before = scene.camera.size;
-    scene.camera.fit(requested);
-    picture_diagnostics::fitted(before, requested)
+    picture_diagnostics::fitted(scene.camera.size, requested)
 }
 
 impl PictureSetup {

@@ -7,6 +7,7 @@ use super::super::reporter::Reporter;
 use super::super::table::{FileTable, TableCell};
 use super::super::{Failure, files, output, reporter};
 use super::{measure, pictures, scenes};
+use rtc_diag::plural;
 use rtc_study::Difference;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -175,12 +176,13 @@ fn table(kind: ComparedKind, rows: Vec<(Vec<TableCell>, Comparison)>) -> FileTab
         rows.len() - same - lacking
     );
     let total = vec![
-        TableCell::Text(match (rows.len(), kind) {
-            (1, ComparedKind::Pictures) => "1 picture".to_owned(),
-            (1, ComparedKind::Scenes) => "1 scene".to_owned(),
-            (count, ComparedKind::Pictures) => format!("{count} pictures"),
-            (count, ComparedKind::Scenes) => format!("{count} scenes"),
-        }),
+        TableCell::Text(plural(
+            rows.len(),
+            match kind {
+                ComparedKind::Pictures => "picture",
+                ComparedKind::Scenes => "scene",
+            },
+        )),
         TableCell::Text(result),
         TableCell::Measure(most(|found| found.rmse), 4),
         TableCell::Measure(most(|found| found.max), 2),

@@ -36,7 +36,7 @@ pub(super) fn run(args: &DiffArgs, reporter: &mut Reporter) -> Result<(), Failur
         return Err(Failure::Failed(message.to_owned()));
     }
     let interrupt = Interrupt::listen()?;
-    let mut pair = ScenePair::read(args, [&args.new, &args.old], reporter)?;
+    let mut pair = ScenePair::read(args, [&args.new, &args.old], true, reporter)?;
     let open = |path: &Option<_>| {
         let path: Option<&Path> = path.as_deref();
         let open = |path: &Path| {
@@ -71,7 +71,7 @@ pub(super) fn difference(
     reporter: &mut Reporter,
     interrupt: &Interrupt,
 ) -> Result<Difference, Failure> {
-    let mut pair = ScenePair::read(args, paths, reporter)?;
+    let mut pair = ScenePair::read(args, paths, false, reporter)?;
     let [new, old] = pair.pictures(reporter, interrupt)?;
     Ok(Difference::of(&new, &old, args.levels))
 }
@@ -84,8 +84,14 @@ struct ScenePair {
 }
 
 impl ScenePair {
-    /// Reads the scenes, the new one first, and reports their diagnostics.
-    fn read(args: &DiffArgs, paths: [&Path; 2], reporter: &mut Reporter) -> Result<Self, Failure> {
+    /// Reads the scenes, the new one first, and reports their diagnostics. The changes are found
+    /// where they are told.
+    fn read(
+        args: &DiffArgs,
+        paths: [&Path; 2],
+        tells_changes: bool,
+        reporter: &mut Reporter,
+    ) -> Result<Self, Failure> {
         // What differs is told of the scenes as they are written, without the view and the studio
         // that an asset gets.
         let new = read(args, paths[0], reporter)?;
@@ -93,10 +99,12 @@ impl ScenePair {
         if !new.1.has_camera() && !old.1.has_camera() {
             old.1.lowered.scene.camera = new.1.lowered.scene.camera.clone();
         }
-        let changes = changes(&new.1.lowered.scene, &old.1.lowered.scene);
+        let changes = tells_changes.then(|| changes(&new.1.lowered.scene, &old.1.lowered.scene));
         let mut new = ComparedScene::validate(args, new, None, reporter)?;
         let mut old = ComparedScene::validate(args, old, Some(new.size()), reporter)?;
-        let changes = changes.expect("proven scenes hold finite numbers only");
+        let changes = changes.map_or_else(Vec::new, |found| {
+            found.expect("proven scenes hold finite numbers only")
+        });
         if let Some(camera) = shared_view(&new, &old) {
             new.see_by(&camera)?;
         }

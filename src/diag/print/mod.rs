@@ -20,7 +20,7 @@ mod window;
 mod tests;
 
 pub(super) use text::is_unsafe;
-pub use text::{clean, clean_json, clean_lines};
+pub use text::{clean, clean_json, clean_lines, plural};
 
 use super::{Diagnostic, DiagnosticSink, Severity, codes};
 use fold::FoldedDiagnostic;

@@ -70,7 +70,8 @@ pub fn clean_json(json: &str) -> String {
 }
 
 /// `1 error`, `2 errors`.
-pub(super) fn plural(count: usize, word: &str) -> String {
+#[must_use]
+pub fn plural(count: usize, word: &str) -> String {
     format!("{count} {word}{}", if count == 1 { "" } else { "s" })
 }
 
