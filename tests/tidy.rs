@@ -7,10 +7,15 @@
     reason = "a test stops at the first surprise and reads what it checks"
 )]
 
+mod circles;
+mod tokens;
+mod weight;
+
 use crate::repo::{files, root};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use tokens::tokens;
 
 /// The floor of each room; a room may name only rooms on lower floors.
 const FLOORS: &[(&str, u32)] = &[
@@ -276,59 +281,6 @@ fn files_are_short() {
     assert!(long.is_empty(), "longer than {MAX_LINES} lines: {long:?}");
 }
 
-/// The identifiers of Rust code: words outside of comments, strings and characters.
-fn identifiers(text: &str) -> BTreeSet<&str> {
-    let mut found = BTreeSet::new();
-    let mut rest = text;
-    while let Some(c) = rest.chars().next() {
-        let length = match c {
-            '/' if rest.starts_with("//") => rest.find('\n').unwrap_or(rest.len()),
-            '"' => string_length(rest),
-            'r' if rest.starts_with("r\"") || rest.starts_with("r#") => raw_string_length(rest),
-            '\'' if rest.starts_with("'\\") => 2 + rest[2..].find('\'').map_or(0, |end| end + 1),
-            '\'' if rest.chars().nth(2) == Some('\'') => {
-                rest.char_indices().nth(3).map_or(rest.len(), |(at, _)| at)
-            }
-            _ if c.is_alphabetic() || c == '_' => {
-                let is_word = |c: char| c.is_alphanumeric() || c == '_';
-                let end = rest.find(|c| !is_word(c)).unwrap_or(rest.len());
-                found.insert(&rest[..end]);
-                end
-            }
-            _ => c.len_utf8(),
-        };
-        rest = &rest[length..];
-    }
-    found
-}
-
-/// The length of the string literal that `text` begins with.
-fn string_length(text: &str) -> usize {
-    let mut escaped = false;
-    for (at, c) in text.char_indices().skip(1) {
-        match c {
-            _ if escaped => escaped = false,
-            '\\' => escaped = true,
-            '"' => return at + 1,
-            _ => {}
-        }
-    }
-    text.len()
-}
-
-/// The length of the raw string literal, or of the word, that `text` begins with.
-fn raw_string_length(text: &str) -> usize {
-    let hashes = text[1..].chars().take_while(|c| *c == '#').count();
-    if !text[1 + hashes..].starts_with('"') {
-        return 1;
-    }
-    let end = format!("\"{}", "#".repeat(hashes));
-    let start = 2 + hashes;
-    text[start..]
-        .find(&end)
-        .map_or(text.len(), |at| start + at + end.len())
-}
-
 /// Private names that a file uses for what a standard or a crate calls so.
 const ALLOWED_NAMES: &[(&str, &str)] = &[
     // The public name of the reason of an effect.
@@ -346,7 +298,8 @@ fn names_are_standard_terms() {
         .collect();
     let mut faults = Vec::new();
     for (path, text) in rust_files("src") {
-        for name in identifiers(&text) {
+        let names: BTreeSet<&str> = tokens(&text).into_iter().collect();
+        for name in names {
             if let Some(term) = banned.get(name)
                 && !ALLOWED_NAMES.contains(&(&path, name))
             {
