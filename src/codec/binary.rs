@@ -7,12 +7,13 @@
 //! takes 40 ms for a million triangles, and a mapped file could be truncated by another process.
 
 use super::columns::{self, EntityTable, SectionReader};
+use super::container::{CHECKSUMS_COUNT, Container};
+use super::decoded::{Decoded, span, wrong_shape};
 use super::section::{self, ALIGNMENT, SectionEntry, SectionWriter};
-use super::{
-    CHECKSUMS_COUNT, Decoded, NonFiniteNumber, VersionField, image, mesh, newer, span, stored,
-    tree, typed, wrong_shape,
-};
-use rtc_diag::{Code, Diagnostic, codes};
+use super::tree::{NonFiniteNumber, tree};
+use super::version::{VersionField, newer, typed};
+use super::{image, mesh, stored};
+use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{Display, Mesh, Scene, StoredTree, Surface, VERSION};
 use rtc_source::{FileId, Span};
 use serde::{Deserialize, Serialize};
@@ -249,12 +250,6 @@ fn surface(tree: Value, span: Span) -> Decoded<Surface> {
     serde_json::from_value(tree).map_err(|error| wrong_shape(&error.to_string(), span))
 }
 
-/// A binary file; nothing is known about its bytes.
-pub(super) struct Container<'a> {
-    file: FileId,
-    pub(super) bytes: &'a [u8],
-}
-
 impl Container<'_> {
     /// Checks magic, length, checksum and version, in this order. Returns the end of the header.
     fn check_preamble(&self) -> Decoded<usize> {
@@ -340,25 +335,5 @@ impl Container<'_> {
             _ => "copy the file again, or compile the scene again",
         };
         Box::new(error.hint(hint))
-    }
-
-    /// The error for a file that ends before `end`, the end of `what`.
-    pub(super) fn truncated(&self, end: usize, what: &str) -> Box<Diagnostic> {
-        let length = self.bytes.len();
-        let message = format!("the file ends at byte {length}, but {what} ends at byte {end}");
-        self.error_at(&codes::TRUNCATED, message, length, length)
-    }
-
-    /// An error at bytes `start..end`.
-    pub(super) fn error_at(
-        &self,
-        code: &'static Code,
-        message: String,
-        start: usize,
-        end: usize,
-    ) -> Box<Diagnostic> {
-        let length = self.bytes.len();
-        let span = span(self.file, start.min(length), end.min(length));
-        Box::new(Diagnostic::new(code, message).at(span, format!("at byte {start}")))
     }
 }

@@ -1,7 +1,7 @@
 //! The differences between two scenes, value by value, each with its path in the IR as in `rtc
 //! schema ir`. Vertices and pixels are compared by count and hash.
 
-use super::{NonFiniteNumber, tree};
+use super::tree::{NonFiniteNumber, tree};
 use rtc_ir::{Image, Mesh, Scene, VertexColumn};
 use schemars::JsonSchema;
 use serde::Serialize;

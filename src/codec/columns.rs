@@ -5,10 +5,11 @@
 //! No entity of the IR is named here. The tables describe themselves, so a file of an older version
 //! decodes to the tree of that version. Integers stay integers and floats keep every bit.
 
-use super::binary::Container;
+use super::container::Container;
+use super::decoded::Decoded;
 use super::run::{self, ValueSection};
 use super::section::{ElementType, Section, SectionContent, SectionWriter};
-use super::{Decoded, NonFiniteNumber, tree};
+use super::tree::{NonFiniteNumber, tree};
 use rtc_diag::codes;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;

@@ -24,6 +24,8 @@
 mod binary;
 mod changes;
 mod columns;
+mod container;
+mod decoded;
 mod faults;
 mod image;
 mod locate;
@@ -34,16 +36,17 @@ mod schema;
 mod section;
 mod stored;
 mod text;
+mod tree;
 mod upgrade;
+mod version;
 
 pub use changes::{ValueChange, changes};
 pub use schema::schema;
+pub use tree::NonFiniteNumber;
 
-use rtc_diag::{Diagnostic, DiagnosticSink, clip_words, codes};
-use rtc_ir::{Display, Scene, VERSION};
-use rtc_source::{FileId, SourceMap, Span};
-use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use rtc_diag::DiagnosticSink;
+use rtc_ir::{Display, Scene};
+use rtc_source::{FileId, SourceMap};
 use std::io::{self, Write};
 
 /// The two encodings of the IR.
@@ -83,10 +86,6 @@ pub fn decode(
         .map_err(|faults| faults.into_iter().for_each(|fault| sink.push(fault)))
         .ok()
 }
-
-/// A scene that can't be encoded because a number is not finite.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NonFiniteNumber;
 
 /// An encoded scene that has not been written yet.
 pub struct EncodedScene<'s>(Writing<'s>);
@@ -156,69 +155,4 @@ pub fn hash(scene: &Scene) -> Result<u128, NonFiniteNumber> {
     let draft = binary::encode(scene, &Display::default(), &[])?;
     draft.write(&mut hash).expect("hashing does not fail");
     Ok(hash.0.digest128())
-}
-
-/// A part of a scene as a JSON tree.
-fn tree(part: &impl Serialize) -> Result<Value, NonFiniteNumber> {
-    let tree = serde_json::to_value(part)
-        .expect("a scene is structs, lists and numbers, which JSON holds");
-    if has_null(&tree) {
-        Err(NonFiniteNumber)
-    } else {
-        Ok(tree)
-    }
-}
-
-/// `serde_json` writes null for a number that is not finite, and the IR has no other nulls.
-fn has_null(tree: &Value) -> bool {
-    match tree {
-        Value::Null => true,
-        Value::Bool(_) | Value::Number(_) | Value::String(_) => false,
-        Value::Array(items) => items.iter().any(has_null),
-        Value::Object(members) => members.values().any(has_null),
-    }
-}
-
-/// Whether checksums are verified. A fuzzer can't guess a checksum and would never reach the code
-/// behind it.
-const CHECKSUMS_COUNT: bool = !cfg!(fuzzing);
-
-/// The field that every version of either encoding has.
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct VersionField {
-    ir_version: u32,
-}
-
-/// The result of decoding. The first error ends it, because nothing after it can be trusted.
-type Decoded<T> = Result<T, Box<Diagnostic>>;
-
-fn newer(version: u32, what: &str, newest: u32, span: Span) -> Box<Diagnostic> {
-    let message =
-        format!("{what} version {version} is newer than {newest}, the newest this rtc reads");
-    let label = format!("version {version}");
-    let hint = "use a newer rtc, or compile the scene again with this one";
-    Box::new(
-        Diagnostic::new(&codes::NEWER_VERSION, message)
-            .at(span, label)
-            .hint(hint),
-    )
-}
-
-/// A span; offsets of 4 GiB and more are clamped.
-fn span(file: FileId, start: usize, end: usize) -> Span {
-    let offset = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
-    Span::new(file, offset(start), offset(end))
-}
-
-/// The scene that a tree of version `version` encodes.
-fn typed(version: u32, tree: Value, span: Span) -> Decoded<Scene> {
-    debug_assert!(version <= VERSION, "newer versions are refused before");
-    serde_json::from_value(upgrade::to_current(version, tree))
-        .map_err(|error| wrong_shape(&error.to_string(), span))
-}
-
-fn wrong_shape(what: &str, span: Span) -> Box<Diagnostic> {
-    let message = format!("this is not the shape of a scene: {}", clip_words(what));
-    Box::new(Diagnostic::new(&codes::WRONG_SHAPE, message).at(span, "found here"))
 }

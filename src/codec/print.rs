@@ -3,7 +3,7 @@
 //!
 //! So each entity and each setting is one line, and a change of one is a change of one line.
 
-use super::NonFiniteNumber;
+use super::tree::NonFiniteNumber;
 use rtc_ir::{Scene, VERSION};
 use serde::Serialize;
 use serde_json::Serializer;

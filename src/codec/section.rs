@@ -5,8 +5,8 @@
 //! between, nothing after the last. So every bit of the file is in the header, in a section or a
 //! known zero, and any change is detected.
 
-use super::binary::Container;
-use super::{CHECKSUMS_COUNT, Decoded};
+use super::container::{CHECKSUMS_COUNT, Container};
+use super::decoded::Decoded;
 use rtc_diag::codes;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;

@@ -4,7 +4,9 @@
 //! Memory and depth are bounded by the length of the text. Numbers out of range, duplicate keys and
 //! deep nesting are errors with a position.
 
-use super::{Decoded, VersionField, faults, locate, newer, span, typed, wrong_shape};
+use super::decoded::{Decoded, span, wrong_shape};
+use super::version::{VersionField, newer, typed};
+use super::{faults, locate};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{
     Camera, Display, Environment, Image, Light, Material, Medium, Mesh, Scene, Settings, Surface,

@@ -2,7 +2,7 @@
 //! picture is that of programs which show no other.
 
 use super::Picture;
-use super::file::PictureHeader;
+use super::header::PictureHeader;
 use super::png::pack;
 use ::png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent, Writer};
 use std::io::{self, Write};

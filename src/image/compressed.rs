@@ -1,7 +1,7 @@
 //! Pictures as they are shown, of 8 bits a channel: JPEG without opacity, and WebP without loss.
 //! They are compressed as a whole, so their strips are kept until the last.
 
-use super::file::{PictureHeader, StripSource};
+use super::header::{PictureHeader, StripSource};
 use super::png::pack;
 use super::xmp;
 use ::png::BitDepth;

@@ -5,7 +5,7 @@
 //! until they have the required one. The Merkle tree is known last and is stored in reserved space
 //! of the header.
 
-use super::file::{BLOCK_ROWS, PictureHeader, StripSource};
+use super::header::{BLOCK_ROWS, PictureHeader, StripSource};
 use super::range::{is_half, narrow};
 use super::{FileFormat, MerkleTree, Picture, PictureMetadata};
 use ::exr::block::UncompressedBlock;

@@ -2,104 +2,35 @@
 //! written rows are freed. A whole picture is one strip, so that the bytes are the same.
 
 use super::compressed::{self, CompressedForm};
-use super::{
-    EncodeError, FileFormat, Image, MerkleTree, Picture, PictureMetadata, PixelLayers, TileHash,
-    exr, png, rgbe,
-};
+use super::header::{PictureHeader, StripSource};
+use super::{FileFormat, Picture, exr, png, rgbe};
 use ::png::BitDepth;
 use std::borrow::Cow;
+use std::fmt;
 use std::io::{self, Cursor, Seek, Write};
 
-/// The rows of a strip, except the last, are a multiple of this: the block height of an EXR.
-pub const BLOCK_ROWS: u32 = 16;
+/// Why a picture has no pixel file, with the message of the encoder; a width or height of 0 is a
+/// reason.
+#[derive(Debug)]
+pub struct EncodeError(String);
 
-/// The properties of a picture before any pixel is rendered.
-#[derive(Clone, Debug)]
-pub struct PictureHeader {
-    /// Width and height in pixels.
-    pub size: [u32; 2],
-    /// Whether it has opacities.
-    pub has_alpha: bool,
-    /// The names of the channels of its layers.
-    pub layers: Vec<Cow<'static, str>>,
-    /// The form of the file.
-    pub form: FileFormat,
-    /// Whether its values are colours as a display shows them, where its form can say so; else
-    /// numbers.
-    pub is_color: bool,
-    /// Its provenance.
-    pub metadata: PictureMetadata,
-    /// Whether it keeps the hashes of its tiles, which come with its strips.
-    pub has_tiles: bool,
-}
-
-/// The source of the strips of a picture, from the top. Each has the width and the channels of its
-/// picture.
-pub struct StripSource<'s> {
-    next: &'s mut dyn FnMut() -> io::Result<Cow<'s, Picture>>,
-    /// The hashes of the tiles of the strips so far.
-    tiles: Vec<TileHash>,
-    /// The tree over the tiles, of strips that have no hashes.
-    tree: Option<MerkleTree>,
-}
-
-impl<'s> StripSource<'s> {
-    /// The strips that a closure makes, one at each call.
-    pub fn new(next: &'s mut dyn FnMut() -> io::Result<Cow<'s, Picture>>) -> Self {
-        Self {
-            next,
-            tiles: Vec::new(),
-            tree: None,
-        }
-    }
-
-    /// The same strips with the tree over their tiles.
-    pub(super) fn with_tree(self, tree: Option<MerkleTree>) -> Self {
-        Self { tree, ..self }
-    }
-
-    /// The next strip; call it while there are rows left.
-    pub(super) fn next_strip(&mut self) -> io::Result<Cow<'s, Picture>> {
-        let strip = (self.next)()?;
-        if strip.image.height == 0 {
-            return Err(io::Error::other("a strip has no rows"));
-        }
-        self.tiles.extend(&strip.tiles);
-        Ok(strip)
+impl fmt::Display for EncodeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
     }
 }
 
-impl StripSource<'_> {
-    /// The tree over the tiles of all strips, once there are no more; none if the file keeps none.
-    pub(super) fn tree(&mut self, head: &PictureHeader) -> Option<MerkleTree> {
-        let tiles = std::mem::take(&mut self.tiles);
-        let tree = self.tree.take();
-        head.has_tiles
-            .then(|| tree.unwrap_or_else(|| MerkleTree::new(tiles, &head.metadata)))
+impl Picture {
+    /// The bytes of the pixel file.
+    ///
+    /// # Errors
+    /// If the picture is empty or larger than the format can hold.
+    pub fn encode(&self, form: FileFormat) -> Result<Vec<u8>, EncodeError> {
+        PictureHeader::of(self, form).encode(self)
     }
 }
 
 impl PictureHeader {
-    /// The header of a picture, in a format.
-    #[must_use]
-    pub fn of(picture: &Picture, form: FileFormat) -> Self {
-        let Picture {
-            image: Image { width, height, .. },
-            alpha,
-            layers: PixelLayers { names, .. },
-            tiles,
-        } = picture;
-        Self {
-            size: [*width, *height],
-            has_alpha: alpha.is_some(),
-            layers: names.iter().copied().map(Cow::Borrowed).collect(),
-            form,
-            is_color: true,
-            metadata: PictureMetadata::default(),
-            has_tiles: !tiles.is_empty(),
-        }
-    }
-
     /// Writes the file as its strips come.
     ///
     /// # Errors
@@ -173,7 +104,7 @@ impl PictureHeader {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tile_count;
+    use super::super::{Image, PixelLayers, TileHash, tile_count};
     use super::*;
 
     /// A picture with opacities and layers, all of whose rows differ.

@@ -1,7 +1,7 @@
 //! GIF: pictures one after another in one file, each of at most 256 colours of its own.
 
 use super::Picture;
-use super::file::PictureHeader;
+use super::header::PictureHeader;
 use super::png::pack;
 use ::gif::{Encoder, EncodingError, Frame, Repeat};
 use ::png::BitDepth;

@@ -1,7 +1,7 @@
 //! PNG of 8 and 16 bits per channel: red, green, blue, and opacity where there is one. A picture
 //! says that its colours are those of sRGB, and where it came from; never when it was made.
 
-use super::file::{PictureHeader, StripSource};
+use super::header::{PictureHeader, StripSource};
 use super::{MerkleTree, Picture};
 use ::png::chunk::ChunkType;
 use ::png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent};

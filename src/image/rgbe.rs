@@ -2,8 +2,8 @@
 //! exponent, run-length encoded (Ward, "Real Pixels", Graphics Gems II, 1991). A value is wrong by
 //! at most 1/256 of the largest channel of its pixel; there is nothing below 0, and no opacity.
 
-use super::file::{PictureHeader, StripSource};
 use super::hdr::Rgbe;
+use super::header::{PictureHeader, StripSource};
 use super::range::narrow;
 use std::io::{self, Write};
 

@@ -27,13 +27,15 @@ mod map;
 mod memory;
 mod record;
 mod search;
+mod span;
 pub mod tree;
 
 pub use budget::{Budget, LimitExceeded, Limits, Resource};
 pub use edited::EditedFiles;
 pub use escape::uri_path;
 pub use loader::{ByteLimit, FileIdentity, LoadError, Loader, OwnedFile, is_own_folder};
-pub use map::{FileId, LineColumn, SourceMap, Span};
+pub use map::SourceMap;
 pub use memory::MemoryFiles;
 pub use record::ReadRecord;
 pub use search::{FileKind, FileSearch, Folder, FoundFile, MissingFile};
+pub use span::{FileId, LineColumn, Span};

@@ -2,6 +2,7 @@
 
 use super::memory::resolved;
 use super::record::SharedRecord;
+use super::span::{FileId, LineColumn, Span};
 use super::tree::{DetachedTree, SyntaxTree};
 use super::{Budget, EditedFiles, Folder, FoundFile, Limits, MemoryFiles, ReadRecord};
 use rtc_math::to_u32;
@@ -12,48 +13,6 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// The number of bytes that are searched for NUL to detect binary files.
 const SNIFF: usize = 8192;
-
-/// The index of a file in a [`SourceMap`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct FileId(u32);
-
-/// A half-open range of bytes of one file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Span {
-    /// The file the bytes belong to.
-    pub file: FileId,
-    /// The first byte.
-    pub start: u32,
-    /// One past the last byte.
-    pub end: u32,
-}
-
-impl Span {
-    /// The span of bytes `start..end` of `file`.
-    #[must_use]
-    pub fn new(file: FileId, start: u32, end: u32) -> Self {
-        Self { file, start, end }
-    }
-
-    /// The smallest span that contains both; both must be in the same file.
-    #[must_use]
-    pub fn to(self, other: Span) -> Self {
-        Self {
-            file: self.file,
-            start: self.start.min(other.start),
-            end: self.end.max(other.end),
-        }
-    }
-}
-
-/// A line and a column, both from 1; columns count characters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LineColumn {
-    /// The line, from 1.
-    pub line: u32,
-    /// The column in characters, from 1.
-    pub column: u32,
-}
 
 struct SourceFile {
     name: String,

@@ -5,7 +5,15 @@ use rtc_diag::codes::{self, Code};
 use rtc_diag::{Diagnostic, DiagnosticSink, Severity};
 use rtc_ir::{EntityField, EntityKind, SourceSpans, ValuePath};
 use rtc_math::{Id, NonNegative, Positive, Vec3, shortest, unit_scale};
+use rtc_source::Limits;
 use std::num::NonZeroU32;
+
+/// Options of the validation.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ValidationOptions {
+    /// The limits on the pixels and the rays of the picture.
+    pub limits: Limits,
+}
 
 /// The largest absolute value of a coordinate. The sphere test computes fourth powers of lengths,
 /// and these stay finite.

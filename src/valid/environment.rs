@@ -1,7 +1,7 @@
 //! Validates the environment.
 
-use super::ImageId;
 use super::check::Checker;
+use super::image::ImageId;
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
 use rtc_math::Vec3;

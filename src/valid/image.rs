@@ -5,7 +5,11 @@ use rtc_diag::Diagnostic;
 use rtc_diag::codes;
 use rtc_image::Texels;
 use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
+use rtc_math::Id;
 use std::num::NonZeroU32;
+
+/// The id of an image of a [`ValidScene`](crate::ValidScene).
+pub type ImageId = Id<Image>;
 
 /// An image of at least one pixel.
 #[derive(Clone, Debug)]

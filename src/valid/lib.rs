@@ -37,47 +37,27 @@ mod standard;
 mod texture;
 
 pub use camera::{Camera, Lens, Projection, Stereo};
-pub use check::LARGEST;
+pub use check::{LARGEST, ValidationOptions};
 pub use environment::Environment;
-pub use image::Image;
+pub use image::{Image, ImageId};
 pub use light::{
-    CourseLight, DirectionalLight, Falloff, Light, PointLight, ProjectedTexture, Punctual,
+    CourseLight, CourseLightId, DirectionalLight, Falloff, Light, PointLight, ProjectedTexture,
+    Punctual, PunctualId,
 };
-pub use material::Material;
-pub use mesh::{MAX_MESH_TRIANGLES, Mesh};
+pub use material::{Material, MaterialId};
+pub use mesh::{MAX_MESH_TRIANGLES, Mesh, MeshId};
 pub use phong::{Bump, Maps, Phong};
 pub use settings::{Ambient, Gooch, Mode, PathSettings, Pattern, Settings};
 pub use shape::*;
 pub use standard::{Alpha, Standard};
-pub use texture::{Filter, Map, Sampled, Texture, UvSet, Wrap};
+pub use texture::{Filter, Map, Sampled, Texture, TextureId, UvSet, Wrap};
 
 use check::{Checker, EntityCounts};
 use inside::Solids;
 use rtc_diag::DiagnosticSink;
 use rtc_ir::{self as ir, EntityField, EntityKind, SourceSpans, ValuePath};
-use rtc_math::{Id, IdTable, Medium, StoredTree, UnitInterval, Vec3};
-use rtc_source::Limits;
+use rtc_math::{IdTable, Medium, StoredTree, UnitInterval, Vec3};
 use std::sync::Arc;
-
-/// Options of the validation.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct ValidationOptions {
-    /// The limits on the pixels and the rays of the picture.
-    pub limits: Limits,
-}
-
-/// The id of a light of the course among those of a [`ValidScene`].
-pub type CourseLightId = Id<CourseLight>;
-/// The id of a physical light, in the order of the scene.
-pub type PunctualId = Id<Punctual>;
-/// The id of an image of a [`ValidScene`].
-pub type ImageId = Id<Image>;
-/// The id of a material of a [`ValidScene`].
-pub type MaterialId = Id<Material>;
-/// The id of a mesh of a [`ValidScene`].
-pub type MeshId = Id<Mesh>;
-/// The id of a texture of a [`ValidScene`].
-pub type TextureId = Id<Texture>;
 
 /// A valid scene: indices in range, numbers finite and in range, camera axes perpendicular,
 /// triangles with an area.
@@ -225,7 +205,7 @@ impl ValidScene {
 #[must_use]
 pub fn revalidate(scene: &ir::Scene) -> ValidScene {
     let options = ValidationOptions {
-        limits: Limits::NONE,
+        limits: rtc_source::Limits::NONE,
     };
     let valid_scene = validate(
         scene,

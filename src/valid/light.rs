@@ -1,13 +1,18 @@
 //! Validates the lights.
 
-use super::EntityCounts;
-use super::check::Checker;
+use super::check::{Checker, EntityCounts};
 use super::texture::{self, Map};
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
 use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
-use rtc_math::{NonNegative, Positive, Vec3, unit};
+use rtc_math::{Id, NonNegative, Positive, Vec3, unit};
 use rtc_profile::LightProfile;
+
+/// The id of a physical light, in the order of the scene.
+pub type PunctualId = Id<Punctual>;
+
+/// The id of a light of the course among those of a [`ValidScene`](crate::ValidScene).
+pub type CourseLightId = Id<CourseLight>;
 
 /// A light of any kind.
 #[derive(Clone, Debug)]

@@ -5,6 +5,10 @@ use super::phong::{self, Phong};
 use super::standard::{self, Standard};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
+use rtc_math::Id;
+
+/// The id of a material of a [`ValidScene`](crate::ValidScene).
+pub type MaterialId = Id<Material>;
 
 /// A material of either model.
 #[derive(Clone, Debug)]

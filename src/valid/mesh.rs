@@ -6,7 +6,10 @@ use super::shape::has_area;
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
 use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
-use rtc_math::{SharedList, Vec3, VertexColumn, unit};
+use rtc_math::{Id, SharedList, Vec3, VertexColumn, unit};
+
+/// The id of a mesh of a [`ValidScene`](crate::ValidScene).
+pub type MeshId = Id<Mesh>;
 
 /// The maximum number of triangles of a mesh: its BVH takes 21 GB.
 pub const MAX_MESH_TRIANGLES: usize = 1 << 29;

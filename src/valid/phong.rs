@@ -1,7 +1,7 @@
 //! Validates the Phong model.
 
-use super::TextureId;
 use super::check::{Checker, EntityCounts};
+use super::texture::TextureId;
 use rtc_diag::codes;
 use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
 use rtc_math::{NonNegative, Positive, Vec3};

@@ -1,7 +1,7 @@
 //! Validates the settings, and the limits on pixels and rays.
 
 use super::camera::Stereo;
-use super::check::Checker;
+use super::check::{Checker, ValidationOptions};
 use rtc_color::Tone;
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
@@ -257,11 +257,7 @@ fn at(field: EntityField) -> ValuePath {
 }
 
 /// Rejects pictures beyond the limits on pixels and rays.
-pub(super) fn budget(
-    scene: &ir::Scene,
-    options: &super::ValidationOptions,
-    check: &mut Checker<'_>,
-) {
+pub(super) fn budget(scene: &ir::Scene, options: &ValidationOptions, check: &mut Checker<'_>) {
     let [width, height] = scene.camera.size;
     let pixels = u128::from(width) * u128::from(height);
     let limit = options.limits.of(Resource::Pixels, 0);

@@ -1,7 +1,7 @@
 //! Validates the glTF material: every factor is in the range of its specification.
 
-use super::MaterialId;
 use super::check::{Checker, EntityCounts, LARGEST};
+use super::material::MaterialId;
 use super::medium;
 use super::texture::{self, Map};
 use rtc_diag::{Diagnostic, codes};

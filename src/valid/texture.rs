@@ -1,10 +1,13 @@
 //! Validates the textures and texture maps: the images and textures they refer to exist.
 
 use super::check::{Checker, EntityCounts};
-use super::{ImageId, TextureId};
+use super::image::ImageId;
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
-use rtc_math::{GradientNoise, SolidTexture, TextureMapping, TexturePattern};
+use rtc_math::{GradientNoise, Id, SolidTexture, TextureMapping, TexturePattern};
+
+/// The id of a texture of a [`ValidScene`](crate::ValidScene).
+pub type TextureId = Id<Texture>;
 
 /// A texture of any kind.
 #[derive(Clone, Copy, Debug)]

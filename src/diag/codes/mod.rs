@@ -8,8 +8,7 @@
 //! The page of a code, `pages/<CODE>.md`, states what it finds and why that matters, with an
 //! example that raises it and the fixed example; `tests/pages.rs` runs both.
 
-use std::fmt;
-
+mod code;
 mod container;
 mod exports;
 mod files;
@@ -23,6 +22,7 @@ mod syntax;
 mod usd;
 mod values;
 
+pub use code::{Code, Severity};
 pub use container::*;
 pub use exports::*;
 pub use files::*;
@@ -36,41 +36,7 @@ pub use syntax::*;
 pub use usd::*;
 pub use values::*;
 
-/// The severity of a diagnostic. Only errors stop the work.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Severity {
-    /// The input is rejected.
-    Error,
-    /// The picture is probably not the one that was meant.
-    Warning,
-    /// Information; printed with `-v`.
-    Note,
-}
-
-impl Severity {
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Error => "error",
-            Self::Warning => "warning",
-            Self::Note => "note",
-        }
-    }
-}
-
-/// One row of the table.
-#[derive(Debug, PartialEq, Eq)]
-pub struct Code {
-    /// Family and number, as `VA003`.
-    pub id: &'static str,
-    /// The severity unless an option changes it.
-    pub severity: Severity,
-    /// One line: the error.
-    pub summary: &'static str,
-    /// The codes of Khronos' glTF validator for it; empty outside `GL`.
-    pub aliases: &'static [&'static str],
-}
+use code::codes;
 
 impl Code {
     /// The page of `rtc explain`, in Markdown: what the code finds, why it matters, an example that
@@ -102,40 +68,6 @@ impl Code {
         self.page().split("\n\n").next().unwrap_or_default()
     }
 }
-
-impl fmt::Display for Code {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.id)
-    }
-}
-
-/// Declares a family: a static for each row, `$family`, a list of all rows in order, and their
-/// pages.
-macro_rules! codes {
-    ($family:ident: $($name:ident = $id:literal, $severity:ident, $summary:literal
-        $(, [$($alias:literal),*])?;)*) => {
-        $(
-            #[doc = $summary]
-            pub static $name: $crate::Code = $crate::Code {
-                id: $id,
-                severity: $crate::Severity::$severity,
-                summary: $summary,
-                aliases: &[$($($alias),*)?],
-            };
-        )*
-        /// The rows of this family, in order.
-        pub static $family: &[&$crate::Code] = &[$(&$name),*];
-
-        /// The page of a code of this family.
-        pub(super) fn page(id: &str) -> Option<&'static str> {
-            match id {
-                $($id => Some(include_str!(concat!("pages/", $id, ".md"))),)*
-                _ => None,
-            }
-        }
-    };
-}
-use codes;
 
 /// Every code there is, family by family.
 pub fn all() -> impl Iterator<Item = &'static Code> {

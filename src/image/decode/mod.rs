@@ -13,16 +13,20 @@
 //! The modules check what the decoder crates do not check: memory that a forged header would make
 //! them allocate, and data that would make them panic.
 
+mod error;
 mod jpeg;
 pub(super) mod ktx2;
 mod layout;
 mod png;
 mod raster;
+mod size;
 mod webp;
+
+pub use error::DecodeError;
+pub(super) use size::ImageSize;
 
 use super::format::PictureFormat;
 use layout::PixelLayout;
-use std::fmt;
 
 /// A picture of 8 bits a channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,42 +76,6 @@ pub struct DecodeCost {
     pub scratch: u64,
 }
 
-/// Why a file can't be read as a picture; prints as a clause about the file.
-#[derive(Debug)]
-pub enum DecodeError {
-    /// It is no picture, or of a format that is not read, which then is named.
-    Format(Option<&'static str>),
-    /// It has more pixels than it may have, or than there is memory for.
-    TooLarge {
-        /// Width in pixels.
-        width: u32,
-        /// Height in pixels.
-        height: u32,
-    },
-    /// It is of a kind that is not read, with its noun.
-    Unsupported(&'static str),
-    /// It is damaged; with the message of the decoder.
-    Damaged(String),
-}
-
-impl fmt::Display for DecodeError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Format(None) => f.write_str("is not a picture"),
-            Self::Format(Some(name)) => write!(f, "is a {name} file"),
-            Self::Unsupported(kind) => write!(f, "is a {kind}, which is not supported"),
-            Self::TooLarge { width, height } => write!(f, "has {width} × {height} pixels"),
-            Self::Damaged(words) => write!(f, "is damaged: {words}"),
-        }
-    }
-}
-
-impl DecodeError {
-    pub(super) fn damaged(words: impl fmt::Display) -> Self {
-        Self::Damaged(words.to_string().trim_end_matches('.').to_owned())
-    }
-}
-
 /// A pixel file whose header was read.
 pub struct PixelFile<'a> {
     size: ImageSize,
@@ -121,53 +89,6 @@ enum Decoder<'a> {
     WebP(Box<webp::WebP<'a>>),
     Ktx2(Box<ktx2::Ktx2<'a>>),
     Raster(raster::Raster<'a>),
-}
-
-/// Width and height in pixels, each at least 1.
-#[derive(Clone, Copy)]
-pub(super) struct ImageSize {
-    pub(super) width: u32,
-    pub(super) height: u32,
-}
-
-impl ImageSize {
-    /// A size, if it has at most this many pixels.
-    pub(super) fn within(most_pixels: u64, width: u32, height: u32) -> Result<Self, DecodeError> {
-        if width == 0 || height == 0 {
-            return Err(DecodeError::Damaged("it has no pixels".to_owned()));
-        }
-        let size = Self { width, height };
-        if size.pixels() > most_pixels {
-            Err(size.too_large())
-        } else {
-            Ok(size)
-        }
-    }
-
-    pub(super) fn pixels(self) -> u64 {
-        u64::from(self.width) * u64::from(self.height)
-    }
-
-    pub(super) fn too_large(self) -> DecodeError {
-        DecodeError::TooLarge {
-            width: self.width,
-            height: self.height,
-        }
-    }
-
-    /// A buffer with this many bytes per pixel, if there is memory for it.
-    pub(super) fn buffer(self, pixel: usize) -> Result<Vec<u8>, DecodeError> {
-        let bytes = usize::try_from(self.pixels())
-            .ok()
-            .and_then(|pixels| pixels.checked_mul(pixel));
-        let bytes = bytes.ok_or(self.too_large())?;
-        let mut buffer = Vec::new();
-        buffer
-            .try_reserve_exact(bytes)
-            .map_err(|_| self.too_large())?;
-        buffer.resize(bytes, 0);
-        Ok(buffer)
-    }
 }
 
 /// Whether a file that begins so is one that [`PixelFile`] reads.

@@ -6,7 +6,8 @@ mod check;
 pub(super) use area::has_area;
 pub(super) use check::surface;
 
-use crate::{MaterialId, MeshId};
+use crate::material::MaterialId;
+use crate::mesh::MeshId;
 use check::{SurfaceCheck, Validate};
 use rtc_ir as ir;
 use rtc_math::{Positive, SetStep, Vec3, is_flat};
