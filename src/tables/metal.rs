@@ -1,7 +1,9 @@
 //! The complex indices of refraction of conductors at red, green and blue.
 //!
-//! `benches/metals.py` prints the rows from measured spectra; the last rows have no such spectrum
-//! and are the numbers that RGB renderers use.
+//! The rows come from measured spectra (Palik, "Handbook of Optical Constants of Solids", 1985, and
+//! the tables of SOPRA) as `conductor` of Mitsuba 3 has them: the variant `scalar_rgb` integrates
+//! each spectrum into `eta.value` and `k.value`, here rounded to six digits. The last rows have no
+//! such spectrum and are the numbers that RGB renderers use.
 
 /// A conductor.
 #[derive(Clone, Copy, Debug, PartialEq)]
