@@ -10,7 +10,7 @@ import tempfile
 from statistics import median
 
 SIDE, FEW, MANY = 64, 4, 20
-GHZ, WIDTH = 3.7, 4  # Of roofline.sh: what a core does, and the instructions it ends a cycle.
+GHZ, WIDTH = 3.7, 4  # The clock of the core, measured, and the instructions that it ends in a cycle.
 L2 = "1048576,8,64"
 FOLDER = "target/peers"
 ASSETS = ["FlightHelmet", "MetalRoughGrid", "TransmissionRoughnessTest", "CornellLambert"]
