@@ -35,7 +35,10 @@ def main(rtc, shared):
     assets = [pathlib.Path(shared) / "gltf/assets" / name for name in ASSETS]
     scenes += [asset for asset in assets if asset.exists()]
     kept, warned, silent = 0, 0, 0
-    print("| scene | asked, s | took, s | kept | warning | of the error |\n| --- | --: | --: | --- | --- | --- |")
+    print(
+        "| scene | asked, s | took, s | kept | warning | of the error |\n| --- | --: | --: | --- | "
+        "--- | --- |"
+    )
     with tempfile.TemporaryDirectory() as folder:
         for scene in scenes:
             for budget in BUDGETS:
@@ -44,8 +47,14 @@ def main(rtc, shared):
                 kept += is_kept
                 warned += not is_kept and bool(warning)
                 silent += not is_kept and not warning
-                print(f"| {scene.stem} | {budget} | {took:.2f} | {'yes' if is_kept else 'no'} | {warning} | {said} |")
-    print(f"\nOf {kept + warned + silent}: {kept} kept to 5 % or 20 ms, {warned} late with a warning, {silent} late without.")
+                print(
+                    f"| {scene.stem} | {budget} | {took:.2f} | {'yes' if is_kept else 'no'} | "
+                    f"{warning} | {said} |"
+                )
+    print(
+        f"\nOf {kept + warned + silent}: {kept} kept to 5 % or 20 ms, {warned} late with a "
+        f"warning, {silent} late without."
+    )
     return 1 if silent else 0
 
 

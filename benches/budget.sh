@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Whether `--time-budget` is kept: ten scenes, three times each, from the start of the process to its end. Prints a table in Markdown, and
-# exits with 1 if a picture is late without a warning. Wants an idle machine; assets of ../shared are left out where it is absent.
-set -euo pipefail
-cd "$(dirname "$0")/.."
-. benches/driver.sh
-python3 benches/budget.py "$(rtc)" "${RTC_SHARED:-../shared}"
+# Whether `--time-budget` is kept: ten scenes, three budgets each, from the start of the process to
+# its end, as a table in Markdown. Fails if a picture is late without a warning. Wants an idle
+# machine. Assets of ../shared are left out if they are not there; RTC_SHARED names another folder.
+. "$(dirname "$0")/driver.sh"
+rtc=$(rtc)
+exec python3 benches/budget.py "$rtc" "${RTC_SHARED:-../shared}"

@@ -1,9 +1,8 @@
-#!/bin/sh
-# What `--cache` saves: a folder of 100 small models, the first and the second time; and what 50
-# processes that are killed, two at once and a full disk leave behind: no wrong picture.
-# Usage: benches/cache.sh RTC, a release build.
-set -eu
-rtc=$(realpath "${1:?give the program, as target/release/rtc}")
+#!/usr/bin/env bash
+# What `--cache` saves: a folder of 100 small models, rendered twice. And that a cache never gives a
+# wrong picture: after 50 killed processes, with two processes at once, and on a full disk.
+. "$(dirname "$0")/driver.sh"
+rtc=$(rtc)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
@@ -28,7 +27,11 @@ END
 
 now() { date +%s.%N; }
 render() { "$rtc" render models -o "$1/" --cache cache -q --size 64x64; }
-begin=$(now); render first; middle=$(now); render second; end=$(now)
+begin=$(now)
+render first
+middle=$(now)
+render second
+end=$(now)
 diff -r first second
 awk -v a="$begin" -v b="$middle" -v c="$end" 'BEGIN {
     printf "100 models: %.2f s, again %.2f s: %.0f times as fast\n", b - a, c - b, (b - a) / (c - b)
@@ -45,7 +48,8 @@ for kill in $(seq 50); do
     "$rtc" render models/ball-000.obj -o after.png --cache cache -q --size 64x64
     "$rtc" render models/ball-000.obj -o again.png --cache cache -q --size 64x64
     [ -e plain.png ] || "$rtc" render models/ball-000.obj -o plain.png -q --size 64x64
-    cmp plain.png after.png && cmp plain.png again.png
+    cmp plain.png after.png
+    cmp plain.png again.png
 done
 echo "50 killed processes: no wrong picture"
 
@@ -55,21 +59,21 @@ rm -rf cache
 for round in 1 2; do
     few "one-$round" & one=$!
     few "two-$round" & two=$!
-    wait $one
-    wait $two
+    wait "$one"
+    wait "$two"
     for picture in "one-$round"/* "two-$round"/*; do
         cmp "first/$(basename "$picture")" "$picture"
     done
 done
 echo "two processes at once: no wrong picture"
 
-# A disk that is full: no file may have more blocks of 512 bytes than this, about as many as the
-# picture, so that it does not fit, or its entry does not.
+# A disk that is full: no file may have more blocks of 512 bytes than this (the unit of POSIX). It
+# is about the size of the picture, so that either the picture or its entry does not fit.
 picture=$(($(wc -c <plain.png) / 512))
 for blocks in 1 $picture $((picture + 1)) $((picture + 2)) $((picture + 3)); do
     rm -rf cache
-    for again in 1 2; do
-        (trap '' XFSZ && ulimit -f $blocks &&
+    for _ in 1 2; do
+        (set -o posix && trap '' XFSZ && ulimit -f "$blocks" &&
             "$rtc" render models/ball-000.obj -o full.png --cache cache -q --size 64x64 2>said) ||
             grep -q full.png said
         [ ! -e full.png ] || cmp plain.png full.png

@@ -1,4 +1,5 @@
 """Measures caustics with and without manifold sampling; see caustics.sh."""
+
 import array
 import json
 import math
@@ -15,7 +16,12 @@ BRIGHT = 10
 
 def wave(x, z):
     """The height of the water and its two slopes."""
-    waves = [(0.03, 3.1, 1.2, 0.3), (0.02, -2.2, 4.4, 1.1), (0.012, 5.2, -3.9, 2.0), (0.01, 1.3, 6.8, 0.7)]
+    waves = [
+        (0.03, 3.1, 1.2, 0.3),
+        (0.02, -2.2, 4.4, 1.1),
+        (0.012, 5.2, -3.9, 2.0),
+        (0.01, 1.3, 6.8, 0.7),
+    ]
     height, dx, dz = 0, 0, 0
     for size, a, b, phase in waves:
         turn = a * x + b * z + phase
@@ -46,7 +52,9 @@ def water(path, side=96, extent=6.0):
 def render(scene, samples, seed):
     """The pixels, and the CPU-seconds."""
     out = os.path.join(folder, "out.raw")
-    row = subprocess.run([paths, scene, str(samples), str(seed), out], check=True, capture_output=True, text=True)
+    row = subprocess.run(
+        [paths, scene, str(samples), str(seed), out], check=True, capture_output=True, text=True
+    )
     with open(out, "rb") as file:
         pixels = array.array("f", file.read())
     return pixels, json.loads(row.stdout.splitlines()[-1])["render_cpu_s"]
@@ -69,7 +77,10 @@ def fireflies(pixels, reference):
 def main():
     os.makedirs(folder, exist_ok=True)
     water(os.path.join(folder, "water.obj"))
-    print("| scene | samples off, on | CPU s off, on | mean on/off | relMSE off | relMSE on | per CPU second | fireflies/Mpx off, on |")
+    print(
+        "| scene | samples off, on | CPU s off, on | mean on/off | relMSE off | relMSE on | per "
+        "CPU second | fireflies/Mpx off, on |"
+    )
     print("| --- | --- | --- | --- | --- | --- | --- | --- |")
     for name in sorted(os.listdir(HERE)):
         with open(os.path.join(HERE, name)) as file:
@@ -79,7 +90,8 @@ def main():
             scenes[on] = os.path.join(folder, f"{'on' if on else 'off'}-{name}")
             with open(scenes[on], "w") as file:
                 file.write(text.replace("caustics: true", f"caustics: {'true' if on else 'false'}"))
-        # References of both, so that the means can be compared; the less noisy one is that of the estimate.
+        # References of both, so that the means can be compared; the less noisy one is that of the
+        # estimate.
         long_off, _ = render(scenes[False], 4 * REFERENCE, 7)
         reference, _ = render(scenes[True], REFERENCE, 8)
         samples = {True: 16}
@@ -95,8 +107,10 @@ def main():
         gain = rows[False][0] * rows[False][1] / (rows[True][0] * rows[True][1])
         ratio = sum(reference) / sum(long_off)
         print(
-            f"| {name[:-5]} | {samples[False]}, {samples[True]} | {rows[False][1]:.2f}, {rows[True][1]:.2f} | {ratio:.4f} "
-            f"| {rows[False][0]:.4g} | {rows[True][0]:.4g} | {gain:.1f} × | {rows[False][2]:.0f}, {rows[True][2]:.0f} |",
+            f"| {name[:-5]} | {samples[False]}, {samples[True]} | {rows[False][1]:.2f}, "
+            f"{rows[True][1]:.2f} | {ratio:.4f} "
+            f"| {rows[False][0]:.4g} | {rows[True][0]:.4g} | {gain:.1f} × | {rows[False][2]:.0f}, "
+            f"{rows[True][2]:.0f} |",
             flush=True,
         )
 

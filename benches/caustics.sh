@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Caustics found by chance and by manifold sampling (`caustics: true`), at about the same time: relMSE against a converged picture,
-# relMSE per CPU-second, and fireflies (values above 10 times the reference and its mean) per million, as Markdown, for the scenes of
-# benches/caustics. REFERENCE sets the samples of the converged pictures (default 4096), SIDE the pixels of a side (128); PATHS, if set, is the program `paths`.
-set -euo pipefail
-cd "$(dirname "$0")/.."
-. benches/driver.sh
-exec python3 benches/caustics.py "${PATHS:-$(driver paths)}" target/caustics
+# Caustics by plain path tracing and by manifold sampling (`caustics: true`) after about the same
+# time, for the scenes of benches/caustics, as a table in Markdown: relMSE against a converged
+# picture, relMSE per CPU-second, and fireflies per million values (above 10 times the reference and
+# its mean). REFERENCE sets the samples of the converged pictures (4096), SIDE their pixels (128).
+. "$(dirname "$0")/driver.sh"
+paths=$(driver paths)
+exec python3 benches/caustics.py "$paths" target/caustics

@@ -1,8 +1,11 @@
-"""Compares estimated caustics of a glass ellipsoid with photons that are traced here, from the lamp: an estimator that has nothing in
-common with manifold sampling. Needs numpy. Usage: caustics_photons.py PATHS FOLDER, where PATHS is the program `paths`.
+"""Compares estimated caustics of a glass ellipsoid with photons that are traced here, from the
+lamp: an estimator that has nothing in common with manifold sampling. Needs numpy. Usage:
+caustics_photons.py PATHS FOLDER, where PATHS is the program `paths`.
 
-Photons pass at most SURFACES smooth surfaces, as the paths of the picture do. What is no caustic is subtracted from the picture: it is that of a point of
-the same intensity without the estimate, whose caustics no path finds. Prints the mean of bright and of dim pixels by both."""
+Photons pass at most SURFACES smooth surfaces, as the paths of the picture do. What is no caustic is
+subtracted from the picture: it is that of a point of the same intensity without the estimate, whose
+caustics no path finds. Prints the mean of bright and of dim pixels by both."""
+
 import json
 import os
 import subprocess
@@ -97,17 +100,26 @@ def camera(scene):
 
 
 def floor_areas(scene):
-    """The area of the floor in each pixel; 0 where a pixel is not all floor, or within the ellipsoid."""
+    """The area of the floor in each pixel; 0 where a pixel is not all floor, or within the
+    ellipsoid."""
     eye, forward, right, up = camera(scene)
     edges = 2 * np.arange(SIDE + 1) / SIDE - 1
     d = forward + edges[None, :, None] * right - edges[:, None, None] * up
     p = eye - d * (eye[1] / d[..., 1])[..., None]
     corners = p[:-1, :-1], p[:-1, 1:], p[1:, 1:], p[1:, :-1]
     ok = (d[..., 1] < 0) & (np.abs(p[..., 0]) < 5.9) & (np.abs(p[..., 2]) < 5.9)
-    seen = hit(np.broadcast_to(eye, d.shape).reshape(-1, 3), d.reshape(-1, 3), np.array(scene["center"], float), np.array(scene["radii"], float))
+    seen = hit(
+        np.broadcast_to(eye, d.shape).reshape(-1, 3),
+        d.reshape(-1, 3),
+        np.array(scene["center"], float),
+        np.array(scene["radii"], float),
+    )
     ok &= np.isinf(seen).reshape(ok.shape)
     whole = ok[:-1, :-1] & ok[:-1, 1:] & ok[1:, 1:] & ok[1:, :-1]
-    area = sum(a[..., 2] * b[..., 0] - a[..., 0] * b[..., 2] for a, b in zip(corners, corners[1:] + corners[:1]))
+    area = sum(
+        a[..., 2] * b[..., 0] - a[..., 0] * b[..., 2]
+        for a, b in zip(corners, corners[1:] + corners[:1])
+    )
     return np.where(whole, np.abs(area) / 2, 0)
 
 
@@ -126,7 +138,9 @@ def radiance_of_photons(scene, areas, rng):
 def render(paths, name, folder, seed, on):
     out, file = os.path.join(folder, "photons.raw"), os.path.join(folder, f"photons-{name}.yaml")
     with open(file, "w") as text:
-        source = (TEXT + LAMPS[on]).format(depth=SURFACES + 1, **{key: json.dumps(value) for key, value in SCENES[name].items()})
+        source = (TEXT + LAMPS[on]).format(
+            depth=SURFACES + 1, **{key: json.dumps(value) for key, value in SCENES[name].items()}
+        )
         text.write(source.replace("caustics: true", f"caustics: {json.dumps(on)}"))
     subprocess.run([paths, file, str(SAMPLES), str(seed), out], check=True, capture_output=True)
     return np.fromfile(out, "<f4").reshape(SIDE, SIDE, 3)[..., 1].astype(float)
@@ -142,14 +156,22 @@ def main():
         rng = np.random.default_rng(1)
         traced = np.array([radiance_of_photons(scene, areas, rng) for _ in range(BATCHES)])
         direct = np.mean([render(paths, name, folder, seed, False) for seed in range(4)], 0)
-        shown = np.array([render(paths, name, folder, seed, True) for seed in range(SEEDS)]) - direct
+        shown = (
+            np.array([render(paths, name, folder, seed, True) for seed in range(SEEDS)]) - direct
+        )
         mean, bright = traced.mean(0), areas > 0
         parts = {"bright": bright & (mean > 0.1), "dim": bright & (mean <= 0.1) & (mean > 0)}
         for part, pixels in parts.items():
             a, b = (values[:, pixels].sum(1) / pixels.sum() for values in (traced, shown))
-            error = np.hypot(a.std(ddof=1) / len(a) ** 0.5 / a.mean(), b.std(ddof=1) / len(b) ** 0.5 / b.mean())
+            error = np.hypot(
+                a.std(ddof=1) / len(a) ** 0.5 / a.mean(), b.std(ddof=1) / len(b) ** 0.5 / b.mean()
+            )
             ratio = b.mean() / a.mean()
-            print(f"| {name} | {part} | {pixels.sum()} | {a.mean():.5f} | {b.mean():.5f} | {ratio:.4f} | {ratio * error:.4f} |", flush=True)
+            print(
+                f"| {name} | {part} | {pixels.sum()} | {a.mean():.5f} | {b.mean():.5f} | "
+                f"{ratio:.4f} | {ratio * error:.4f} |",
+                flush=True,
+            )
 
 
 main()

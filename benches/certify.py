@@ -1,4 +1,5 @@
-"""What `rtc certify` proves, beside an evaluation by MPFR with 200 bits: a table to standard output. Called by certify.sh."""
+"""What `rtc certify` proves, beside an evaluation by MPFR with 200 bits: a table to standard
+output. Called by certify.sh."""
 
 import json
 import multiprocessing
@@ -26,7 +27,12 @@ def timed(*args, accept=(0,)):
         after = os.times()
         if run.returncode not in accept:
             raise SystemExit(f"{args}: {run.stderr}")
-        spent = after.children_user - before.children_user + after.children_system - before.children_system
+        spent = (
+            after.children_user
+            - before.children_user
+            + after.children_system
+            - before.children_system
+        )
         best, text = min(best, spent), run.stdout
     return best, text
 
@@ -43,16 +49,38 @@ def values_of(scene, pixels):
 def checked(path, folder):
     """The row of a scene."""
     name = os.path.splitext(os.path.basename(path))[0]
-    picture, flags, ir = (os.path.join(folder, f"{name}{end}") for end in (".png", "-flags.png", ".rtir.json"))
+    picture, flags, ir = (
+        os.path.join(folder, f"{name}{end}") for end in (".png", "-flags.png", ".rtir.json")
+    )
     render, _ = timed("render", path, "-o", picture, "--threads", "1", "--quiet")
     certify, text = timed(
-        "certify", path, "-o", picture, "--flags", flags, "--threads", "1", "--format", "json", accept=(0, 1)
+        "certify",
+        path,
+        "-o",
+        picture,
+        "--flags",
+        flags,
+        "--threads",
+        "1",
+        "--format",
+        "json",
+        accept=(0, 1),
     )
     report = json.loads(text)
-    row = {"scene": name, "report": report, "ratio": certify / render, "render": render, "checked": 0, "wrong": []}
+    row = {
+        "scene": name,
+        "report": report,
+        "ratio": certify / render,
+        "render": render,
+        "checked": 0,
+        "wrong": [],
+    }
     subprocess.run([RTC, "compile", path, "-o", ir, "--quiet"], check=True)
     # Proven pixels are dark in the map, others have a full channel.
-    shown, flagged = Image.open(picture).convert("RGB").load(), Image.open(flags).convert("RGB").load()
+    shown, flagged = (
+        Image.open(picture).convert("RGB").load(),
+        Image.open(flags).convert("RGB").load(),
+    )
     width, height = Image.open(picture).size
     rounded = {tuple(one["pixel"]): one["certain"] for one in report["rounded"]}
     chosen = random.Random(name)
@@ -74,25 +102,45 @@ def checked(path, folder):
 
 
 def printed(rows):
-    print("| scene | pixels | proven | time ÷ render | checked | wrong | rounded | why others are flagged |")
+    print(
+        "| scene | pixels | proven | time ÷ render | checked | wrong | rounded | why others are "
+        "flagged |"
+    )
     print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | --- |")
     for row in rows:
         report = row["report"]
         share = 100 * report["certain"] / report["pixels"]
         # Never round up to all.
-        share = "100 %" if report["certain"] == report["pixels"] else f"{int(share * 1000) / 1000:.3f} %"
+        share = (
+            "100 %"
+            if report["certain"] == report["pixels"]
+            else f"{int(share * 1000) / 1000:.3f} %"
+        )
         why = "; ".join(f"{name}: {count}" for name, count in report["reasons"].items())
         checked = f"none: {row['unsupported']}" if "unsupported" in row else row["checked"]
-        name, pixels, wrong = row["scene"], report["pixels"], len(row["wrong"]) + len(report["differing"])
-        print(f"| {name} | {pixels} | {share} | {row['ratio']:.1f} | {checked} | {wrong} | {len(report['rounded'])} | {why} |")
+        name, pixels, wrong = (
+            row["scene"],
+            report["pixels"],
+            len(row["wrong"]) + len(report["differing"]),
+        )
+        print(
+            f"| {name} | {pixels} | {share} | {row['ratio']:.1f} | {checked} | {wrong} | "
+            f"{len(report['rounded'])} | {why} |"
+        )
     total = sum(row["checked"] for row in rows)
     wrong = sum(len(row["wrong"]) + len(row["report"]["differing"]) for row in rows)
-    print(f"| all | {sum(row['report']['pixels'] for row in rows)} | | | {total} | {wrong} | {sum(len(row['report']['rounded']) for row in rows)} | |")
+    print(
+        f"| all | {sum(row['report']['pixels'] for row in rows)} | | | {total} | {wrong} | "
+        f"{sum(len(row['report']['rounded']) for row in rows)} | |"
+    )
 
 
 def main(paths):
     start = time.time()
-    with tempfile.TemporaryDirectory() as folder, multiprocessing.Pool(int(os.environ.get("JOBS", "1"))) as pool:
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        multiprocessing.Pool(int(os.environ.get("JOBS", "1"))) as pool,
+    ):
         rows = pool.starmap(checked, [(path, folder) for path in paths], 1)
     printed(rows)
     for row in rows:

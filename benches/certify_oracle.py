@@ -1,5 +1,6 @@
-"""The values of pixels by MPFR with 200 bits, from the IR of a scene as JSON: the formulas of the book, written apart
-from `rtc` in another language. Only decisions closer than 2⁻¹⁶⁰ could go wrong."""
+"""The values of pixels by MPFR with 200 bits, from the IR of a scene as JSON: the formulas of the
+book, written apart from `rtc` in another language. Only decisions closer than 2⁻¹⁶⁰ could go wrong.
+"""
 
 import base64
 import struct
@@ -87,7 +88,8 @@ def basis(n):
 
 
 def real_roots(coefficients, low, high):
-    """The roots of a polynomial, highest power first, between two numbers: between those of its derivative it is monotone."""
+    """The roots of a polynomial, highest power first, between two numbers: between those of its
+    derivative it is monotone."""
     degree = len(coefficients) - 1
 
     def value(x):
@@ -126,7 +128,8 @@ def real_roots(coefficients, low, high):
     return roots
 
 
-# Shapes: each has `hits(o, d)`, all (t, normal, uv or None, other) in front of the start, in no order.
+# Shapes: each has `hits(o, d)`, all (t, normal, uv or None, other) in front of the start, in no
+# order.
 class Shape:
     ball = None
 
@@ -141,7 +144,9 @@ class Sphere(Shape):
     def __init__(self, s):
         self.center, self.radius = exact(s["center"]), mpfr(s["radius"])
         self.ball = (self.center, self.radius)
-        self.rows = [exact(r) for r in s.get("textureFromWorld") or [[1, 0, 0], [0, 1, 0], [0, 0, 1]]]
+        self.rows = [
+            exact(r) for r in s.get("textureFromWorld") or [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+        ]
 
     def hits(self, o, d):
         f = sub(o, self.center)
@@ -393,7 +398,11 @@ def instance(s, meshes):
     x, y, z, origin = (exact(c) for c in s["worldFromObject"])
     place = lambda p: add(add(mul(x, p[0]), mul(y, p[1])), add(mul(z, p[2]), origin))
     volume = dot(cross(x, y), z)
-    rows = [mul(cross(y, z), 1 / volume), mul(cross(z, x), 1 / volume), mul(cross(x, y), 1 / volume)]
+    rows = [
+        mul(cross(y, z), 1 / volume),
+        mul(cross(z, x), 1 / volume),
+        mul(cross(x, y), 1 / volume),
+    ]
     turned = lambda n: add(add(mul(rows[0], n[0]), mul(rows[1], n[1])), mul(rows[2], n[2]))
     positions, normals, uvs = (column(mesh.get(key)) for key in ("positions", "normals", "uvs"))
     positions = [place(p) for p in positions]
@@ -412,7 +421,14 @@ def column(values):
 
 def shapes(shape, meshes):
     [(kind, s)] = shape.items()
-    one = {"sphere": Sphere, "plane": Plane, "disc": Disc, "cylinder": Cylinder, "cone": Cone, "torus": Torus}
+    one = {
+        "sphere": Sphere,
+        "plane": Plane,
+        "disc": Disc,
+        "cylinder": Cylinder,
+        "cone": Cone,
+        "torus": Torus,
+    }
     if kind in one:
         return [one[kind](s)]
     if kind == "triangle":
@@ -478,7 +494,10 @@ class Scene:
                 if shape.material is None:
                     raise Unsupported("a standard material")
                 shape.casts = not surface.get("castsNoShadow", False)
-                shape.float_ball = shape.ball and ([float(x) for x in shape.ball[0]], float(shape.ball[1]))
+                shape.float_ball = shape.ball and (
+                    [float(x) for x in shape.ball[0]],
+                    float(shape.ball[1]),
+                )
                 self.shapes.append(shape)
         camera = ir["camera"]
         self.eye, self.center = exact(camera["eye"]), exact(camera["center"])
@@ -493,7 +512,8 @@ class Scene:
 
     # Rays.
     def candidates(self, o, d):
-        """The shapes whose balls the ray may meet, with a wide margin for the rounding of this test."""
+        """The shapes whose balls the ray may meet, with a wide margin for the rounding of this
+        test."""
         of, df = [float(x) for x in o], [float(x) for x in d]
         for shape in self.shapes:
             if shape.float_ball:
@@ -598,7 +618,10 @@ class Scene:
         if bounces > 0:
             for direction, weight, branch in self.branches(at, d):
                 if weight != 0:
-                    value = add(value, self.radiance(at.point, direction, branch, bounces - 1, beta * weight))
+                    value = add(
+                        value,
+                        self.radiance(at.point, direction, branch, bounces - 1, beta * weight),
+                    )
         return value
 
     def phong(self, at):
@@ -726,7 +749,9 @@ class Point:
         if scene.mode != "normal" and any(one is not None for one in maps):
             uv = shape.uv(hit, self.point)
             if uv is not None:
-                color, specular = (one if one is None else looked_up(scene, one, uv) for one in maps)
+                color, specular = (
+                    one if one is None else looked_up(scene, one, uv) for one in maps
+                )
                 self.color = self.color if color is None else color
                 self.ks *= 1 if specular is None else max(mpfr(0), specular[0])
 

@@ -1,5 +1,6 @@
-"""`denoise_oidn.py WIDTH HEIGHT`: filters a picture by Open Image Denoise (pyoidn, of PyPI), for benches/denoise.rs. Standard input
-has f32 numbers: the colours of all pixels, linear, then the albedo and the normal of each; the colours come out."""
+"""`denoise_oidn.py WIDTH HEIGHT`: filters a picture by Open Image Denoise (pyoidn, of PyPI), for
+benches/denoise.rs. Standard input has f32 numbers: the colours of all pixels, linear, then the
+albedo and the normal of each; the colours come out."""
 
 import sys
 

@@ -59,7 +59,9 @@ class Editor:
         return self.until(lambda message: message.get("id") == self.last)
 
     def found(self):
-        return self.until(lambda message: message.get("method") == "textDocument/publishDiagnostics")
+        return self.until(
+            lambda message: message.get("method") == "textDocument/publishDiagnostics"
+        )
 
     def cpu(self):
         """Milliseconds of all threads since the start."""
@@ -76,7 +78,10 @@ def measured(rtc, objects):
     findings, asked = 0, 0
     column = text.splitlines()[line].index("radius: 3") + len("radius: ")
     own = {"textDocument": {"uri": URI}}
-    shown = {"start": {"line": max(0, line - 50), "character": 0}, "end": {"line": line, "character": 0}}
+    shown = {
+        "start": {"line": max(0, line - 50), "character": 0},
+        "end": {"line": line, "character": 0},
+    }
     for stroke in range(KEYSTROKES):
         start = editor.cpu()
         place = {"line": line, "character": column}

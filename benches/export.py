@@ -1,5 +1,7 @@
-"""Pictures by rtc and by the renderers that it writes for: `export.py SCENE...`, with the program in RTC. Prints a row a scene and
-target; fails where the means are more than 2 % apart without a warning. Pictures stay in the folder KEEP, if it is set."""
+"""Pictures by rtc and by the renderers that it writes for: `export.py SCENE...`, with the program
+in RTC. Prints a row a scene and target; fails where the means are more than 2 % apart without a
+warning. Pictures stay in the folder KEEP, if it is set."""
+
 import os
 import re
 import shutil
@@ -37,7 +39,9 @@ def by_mitsuba(twin, out):
     """Makes the picture; returns its size."""
     with open(twin) as file:
         text = file.read()
-    size = small(*(int(re.search(rf'"{side}" value="(\d+)"', text)[1]) for side in ("width", "height")))
+    size = small(
+        *(int(re.search(rf'"{side}" value="(\d+)"', text)[1]) for side in ("width", "height"))
+    )
     for side, pixels in zip(("width", "height"), size):
         text = re.sub(rf'"{side}" value="\d+"', f'"{side}" value="{pixels}"', text)
     with open(twin, "w") as file:
@@ -52,8 +56,21 @@ def by_povray(twin, out):
         width, height, *options = file.readline().split()[2:]
     size = small(int(width[2:]), int(height[2:]))
     options = [option for option in options if not option.startswith(("+FN", "File"))]
-    command = ["povray", f"+I{os.path.basename(twin)}", f"+O{out}", "+FE", f"+W{size[0]}", f"+H{size[1]}", *options, "+WT2", "-D", "-GA"]
-    done = subprocess.run(command, capture_output=True, text=True, cwd=os.path.dirname(twin), timeout=300)
+    command = [
+        "povray",
+        f"+I{os.path.basename(twin)}",
+        f"+O{out}",
+        "+FE",
+        f"+W{size[0]}",
+        f"+H{size[1]}",
+        *options,
+        "+WT2",
+        "-D",
+        "-GA",
+    ]
+    done = subprocess.run(
+        command, capture_output=True, text=True, cwd=os.path.dirname(twin), timeout=300
+    )
     if done.returncode:
         raise RuntimeError(" ".join(done.stderr.split())[-200:])
     return size
@@ -62,19 +79,36 @@ def by_povray(twin, out):
 def row(scene, kind, render, folder):
     """Prints the row of a scene; returns whether it is as it should be."""
     name = os.path.splitext(os.path.basename(scene))[0]
-    twin, theirs, plain, mine = (f"{folder}/{name}.{end}" for end in (kind, f"{kind}.exr", "rtir", f"{kind}.ours.exr"))
+    twin, theirs, plain, mine = (
+        f"{folder}/{name}.{end}" for end in (kind, f"{kind}.exr", "rtir", f"{kind}.ours.exr")
+    )
     try:
-        said = rtc("compile", scene, "-o", twin, "--message-format", "short", "--max-errors", "1000")
+        said = rtc(
+            "compile", scene, "-o", twin, "--message-format", "short", "--max-errors", "1000"
+        )
         rtc("compile", scene, "-o", plain, "-q")
         width, height = render(twin, theirs)
         how = ["--spp", str(SAMPLES)] if kind == "xml" else []
-        rtc("render", plain, "--size", f"{width}x{height}", *how, "--background", "env", "-q", "-o", mine)
+        rtc(
+            "render",
+            plain,
+            "--size",
+            f"{width}x{height}",
+            *how,
+            "--background",
+            "env",
+            "-q",
+            "-o",
+            mine,
+        )
     except (RuntimeError, subprocess.TimeoutExpired) as fault:
         print(f"| {name} | {kind} | | {fault} |", flush=True)
         return False
     told = [re.sub(r".*?EX001\]:? ", "", line) for line in said.splitlines() if "EX001" in line]
     away = mean(theirs) / max(mean(mine), 1e-9) - 1
-    print(f"| {name} | {kind} | {100 * away:+.2f} % | {'; '.join(dict.fromkeys(told))} |", flush=True)
+    print(
+        f"| {name} | {kind} | {100 * away:+.2f} % | {'; '.join(dict.fromkeys(told))} |", flush=True
+    )
     if keep := os.environ.get("KEEP"):
         for path in (theirs, mine):
             mitsuba.util.write_bitmap(f"{keep}/{os.path.basename(path)}.png", mitsuba.Bitmap(path))
@@ -90,7 +124,12 @@ def main():
     wanted = os.environ.get("TARGETS", "xml pov").split()
     print("| scene | as | mean against ours | told |\n| --- | --- | --: | --- |")
     with tempfile.TemporaryDirectory() as folder:
-        found = [row(scene, kind, render, folder) for scene in sys.argv[1:] for kind, render in targets if kind in wanted]
+        found = [
+            row(scene, kind, render, folder)
+            for scene in sys.argv[1:]
+            for kind, render in targets
+            if kind in wanted
+        ]
     print(f"{sum(found)} of {len(found)} are within {APART:.0%}, or it is told why not")
     sys.exit(not all(found))
 

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# What scenes become for Mitsuba and POV-Ray: a row a scene with the mean of its picture against ours, and why they differ.
-# `export.sh [SCENE]...`: the assets of ../shared/gltf/assets and scenes/ without. Needs Mitsuba's wheel (`pip install mitsuba`) in
-# the Python of PYTHON, and `povray`. Fails where a mean is more than 2 % off and no warning says why.
-set -euo pipefail
-cd "$(dirname "$0")/.."
-. benches/driver.sh
+# Scenes exported to Mitsuba and POV-Ray, as rows in Markdown: the mean of the picture of the other
+# renderer against that of `rtc`, and the warnings of the export. `export.sh [SCENE]...`; by default
+# the assets of ../shared/gltf/assets and scenes/. Without `povray` only Mitsuba is compared. Fails
+# if a mean is more than 2 % off and no warning says why.
+. "$(dirname "$0")/driver.sh"
 RTC=$(rtc)
 export RTC
 scenes=("$@")
 if [ "${#scenes[@]}" = 0 ]; then
-    mapfile -t scenes < <(find ../shared/gltf/assets scenes -name '*.gl*' -o -name "*.yaml" | sort)
+    mapfile -t scenes < <(find ../shared/gltf/assets scenes -name '*.gl*' -o -name '*.yaml' | sort)
 fi
-exec "${PYTHON:-python3}" benches/export.py "${scenes[@]}"
+python=$(python_with mitsuba==3.9.1 numpy)
+exec "$python" benches/export.py "${scenes[@]}"

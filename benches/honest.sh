@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# How often a picture keeps the error that `--target-error` says: families of scenes, each scene with many seeds, against what is known
-# of it or two references with a quarter of the error. The promise is 90 of 100. Arguments are how many pictures a family has at least
-# (200 without), and families. HONEST is a driver that was built before.
-set -euo pipefail
-cd "$(dirname "$0")/.."
-. benches/driver.sh
-exec "${HONEST:-$(driver honest)}" "$@"
+# How often a picture keeps the error that `--target-error` prints, by families of scenes with many
+# seeds each, against exact values or two references of a quarter of the error. The promise is 90 %.
+# `honest.sh [PICTURES [FAMILY...]]`: at least so many pictures per family (200); by default all
+# families.
+. "$(dirname "$0")/driver.sh"
+honest=$(driver honest)
+exec "$honest" "$@"

@@ -1,7 +1,7 @@
-"""Renders with checkpoints, killed at random moments and started again, against renders that nobody killed: the work of kills.sh.
+"""Renders with checkpoints, killed at random moments and started again, against renders that nobody
+killed: the work of kills.sh.
 
-python3 kills.py RTC SCENES SEED
-"""
+python3 kills.py RTC SCENES SEED"""
 
 import hashlib
 import pathlib
@@ -17,7 +17,10 @@ SCENES = {
     "course, glass": (["glass.yaml", "--size", "96x72", "--supersampling", "3"], "a.png"),
     "soft light": (["soft-light.yaml", "--size", "120x75", "--supersampling", "3"], "a.png"),
     "paths": (["vases.yaml", "--size", "64x48", "--spp", "64"], "a.png"),
-    "layers": (["vases.yaml", "--size", "64x48", "--spp", "64", "--aov", "albedo,normal,depth"], "a.exr"),
+    "layers": (
+        ["vases.yaml", "--size", "64x48", "--spp", "64", "--aov", "albedo,normal,depth"],
+        "a.exr",
+    ),
     "target error": (["soft-light.yaml", "--size", "96x60", "--target-error", "0.5"], "a.png"),
     "turntable": (["glass.yaml", "--size", "64x48", "--turntable", "4"], "a-%d.png"),
 }
@@ -32,7 +35,9 @@ def start(rtc, scenes, words, output, folder):
 def hashes(folder, suffix):
     """The SHA-256 of each picture in a folder."""
     pictures = sorted(pathlib.Path(folder).glob("a*" + suffix))
-    return [(picture.name, hashlib.sha256(picture.read_bytes()).hexdigest()) for picture in pictures]
+    return [
+        (picture.name, hashlib.sha256(picture.read_bytes()).hexdigest()) for picture in pictures
+    ]
 
 
 def main(rtc, scenes, seed):

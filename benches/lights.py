@@ -1,6 +1,8 @@
-"""Compares emitters with Mitsuba's; see lights.sh. The mean is that of all pixels, ours over Mitsuba's; its error and the unit of z come from
-the spread of four converged pictures of each. relMSE is the mean of (x - r)^2 / (r^2 + e), e a hundredth of the mean square of r, against
+"""Compares emitters with Mitsuba's; see lights.sh. The mean is that of all pixels, ours over
+Mitsuba's; its error and the unit of z come from the spread of four converged pictures of each.
+relMSE is the mean of (x - r)^2 / (r^2 + e), e a hundredth of the mean square of r, against
 converged pictures of the same program, so that a difference of means is not counted twice."""
+
 import json
 import math
 import os
@@ -50,17 +52,50 @@ ROD = "position: [0, 2.5, 0], direction: [1, 0.1, 0.2], radius: 0.05"
 PATCH = "type: quad, v0: [0, 2.3, -0.5], v1: [1, 2.7, -0.5], v2: [1, 2.3, 0.5], v3: [0, 2.7, 0.5]"
 # Mitsuba's emitters have one side: it gets two of them, back to back. Its cylinders have ends.
 TWINS = {
-    "infinite cylinder": [lamp("type: cylinder, position: [-200, -17.5, -40], direction: [1, 0.1, 0.2], height: 409.9, radius: 0.05", 12)],
-    "two-sided quad": [lamp(UPRIGHT, 8), lamp("type: quad, v0: [0.499, 0.5, 0.5], v1: [0.499, 1.5, 0.5], v2: [0.499, 1.5, -0.5], v3: [0.499, 0.5, -0.5]", 8)]}
+    "infinite cylinder": [
+        lamp(
+            "type: cylinder, position: [-200, -17.5, -40], direction: [1, 0.1, 0.2], height: "
+            "409.9, radius: 0.05",
+            12,
+        )
+    ],
+    "two-sided quad": [
+        lamp(UPRIGHT, 8),
+        lamp(
+            "type: quad, v0: [0.499, 0.5, 0.5], v1: [0.499, 1.5, 0.5], v2: [0.499, 1.5, -0.5], v3: "
+            "[0.499, 0.5, -0.5]",
+            8,
+        ),
+    ],
+}
 FAMILIES = {
     **{f"sphere of radius {radius}": [sphere(radius)] for radius in (1, 0.1, 0.01, 0.001, 0.0001)},
     "quad": [lamp(QUAD, 8, BOTH)],
     "disc": [lamp("type: disc, position: [0.5, 2.5, 0], normal: [0, -1, 0], radius: 0.5", 8, BOTH)],
-    "triangle": [lamp("type: triangle, v0: [0, 2.5, -0.5], v1: [1, 2.5, -0.5], v2: [0.5, 2.5, 0.5]", 16, BOTH)],
-    "cylinder": [lamp("type: cylinder, position: [0.5, 1.5, 0], direction: [0, 1, 0], height: 1, radius: 0.1", 12)],
-    "cone": [lamp("type: cone, position: [0.5, 2, 0], direction: [0, 1, 0], height: 0.6, radius: 0.4", 12)],
+    "triangle": [
+        lamp(
+            "type: triangle, v0: [0, 2.5, -0.5], v1: [1, 2.5, -0.5], v2: [0.5, 2.5, 0.5]", 16, BOTH
+        )
+    ],
+    "cylinder": [
+        lamp(
+            "type: cylinder, position: [0.5, 1.5, 0], direction: [0, 1, 0], height: 1, radius: 0.1",
+            12,
+        )
+    ],
+    "cone": [
+        lamp(
+            "type: cone, position: [0.5, 2, 0], direction: [0, 1, 0], height: 0.6, radius: 0.4", 12
+        )
+    ],
     "box": [lamp("type: box, min: [0.2, 2, -0.2], max: [0.6, 2.4, 0.2]", 12)],
-    "torus": [lamp("type: torus, position: [0.5, 2, 0], normal: [0, 1, 0], majorRadius: 0.5, minorRadius: 0.1", 12)],
+    "torus": [
+        lamp(
+            "type: torus, position: [0.5, 2, 0], normal: [0, 1, 0], majorRadius: 0.5, minorRadius: "
+            "0.1",
+            12,
+        )
+    ],
     "two-sided quad": [lamp(UPRIGHT, 8, BOTH)],
     "textured quad": [lamp(QUAD, 16, BOTH + ", emissiveMap: {pattern: checker, scale: 4}")],
     "inside a sphere": [lamp("type: sphere, position: [0, 0, 0], radius: 12", 0.3, BOTH)],
@@ -93,12 +128,13 @@ def mitsubas(scene, samples, seed):
     out = os.path.join(WORK, "mitsuba.raw")
     script = os.path.join(HERE, "peers", "paths_mitsuba.py")
     row = run(sys.executable, script, scene, samples, seed, out, "multijitter").stdout
-    row = json.loads(row[row.index('{"render_s'):])
+    row = json.loads(row[row.index('{"render_s') :])
     return np.nan_to_num(np.fromfile(out, "<f4").astype(float)), row["render_cpu_s"]
 
 
 def street(name, stem, *more):
-    """A street in so many pixels, with matt walls and black lamps, which both programs know exactly."""
+    """A street in so many pixels, with matt walls and black lamps, which both programs know
+    exactly."""
     run(sys.executable, os.path.join(HERE, "street.py"), name.split()[-1], stem + ".gltf", *more)
     with open(stem + ".gltf") as file:
         asset = json.load(file)
@@ -110,10 +146,14 @@ def street(name, stem, *more):
     asset["extensionsUsed"].append("KHR_materials_specular")
     with open(stem + ".gltf", "w") as file:
         json.dump(asset, file)
-    text = json.loads(run(RTC, "compile", stem + ".gltf", "-o", "-", "--emit", "ir", "--allow", "warnings").stdout)
+    text = json.loads(
+        run(RTC, "compile", stem + ".gltf", "-o", "-", "--emit", "ir", "--allow", "warnings").stdout
+    )
     camera = text["camera"]
     scale = max(camera["size"]) / (2 * SIDE)
-    camera["right"], camera["up"] = ([number * scale for number in camera[axis]] for axis in ("right", "up"))
+    camera["right"], camera["up"] = (
+        [number * scale for number in camera[axis]] for axis in ("right", "up")
+    )
     camera["size"] = [max(1, round(side / scale)) for side in camera["size"]]
     with open(stem + ".json", "w") as file:
         json.dump(text, file)
@@ -130,7 +170,10 @@ def write(name, objects):
     else:
         for file, lamps in ((scene, objects), (stem + "-twin.yaml", TWINS.get(name, objects))):
             with open(file, "w") as out:
-                out.write(HEAD.format(side=SIDE) + "".join(f"- {text}\n" for text in [FLOOR, BALL, *lamps]))
+                out.write(
+                    HEAD.format(side=SIDE)
+                    + "".join(f"- {text}\n" for text in [FLOOR, BALL, *lamps])
+                )
         twin = stem + "-twin.yaml"
     told = run(RTC, "compile", twin, "-o", stem + ".xml").stderr
     return scene, stem + ".xml", told.count("warning[")
@@ -151,7 +194,10 @@ def relative(render, scene, truth):
 
 def main():
     os.makedirs(WORK, exist_ok=True)
-    print("| family | mean | over Mitsuba's | z | relMSE | Mitsuba's | ratio | warnings of the export |")
+    print(
+        "| family | mean | over Mitsuba's | z | relMSE | Mitsuba's | ratio | warnings of the "
+        "export |"
+    )
     print("| --- | --: | --: | --: | --: | --: | --: | --: |")
     wanted = os.environ.get("ONLY", "").split(";")
     for name, objects in FAMILIES.items():
@@ -159,17 +205,25 @@ def main():
             continue
         scene, twin, warnings = write(name, objects)
         (our_truth, our_mean, our_error) = converged(ours, scene)
-        # Mitsuba 3.9.1 finds no number in the pixels of an emissive mesh with a texture, and says so for each sample.
-        (truth, mean, error) = converged(mitsubas, twin) if name != "textured quad" else (None, 0, 0)
+        # Mitsuba 3.9.1 finds no number in the pixels of an emissive mesh with a texture, and says
+        # so for each sample.
+        (truth, mean, error) = (
+            converged(mitsubas, twin) if name != "textured quad" else (None, 0, 0)
+        )
         if mean == 0:
             own = relative(ours, scene, our_truth)
-            print(f"| {name} | {our_mean:.5f} | its picture is black or no number | | {own:.5f} | | | {warnings} |", flush=True)
+            print(
+                f"| {name} | {our_mean:.5f} | its picture is black or no number | | {own:.5f} | | "
+                f"| {warnings} |",
+                flush=True,
+            )
             continue
         ratio, spread = our_mean / mean, math.hypot(our_error / our_mean, error / mean)
         errors = relative(ours, scene, our_truth), relative(mitsubas, twin, truth)
         z = (ratio - 1) / spread if spread else 0
         print(
-            f"| {name} | {our_mean:.5f} | {ratio:.4f} ± {spread:.4f} | {z:+.1f} | {errors[0]:.5f} | {errors[1]:.5f} | {errors[0] / errors[1]:.2f} | {warnings} |",
+            f"| {name} | {our_mean:.5f} | {ratio:.4f} ± {spread:.4f} | {z:+.1f} | {errors[0]:.5f} "
+            f"| {errors[1]:.5f} | {errors[0] / errors[1]:.2f} | {warnings} |",
             flush=True,
         )
 

@@ -1,8 +1,12 @@
-"""Puts standard input into benches/README.md, between the lines `<!-- NAME -->` and `<!-- end of NAME -->`: `page.py NAME`."""
+"""Puts standard input into a page of this folder: `page.py PAGE NAME` replaces the lines of PAGE.md
+between `<!-- NAME -->` and `<!-- end of NAME -->`."""
+
 import pathlib
 import sys
 
-page = pathlib.Path(__file__).with_name("README.md")
-begin, end = f"<!-- {sys.argv[1]} -->\n", f"<!-- end of {sys.argv[1]} -->\n"
+page, name = pathlib.Path(__file__).with_name(f"{sys.argv[1]}.md"), sys.argv[2]
+begin, end = f"<!-- {name} -->\n", f"<!-- end of {name} -->\n"
 before, rest = page.read_text().split(begin)
-page.write_text(before + begin + "\n" + sys.stdin.read().strip() + "\n\n" + end + rest.split(end)[1])
+page.write_text(
+    before + begin + "\n" + sys.stdin.read().strip() + "\n\n" + end + rest.split(end)[1]
+)

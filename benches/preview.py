@@ -25,9 +25,13 @@ class Live:
     """A preview that runs."""
 
     def __init__(self, rtc, scene):
-        self.process = subprocess.Popen([rtc, "preview", str(scene)], stdout=subprocess.PIPE, text=True)
+        self.process = subprocess.Popen(
+            [rtc, "preview", str(scene)], stdout=subprocess.PIPE, text=True
+        )
         address = self.process.stdout.readline().strip()
-        self.port, self.token = re.match(r"http://127\.0\.0\.1:(\d+)/\?token=(\w+)", address).groups()
+        self.port, self.token = re.match(
+            r"http://127\.0\.0\.1:(\d+)/\?token=(\w+)", address
+        ).groups()
 
     def get(self, path, more=""):
         connection = http.client.HTTPConnection("127.0.0.1", int(self.port), timeout=60)
@@ -45,7 +49,9 @@ class Live:
 
     def cpu(self):
         """Seconds of all cores since the start."""
-        fields = pathlib.Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+        fields = (
+            pathlib.Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+        )
         return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
@@ -60,7 +66,9 @@ def saves(live, scene, text):
         state = live.when(lambda state: state["picture"]["load"] > load)
         live.get("/picture", f"&number={state['picture']['number']}")
         first.append(1000 * (time.monotonic() - begun))
-        state = live.when(lambda state: state["picture"]["load"] > load and state["picture"]["isFinished"])
+        state = live.when(
+            lambda state: state["picture"]["load"] > load and state["picture"]["isFinished"]
+        )
         whole.append(1000 * (time.monotonic() - begun))
         time.sleep(0.2)
     return first, whole
@@ -94,14 +102,23 @@ def main(rtc):
         scene.write_text(text)
         live = Live(rtc, scene)
         first, whole = saves(live, scene, text)
-        told = [f"{statistics.median(times):.0f} ms (worst {max(times):.0f})" for times in (first, whole)]
-        print(f"from a save to the first picture {told[0]}, to the finished one {told[1]}; medians of {SAVES}")
+        told = [
+            f"{statistics.median(times):.0f} ms (worst {max(times):.0f})"
+            for times in (first, whole)
+        ]
+        print(
+            f"from a save to the first picture {told[0]}, to the finished one {told[1]}; medians "
+            f"of {SAVES}"
+        )
         time.sleep(1)
         before = live.cpu()
         time.sleep(IDLE)
         print(f"idle: {100 * (live.cpu() - before) / IDLE:.2f} % of a core")
         opened, refused, served = crowd(live)
-        print(f"{opened} connections that ask for half a page: a stranger is told {refused}, the page {served}")
+        print(
+            f"{opened} connections that ask for half a page: a stranger is told {refused}, the "
+            f"page {served}"
+        )
         live.process.terminate()
         live.process.wait()
 

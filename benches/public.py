@@ -1,12 +1,15 @@
-"""Public scenes by rtc and by Mitsuba: `public.py SCENES RESULTS`, with the program in RTC. Writes benches/public.md.
+"""Public scenes by rtc and by Mitsuba: `public.py SCENES RESULTS`, with the program in RTC. Writes
+benches/public.md.
 
-A file is read if `rtc check` has no error, and rendered if `rtc render` makes a picture. A scene of Mitsuba is rendered by Mitsuba
-(`scalar_rgb`) with the same size and samples and several seeds. Both pictures are equal if their means differ by at most 0.5 %, or by
-less than three standard errors, and if the means of at most 2 % of the blocks of 8 × 8 pixels differ by more than four standard
-errors, all estimated from the seeds, and 1 % of the picture's mean. The variance of a block is at least the mean of it and its
-neighbours, as few seeds estimate one block badly. How often Mitsuba's last picture equals its others tells how good the rule is. The
-pictures have the file's integrator, filter and bounces; where
-Mitsuba 3 has not an integrator, both have its path tracer."""
+A file is read if `rtc check` has no error, and rendered if `rtc render` makes a picture. A scene of
+Mitsuba is rendered by Mitsuba (`scalar_rgb`) with the same size and samples and several seeds. Both
+pictures are equal if their means differ by at most 0.5 %, or by less than three standard errors,
+and if the means of at most 2 % of the blocks of 8 × 8 pixels differ by more than four standard
+errors, all estimated from the seeds, and 1 % of the picture's mean. The variance of a block is at
+least the mean of it and its neighbours, as few seeds estimate one block badly. How often Mitsuba's
+last picture equals its others tells how good the rule is. The pictures have the file's integrator,
+filter and bounces; where Mitsuba 3 has not an integrator, both have its path tracer."""
+
 import concurrent.futures
 import json
 import os
@@ -17,7 +20,10 @@ import sys
 import time
 import xml.etree.ElementTree as tree
 
-SIDE, SAMPLES, SEEDS = (int(os.environ.get(name, default)) for name, default in (("SIDE", 48), ("SPP", 64), ("SEEDS", 4)))
+SIDE, SAMPLES, SEEDS = (
+    int(os.environ.get(name, default))
+    for name, default in (("SIDE", 48), ("SPP", 64), ("SEEDS", 4))
+)
 JOBS = int(os.environ.get("JOBS", os.cpu_count() or 1))
 TIMEOUT = 120
 COLLECTIONS = {
@@ -81,7 +87,9 @@ def make_small(path):
     document = tree.parse(path)
     known = {node.get("name"): node.get("value") for node in document.iter("default")}
     make_readable(document)
-    name = "sampleCount" if document.getroot().get("version", "0").startswith("0") else "sample_count"
+    name = (
+        "sampleCount" if document.getroot().get("version", "0").startswith("0") else "sample_count"
+    )
     for sampler in document.iter("sampler"):
         sampler.set("type", "independent")
         set_integers(sampler, {name: SAMPLES}, known)
@@ -90,34 +98,53 @@ def make_small(path):
         film = tree.SubElement(sensor, "film", type="hdrfilm") if film is None else film
         for child in [child for child in film if (child.get("name") or "").startswith("crop")]:
             film.remove(child)
-        size = [numbers(film, side, known)[1] or default for side, default in (("width", 768), ("height", 576))]
+        size = [
+            numbers(film, side, known)[1] or default
+            for side, default in (("width", 768), ("height", 576))
+        ]
         try:
             width, height = (float(side) for side in size)
         except ValueError:
             # A parameter that the including file sets: a square.
             width = height = 1
         set_integers(film, {"width": SIDE, "height": max(1, round(SIDE * height / width))}, known)
-        has_sampler = any(child.tag == "sampler" or "sampler" in (child.get("id") or "") for child in sensor)
+        has_sampler = any(
+            child.tag == "sampler" or "sampler" in (child.get("id") or "") for child in sensor
+        )
         if not has_sampler:
-            set_integers(tree.SubElement(sensor, "sampler", type="independent"), {name: SAMPLES}, known)
+            set_integers(
+                tree.SubElement(sensor, "sampler", type="independent"), {name: SAMPLES}, known
+            )
     document.write(path)
 
 
 def make_readable(document):
-    """Replaces what the variant `scalar_rgb` of Mitsuba 3 has not: colours in sRGB are written as linear ones, photon maps and their
-    kin become the path tracer, and the integrator of Stokes vectors becomes the one inside it."""
+    """Replaces what the variant `scalar_rgb` of Mitsuba 3 has not: colours in sRGB are written as
+    linear ones, photon maps and their kin become the path tracer, and the integrator of Stokes
+    vectors becomes the one inside it."""
     for color in document.iter("srgb"):
         color.tag = "rgb"
         channels = [float(channel) for channel in color.get("value").replace(",", " ").split()]
-        linear = [channel / 12.92 if channel <= 0.04045 else ((channel + 0.055) / 1.055) ** 2.4 for channel in channels]
+        linear = [
+            channel / 12.92 if channel <= 0.04045 else ((channel + 0.055) / 1.055) ** 2.4
+            for channel in channels
+        ]
         color.set("value", " ".join(f"{channel:.9g}" for channel in linear))
     for parent in list(document.iter()):
         for index, child in enumerate(parent):
             if child.tag == "integrator" and child.get("type") == "stokes":
                 parent[index] = child.find("integrator")
-            elif child.tag == "integrator" and child.get("type") in ("$method", "sppm", "photonmapper"):
+            elif child.tag == "integrator" and child.get("type") in (
+                "$method",
+                "sppm",
+                "photonmapper",
+            ):
                 child.set("type", "path")
-                for option in [option for option in child if option.get("name") not in ("maxDepth", "max_depth")]:
+                for option in [
+                    option
+                    for option in child
+                    if option.get("name") not in ("maxDepth", "max_depth")
+                ]:
                     child.remove(option)
 
 
@@ -136,21 +163,27 @@ def set_integers(element, values, known):
 
 
 def by_mitsuba(scene, out):
-    """Renders a scene with several seeds, and writes their pictures; runs in a process of its own."""
+    """Renders a scene with several seeds, and writes their pictures; runs in a process of its own.
+    """
     import mitsuba
     import numpy
 
     mitsuba.set_variant("scalar_rgb")
     mitsuba.set_log_level(mitsuba.LogLevel.Error)
     loaded = mitsuba.load_file(scene)
-    pictures = [numpy.array(mitsuba.render(loaded, seed=seed), float)[:, :, :3] for seed in range(SEEDS)]
+    pictures = [
+        numpy.array(mitsuba.render(loaded, seed=seed), float)[:, :, :3] for seed in range(SEEDS)
+    ]
     numpy.save(out, numpy.stack(pictures))
 
 
 def blocks(picture):
     """The rows of the means of the blocks of 8 × 8 pixels; the last ones may be smaller."""
     height, width = picture.shape[:2]
-    return [[picture[y : y + 8, x : x + 8].mean() for x in range(0, width, 8)] for y in range(0, height, 8)]
+    return [
+        [picture[y : y + 8, x : x + 8].mean() for x in range(0, width, 8)]
+        for y in range(0, height, 8)
+    ]
 
 
 def smoothed(blocks):
@@ -211,7 +244,9 @@ def made(name, path, folder, results):
     result["warnings"], result["errors"] = findings(text, "warning"), findings(text, "error")
     size = () if path.endswith(".xml") else ("--size", str(SIDE), "--spp", "4")
     result["rendered"], text = run(rtc, "render", "-q", *root, path, *size, "-o", f"{stem}.exr")
-    result["errors"] += [message for message in findings(text, "error") if message not in result["errors"]]
+    result["errors"] += [
+        message for message in findings(text, "error") if message not in result["errors"]
+    ]
     if path.endswith(".xml") and result["rendered"]:
         # Mitsuba's picture stays where our own is made again.
         done, text = os.path.exists(f"{stem}.npy"), ""
@@ -220,7 +255,14 @@ def made(name, path, folder, results):
         lines = [line.strip() for line in text.splitlines() if line.strip()]
         result["twin"] = done
         if done:
-            done, text = run(sys.executable, __file__, "compare", f"{stem}.npy", f"{stem}.exr", f"{stem}.twin.json")
+            done, text = run(
+                sys.executable,
+                __file__,
+                "compare",
+                f"{stem}.npy",
+                f"{stem}.exr",
+                f"{stem}.twin.json",
+            )
         if done:
             with open(f"{stem}.twin.json") as file:
                 result.update(json.load(file))
@@ -245,12 +287,17 @@ def table(results):
     lines = [
         "# Public scenes",
         "",
-        f"Written by `benches/public.sh`: pictures {SIDE} pixels wide, {SAMPLES} samples, {SEEDS} seeds of Mitsuba. A file is *read* if it has",
-        "no error, *equal* if the mean of its picture is that of Mitsuba within 0.5 % or the noise, and the blocks of 8 × 8 pixels are",
-        "within four standard errors and 1 % of the mean. *Off* is the difference of the means, *blocks* the share of blocks outside.",
-        "*Itself*: Mitsuba's last picture is equal to its others by this rule.",
+        "How many public scenes of other renderers `rtc` reads and renders.",
+        f"`benches/public.sh` writes this page. Pictures are {SIDE} pixels wide and have {SAMPLES}",
+        f"samples per pixel. Mitsuba renders each of its scenes with {SEEDS} seeds.",
         "",
-        "| collection | files | read | rendered | by Mitsuba, too | itself | equal |",
+        "- *Read*: `rtc check` finds no error.",
+        "- *By Mitsuba*: Mitsuba renders the file, too.",
+        "- *Equal*: the means differ by at most 0.5 % or the noise, and the blocks of 8 × 8 pixels",
+        "  differ by at most four standard errors and 1 % of the mean.",
+        "- *Itself*: the last picture of Mitsuba is equal to its other pictures by this rule.",
+        "",
+        "| collection | files | read | rendered | by Mitsuba | itself | equal |",
         "| --- | --- | --- | --- | --- | --- | --- |",
     ]
     for name in COLLECTIONS:
@@ -260,7 +307,15 @@ def table(results):
         twins = [count("twin"), count("itself"), count("equal")] if is_mitsuba else [""] * 3
         cells = [name, len(found), count("read"), count("rendered"), *twins]
         lines.append(f"| {' | '.join(str(cell) for cell in cells)} |")
-    lines += ["", "## Files that are not equal, not rendered or not read", "", "| file | off | blocks | why |", "| --- | --- | --- | --- |"]
+    lines += [
+        "",
+        "## Files that are not equal, not rendered or not read",
+        "",
+        "*Off* is the difference of the means, *blocks* the share of blocks that differ.",
+        "",
+        "| file | off | blocks | why |",
+        "| --- | --- | --- | --- |",
+    ]
     for result in results:
         is_twin = result["file"].endswith(".xml")
         if result["read"] and result["rendered"] and (result.get("equal") or not is_twin):

@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# What `rtc cost --effort quick` takes beside a render of the scene on one thread, for the scenes of scenes/: CPU-seconds, as Markdown. The
-# limit is 3, or 8 times the render if that is more; exits with 1 if a study takes longer. RTC is a program that was built before.
-set -euo pipefail
-cd "$(dirname "$0")/.."
-. benches/driver.sh
-RTC=$(rtc)
+# What `rtc cost --effort quick` takes beside one render of the scene on one thread, for scenes/:
+# CPU-seconds, as a table in Markdown. The limit is 3, or 8 times the render if that is more. Fails
+# if a study takes longer.
+. "$(dirname "$0")/driver.sh"
+rtc=$(rtc)
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
-TIMEFORMAT="%U %S"
-seconds() { { time "$RTC" "$@" >"$out/words" 2>&1; } 2>&1; }
-echo "| scene | render | study | limit |"
-echo "| --- | --: | --: | --: |"
+TIMEFORMAT='%U %S'
+seconds() {
+    { time "$rtc" "$@" >"$out/words" 2>&1; } 2>&1
+}
+echo '| scene | render | study | limit |'
+echo '| --- | --: | --: | --: |'
 for scene in scenes/*.yaml; do
     render=$(seconds render "$scene" --threads 1 -o "$out/picture.png")
     study=$(seconds cost "$scene" --effort quick)

@@ -1,6 +1,8 @@
-"""Where the time of a picture goes, in nanoseconds a camera ray: `ray_budget.py`, with `perf`, a program with symbols in RTC, and the
-scenes of `peers/scenes.py` in target/peers. One thread, vector instructions by RTC_SIMD. Inlined functions count with those that
-called them. Puts the table into benches/README.md."""
+"""Where the time of a picture goes, in nanoseconds a camera ray: `ray_budget.py`, with `perf`, a
+program with symbols in RTC, and the scenes of `peers/scenes.py` in target/peers. One thread, vector
+instructions by RTC_SIMD. Inlined functions count with those that called them. Puts the table into
+benches/README.md."""
+
 import os
 import re
 import subprocess
@@ -8,7 +10,10 @@ import sys
 import tempfile
 
 PARTS = [  # The first that a symbol matches; its own crate first, then what runs below it.
-    ("tree and intersections", r"vectorize|accel::|closest_hit|any_hit|transmittance|intersect|::torus|::sphere|triangle::|::rescaled|small_scene"),
+    (
+        "tree and intersections",
+        r"vectorize|accel::|closest_hit|any_hit|transmittance|intersect|::torus|::sphere|triangle::|::rescaled|small_scene",
+    ),
     ("hit points", r"rtc_render::shape|rtc_render::ray|corner_values|column|plane"),
     ("textures", r"rtc_render::texture"),
     ("materials", r"rtc_render::(bsdf|material)|phong"),
@@ -43,7 +48,10 @@ def shares(command):
     for share, symbol in re.findall(r"^\s*([0-9.]+)%\s+\[.\]\s+(.*)$", told, re.M):
         part = next(name for name, pattern in PARTS if re.search(pattern, symbol))
         found[part] += float(share) / 100
-    return after.children_user + after.children_system - before.children_user - before.children_system, found
+    return (
+        after.children_user + after.children_system - before.children_user - before.children_system,
+        found,
+    )
 
 
 def main():
@@ -54,11 +62,27 @@ def main():
             continue
         size = f"{width}x{height or width}"
         paths = [] if name in ("camera", "rings") else ["--spp", str(samples)]
-        command = [os.environ["RTC"], "render", scene, "--size", size, *paths, "--threads", "1", "-q", "--asset-root", "../shared", "-o"]
+        command = [
+            os.environ["RTC"],
+            "render",
+            scene,
+            "--size",
+            size,
+            *paths,
+            "--threads",
+            "1",
+            "-q",
+            "--asset-root",
+            "../shared",
+            "-o",
+        ]
         seconds, found = shares(command)
         each = 1e9 * seconds / (width * (height or width) * samples)
         rows.append((f"{name}, {samples} a pixel", each, found))
-    print(f"Nanoseconds a camera ray, with all that follows it, one thread, `RTC_SIMD={os.environ.get('RTC_SIMD', 'best')}`.\n")
+    print(
+        f"Nanoseconds a camera ray, with all that follows it, one thread, "
+        f"`RTC_SIMD={os.environ.get('RTC_SIMD', 'best')}`.\n"
+    )
     print("| scene | all | " + " | ".join(name for name, _ in PARTS) + " |")
     print("| --- |" + " --: |" * (len(PARTS) + 1))
     for name, each, found in rows:

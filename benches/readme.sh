@@ -1,7 +1,8 @@
-#!/bin/sh
-# Runs each command that the README and the book show, in release, and puts what it says in place of the lines shown. Between cuts, `…`,
-# lines of the same form are looked for; where there are none all is put in, to be cut by hand.
-set -eu
-cd "$(dirname "$0")/.."
-RTC_UPDATE=1 cargo test --quiet --release --test suites readme::the_readme_and_the_book -- --nocapture
+#!/usr/bin/env bash
+# Runs each command that the README and the book show, in `release`, and replaces the output that
+# they show. Between cuts, `…`, it looks for lines of the same form; if there are none, it puts in
+# the whole output, to be cut by hand.
+. "$(dirname "$0")/driver.sh"
+RTC_UPDATE=1 cargo test --quiet --release --test suites readme::the_readme_and_the_book -- \
+    --nocapture
 git diff --stat README.md docs/book

@@ -1,23 +1,27 @@
 #!/usr/bin/env bash
-# How near traced paths come to the references of `../shared/gltf/refs`, as Markdown: the mean in its worst channel, the
-# relative mean square error (over r² + 0.01), and the error of the means of blocks of 8 × 8 pixels at the 95th percentile.
-# 256 × 256 pixels, as many samples as the argument says, 256 without; fails where a gate is missed.
-set -euo pipefail
-cd "$(dirname "$0")/.."
-. benches/driver.sh
-refs=../shared/gltf/refs samples=${1:-256} failed=0
-[ -d "$refs" ] || { echo "no $refs here" >&2; exit 0; }
+# How near path-traced pictures come to the references of ../shared/gltf/refs, as a table in
+# Markdown: the mean in its worst channel, relMSE, and the error of the means of blocks of 8 × 8
+# pixels at the 95th percentile. 256 × 256 pixels. `references.sh [SAMPLES]` (256). Fails if a value
+# is above its gate.
+. "$(dirname "$0")/driver.sh"
+refs=../shared/gltf/refs
+samples=${1:-256}
+needs "$refs"
 compare=$(driver compare)
 
 echo '| reference | mean off by | gate | relMSE | block p95 | gate |'
 echo '| --- | --: | --: | --: | --: | --: |'
+failed=0
 while read -r name mean block; do
     line=$("$compare" "$refs/$name.json" "$samples")
-    field() { sed "s/.*\"$1\":\([-+.0-9e]*\).*/\1/" <<<"$line"; }
-    read -r off square p95 < <(awk -v off="$(field mean_off)" -v square="$(field rel_mse)" -v p95="$(field block_p95)" \
-        'BEGIN { print 100 * off, square, 100 * p95 }')
-    printf '| %s | %.2f %% | %s %% | %.5f | %.1f %% | %s %% |\n' "$name" "$off" "$mean" "$square" "$p95" "$block"
-    awk -v off="$off" -v mean="$mean" -v p95="$p95" -v block="$block" 'BEGIN { exit off > mean || p95 > block }' || failed=1
+    # `field NAME`: of the line of JSON.
+    field() { grep -o "\"$1\":[-+.0-9e]*" <<<"$line" | cut -d : -f 2; }
+    awk -v name="$name" -v mean="$mean" -v block="$block" -v off="$(field mean_off)" \
+        -v square="$(field rel_mse)" -v p95="$(field block_p95)" 'BEGIN {
+            form = "| %s | %.2f %% | %s %% | %.5f | %.1f %% | %s %% |\n"
+            printf form, name, 100 * off, mean, square, 100 * p95, block
+            exit 100 * off > mean || 100 * p95 > block
+        }' || failed=1
 done <<'END'
 CornellLambert 0.3 2
 MetalRoughGrid 2 6

@@ -1,13 +1,13 @@
 """Equal-time table of two programs `paths`: BEFORE AFTER ASSETS ENVIRONMENTS.
 
-Each scene is compiled by RTC (environment variable) at SIDE x SIDE pixels. A reference of many paths and
-another seed comes from AFTER, once. The error is relMSE: the mean of (x - r)^2 / (r^2 + 0.01) over pixels and
-channels. Time is CPU time of sampling alone, the median of turns by each in turn; efficiency is 1 / (relMSE x time).
-`blurred` is the root of the same error after a Gaussian filter of one pixel, AFTER over BEFORE: what is left where noise is spread evenly.
-The last column is the mean of all pixels by AFTER over that by BEFORE, with its standard error over the turns.
+Each scene is compiled by RTC (environment variable) at SIDE x SIDE pixels. A reference of many
+paths and another seed comes from AFTER, once. The error is relMSE: the mean of (x - r)^2 / (r^2 +
+0.01) over pixels and channels. Time is CPU time of sampling alone, the median of turns by each in
+turn; efficiency is 1 / (relMSE x time). `blurred` is the root of the same error after a Gaussian
+filter of one pixel, AFTER over BEFORE: what is left where noise is spread evenly. The last column
+is the mean of all pixels by AFTER over that by BEFORE, with its standard error over the turns.
 
-STREETS are streets of so many lamps (street.py), measured beside the assets.
-"""
+STREETS are streets of so many lamps (street.py), measured beside the assets."""
 
 import array
 import json
@@ -30,8 +30,10 @@ WORK = pathlib.Path(os.environ.get("WORK", HERE.parent / "target" / "sampling"))
 
 def scenes(assets, environments):
     """Name, file and options of each scene."""
+
     def at(name):
         return pathlib.Path(assets) / name
+
     sun = pathlib.Path(environments) / "royal_esplanade_256.hdr"
     rows = [
         ("FlightHelmet", at("FlightHelmet/FlightHelmet.gltf"), []),
@@ -97,13 +99,18 @@ def error(pixels, truth):
 
 
 def filtered(plane, step):
-    """Numbers filtered by a Gaussian of one pixel, cut off at three; neighbours are `step` apart, and the ends are left off."""
+    """Numbers filtered by a Gaussian of one pixel, cut off at three; neighbours are `step` apart,
+    and the ends are left off."""
     weights = [(at * step, math.exp(-at * at / 2)) for at in range(-3, 4)]
-    return [sum(weight * plane[k + by] for by, weight in weights) for k in range(3 * step, len(plane) - 3 * step)]
+    return [
+        sum(weight * plane[k + by] for by, weight in weights)
+        for k in range(3 * step, len(plane) - 3 * step)
+    ]
 
 
 def blurred(pixels, truth, width):
-    """The relMSE of a picture of so many pixels across after a blur, but for a factor; its rows are filtered as one line."""
+    """The relMSE of a picture of so many pixels across after a blur, but for a factor; its rows are
+    filtered as one line."""
     plane = [(x - r) / math.sqrt(r * r + 0.01) for x, r in zip(pixels, truth, strict=True)]
     plane = filtered(filtered(plane, 3), 3 * width)
     return math.fsum(x * x for x in plane) / len(plane)
@@ -126,7 +133,15 @@ def measure(name, scene, width, programs):
     spread = statistics.stdev(ratios) / math.sqrt(TURNS) if TURNS > 1 else math.nan
     mean = f"{statistics.mean(ratios):.4f} ± {spread:.4f}"
     soft = math.sqrt(statistics.mean(found[1][3]) / statistics.mean(found[0][3]))
-    row = [name, f"{before[0]:.5f}", f"{after[0]:.5f}", f"{after[1] / before[1]:.2f}", f"{gain:.2f}", f"{soft:.2f}", mean]
+    row = [
+        name,
+        f"{before[0]:.5f}",
+        f"{after[0]:.5f}",
+        f"{after[1] / before[1]:.2f}",
+        f"{gain:.2f}",
+        f"{soft:.2f}",
+        mean,
+    ]
     print(f"| {' | '.join(row)} |", flush=True)
     return gain
 
@@ -134,11 +149,20 @@ def measure(name, scene, width, programs):
 def main():
     before, after, assets, environments = sys.argv[1:]
     WORK.mkdir(parents=True, exist_ok=True)
-    print("| scene | relMSE before | after | time, × before | efficiency, × before | blurred, × before | mean, × before |")
+    print(
+        "| scene | relMSE before | after | time, × before | efficiency, × before | blurred, × "
+        "before | mean, × before |"
+    )
     print("| --- | --: | --: | --: | --: | --: | --: |")
-    gains = [measure(row[0], *compile_scene(*row), [before, after]) for row in scenes(assets, environments)]
+    gains = [
+        measure(row[0], *compile_scene(*row), [before, after])
+        for row in scenes(assets, environments)
+    ]
     mean = math.exp(statistics.mean(map(math.log, gains)))
-    print(f"\nEfficiency: geometric mean {mean:.2f}, arithmetic {statistics.mean(gains):.2f}, least {min(gains):.2f}.")
+    print(
+        f"\nEfficiency: geometric mean {mean:.2f}, arithmetic {statistics.mean(gains):.2f}, least "
+        f"{min(gains):.2f}."
+    )
 
 
 main()

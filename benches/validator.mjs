@@ -1,16 +1,29 @@
-// What benches/validator.sh runs, in one process: makes mutants by a seed, asks the validator of Khronos and rtc about each
-// file, and prints how often both find the same set of error codes, and what differs by code, as Markdown.
+// What benches/validator.sh runs, in one process: makes mutants by a seed, asks the validator of
+// Khronos and rtc about each file, and prints how often both find the same set of error codes, and
+// what differs by code, as Markdown.
 //
-// `node validator.mjs WORK RTC SHARED COUNT SEED`: WORK has the validator in node_modules and takes the files, SHARED holds
-// `assets` and `validator-corpus`. LIST=1 names each file that differs on stderr.
+// `node validator.mjs WORK RTC SHARED COUNT SEED`: WORK has the validator in node_modules and takes
+// the files, SHARED holds `assets` and `validator-corpus`. LIST=1 names each file that differs on
+// stderr.
 import { execFileSync } from 'node:child_process';
-import { chmodSync, cpSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import {
+    chmodSync,
+    cpSync,
+    readFileSync,
+    readdirSync,
+    rmSync,
+    statSync,
+    writeFileSync,
+} from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join, resolve } from 'node:path';
 
 const [work, rtc, shared, count, seed] = process.argv.slice(2);
 const validator = createRequire(resolve(work, 'x.js'))('gltf-validator');
-const files = (folder) => readdirSync(folder, { recursive: true }).map((name) => join(folder, name)).sort();
+const files = (folder) =>
+    readdirSync(folder, { recursive: true })
+        .map((name) => join(folder, name))
+        .sort();
 
 // Numbers from 0 to 1, the same for the same seed (mulberry32).
 let state = Number(seed);
@@ -34,18 +47,22 @@ function close({ json, rest }) {
     if (!rest) return text;
     const padded = Buffer.concat([text, Buffer.alloc(-text.length & 3, ' ')]);
     const header = Buffer.from('glTF....____....JSON');
-    [2, 20 + padded.length + rest.length, padded.length].forEach((word, at) => header.writeUInt32LE(word, 4 + 4 * at));
+    [2, 20 + padded.length + rest.length, padded.length].forEach((word, at) =>
+        header.writeUInt32LE(word, 4 + 4 * at),
+    );
     return Buffer.concat([header, padded, rest]);
 }
 
-// The kind of place that a path leads to: list indices don't count. `genes` has what stands in each kind of object.
+// The kind of place that a path leads to: list indices don't count. `genes` has what stands in each
+// kind of object.
 const kind = (path) => path.map((key) => (typeof key === 'number' ? '*' : key)).join('/');
 const isHolder = (value) => value !== null && typeof value === 'object';
 const genes = new Map();
 function gather(value, path) {
     if (!isHolder(value)) return;
     for (const [key, inner] of Object.entries(value)) {
-        if (!Array.isArray(value)) genes.set(kind(path), [...(genes.get(kind(path)) ?? []), [key, inner]].slice(-400));
+        if (!Array.isArray(value))
+            genes.set(kind(path), [...(genes.get(kind(path)) ?? []), [key, inner]].slice(-400));
         gather(inner, [...path, Array.isArray(value) ? Number(key) : key]);
     }
 }
@@ -58,21 +75,51 @@ function place(json) {
         if (keys.length === 0) return null;
         const key = Array.isArray(holder) ? Number(one(keys)) : one(keys);
         const value = holder[key];
-        if (!isHolder(value) || Object.keys(value).length === 0 || random() < 0.2) return { holder, key, path, value };
+        if (!isHolder(value) || Object.keys(value).length === 0 || random() < 0.2)
+            return { holder, key, path, value };
         [holder, path] = [value, [...path, key]];
     }
 }
 
 const ODD = [null, true, false, '', 'x', 0, 1, -1, 0.5, 3, 1e9, [], {}, [0], ['x'], { a: 1 }];
-const WORDS = ['SCALAR', 'VEC2', 'VEC3', 'VEC4', 'MAT4', 'MASK', 'BLEND', 'image/png', 'image/jpeg', 'image/webp', 'image/jpg',
-    'STEP', 'CUBICSPLINE', 'translation', 'rotation', 'scale', 'weights', 'pointer', 'perspective', 'orthographic', 'spot',
-    'point', 'directional', '1.0', '2.1', 'KHR_materials_unlit', 'KHR_texture_transform', 'KHR_mesh_quantization', '../x'];
+const WORDS = [
+    'SCALAR',
+    'VEC2',
+    'VEC3',
+    'VEC4',
+    'MAT4',
+    'MASK',
+    'BLEND',
+    'image/png',
+    'image/jpeg',
+    'image/webp',
+    'image/jpg',
+    'STEP',
+    'CUBICSPLINE',
+    'translation',
+    'rotation',
+    'scale',
+    'weights',
+    'pointer',
+    'perspective',
+    'orthographic',
+    'spot',
+    'point',
+    'directional',
+    '1.0',
+    '2.1',
+    'KHR_materials_unlit',
+    'KHR_texture_transform',
+    'KHR_mesh_quantization',
+    '../x',
+];
 const copy = (value) => (value === undefined ? null : JSON.parse(JSON.stringify(value)));
 function put(holder, key, value) {
     if (key !== '__proto__') holder[key] = copy(value);
 }
 function nudge(value) {
-    if (typeof value === 'number') return one([value + 1, value - 1, -value, value * 2, value + 0.5, 0, 1e10]);
+    if (typeof value === 'number')
+        return one([value + 1, value - 1, -value, value * 2, value + 0.5, 0, 1e10]);
     if (typeof value === 'string') return one([...WORDS, `${value}x`, value.slice(1)]);
     if (typeof value === 'boolean') return !value;
     return Array.isArray(value) ? [] : {};
@@ -97,7 +144,8 @@ const CHANGES = {
     },
     // What stands in an object of the same kind, in this asset or in another one.
     cross({ holder, path, value, key }) {
-        const [into, way] = isHolder(value) && !Array.isArray(value) ? [value, [...path, key]] : [holder, path];
+        const [into, way] =
+            isHolder(value) && !Array.isArray(value) ? [value, [...path, key]] : [holder, path];
         const pool = genes.get(kind(way));
         if (pool && !Array.isArray(into)) put(into, ...one(pool));
     },
@@ -139,8 +187,11 @@ function mutant(bytes) {
     return close(asset);
 }
 
-// Some bytes of accessors and images changed: in the binary chunk of a .glb, else in a data URI; null if there is none.
-const WORDS_OF_BYTES = [0, 0x7fc00000, 0x7f800000, 0xff800000, 0x3f800000, 0xbf800000, 0x7f7fffff, 0xffffffff, 1];
+// Some bytes of accessors and images changed: in the binary chunk of a .glb, else in a data URI;
+// null if there is none.
+const WORDS_OF_BYTES = [
+    0, 0x7fc00000, 0x7f800000, 0xff800000, 0x3f800000, 0xbf800000, 0x7f7fffff, 0xffffffff, 1,
+];
 function breakBytes(data) {
     for (let changes = 1 + below(4); changes > 0 && data.length > 4; changes -= 1) {
         const at = below(data.length - 4);
@@ -172,24 +223,30 @@ process.on('uncaughtException', (fault) => {
     thrown = true;
 });
 
-// What the validator finds in a file: the names of errors (0) and warnings (1). What lies in extensions that it says it does
-// not know is left out, here and of what rtc finds.
+// What the validator finds in a file: the names of errors (0) and warnings (1). What lies in
+// extensions that it says it does not know is left out, here and of what rtc finds.
 async function official(file) {
-    const load = (uri) => new Promise((done) => done(new Uint8Array(readFileSync(join(dirname(file), decodeURIComponent(uri))))));
+    const load = (uri) =>
+        new Promise((done) =>
+            done(new Uint8Array(readFileSync(join(dirname(file), decodeURIComponent(uri))))),
+        );
     const options = { uri: file, maxIssues: 0, externalResourceFunction: load };
     const [found, unknown] = [new Map(), []];
     thrown = false;
     try {
         const report = await validator.validateBytes(new Uint8Array(readFileSync(file)), options);
         const { messages } = report.issues;
-        const names = messages.filter(({ code }) => code === 'UNSUPPORTED_EXTENSION').map(({ message }) => /'(.*)'/.exec(message));
+        const names = messages
+            .filter(({ code }) => code === 'UNSUPPORTED_EXTENSION')
+            .map(({ message }) => /'(.*)'/.exec(message));
         unknown.push(...names.map((name) => `/extensions/${name?.[1]}`));
         for (const { code, severity, pointer } of messages) {
             if (severity > 1 || unknown.some((way) => pointer?.includes(way))) continue;
             found.set(code, Math.min(severity, found.get(code) ?? 2));
         }
     } catch (fault) {
-        return { khronos: null }; // The validator itself fails, so there is nothing to compare with.
+        // The validator itself fails, so there is nothing to compare with.
+        return { khronos: null };
     }
     return thrown ? { khronos: null } : { khronos: found, unknown };
 }
@@ -201,7 +258,10 @@ function ours(list) {
         const command = ['check', '--message-format', 'json', ...list.slice(from, from + 200)];
         let text;
         try {
-            text = execFileSync(rtc, command, { maxBuffer: 2 ** 30, stdio: ['ignore', 'pipe', 'ignore'] });
+            text = execFileSync(rtc, command, {
+                maxBuffer: 2 ** 30,
+                stdio: ['ignore', 'pipe', 'ignore'],
+            });
         } catch (failed) {
             if (failed.status !== 1) throw failed;
             text = failed.stdout;
@@ -210,7 +270,9 @@ function ours(list) {
             const finding = JSON.parse(line);
             const severity = ['error', 'warning'].indexOf(finding.severity);
             const codes = found.get(finding.file);
-            const isUnknown = (verdicts.get(finding.file)?.unknown ?? []).some((way) => finding.pointer?.includes(way));
+            const isUnknown = (verdicts.get(finding.file)?.unknown ?? []).some((way) =>
+                finding.pointer?.includes(way),
+            );
             if (!codes || severity < 0 || isUnknown) continue;
             const name = finding.alias ?? finding.code;
             codes.set(name, Math.min(severity, codes.get(name) ?? 2));
@@ -219,12 +281,17 @@ function ours(list) {
     return found;
 }
 
-const of = (codes, severity) => new Set([...codes].filter(([, own]) => own === severity).map(([code]) => code));
+const of = (codes, severity) =>
+    new Set([...codes].filter(([, own]) => own === severity).map(([code]) => code));
 
 // Compares both for one severity; tells of the files in `groups`, and of codes that differ.
 function table(groups, verdicts, severity) {
     const codes = new Map();
-    const tell = (code, at) => codes.set(code, (codes.get(code) ?? [0, 0]).map((old, own) => old + (own === at ? 1 : 0)));
+    const tell = (code, at) =>
+        codes.set(
+            code,
+            (codes.get(code) ?? [0, 0]).map((old, own) => old + (own === at ? 1 : 0)),
+        );
     console.log('| files | how many | same set | share |\n| --- | ---: | ---: | ---: |');
     for (const [name, list] of groups) {
         let [same, all] = [0, 0];
@@ -239,14 +306,20 @@ function table(groups, verdicts, severity) {
             all += 1;
             same += missing.length + beside.length === 0 ? 1 : 0;
             if (process.env.LIST && missing.length + beside.length > 0) {
-                console.error(`${severity ? 'warning' : 'error'} ${file}: missing [${missing}], beside [${beside}]`);
+                console.error(
+                    `${severity ? 'warning' : 'error'} ${file}: missing [${missing}], beside [${beside}]`,
+                );
             }
         }
-        console.log(`| ${name} | ${all} | ${same} | ${((100 * same) / Math.max(all, 1)).toFixed(1)} % |`);
+        console.log(
+            `| ${name} | ${all} | ${same} | ${((100 * same) / Math.max(all, 1)).toFixed(1)} % |`,
+        );
     }
     console.log('\n| code | only the validator | only rtc |\n| --- | ---: | ---: |');
     const order = [...codes].sort(([a, [b, c]], [d, [e, f]]) => e + f - b - c || (a < d ? -1 : 1));
-    order.forEach(([code, [missing, beside]]) => console.log(`| ${code} | ${missing} | ${beside} |`));
+    order.forEach(([code, [missing, beside]]) =>
+        console.log(`| ${code} | ${missing} | ${beside} |`),
+    );
 }
 
 // Copies of both folders that can be written into, mutants beside what they were made of.
@@ -279,7 +352,9 @@ for (let index = 0; index < Number(count); index += 1) {
     verdicts.set(file, await official(file));
 }
 const bytesOf = [];
-const whole = sources.flat().filter((file) => isSound(file) && mutantOfBytes(readFileSync(file)) !== null);
+const whole = sources
+    .flat()
+    .filter((file) => isSound(file) && mutantOfBytes(readFileSync(file)) !== null);
 for (let index = 0; whole.length > 0 && index < Number(count) / 2; index += 1) {
     const source = one(whole);
     const file = source.replace(/(\.\w+)$/, `.bytes-${index}$1`);
@@ -289,12 +364,20 @@ for (let index = 0; whole.length > 0 && index < Number(count) / 2; index += 1) {
 }
 ours([...verdicts.keys()]).forEach((own, file) => (verdicts.get(file).own = own));
 
-const groups = [...names.map((name, at) => [`\`${name}\``, originals[at]]),
-    ...names.map((name, at) => [`mutants of \`${name}\``, mutants[at]]), ['bytes of accessors and images', bytesOf]];
-const about = `The sets of error codes that rtc and gltf-validator ${validator.version()} of Khronos find in a file, compared: ` +
-    `${count} mutants, seed ${seed}. What lies in extensions that the validator says it does not know is left out,\n` +
-    'and so are files on which the validator itself fails.';
-console.log(`# glTF: what is found beside the validator of Khronos\n\n${about}\n\n## Errors\n`);
+const groups = [
+    ...names.map((name, at) => [`\`${name}\``, originals[at]]),
+    ...names.map((name, at) => [`mutants of \`${name}\``, mutants[at]]),
+    ['bytes of accessors and images', bytesOf],
+];
+console.log(`# Findings in glTF beside the validator of Khronos
+
+\`benches/validator.sh\` writes this page. It compares the sets of codes that \`rtc\` and
+gltf-validator ${validator.version()} of Khronos find in a file, here with ${count} mutants and seed
+${seed}. Two things are left out: findings in extensions that the validator does not know, and files
+on which the validator itself fails.
+
+## Errors
+`);
 table(groups, verdicts, 0);
-console.log('\n## Warnings\n\nNothing is promised of these.\n');
+console.log('\n## Warnings\n\nThe project makes no promise about warnings.\n');
 table(groups, verdicts, 1);

@@ -1,8 +1,11 @@
-"""Error after equal CPU time, by rtc and its peers: `equal_time.py FOLDER TURNS`, with the programs in RTC and PATHS, and the CPU-seconds
-of a picture in SECONDS. Writes the tables. A peer that is not there is left out, and so is a scene that only rtc would render.
+"""Error after equal CPU time, by rtc and its peers: `equal_time.py FOLDER TURNS`, with the programs
+in RTC and PATHS, and the CPU-seconds of a picture in SECONDS. Writes the tables. A peer that is not
+there is left out, and so is a scene that only rtc would render.
 
-Two pictures of few samples tell what a sample costs and what is spent beside samples; then each renderer takes as many samples as
-the seconds buy. The truth of each is its own picture of 16 times as many samples by another seed, whose noise is taken off."""
+Two pictures of few samples tell what a sample costs and what is spent beside samples; then each
+renderer takes as many samples as the seconds buy. The truth of each is its own picture of 16 times
+as many samples by another seed, whose noise is taken off."""
+
 import json
 import math
 import os
@@ -23,7 +26,10 @@ LAMPS = ["small-lamp", "many-lamps", "glass-ball"]
 
 
 def has(module):
-    return subprocess.run([sys.executable, "-c", f"import {module}"], capture_output=True).returncode == 0
+    return (
+        subprocess.run([sys.executable, "-c", f"import {module}"], capture_output=True).returncode
+        == 0
+    )
 
 
 def source(scene):
@@ -38,13 +44,28 @@ def by_rtc(scene, samples, seed, out):
 
 
 def by_mitsuba(scene, samples, seed, out):
-    told = run(sys.executable, f"{HERE}/paths_mitsuba.py", f"{FOLDER}/{scene}.xml", str(samples), str(seed), out, "multijitter")["told"]
+    told = run(
+        sys.executable,
+        f"{HERE}/paths_mitsuba.py",
+        f"{FOLDER}/{scene}.xml",
+        str(samples),
+        str(seed),
+        out,
+        "multijitter",
+    )["told"]
     return json.loads(told)["render_cpu_s"]
 
 
 def by_cycles(scene, samples, seed, out):
     command = [sys.executable, f"{HERE}/paths_cycles.py", f"{FOLDER}/{scene}.json", str(samples)]
-    ran = subprocess.run(command, input=f"{seed} {out}\n", stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=True)
+    ran = subprocess.run(
+        command,
+        input=f"{seed} {out}\n",
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        check=True,
+    )
     return json.loads(ran.stdout.splitlines()[-1])["whole_cpu_s"]
 
 
@@ -86,16 +107,36 @@ def paths(scene, renderers):
 
 def row(scene, name, samples, turns):
     seconds, errors = zip(*turns)
-    return [scene, name, samples, statistics.median(seconds), statistics.median(errors), min(errors), max(errors)]
+    return [
+        scene,
+        name,
+        samples,
+        statistics.median(seconds),
+        statistics.median(errors),
+        min(errors),
+        max(errors),
+    ]
 
 
 def course(path):
-    """Rows of a scene of the course: n × n samples in a grid, so that each renderer has one picture for a time."""
+    """Rows of a scene of the course: n × n samples in a grid, so that each renderer has one picture
+    for a time."""
     scene, pov = os.path.basename(path).removesuffix(".yaml"), f"{FOLDER}/equal.pov"
     emit(path, pov)
 
     def rtc(side, out):
-        return run(os.environ["RTC"], "render", path, "--supersampling", str(side), "--threads", "1", "-q", "-o", out)["cpu_s"]
+        return run(
+            os.environ["RTC"],
+            "render",
+            path,
+            "--supersampling",
+            str(side),
+            "--threads",
+            "1",
+            "-q",
+            "-o",
+            out,
+        )["cpu_s"]
 
     def povray(side, out):
         size = ["+W400", "+H400", "+FN", "File_Gamma=1.0", "+WT1", "-D", "-V", "-GA", "-J"]
@@ -128,10 +169,16 @@ def course(path):
 def table(rows, error, digits):
     """Rows in Markdown; the last column says how many times rtc's error a peer has."""
     ours = {scene: errors for scene, name, _, _, errors, *_ in rows if name == "rtc"}
-    print(f"| scene | renderer | samples a pixel | CPU-s | {error} | ÷ that of rtc |\n| --- | --- | --: | --: | --: | --: |")
+    print(
+        f"| scene | renderer | samples a pixel | CPU-s | {error} | ÷ that of rtc |\n| --- | --- | "
+        f"--: | --: | --: | --: |"
+    )
     for scene, name, samples, seconds, middle, least, most in rows:
         spread = f"{middle:.{digits}f} ({least:.{digits}f} … {most:.{digits}f})"
-        print(f"| {scene} | {name} | {samples} | {seconds:.2f} | {spread} | **{middle / ours[scene]:.2f}** |")
+        print(
+            f"| {scene} | {name} | {samples} | {seconds:.2f} | {spread} | "
+            f"**{middle / ours[scene]:.2f}** |"
+        )
 
 
 def main():
@@ -148,12 +195,23 @@ def main():
     if peers and os.path.exists(f"{FOLDER}/CornellLambert.json"):
         rows += paths("CornellLambert", {"rtc": by_rtc, **peers})
     load = os.getloadavg()[0]
-    busy = f" **The machine was busy** ({load:.1f} processes at the end): ratios, not seconds, are worth something." if load > 1.5 else ""
-    print(f"{SECONDS:g} CPU-seconds a picture, one thread, {RUNS} turns: the median, the least, the greatest.{busy}\n")
+    busy = (
+        f" **The machine was busy** ({load:.1f} processes at the end): ratios, not seconds, are "
+        f"worth something."
+        if load > 1.5
+        else ""
+    )
+    print(
+        f"{SECONDS:g} CPU-seconds a picture, one thread, {RUNS} turns: the median, the least, the "
+        f"greatest.{busy}\n"
+    )
     if rows:
         table(rows, "relMSE", 5)
     if shutil.which("povray"):
-        print("\nOf the course, in grids of samples; the error is the root of the mean square in grey levels.\n")
+        print(
+            "\nOf the course, in grids of samples; the error is the root of the mean square in "
+            "grey levels.\n"
+        )
         table(course("scenes/camera.yaml"), "RMSE", 2)
 
 

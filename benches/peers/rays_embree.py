@@ -1,5 +1,7 @@
-"""Rays through the globe by Embree, in the same batches as `rays.rs`, and with the same output; also with all rays sorted
-before, in time that does not count, and in Embree's robust mode: `rays_embree.py FOLDER SET…`. All CPU time counts."""
+"""Rays through the globe by Embree, in the same batches as `rays.rs`, and with the same output;
+also with all rays sorted before, in time that does not count, and in Embree's robust mode:
+`rays_embree.py FOLDER SET…`. All CPU time counts."""
+
 import json
 import sys
 import time
@@ -12,7 +14,8 @@ BATCH = 1 << 14
 
 
 def in_order(rays):
-    """By the octant of the direction, then by the cell of the origin along Morton's curve, then by direction."""
+    """By the octant of the direction, then by the cell of the origin along Morton's curve, then by
+    direction."""
     origins, directions = rays[:, :3], rays[:, 3:]
     low, high = origins.min(0), origins.max(0)
     cells = ((origins - low) / np.maximum(high - low, 1e-9) * 15.999).astype(np.uint64)

@@ -1,6 +1,8 @@
-"""Measures rtc and its peers by turns: `turns.py FOLDER RUNS KIND…`, with the programs in RTC, RAYS and PATHS, and the size of the
-picture of rings in RINGS. Each turn is one run of each, in the order of the last turn turned round. The file RESULTS keeps what
-was measured, kind by kind; `tables.py` shows it."""
+"""Measures rtc and its peers by turns: `turns.py FOLDER RUNS KIND…`, with the programs in RTC, RAYS
+and PATHS, and the size of the picture of rings in RINGS. Each turn is one run of each, in the order
+of the last turn turned round. The file RESULTS keeps what was measured, kind by kind; `tables.py`
+shows it."""
+
 import glob
 import json
 import os
@@ -15,9 +17,20 @@ from scenes import globe, write_glb
 FOLDER, RUNS = sys.argv[1], int(sys.argv[2])
 HERE = os.path.dirname(os.path.relpath(__file__))
 ASSETS = ["FlightHelmet", "MetalRoughGrid", "TransmissionRoughnessTest", "CornellLambert"]
-MODELS = ["own_MetalRoughGrid.glb", "FlightHelmet/FlightHelmet.gltf", "ClearCoatTest.glb", "SheenCloth.glb"]
+MODELS = [
+    "own_MetalRoughGrid.glb",
+    "FlightHelmet/FlightHelmet.gltf",
+    "ClearCoatTest.glb",
+    "SheenCloth.glb",
+]
 GROWTH_RAYS = 1 << 18
-SAMPLES = {"Courtyard": 64, "FlightHelmet": 32, "MetalRoughGrid": 32, "TransmissionRoughnessTest": 32, "CornellLambert": 16}
+SAMPLES = {
+    "Courtyard": 64,
+    "FlightHelmet": 32,
+    "MetalRoughGrid": 32,
+    "TransmissionRoughnessTest": 32,
+    "CornellLambert": 16,
+}
 
 
 def run(*command):
@@ -77,7 +90,8 @@ def rays():
 
 
 def course():
-    """The camera scene of the course, and the rings; how far the pictures are apart, in levels of 8 bits."""
+    """The camera scene of the course, and the rings; how far the pictures are apart, in levels of 8
+    bits."""
     from PIL import Image
 
     found = {}
@@ -89,21 +103,54 @@ def course():
         pov = f"{FOLDER}/{name}.pov"
         emit(scene, pov)
         pictures = [f"{FOLDER}/{name}.{by}.png" for by in ("rtc", "povray")]
-        rtc = [os.environ["RTC"], "render", scene, "--size", side, "--threads", "1", "-q", "-o", pictures[0]]
-        povray = ["povray", f"+I{pov}", f"+O{pictures[1]}", f"+W{width}", f"+H{height}", "+FN", "File_Gamma=1.0"]
+        rtc = [
+            os.environ["RTC"],
+            "render",
+            scene,
+            "--size",
+            side,
+            "--threads",
+            "1",
+            "-q",
+            "-o",
+            pictures[0],
+        ]
+        povray = [
+            "povray",
+            f"+I{pov}",
+            f"+O{pictures[1]}",
+            f"+W{width}",
+            f"+H{height}",
+            "+FN",
+            "File_Gamma=1.0",
+        ]
         povray += ["+A0.0", "+AM1", f"+R{factor}", "-J", "+WT1", "-D", "-V", "-GA"]
         turns = by_turns({"rtc": lambda _: run(*rtc), "POV-Ray": lambda _: run(*povray)}, runs)
         a, b = (np.asarray(Image.open(path).convert("RGB"), float) for path in pictures)
-        found[name] = {"size": side, "samples": factor**2, "apart": float(np.abs(a - b).mean()), **turns}
+        found[name] = {
+            "size": side,
+            "samples": factor**2,
+            "apart": float(np.abs(a - b).mean()),
+            **turns,
+        }
     return found
 
 
 def noise(pictures):
-    """The relative mean square error of each picture, against the mean of all others of its kind; and the means of the kinds."""
-    kinds = {name: np.array([np.fromfile(path, np.float32) for path in paths], float) for name, paths in pictures.items()}
+    """The relative mean square error of each picture, against the mean of all others of its kind;
+    and the means of the kinds."""
+    kinds = {
+        name: np.array([np.fromfile(path, np.float32) for path in paths], float)
+        for name, paths in pictures.items()
+    }
     truth = np.mean([stack.mean(0) for stack in kinds.values()], 0)
-    error = lambda stack: (stack - stack.mean(0)) ** 2 * (RUNS / max(RUNS - 1, 1)) / (truth**2 + 0.01)
-    return {name: {"rel_mse": error(stack).mean(1).tolist(), "mean": float(stack.mean())} for name, stack in kinds.items()}
+    error = lambda stack: (
+        (stack - stack.mean(0)) ** 2 * (RUNS / max(RUNS - 1, 1)) / (truth**2 + 0.01)
+    )
+    return {
+        name: {"rel_mse": error(stack).mean(1).tolist(), "mean": float(stack.mean())}
+        for name, stack in kinds.items()
+    }
 
 
 def picture(set_up, name, turn):
@@ -112,16 +159,25 @@ def picture(set_up, name, turn):
 
 def measured(set_up, contestants):
     turns = by_turns(contestants)
-    noises = noise({name: [picture(set_up, name, turn) for turn in range(RUNS)] for name in contestants})
+    noises = noise(
+        {name: [picture(set_up, name, turn) for turn in range(RUNS)] for name in contestants}
+    )
     set_up_file = json.load(open(f"{FOLDER}/{set_up}.json"))
-    told = {"samples": SAMPLES[set_up], "pixels": set_up_file["width"] * set_up_file["height"], "turns": turns, "noise": noises}
+    told = {
+        "samples": SAMPLES[set_up],
+        "pixels": set_up_file["width"] * set_up_file["height"],
+        "turns": turns,
+        "noise": noises,
+    }
     return told
 
 
 def by_rtc(set_up):
     def one(turn):
         out = picture(set_up, "rtc", turn)
-        ran = run(os.environ["PATHS"], f"{FOLDER}/{set_up}.json", str(SAMPLES[set_up]), str(turn + 1), out)
+        ran = run(
+            os.environ["PATHS"], f"{FOLDER}/{set_up}.json", str(SAMPLES[set_up]), str(turn + 1), out
+        )
         return {**ran, **json.loads(ran.pop("told"))}
 
     return one
@@ -131,7 +187,14 @@ def courtyard():
     def by_mitsuba(name, sampler, variant):
         def one(turn):
             out = picture("Courtyard", name, turn)
-            arguments = [f"{FOLDER}/Courtyard.xml", str(SAMPLES["Courtyard"]), str(turn + 1), out, sampler, variant]
+            arguments = [
+                f"{FOLDER}/Courtyard.xml",
+                str(SAMPLES["Courtyard"]),
+                str(turn + 1),
+                out,
+                sampler,
+                variant,
+            ]
             ran = run(sys.executable, f"{HERE}/paths_mitsuba.py", *arguments)
             return {**ran, **json.loads(ran.pop("told"))}
 
@@ -139,7 +202,11 @@ def courtyard():
 
     emit(f"{FOLDER}/Courtyard.yaml", f"{FOLDER}/Courtyard.xml")
     os.environ["DRJIT_LIBLLVM_PATH"] = glob.glob("/usr/lib/*/libLLVM.so.19.1")[0]
-    pairs = [("scalar_rgb", "independent"), ("scalar_rgb", "multijitter"), ("llvm_ad_rgb", "independent")]
+    pairs = [
+        ("scalar_rgb", "independent"),
+        ("scalar_rgb", "multijitter"),
+        ("llvm_ad_rgb", "independent"),
+    ]
     contestants = {}
     for variant, sampler in pairs:
         name = f"Mitsuba {variant.split('_')[0]}, {sampler}"
@@ -155,7 +222,9 @@ def assets():
             print(f"  no {path}: {asset} is left out", file=sys.stderr)
             continue
         command = [sys.executable, f"{HERE}/paths_cycles.py", path, str(SAMPLES[asset])]
-        with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as cycles:
+        with subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        ) as cycles:
             cycles.stdout.readline()
 
             def by_cycles(turn):
@@ -168,7 +237,8 @@ def assets():
 
 
 def models():
-    """From a model to its first picture, of 400 x 400 pixels: f3d by software GL, rtc by its quick and by its default quality."""
+    """From a model to its first picture, of 400 x 400 pixels: f3d by software GL, rtc by its quick
+    and by its default quality."""
     found = {}
     for asset in MODELS:
         path = f"../shared/gltf/assets/{asset}"
@@ -177,14 +247,28 @@ def models():
             continue
         out = f"{FOLDER}/model.png"
         f3d = ["xvfb-run", "-a", "f3d", path, f"--output={out}", "--resolution=400,400"]
-        rtc = [os.environ["RTC"], "render", path, "--size", "400x400", "--threads", "1", "-q", "-o", out]
+        rtc = [
+            os.environ["RTC"],
+            "render",
+            path,
+            "--size",
+            "400x400",
+            "--threads",
+            "1",
+            "-q",
+            "-o",
+            out,
+        ]
         draft = [*rtc, "--quality", "draft"]
-        found[asset] = by_turns({"f3d": lambda _: run(*f3d), "draft": lambda _: run(*draft), "rtc": lambda _: run(*rtc)})
+        found[asset] = by_turns(
+            {"f3d": lambda _: run(*f3d), "draft": lambda _: run(*draft), "rtc": lambda _: run(*rtc)}
+        )
     return found
 
 
 def growth():
-    """Globes of ten times as many triangles each: from the mesh in memory to the hierarchy, and rays to anywhere."""
+    """Globes of ten times as many triangles each: from the mesh in memory to the hierarchy, and
+    rays to anywhere."""
     found = {}
     for exponent in range(3, int(os.environ.get("MOST", "7")) + 1):
         folder = f"{FOLDER}/growth{exponent}"
@@ -198,7 +282,9 @@ def growth():
 
         ours = [os.environ["RAYS"], f"{folder}/globe.glb", f"{folder}/incoherent.f32"]
         theirs = [sys.executable, f"{HERE}/rays_embree.py", folder, f"{folder}/incoherent.f32"]
-        turns = by_turns({"rtc": lambda _: seconds(*ours), "Embree": lambda _: seconds(*theirs)}, min(RUNS, 3))
+        turns = by_turns(
+            {"rtc": lambda _: seconds(*ours), "Embree": lambda _: seconds(*theirs)}, min(RUNS, 3)
+        )
         found[exponent] = {"triangles": len(corners), "rays": GROWTH_RAYS, **turns}
     return found
 
@@ -206,18 +292,34 @@ def growth():
 def cores():
     """Seconds of the clock on one thread and on two."""
     found = {}
-    scenes = {"camera": ["scenes/camera.yaml", "--supersampling", "8"], "vases": ["scenes/vases.yaml", "--spp", "32"]}
+    scenes = {
+        "camera": ["scenes/camera.yaml", "--supersampling", "8"],
+        "vases": ["scenes/vases.yaml", "--spp", "32"],
+    }
     scenes["globe"] = [f"{FOLDER}/globe.glb", "--size", "256x256", "--spp", "16"]
     for name, scene in scenes.items():
-        command = [os.environ["RTC"], "render", *scene, "-q", "-o", f"{FOLDER}/cores.png", "--threads"]
-        found[name] = by_turns({threads: lambda _, threads=threads: run(*command, threads) for threads in ("1", "2")})
+        command = [
+            os.environ["RTC"],
+            "render",
+            *scene,
+            "-q",
+            "-o",
+            f"{FOLDER}/cores.png",
+            "--threads",
+        ]
+        found[name] = by_turns(
+            {threads: lambda _, threads=threads: run(*command, threads) for threads in ("1", "2")}
+        )
     return found
 
 
 def main(kinds):
     path = os.environ["RESULTS"]
     results = json.load(open(path)) if os.path.exists(path) else {}
-    kinds_by_name = {measure.__name__: measure for measure in (rays, course, courtyard, assets, models, growth, cores)}
+    kinds_by_name = {
+        measure.__name__: measure
+        for measure in (rays, course, courtyard, assets, models, growth, cores)
+    }
     for kind in kinds:
         print(f"{kind}:", file=sys.stderr)
         results[kind] = kinds_by_name[kind]()

@@ -1,10 +1,9 @@
 #!/usr/bin/env bash
-# Whether Mitsuba and POV-Ray show what `rtc compile --emit` writes as rtc shows the scene: pictures of both, and how far they are
-# apart beyond their noise. Fails where that is more than it should be. Peers are brought by setup.sh; RTC names a program that is built.
-set -euo pipefail
-cd "$(dirname "$0")/../.."
-. benches/driver.sh
+# Whether Mitsuba and POV-Ray show what `rtc compile --emit` writes as `rtc` shows the scene: the
+# difference of both pictures beyond their noise, as rows in Markdown. Fails if it is too large.
+# setup.sh installs the peers.
+. "$(dirname "$0")/../driver.sh"
 benches/peers/setup.sh
 RTC=$(rtc)
 export RTC
-target/peers/venv/bin/python benches/peers/twins.py target/peers
+exec target/peers/venv/bin/python benches/peers/twins.py target/peers
