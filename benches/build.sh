@@ -54,8 +54,7 @@ median() {
 }
 
 cpu=$(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -n 1)
-commit=$(git rev-parse --short HEAD)
-printf 'Commit %s, %s, %s cores, %s.\n\n' "$commit" "$cpu" "$(nproc)" "$(rustc --version)"
+printf '%s %s, %s cores, %s.\n\n' "$STATE" "$cpu" "$(nproc)" "$(rustc --version)"
 printf '| work | seconds | CPU-seconds |\n| --- | --: | --: |\n'
 row() {
     printf '| %s | %.0f | %.0f |\n' "$2" "$(median "$1" 1)" "$(median "$1" 2)"

@@ -9,6 +9,10 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+# What pages say of the version that they were measured with.
+STATE="Measured at commit $(git rev-parse --short HEAD 2>/dev/null || echo unknown) ($(date -I))."
+export STATE
+
 built=(cargo build --quiet --profile "${RTC_PROFILE:-dist}" --config profile.dist.strip=false
     --message-format json-render-diagnostics)
 

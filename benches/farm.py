@@ -126,7 +126,8 @@ def saturation(pixels, work):
 def tables():
     pixels, scene, work = 8192 * 8192, 50e6, 1e6
     print(
-        f"A picture of 8192 × 8192 pixels that takes {work:.0e} CPU-seconds, of a scene of {scene / 1e6:.0f} MB.\n".replace(
+        f"A picture of 8192 × 8192 pixels that takes {work:.0e} CPU-seconds, of a scene of "
+        f"{scene / 1e6:.0f} MB.\n".replace(
             "e+0", "0^"
         )
     )

@@ -53,10 +53,8 @@ def numbers(path):
 
 
 def sizes(rows):
-    print(
-        "The course's camera scene, one sample a pixel, one thread: CPU-seconds of the process and "
-        "its peak of memory.\n"
-    )
+    print("The camera scene of the course, one sample per pixel, one thread: CPU-seconds of the")
+    print("process and its peak of memory.\n")
     print(
         "| pixels | CPU-s by strips | peak, MB | CPU-s as a whole | peak, MB |\n| --- | --: | --: "
         "| --: | --: |"
@@ -75,11 +73,11 @@ def main(svg, rows, wide):
         for exponent, cpu, _, rays, more, _, more_rays in rows
     ]
     start, slope = fit(points)
+    print("One mesh, 256 × 256 pixels, one thread: CPU-seconds from the start of the process to a")
     print(
-        "One mesh, 256 × 256 pixels, one thread. Of a picture of 4 paths a pixel: CPU-seconds from "
-        "the start of the process, and the"
+        "picture of 4 paths per pixel, and the peak of memory. The time of a ray is that of 32 more"
     )
-    print("peak of memory. A ray's time is that of 32 more paths a pixel, shading too.\n")
+    print("paths per pixel, with shading.\n")
     print(
         "| triangles | CPU-s | peak, MB | bytes a triangle | µs a ray |\n| --- | --: | --: | --: | "
         "--: |"
@@ -90,7 +88,7 @@ def main(svg, rows, wide):
             f"| 10^{exponent:.0f} | {cpu:.2f} | {peak:.0f} | {peak * 2**20 / count:.0f} | "
             f"{ray:.2f} |"
         )
-    print(f"\n![Time of a ray over the number of triangles](growth.svg)\n")
+    print("\n![Time of a ray over the number of triangles](growth.svg)\n")
     print(f"The line that fits best is {start:.2f} + {slope:.2f} · log₁₀ n µs.")
     with open(svg, "w") as file:
         file.write(plot(points, start, slope))

@@ -53,6 +53,8 @@ of f64. The last column shows what other formulas reach. They were measured on p
 nothing else is stated; Embree's leaks and Mitsuba's self-hits were measured on the programs
 themselves.
 
+$STATE
+
 ## Errors of t
 
 t is the distance to the hit, κ its condition number. The reference is computed in double-double.

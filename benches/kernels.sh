@@ -20,6 +20,9 @@ A kernel is an integrator that is compiled for a set of features. `benches/kerne
 page. Each kernel exists twice: for the basic shapes (spheres, planes and triangles) and for all
 shapes.
 
+END
+printf '%s\n\n' "$STATE"
+cat <<'END'
 ## Machine code
 
 The bytes are those of all functions of the library that a kernel reaches from a picture on, with

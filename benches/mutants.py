@@ -309,7 +309,8 @@ def report(fates, unviable, command):
         "# Mutants of the plan\n\n"
         "A mutant is a copy of the plan with one small change. The tests should detect each.\n\n"
         f"`{command}`\nwrote this page: {killed + late} of {len(fates)} mutants are detected, "
-        f"{100 * (killed + late) / max(len(fates), 1):.1f} %. {unviable} more do not compile.\n"
+        f"{100 * (killed + late) / max(len(fates), 1):.1f} %. {unviable} more do not compile.\n\n"
+        f"{os.environ['STATE']}\n"
     )
     print("| file | killed | by timeout | survive |\n| --- | --: | --: | --: |")
     for file in sorted({mutant.file for mutant, _ in fates}):

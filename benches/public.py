@@ -291,6 +291,8 @@ def table(results):
         f"`benches/public.sh` writes this page. Pictures are {SIDE} pixels wide and have {SAMPLES}",
         f"samples per pixel. Mitsuba renders each of its scenes with {SEEDS} seeds.",
         "",
+        os.environ["STATE"],
+        "",
         "- *Read*: `rtc check` finds no error.",
         "- *By Mitsuba*: Mitsuba renders the file, too.",
         "- *Equal*: the means differ by at most 0.5 % or the noise, and the blocks of 8 × 8 pixels",

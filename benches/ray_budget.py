@@ -1,7 +1,6 @@
 """Where the time of a picture goes, in nanoseconds a camera ray: `ray_budget.py`, with `perf`, a
 program with symbols in RTC, and the scenes of `peers/scenes.py` in target/peers. One thread, vector
-instructions by RTC_SIMD. Inlined functions count with those that called them. Puts the table into
-benches/README.md."""
+instructions by RTC_SIMD. Inlined functions count with those that called them."""
 
 import os
 import re
@@ -80,7 +79,7 @@ def main():
         each = 1e9 * seconds / (width * (height or width) * samples)
         rows.append((f"{name}, {samples} a pixel", each, found))
     print(
-        f"Nanoseconds a camera ray, with all that follows it, one thread, "
+        "Nanoseconds per camera ray and all rays that follow it, one thread, "
         f"`RTC_SIMD={os.environ.get('RTC_SIMD', 'best')}`.\n"
     )
     print("| scene | all | " + " | ".join(name for name, _ in PARTS) + " |")

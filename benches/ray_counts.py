@@ -64,11 +64,12 @@ def counts(scene, samples):
 
 
 def main():
+    simd = os.environ.get("RTC_SIMD", "best")
     print(
-        f"A camera ray with all that follows it, `RTC_SIMD={os.environ.get('RTC_SIMD', 'best')}`, "
-        f"and the time that its instructions take at"
+        f"A camera ray and all rays that follow it, `RTC_SIMD={simd}`. The time of the instructions"
     )
-    print(f"{WIDTH} a cycle and {GHZ} GHz, beside the time that a goal leaves.\n")
+    print(f"is that of {WIDTH} per cycle at {GHZ} GHz. The last column is the time that a goal of")
+    print("peers.md allows.\n")
     print("| scene | instructions | misses of D1 | of L2 | ns, instructions | goal | ns, goal |")
     print("| --- | --: | --: | --: | --: | --- | --: |")
     results = json.load(open(f"{FOLDER}/results-{os.environ.get('RTC_SIMD', 'best')}.json"))

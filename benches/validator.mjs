@@ -376,6 +376,8 @@ gltf-validator ${validator.version()} of Khronos find in a file, here with ${cou
 ${seed}. Two things are left out: findings in extensions that the validator does not know, and files
 on which the validator itself fails.
 
+${process.env.STATE}
+
 ## Errors
 `);
 table(groups, verdicts, 0);

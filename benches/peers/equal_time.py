@@ -196,21 +196,22 @@ def main():
         rows += paths("CornellLambert", {"rtc": by_rtc, **peers})
     load = os.getloadavg()[0]
     busy = (
-        f" **The machine was busy** ({load:.1f} processes at the end): ratios, not seconds, are "
-        f"worth something."
+        f"\n\n**The machine was busy** ({load:.1f} processes at the end). Use the ratios, not the "
+        f"seconds."
         if load > 1.5
         else ""
     )
     print(
-        f"{SECONDS:g} CPU-seconds a picture, one thread, {RUNS} turns: the median, the least, the "
-        f"greatest.{busy}\n"
+        f"{SECONDS:g} CPU-seconds per picture, one thread, {RUNS} turns. Values are the median, "
+        f"with "
+        f"the least and the\ngreatest in brackets.{busy}\n"
     )
     if rows:
         table(rows, "relMSE", 5)
     if shutil.which("povray"):
         print(
-            "\nOf the course, in grids of samples; the error is the root of the mean square in "
-            "grey levels.\n"
+            "\nThe camera scene of the course has grids of samples. Its error is the root mean "
+            "square in grey\nlevels.\n"
         )
         table(course("scenes/camera.yaml"), "RMSE", 2)
 

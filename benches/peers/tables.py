@@ -6,6 +6,7 @@ import os
 import re
 import statistics
 import sys
+import textwrap
 from importlib import metadata
 
 
@@ -27,14 +28,19 @@ def table(head, rows):
     print("\n".join("| " + " | ".join(map(str, line)) + " |" for line in lines), end="\n\n")
 
 
+def intro(heading, text):
+    print(f"## {heading}\n\n{textwrap.fill(text, 100)}\n")
+
+
 def rays(found):
-    print(
-        "Rays through a mesh of 1 045 458 triangles, unsorted, one core: Embree in batches of "
-        "2^14, rtc one ray after another, as its"
-    )
-    print(
-        "pictures do. M rays per CPU-s, of the build CPU-s. Beside: Embree given all 2^20 rays "
-        "sorted, in time that does not count, and robust.\n"
+    intro(
+        "Rays through a mesh",
+        "A mesh of 1 045 458 triangles, unsorted rays, one core. Embree gets the rays in batches "
+        "of "
+        "2^14, `rtc` one after another, as in its pictures. Million rays per CPU-second; the build "
+        "in CPU-seconds. Two columns compare with Embree when all 2^20 rays are sorted before, "
+        "which "
+        "is not timed, and in its robust mode.",
     )
     rtc, embree = found["rtc"], found["Embree"]
     times = lambda turns, work: [turn[work]["cpu_s"] for turn in turns]
@@ -43,7 +49,7 @@ def rays(found):
         "Embree",
         "rtc",
         "rtc ÷ Embree",
-        "wanted",
+        "goal",
         "÷ Embree, sorted",
         "÷ Embree, robust",
         "hits, rtc − Embree",
@@ -71,11 +77,11 @@ def rays(found):
 
 
 def course(found):
-    print(
-        "Scenes of the course's kind, one thread, CPU-s of the whole process; the last column is "
-        "how far the two pictures are apart, a"
+    intro(
+        "Scenes of the course",
+        "CPU-seconds of the whole process on one thread. *Apart* is the mean difference of the two "
+        "pictures over all channels, in levels of 8 bits.",
     )
-    print("mean over all channels in levels of 8 bits.\n")
     rows = []
     for name, scene in found.items():
         times = {by: column(scene[by], "cpu_s") for by in ("POV-Ray", "rtc")}
@@ -102,7 +108,7 @@ def course(found):
             "POV-Ray",
             "rtc",
             "POV-Ray ÷ rtc",
-            "wanted",
+            "goal",
             "apart",
         ],
         rows,
@@ -126,13 +132,12 @@ def noises(scene, peer, key):
 
 
 def courtyard(found):
-    print(
-        f"A courtyard of Lambert's surfaces under sun and sky, "
-        f"{found['turns']['rtc'][0]['triangles']} triangles, 256 × 256 pixels,"
-    )
-    print(
-        f"{found['samples']} samples, 32 bounces, one thread: CPU-s from the start of the process "
-        f"to the picture; error as below.\n"
+    triangles = found["turns"]["rtc"][0]["triangles"]
+    intro(
+        "A courtyard",
+        f"Diffuse surfaces under sun and sky: {triangles} triangles, 256 × 256 pixels, "
+        f"{found['samples']} samples, 32 bounces, one thread. CPU-seconds from the start of the "
+        "process to the picture. The next section defines relMSE.",
     )
     rows = []
     for peer in [name for name in found["turns"] if name != "rtc"]:
@@ -146,7 +151,7 @@ def courtyard(found):
         "peer",
         "rtc",
         "peer ÷ rtc",
-        "wanted",
+        "goal",
         "relMSE, peer",
         "relMSE, rtc",
         "error × time, peer ÷ rtc",
@@ -155,15 +160,13 @@ def courtyard(found):
 
 
 def assets(found):
-    print(
-        "Traced paths, 256 × 256 pixels, 8 bounces, one thread: M camera samples per second of the "
-        "clock, of sampling alone, since Cycles"
+    intro(
+        "Path-traced assets",
+        "256 × 256 pixels, 8 bounces, one thread. Million camera samples per second of the clock. "
+        "Only the sampling is timed, as Cycles uses a second thread besides. relMSE is the mean of "
+        "(a − b)²/(c² + 0.01): a is a picture, b the mean of the pictures of the other turns with "
+        "other seeds, and c the mean of all pictures by both.",
     )
-    print(
-        "uses a second thread beside. The error of a picture is the mean of (a − b)²/(c² + 0.01): "
-        "a is a picture, b the mean of those of"
-    )
-    print("the other turns by other seeds, c the mean of all by both.\n")
     rows = []
     for name, scene in found.items():
         turns = scene["turns"]
@@ -194,7 +197,7 @@ def assets(found):
         "Cycles",
         "rtc",
         "rtc ÷ Cycles",
-        "wanted",
+        "goal",
         "relMSE, Cycles",
         "relMSE, rtc",
         "error × time, Cycles ÷ rtc",
@@ -203,11 +206,11 @@ def assets(found):
 
 
 def models(found):
-    print(
-        "From a model to its first picture of 400 × 400 pixels, CPU-s of the whole process: f3d by "
-        "software GL, rtc on one thread by"
+    intro(
+        "The first picture of a model",
+        "CPU-seconds of the whole process for 400 × 400 pixels: f3d with software GL, and `rtc` on "
+        "one thread with `--quality draft` and with the default.",
     )
-    print("`--quality draft` and by default.\n")
     rows = []
     for name, turns in found.items():
         times = {by: column(turns[by], "cpu_s") for by in ("f3d", "draft", "rtc")}
@@ -217,9 +220,10 @@ def models(found):
 
 
 def growth(found):
-    print(
-        "Globes of more and more triangles: CPU-s of the build, and µs a ray to anywhere, of its "
-        "nearest hit and of any.\n"
+    intro(
+        "Globes with more triangles",
+        "CPU-seconds of the build, and µs per ray with a random direction, for the closest hit and "
+        "for any hit.",
     )
     rows = []
     for exponent, turns in found.items():
@@ -242,8 +246,9 @@ def growth(found):
 
 
 def cores(found):
-    print(
-        "Seconds of the clock for a picture on one thread and on two; wanted is a gain of 1.95.\n"
+    intro(
+        "Two threads",
+        "Seconds of the clock for a picture on one thread and on two. The goal is a gain of 1.95.",
     )
     rows = []
     for name, turns in found.items():
@@ -262,15 +267,11 @@ def heading(results):
         for name, package in (("Mitsuba", "mitsuba"), ("bpy", "bpy"), ("embreex", "embreex"))
     ]
     runs = len(results["rays"]["rtc"]) if "rays" in results else "some"
-    print(
-        f"`benches/peers/run.sh` on {os.cpu_count()} cores, "
-        f"{model[1] if model else 'of a machine'}; {runs} turns: the median, the least and"
-    )
-    print(f"the greatest ratio; more than 1 is better. {', '.join(peers)}, POV-Ray 3.7.\n")
-    print(
-        f"The vector instructions of rtc: {level or 'the best of the machine'}; the peers choose "
-        f"theirs.\n"
-    )
+    machine = model[1] if model else "an unknown machine"
+    print(f"`benches/peers/run.sh` on {os.cpu_count()} cores, {machine}, {runs} turns.")
+    print("Ratios are the median, with the least and the greatest in brackets; above 1 is better.")
+    print(f"{', '.join(peers)}, POV-Ray 3.7.\n")
+    print(f"Vector instructions of `rtc`: {level or 'the best'}. The peers choose theirs.\n")
 
 
 def main(path):
