@@ -79,7 +79,7 @@ pub(super) fn front(study: &Study) -> String {
 }
 
 /// The vertices of the front's step line: the least error for each time.
-pub(super) fn front_steps(rows: &[&StudyRow], end: f64) -> Vec<(f64, f64)> {
+fn front_steps(rows: &[&StudyRow], end: f64) -> Vec<(f64, f64)> {
     let mut steps: Vec<(f64, f64)> = Vec::new();
     for row in rows.iter().filter(|row| row.front) {
         // Rows with similar times are ordered by rays: keep x monotonic.

@@ -1,6 +1,6 @@
 //! Reports of a study: a table for a terminal, CSV for programs, an HTML page.
 //!
-//! - [`mod@table`]: text of 80 columns, with a plot in [`braille`] characters;
+//! - [`mod@table`]: text of 80 columns;
 //! - [`mod@csv`]: all numbers of the rows;
 //! - [`mod@html`]: a self-contained page with SVG plots ([`chart`]), pictures ([`picture`]) and
 //!   [`maps`];
@@ -11,7 +11,6 @@
 //! [`Study`](super::Study) holds: a study that was read from JSON gives the same reports, except
 //! for the pictures.
 
-mod braille;
 mod captions;
 mod chart;
 mod csv;

@@ -4,7 +4,6 @@ use super::super::advice::{digits, seconds};
 use super::super::outcome::{BounceCost, MoreBounces, ParameterReport, Study, StudyRow};
 use super::super::parameter::Parameter;
 use super::super::reference::DepthEnd;
-use super::braille;
 use super::captions::{MEANINGS, best_by_time, best_within};
 use std::fmt::Write;
 
@@ -33,11 +32,10 @@ pub fn table(study: &Study) -> String {
     }
     text += &legend(&used, &columns);
     text += "\n";
-    // Write the best setting within each time, and the plot.
+    // Write the best setting within each time.
     for what in best_by_time(study) {
         text += &wrapped(&best_within(study, &what));
     }
-    text += &braille::plot(study);
     text += "\n";
     study
         .parameters
