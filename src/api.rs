@@ -41,8 +41,6 @@ pub use builder::{MaterialRef, ObjectId, SceneBuilder};
 pub use camera::Camera;
 #[cfg(not(target_family = "wasm"))]
 pub use cost::{Cost, CostRow, Effort};
-#[allow(deprecated, reason = "the alias is handed out for one more version")]
-pub use diagnostic::Finding;
 pub use diagnostic::{Diagnostic, Hint, Label, Location};
 pub use effect::Effect;
 pub use error::Error;
@@ -57,6 +55,4 @@ pub use reexports::*;
 pub use scene::Scene;
 pub use shape::{Shape, Transform};
 pub use texture::{Environment, Texture};
-#[allow(deprecated, reason = "the alias is handed out for one more version")]
-pub use tree::Tree;
 pub use tree::{Object, SceneContents};

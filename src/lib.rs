@@ -68,8 +68,6 @@ pub use api::{
 };
 #[cfg(not(target_family = "wasm"))]
 pub use api::{Cost, CostRow, Effort};
-#[allow(deprecated, reason = "the alias is handed out for one more version")]
-pub use api::{Finding, Tree};
 #[cfg(feature = "cli")]
 pub use rtc_cli::run;
 

@@ -45,10 +45,6 @@ pub struct Diagnostic {
     text: String,
 }
 
-/// The former name of [`Diagnostic`].
-#[deprecated(since = "0.1.0", note = "use `Diagnostic`")]
-pub type Finding = Diagnostic;
-
 /// A position with a short text.
 ///
 /// ```

@@ -46,13 +46,6 @@ impl Error {
         }
     }
 
-    /// The former name of [`Self::diagnostics`].
-    #[deprecated(since = "0.1.0", note = "use `diagnostics`")]
-    #[must_use]
-    pub fn findings(&self) -> &[Diagnostic] {
-        self.diagnostics()
-    }
-
     /// The error of a render; `diagnostic` converts a diagnostic to its public type.
     pub(super) fn of_render(
         error: RenderError,

@@ -172,13 +172,6 @@ impl Picture {
         &self.diagnostics
     }
 
-    /// The former name of [`Self::diagnostics`].
-    #[deprecated(since = "0.1.0", note = "use `diagnostics`")]
-    #[must_use]
-    pub fn findings(&self) -> &[Diagnostic] {
-        self.diagnostics()
-    }
-
     /// The bytes of the file, identical to those of `rtc render`.
     ///
     /// # Errors

@@ -37,10 +37,6 @@ pub struct SceneContents<'a> {
     boxes: OnceLock<Vec<[Vec3; 2]>>,
 }
 
-/// The former name of [`SceneContents`].
-#[deprecated(since = "0.1.0", note = "use `SceneContents`")]
-pub type Tree<'a> = SceneContents<'a>;
-
 /// An object of a scene: a shape with a material.
 ///
 /// ```
