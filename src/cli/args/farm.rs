@@ -130,6 +130,4 @@ pub(crate) enum FarmEngine {
     Dask,
     /// Kubernetes: an indexed Job
     Kubernetes,
-    /// AWS Batch: an array job
-    AwsBatch,
 }

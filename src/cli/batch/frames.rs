@@ -17,9 +17,8 @@ pub(super) enum JobFrames {
 /// The most frames of a job for Open Job Description: a list there is no longer.
 const MOST_OF_LIST: u32 = 1024;
 
-/// The most tasks of a Job of Kubernetes whose indexes are retried one by one, and of an array job
-/// of AWS Batch.
-const MOST_TASKS: [u64; 2] = [100_000, 10_000];
+/// The most tasks of a Job of Kubernetes whose indexes are retried one by one.
+const MOST_TASKS: u64 = 100_000;
 
 impl JobFrames {
     pub(super) fn new(args: &FarmArgs) -> Result<Self, Failure> {
@@ -30,14 +29,10 @@ impl JobFrames {
                 "a job for OpenJD has at most {MOST_OF_LIST} frames; make several, by `--frames`"
             )));
         }
-        let most = match args.to {
-            FarmEngine::Kubernetes => MOST_TASKS[0],
-            FarmEngine::AwsBatch => MOST_TASKS[1],
-            FarmEngine::OpenJd | FarmEngine::Slurm | FarmEngine::Dask => u64::MAX,
-        };
-        if u64::from(count) * u64::from(args.parts) > most {
+        let tasks = u64::from(count) * u64::from(args.parts);
+        if args.to == FarmEngine::Kubernetes && tasks > MOST_TASKS {
             return Err(Failure::Failed(format!(
-                "such a job has at most {most} tasks, parts times frames; make several, by \
+                "such a job has at most {MOST_TASKS} tasks, parts times frames; make several, by \
                 `--frames`"
             )));
         }

@@ -5,7 +5,7 @@
 set -eu
 cd "$(dirname "$0")"
 rtc=${RTC:-rtc}
-task=${JOB_COMPLETION_INDEX:-${AWS_BATCH_JOB_ARRAY_INDEX:-0}}
+task=${JOB_COMPLETION_INDEX:-0}
 part=$((task % @PARTS@ + 1))
 frame=$(printf %04d $((task / @PARTS@ + @FIRST@)))
 

@@ -1,5 +1,4 @@
-//! The job as one array of tasks, each of which merges what it can: an indexed Job of Kubernetes,
-//! an array job of AWS Batch.
+//! The job as one array of tasks, each of which merges what it can: an indexed Job of Kubernetes.
 
 use super::FarmJob;
 use serde_json::{Value, json};
@@ -10,14 +9,11 @@ const GROUP: u32 = 16;
 /// Where the folder of the job is mounted.
 const MOUNT: &str = "/job";
 
-/// The name of the job, of its volume claim and of its definition.
+/// The name of the job and of its volume claim.
 const NAME: &str = "rtc-job";
 
 /// The program in its version.
 const IMAGE: &str = concat!("rtc:", env!("CARGO_PKG_VERSION"));
-
-/// The most attempts of a task in AWS Batch.
-const MAX_ATTEMPTS: u32 = 10;
 
 /// The files of a Job of Kubernetes (`batch/v1`).
 pub(super) fn kubernetes(job: &FarmJob<'_>) -> Vec<(&'static str, String)> {
@@ -49,36 +45,6 @@ pub(super) fn kubernetes(job: &FarmJob<'_>) -> Vec<(&'static str, String)> {
         },
     });
     vec![("job.json", text(&template)), ("task.sh", task(job))]
-}
-
-/// The files of a job of AWS Batch: its definition, and the job.
-pub(super) fn aws_batch(job: &FarmJob<'_>) -> Vec<(&'static str, String)> {
-    let mebibytes = u64::from(job.memory) * 1024;
-    let definition = json!({
-        "jobDefinitionName": NAME,
-        "type": "container",
-        "containerProperties": {
-            "image": IMAGE,
-            "command": command(),
-            "resourceRequirements": [
-                {"type": "VCPU", "value": job.threads.to_string()},
-                {"type": "MEMORY", "value": mebibytes.to_string()},
-            ],
-            "volumes": [{"name": "job", "host": {"sourcePath": MOUNT}}],
-            "mountPoints": [{"sourceVolume": "job", "containerPath": MOUNT, "readOnly": false}],
-        },
-        "retryStrategy": {"attempts": (job.retries + 1).min(MAX_ATTEMPTS)},
-    });
-    let mut submission = json!({"jobName": NAME, "jobQueue": NAME, "jobDefinition": NAME});
-    // An array has at least two tasks.
-    if job.tasks() > 1 {
-        submission["arrayProperties"] = json!({"size": job.tasks()});
-    }
-    vec![
-        ("definition.json", text(&definition)),
-        ("job.json", text(&submission)),
-        ("task.sh", task(job)),
-    ]
 }
 
 fn command() -> [String; 2] {

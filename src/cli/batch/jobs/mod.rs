@@ -61,7 +61,6 @@ impl<'a> FarmJob<'a> {
             FarmEngine::Slurm => "sh submit.sh",
             FarmEngine::Dask => "python run.py",
             FarmEngine::Kubernetes => "kubectl apply -f job.json",
-            FarmEngine::AwsBatch => "aws batch submit-job --cli-input-json file://job.json",
         }
     }
 
@@ -72,7 +71,6 @@ impl<'a> FarmJob<'a> {
             FarmEngine::Slurm => slurm::scripts(self).to_vec(),
             FarmEngine::Dask => vec![("run.py", dask::driver(self))],
             FarmEngine::Kubernetes => array::kubernetes(self),
-            FarmEngine::AwsBatch => array::aws_batch(self),
         };
         files.push(("README", self.readme()));
         files
@@ -97,10 +95,6 @@ impl<'a> FarmJob<'a> {
                 "put this folder on the volume of the claim `rtc-job`, and `kubectl apply -f job.json`"
                     .to_owned()
             }
-            FarmEngine::AwsBatch => "mount this folder as `/job` on all hosts; once `aws batch \
-                 register-job-definition --cli-input-json file://definition.json`, then `aws batch \
-                 submit-job --cli-input-json file://job.json`"
-                .to_owned(),
         };
         format!(
             "{title}, which all workers need: on their path, or where `RTC` points \
