@@ -14,8 +14,8 @@
 //! 4. `reporter` prints diagnostics in the requested format; `output` writes results atomically.
 //!
 //! Shared parts: `files` expands folders and patterns, `table` prints a row for each file, `gate`
-//! parses and checks limits, `interrupt` turns signals into a flag, `progress` draws the bar,
-//! `suggest` completes errors of the arguments. [`trial`] has the entry points of the fuzz targets.
+//! parses and checks limits, `interrupt` turns signals into a flag, `progress` draws the bar.
+//! [`trial`] has the entry points of the fuzz targets.
 //!
 //! # Streams and exit codes
 //!
@@ -61,7 +61,6 @@ mod report;
 mod reporter;
 mod shown;
 mod simd;
-mod suggest;
 mod system;
 mod table;
 pub mod trial;
@@ -70,10 +69,14 @@ mod typed;
 mod versus;
 
 use args::{Cli, Command};
-use clap::Parser;
+use clap::builder::StyledStr;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{Error, Parser};
 use rtc_diag::clip_words;
+use rtc_front::is_scene_name;
 use std::ffi::OsString;
 use std::panic::{self, AssertUnwindSafe, PanicHookInfo};
+use std::path::Path;
 
 /// The maximum length of a line of the help; a line that repeats arguments may be longer.
 const LONG_LINE: usize = 500;
@@ -142,7 +145,7 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match Cli::try_parse_from(&typed) {
         Ok(cli) => cli,
         Err(mut error) => {
-            suggest::suggest(&mut error, &typed);
+            suggest_render(&mut error, &typed);
             // Help and version also arrive here. A closed pipe is no failure for them.
             let text = error.render().to_string();
             if text.lines().any(|line| line.len() > LONG_LINE) {
@@ -183,6 +186,22 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             failure.exit_code()
         }
     }
+}
+
+/// Completes the error of a command that has a scene where a subcommand belongs.
+fn suggest_render(error: &mut Error, typed: &[OsString]) {
+    let Some(scene) = typed.get(1).map(Path::new) else {
+        return;
+    };
+    let name = scene.to_string_lossy();
+    let is_scene = is_scene_name(&name) || scene.is_file();
+    if error.kind() != ErrorKind::InvalidSubcommand || !is_scene {
+        return;
+    }
+    error.remove(ContextKind::SuggestedSubcommand);
+    let tip = format!("did you mean `rtc render {}`?", clip_words(&name));
+    let tip = ContextValue::StyledStrs(vec![StyledStr::from(tip)]);
+    error.insert(ContextKind::Suggested, tip);
 }
 
 fn internal_error(info: &PanicHookInfo) -> String {

@@ -41,46 +41,6 @@ fn a_scene_without_a_subcommand_leads_to_render() {
 }
 
 #[test]
-fn samples_lead_to_the_flag_of_the_scene() {
-    let folder = folder_with_paths();
-    let cases = [
-        (&["ball.json", "--samples", "10"][..], "`--supersampling 4`"),
-        (&["ball.json", "--samples"], "`--supersampling N`"),
-        (&["paths.json", "--samples=64"], "`--spp 64`"),
-        (&["--aa", "8", "--size", "9", "paths.json"], "`--spp 8`"),
-        (
-            &["ball.json", "--integrator", "path", "--samples", "5"],
-            "`--spp 5`",
-        ),
-        (&["none.json", "--samples", "5"], "`--spp N` is for scenes"),
-    ];
-    for (args, flag) in cases {
-        let said = refused(&folder, &[&["render"], args].concat());
-        assert!(said.contains(flag), "{args:?}: {said}");
-    }
-    let said = refused(&folder, &["check", "ball.json", "--samples", "5"]);
-    assert!(!said.contains("--spp"), "{said}");
-}
-
-#[test]
-fn sides_lead_to_a_size_of_the_shape_of_the_scene() {
-    let folder = folder();
-    let cases = [
-        (&["--width", "80"][..], "`--size 80x60`"),
-        (&["--height=15"], "`--size 20x15`"),
-        (&["--width", "8", "--height", "9"], "`--size 8x9`"),
-        (&["--resolution", "64x48"], "`--size 64x48`"),
-        (&["--res", "512"], "`--size 512x512`"),
-        (&["--resolution", "50%"], "`--size WxH`"),
-        (&["--width", "0"], "`--size WxH`"),
-    ];
-    for (args, flag) in cases {
-        let said = refused(&folder, &[&["render", "ball.json"], args].concat());
-        assert!(said.contains(flag), "{args:?}: {said}");
-    }
-}
-
-#[test]
 fn one_number_is_both_sides() {
     let folder = folder();
     let made = rtc(&folder, &["render", "ball.json", "--size", "24", "-o", "-"]);

@@ -28,7 +28,6 @@ use super::output::{self, Output};
 use super::project;
 use super::reporter::Reporter;
 use super::simd;
-use super::suggest;
 use super::turntable::{self, Turntable, TurntableViews};
 use budget::PictureClock;
 use cache::PictureCache;
@@ -39,6 +38,7 @@ pub(super) use look::{kind, refuse_layers};
 pub(super) use made::{FinishedPicture, effects};
 use part::PartSetup;
 use rtc_image::{BackgroundFill, Picture};
+use rtc_ir::Mode;
 use rtc_passes::Overrides;
 use rtc_pipeline::{FolderIdentity, Input, PictureSetup, RenderError, RenderSubject};
 use rtc_plan::{Rule, RuleSet};
@@ -205,7 +205,7 @@ impl RenderSetup {
         };
         // Report flags that have no effect.
         let scene = &subject.validated.lowered.scene;
-        let idle = suggest::idle(&self.requested, &scene.settings.mode);
+        let idle = idle_samples(&self.requested, &scene.settings.mode);
         idle.into_iter().for_each(|message| reporter.warn(message));
         self.picture.window(scene)?;
         // Measure exposure and light.
@@ -419,4 +419,22 @@ fn stem<'a>(file: &'a Path, args: &'a args::RenderArgs) -> Result<&'a OsStr, Fai
     };
     let stem = name.and_then(Path::file_stem);
     stem.ok_or_else(|| Failure::Failed("no name for the picture; give `-o FILE`".to_owned()))
+}
+
+/// The warning about requested samples that the mode of a scene does not use, if any.
+fn idle_samples(requested: &Overrides, mode: &Mode) -> Option<&'static str> {
+    match mode {
+        Mode::Path(_) => requested.supersampling.is_some().then_some(
+            "warning: `--supersampling` has no effect: the scene is path-traced; `--spp N` traces \
+             N paths in each pixel",
+        ),
+        Mode::Depth => requested
+            .spp
+            .is_some()
+            .then_some("warning: `--spp` has no effect: the scene is not path-traced"),
+        Mode::Phong | Mode::Gooch(_) | Mode::Normal => requested.spp.is_some().then_some(
+            "warning: `--spp` has no effect: the scene is not path-traced; `--supersampling N` \
+             takes N×N samples in each pixel",
+        ),
+    }
 }
