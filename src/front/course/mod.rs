@@ -42,7 +42,6 @@ mod core_schema;
 mod decode;
 mod display;
 mod environment;
-mod expression;
 mod filter;
 mod glass;
 mod ineffective;

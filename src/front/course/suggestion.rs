@@ -2,7 +2,6 @@
 //! fractions, decimal commas, round brackets, maps of channels, missing dashes.
 
 use super::decode::ValueKey;
-use super::expression;
 use super::spelling::same_letters;
 use rtc_math::shortest;
 use rtc_source::tree::{NodeContent, NodeId, SyntaxTree};
@@ -297,7 +296,7 @@ pub(super) fn decimal_commas(text: &str, count: usize) -> Option<String> {
 }
 
 /// The number in a text that has a decimal comma, a unit, a trailing `;` or `,`, a `//` comment,
-/// non-ASCII digits or signs, or an expression.
+/// or non-ASCII digits or signs.
 fn number(text: &str) -> Option<(String, Option<String>)> {
     let read = |item: &str| {
         item.trim()
@@ -306,7 +305,10 @@ fn number(text: &str) -> Option<(String, Option<String>)> {
             .filter(|number| number.is_finite())
     };
     // Look-alike characters.
-    let ascii = to_ascii(text);
+    let mut ascii = to_ascii(text);
+    if let Some(unsigned) = ascii.strip_prefix('-') {
+        ascii = format!("-{}", unsigned.trim_start());
+    }
     if ascii != text && read(&ascii).is_some() {
         let other = text.chars().find(|c| !c.is_ascii())?;
         let hint = format!(
@@ -335,11 +337,6 @@ fn number(text: &str) -> Option<(String, Option<String>)> {
         let point = format!("{integer}.{decimals}");
         read(&point).filter(|_| is_decimal)?;
         return Some(("decimals follow a point".to_owned(), Some(point)));
-    }
-    // An expression.
-    if let Some(result) = expression::evaluate(&ascii) {
-        let hint = "expressions are not evaluated: write the result".to_owned();
-        return Some((hint, Some(shortest(result))));
     }
     // A percentage.
     if let Some(percent) = ascii.strip_suffix('%') {
@@ -380,11 +377,6 @@ mod tests {
             ("20%", Some("0.2")),
             ("2.5 %", Some("0.025")),
             ("45°", Some("45")),
-            ("100/2", Some("50")),
-            ("1/0", None),
-            ("1/3", Some("0.3333333333333333")),
-            ("2*0.6", Some("1.2")),
-            ("-(1 + 2) / 4", Some("-0.75")),
             ("\u{2212}0.5", Some("-0.5")),
             ("\u{2013} 2", Some("-2")),
             ("\u{ff10}\u{ff0e}\u{ff15}", Some("0.5")),
