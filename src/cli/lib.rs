@@ -40,6 +40,7 @@ mod describe;
 mod diff;
 mod edit;
 mod explain;
+mod failure;
 mod files;
 mod fix;
 mod fmt;
@@ -72,6 +73,7 @@ use args::{Cli, Command};
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Error, Parser};
+use failure::Failure;
 use rtc_diag::clip_words;
 use rtc_front::is_scene_name;
 use std::ffi::OsString;
@@ -92,34 +94,6 @@ Commands to begin with:
   rtc render model.glb            render a glTF model
 
 `rtc --help` lists all commands, `rtc explain` all codes of diagnostics.";
-
-/// Why a command did not do its work.
-#[derive(Debug)]
-enum Failure {
-    /// The input has errors, which were reported.
-    Reported,
-    /// The input can't be used so, for this reason.
-    Input(String),
-    /// A file could not be read, which was reported.
-    Unreadable,
-    /// A usage, file or internal error, with its message.
-    Failed(String),
-    /// Ctrl-C, or another signal to stop.
-    Interrupted,
-    /// The reader of our output closed the pipe.
-    ClosedPipe,
-}
-
-impl Failure {
-    fn exit_code(&self) -> u8 {
-        match self {
-            Self::ClosedPipe => 0,
-            Self::Reported | Self::Input(_) => 1,
-            Self::Unreadable | Self::Failed(_) => 2,
-            Self::Interrupted => interrupt::exit_code(),
-        }
-    }
-}
 
 /// Carries out the command given by the arguments, program name first, and returns the exit code.
 #[must_use]
