@@ -29,10 +29,8 @@ for step in 10-model 11-lens; do
 done
 
 # Scenes of rays and their mirror images.
-picture shapes scenes/shapes.yaml --size 480x300
 picture mirrors scenes/mirrors.yaml --size 480 --supersampling 3
 picture glass scenes/glass.yaml --size 480x360
-picture glossy scenes/glossy.yaml --size 480x360
 picture mirror-box scenes/mirror-box.yaml --size 480x360
 picture soft-light scenes/soft-light.yaml --size 480x300
 picture depth-of-field scenes/depth-of-field.yaml --size 480
@@ -42,16 +40,16 @@ picture off-axis-eye scenes/off-axis-eye.yaml --size 480
 picture gooch scenes/gooch.yaml --size 480 --supersampling 3
 picture normals scenes/normals.yaml --size 480 --supersampling 3
 picture zbuffer scenes/zbuffer.yaml --size 480 --supersampling 3
-for name in bricks toon town; do
+for name in bricks town; do
     picture "$name" "$own/$name.yaml"
 done
 
-# Scenes whose light is followed along all paths.
-picture vases scenes/vases.yaml --size 480x360 --spp 96 --clamp 2
-for name in fence lamp lanterns room sheen spots sun-and-sky; do
+# Scenes whose light is followed along all paths; the first is that of the README.
+picture hero "$own/hero.yaml" --spp 32 --denoise
+for name in lamp room spots sun-and-sky; do
     picture "$name" "$own/$name.yaml" --spp 32 --denoise
 done
-for name in anisotropy clearcoat dispersion iridescence metals transmission; do
+for name in anisotropy dispersion iridescence metals transmission; do
     picture "$name" "$own/$name.yaml" --spp 72 --clamp 2
 done
 

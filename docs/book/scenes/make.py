@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the assets of the scenes beside it: two pictures, a height map, an environment, two
+"""Writes the assets of the scenes beside it: two pictures, a height map, an environment, four
 meshes and a glTF model. It needs nothing but Python."""
 
 import json
@@ -14,7 +14,7 @@ os.chdir(os.path.dirname(os.path.abspath(__file__)))
 
 def png(path, width, height, pixel, channels=3):
     """A PNG of 8 bits; pixel(x, y) gives its channels, each from 0 to 1."""
-    kind = {1: 0, 3: 2, 4: 6}[channels]
+    kind = {1: 0, 3: 2}[channels]
     rows = bytearray()
     for y in range(height):
         rows.append(0)
@@ -64,15 +64,6 @@ def bricks(x, y):
     return (min(edge / 3, 1) ** 0.5,)
 
 
-def star(x, y):
-    """White where a star of five rays is cut out of blue: opacity is 0 there."""
-    u, v = (x - 63.5) / 64, (y - 63.5) / 64
-    angle, radius = math.atan2(u, -v), math.hypot(u, v)
-    part = abs((angle / TAU * 5 + 0.5) % 1 - 0.5) * 2
-    edge = 0.34 / ((1 - part) * 0.45 + part) if part else 0.76
-    return (0.15, 0.35, 0.7, 1.0 if radius > edge * 0.9 else 0.0)
-
-
 def dusk(path, width=128, height=64):
     """All directions at dusk: a blue sky, an orange horizon, a low sun to the left, dark ground."""
     def radiance(x, y):
@@ -110,6 +101,18 @@ def unit(a):
     return tuple(x / length for x in a)
 
 
+def ply(path, corners, faces):
+    """A mesh of triangles as binary PLY; corners are positions, or positions with normals."""
+    names = ("x", "y", "z", "nx", "ny", "nz")[: len(corners[0])]
+    head = ["ply", "format binary_little_endian 1.0", f"element vertex {len(corners)}"]
+    head += [f"property float {name}" for name in names]
+    head += [f"element face {len(faces)}", "property list uchar ushort vertex_indices"]
+    with open(path, "wb") as file:
+        file.write("\n".join([*head, "end_header", ""]).encode())
+        file.write(b"".join(struct.pack(f"<{len(names)}f", *corner) for corner in corners))
+        file.write(b"".join(struct.pack("<B3H", 3, *face) for face in faces))
+
+
 def knot(path, along=120, around=12, thickness=0.34):
     """A trefoil knot with normals, as binary PLY."""
     def centre(t):
@@ -130,13 +133,59 @@ def knot(path, along=120, around=12, thickness=0.34):
             a, b = i * around + j, i * around + (j + 1) % around
             c, d = [(k + around) % (along * around) for k in (a, b)]
             faces += [(a, d, b), (a, c, d)]
-    head = ["ply", "format binary_little_endian 1.0", f"element vertex {len(corners)}"]
-    head += [f"property float {name}" for name in ("x", "y", "z", "nx", "ny", "nz")]
-    head += [f"element face {len(faces)}", "property list uchar ushort vertex_indices"]
-    with open(path, "wb") as file:
-        file.write("\n".join([*head, "end_header", ""]).encode())
-        file.write(b"".join(struct.pack("<6f", *corner) for corner in corners))
-        file.write(b"".join(struct.pack("<B3H", 3, *face) for face in faces))
+    ply(path, corners, faces)
+
+
+def chessman(path, outline, around, battlements=0):
+    """A chess piece: a smooth outline of (radius, height) turned about y, as binary PLY with
+    normals. With battlements the rim of the crown has that many notches."""
+    points = [outline[0], *outline, outline[-1]]
+    rings = []
+    for a, b, c, d in zip(points, points[1:], points[2:], points[3:]):
+        for t in (0, 0.5):
+            weights = (-t + 2 * t**2 - t**3, 2 - 5 * t**2 + 3 * t**3, t + 4 * t**2 - 3 * t**3)
+            weights += (t**3 - t**2,)
+            point = [sum(w * p[i] for w, p in zip(weights, (a, b, c, d))) / 2 for i in (0, 1)]
+            rings.append((max(point[0], 0), point[1]))
+    rings.append(outline[-1])
+
+    def place(i, j):
+        (radius, height), angle = rings[i], TAU * j / around
+        if battlements:
+            rim = max(0, 1 - abs(height - 1.82) / 0.16) * max(0, min(1, (radius - 0.2) / 0.08))
+            height -= 0.09 * rim * (0.5 - 0.5 * math.cos(battlements * angle)) ** 2
+        return (radius * math.cos(angle), height, radius * math.sin(angle))
+
+    corners, faces = [], []
+    for i in range(len(rings)):
+        low, high = max(i - 1, 0), min(i + 1, len(rings) - 1)
+        for j in range(around):
+            up = [b - a for a, b in zip(place(low, j), place(high, j))]
+            onward = [b - a for a, b in zip(place(i, j - 1), place(i, j + 1))]
+            is_pole = rings[i][0] < 1e-6
+            normal = (0, 1 if i else -1, 0) if is_pole else unit(cross(up, onward))
+            corners.append((*place(i, j), *normal))
+            if high > i:
+                a, b = i * around + j, i * around + (j + 1) % around
+                c, d = a + around, b + around
+                faces += [] if is_pole else [(a, d, b)]
+                faces += [] if high == len(rings) - 1 else [(a, c, d)]
+    ply(path, corners, faces)
+
+
+QUEEN = [
+    (0, 0), (0.46, 0), (0.52, 0.03), (0.53, 0.09), (0.50, 0.15), (0.44, 0.18), (0.425, 0.21),
+    (0.445, 0.25), (0.42, 0.31), (0.34, 0.37), (0.27, 0.46), (0.22, 0.60), (0.185, 0.80),
+    (0.165, 1.00), (0.158, 1.16), (0.17, 1.25), (0.26, 1.275), (0.285, 1.305), (0.26, 1.335),
+    (0.185, 1.355), (0.215, 1.385), (0.228, 1.41), (0.21, 1.435), (0.17, 1.46), (0.185, 1.54),
+    (0.225, 1.65), (0.285, 1.77), (0.315, 1.82), (0.295, 1.838), (0.255, 1.815), (0.18, 1.83),
+    (0.10, 1.86), (0.055, 1.885), (0.082, 1.915), (0.095, 1.955), (0.082, 1.998), (0.048, 2.028),
+    (0, 2.04)]
+PAWN = [
+    (0, 0), (0.36, 0), (0.41, 0.03), (0.415, 0.08), (0.39, 0.13), (0.335, 0.155), (0.325, 0.18),
+    (0.335, 0.21), (0.305, 0.26), (0.235, 0.33), (0.185, 0.43), (0.155, 0.55), (0.145, 0.65),
+    (0.16, 0.70), (0.235, 0.72), (0.255, 0.745), (0.225, 0.775), (0.15, 0.80), (0.20, 0.84),
+    (0.245, 0.92), (0.25, 0.99), (0.225, 1.07), (0.165, 1.135), (0.085, 1.175), (0, 1.185)]
 
 
 def stone(path, around=16):
@@ -159,13 +208,7 @@ def stone(path, around=16):
                 faces += [(low + j, high + k, low + k), (low + j, high + j, high + k)]
     lid = 1 + (len(rings) - 1) * around
     faces += [(lid, lid + j + 1, lid + j) for j in range(1, around - 1)]
-    head = ["ply", "format binary_little_endian 1.0", f"element vertex {len(corners)}"]
-    head += [f"property float {name}" for name in "xyz"]
-    head += [f"element face {len(faces)}", "property list uchar ushort vertex_indices"]
-    with open(path, "wb") as file:
-        file.write("\n".join([*head, "end_header", ""]).encode())
-        file.write(b"".join(struct.pack("<3f", *corner) for corner in corners))
-        file.write(b"".join(struct.pack("<B3H", 3, *face) for face in faces))
+    ply(path, corners, faces)
 
 
 def turned(profile, around=36):
@@ -278,8 +321,9 @@ def top(path):
 png("planet.png", 512, 256, planet)
 png("wood.png", 128, 128, wood)
 png("bricks.png", 128, 64, bricks, channels=1)
-png("star.png", 128, 128, star, channels=4)
 dusk("dusk.hdr")
 knot("knot.ply")
 stone("stone.ply")
+chessman("queen.ply", QUEEN, 54, battlements=9)
+chessman("pawn.ply", PAWN, 40)
 top("top.glb")
