@@ -55,6 +55,10 @@ pub enum EntityField {
     Center,
     Right,
     Up,
+    /// The field of view.
+    Fov,
+    /// The size of a pixel that the length of `up` does not give.
+    PixelSize,
     Size,
     LensRadius,
     LensSamples,
@@ -179,7 +183,7 @@ fn pointer_tail(entity: EntityKind, field: EntityField) -> &'static str {
         EntityField::Eye => "/eye",
         EntityField::Center => "/center",
         EntityField::Right => "/right",
-        EntityField::Up => "/up",
+        EntityField::Up | EntityField::Fov | EntityField::PixelSize => "/up",
         EntityField::Size => "/size",
         EntityField::LensRadius => "/lens/radius",
         EntityField::LensSamples => "/lens/samples",

@@ -7,7 +7,8 @@ use super::inside::{self, Solids};
 use super::medium;
 use rtc_diag::{Diagnostic, Severity, codes};
 use rtc_ir::{self as ir, EntityField, EntityKind, ValuePath};
-use rtc_math::{Vec3, shortest};
+use rtc_math::{Vec3, atan2, shortest};
+use rtc_source::Span;
 use std::f64::consts::PI;
 
 /// Runs the lints on a scene without errors. With errors, parts of the scene may be missing.
@@ -161,14 +162,10 @@ const SMALL_FRACTION: f64 = 0.01;
 /// The fraction of the picture's height that all objects take with the suggested `up`.
 const FILLED: f64 = 0.75;
 
-/// Warns if the length of `up` makes pixels larger than the objects.
+/// Warns if pixels are so large that the objects together cover a few of them.
 fn tiny_picture(scene: &ir::Scene, check: &mut Checker<'_>) {
     // Only a camera with `up` in the text can be too far away by mistake.
-    let up = ValuePath::new(EntityKind::Camera, 0, EntityField::Up);
-    // A camera without `up` has the span of its entity.
-    let whole = check.span(ValuePath::new(EntityKind::Camera, 0, EntityField::Whole));
-    let span = check.span(up).filter(|span| Some(*span) != whole);
-    let (Some(span), Some(sphere)) = (span, scene.bounding_sphere()) else {
+    let (Some(_), Some(sphere)) = (written(EntityField::Up, check), scene.bounding_sphere()) else {
         return;
     };
     // Size of all objects in pixels.
@@ -199,10 +196,6 @@ fn tiny_picture(scene: &ir::Scene, check: &mut Checker<'_>) {
     if distance <= sphere.radius || !is_tiny || pixels.is_nan() {
         return;
     }
-    // Suggest an `up` with which they fill the picture.
-    let length = across / (FILLED * side);
-    let suggestion = (camera.upright() * length).to_array().map(two_digits);
-    let suggestion = format!("[{}]", suggestion.map(shortest).join(", "));
     let message = format!(
         "all objects together are {} of the picture",
         match pixels {
@@ -211,10 +204,53 @@ fn tiny_picture(scene: &ir::Scene, check: &mut Checker<'_>) {
             _ => format!("{pixels:.0} pixels"),
         }
     );
-    let diagnostic = Diagnostic::new(&codes::TINY_PICTURE, message)
-        .guess("write a shorter one", span, suggestion)
-        .hint("or give the angle that the picture spans, as `fov: 45`");
-    check.report(up, "its length is the size of a pixel", diagnostic);
+    let diagnostic = Diagnostic::new(&codes::TINY_PICTURE, message);
+    report_tiny(diagnostic, camera, across / (FILLED * side), check);
+}
+
+/// The span of a value of the camera that is in the text.
+fn written(field: EntityField, check: &Checker<'_>) -> Option<Span> {
+    // A value that is not has the span of its entity.
+    let at = |field| check.span(ValuePath::new(EntityKind::Camera, 0, field));
+    at(field).filter(|span| Some(*span) != at(EntityField::Whole))
+}
+
+/// Reports a tiny picture at what gives the size of a pixel, and suggests the one with which the
+/// objects fill the picture.
+fn report_tiny(diagnostic: Diagnostic, camera: &ir::Camera, pixel: f64, check: &mut Checker<'_>) {
+    let path = |field| ValuePath::new(EntityKind::Camera, 0, field);
+    let [right, up, fov, size] = [
+        EntityField::Right,
+        EntityField::Up,
+        EntityField::Fov,
+        EntityField::PixelSize,
+    ]
+    .map(|field| written(field, check));
+    let short = |value| shortest(two_digits(value));
+    if fov.is_some() {
+        let half = pixel * f64::from(camera.size[1]) / 2.0;
+        let degrees = short(2.0 * atan2(half, camera.distance()).to_degrees());
+        let diagnostic = diagnostic.hint(format!("`fov: {degrees}` fills the picture with them"));
+        check.report(path(EntityField::Fov), "the field of view", diagnostic);
+    } else if size.is_some() {
+        let size = short(pixel);
+        let diagnostic =
+            diagnostic.hint(format!("`pixelSize: {size}` fills the picture with them"));
+        let label = "gives the size of a pixel";
+        check.report(path(EntityField::PixelSize), label, diagnostic);
+    } else if right != up {
+        let diagnostic = diagnostic.hint("write a shorter `right` and a shorter `up`");
+        let label = "the step from a pixel to the next";
+        check.report(path(EntityField::Right), label, diagnostic);
+    } else if let Some(span) = up {
+        let suggestion = (camera.upright() * pixel).to_array().map(two_digits);
+        let suggestion = format!("[{}]", suggestion.map(shortest).join(", "));
+        let diagnostic = diagnostic
+            .guess("write a shorter one", span, suggestion)
+            .hint("or give the angle that the picture spans, as `fov: 45`");
+        let label = "its length is the size of a pixel";
+        check.report(path(EntityField::Up), label, diagnostic);
+    }
 }
 
 /// The centres and radii of the objects, if all that are bounded are balls.

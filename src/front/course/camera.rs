@@ -114,6 +114,7 @@ impl Lowering {
     /// Lowers a `Camera`.
     pub(super) fn camera(&mut self, camera: &Spanned<Camera>, context: &mut DecodeContext<'_>) {
         let (center, up) = image_plane(&camera.value, context);
+        let [fov_span, pixel_span] = size_spans(&camera.value, &up);
         let Camera {
             eye,
             center: _,
@@ -158,6 +159,8 @@ impl Lowering {
                 },
             ),
             (EntityField::Up, up.span),
+            (EntityField::Fov, fov_span),
+            (EntityField::PixelSize, pixel_span),
             (EntityField::Size, view_size.span),
             (EntityField::LensRadius, aperture_radius.span),
             (EntityField::LensSamples, aperture_samples.span),
@@ -264,6 +267,20 @@ fn image_plane(
         up.value = Vector((upward * size).to_array());
     }
     (center, up)
+}
+
+/// Where the field of view and the size of a pixel are written, of a camera with this `up` in the
+/// image plane. Each is absent where it, or the length of `up`, has no effect on the size.
+fn size_spans(camera: &Camera, up: &Spanned<Vector>) -> [Option<Span>; 2] {
+    if camera.has_fov() {
+        return [camera.fov.read().and_then(|fov| fov.span), None];
+    }
+    let size = camera.pixel_size.read().and_then(|size| size.span);
+    let distance = camera.focal_distance.read().and_then(|it| it.span);
+    match size.filter(|_| camera.uses_up_length()).or(distance) {
+        None if up.value.0 != camera.up.value.0 => [up.span, None],
+        written => [None, written],
+    }
 }
 
 /// The lengths of `up` that are degrees in a camera of `position`, `lookAt` and `resolution`.
