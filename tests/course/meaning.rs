@@ -342,6 +342,65 @@ fn a_texture_beside_the_material_is_that_of_the_material() {
         "texture: stripes, material: {texture: checker, ka: 0.2, kd: 0.7, ks: 0.3, n: 20}",
     ));
     assert_eq!(accepted(&two), (scene(&within).unwrap(), vec!["SC001"]));
+    // Of merged keys, too, each material has its own colour.
+    let (read, warnings) = accepted(&text(&format!(
+        "{}- {{<<: *b, material: {{color: [0, 1, 0], ka: 0.2, kd: 0.7, ks: 0.3, n: 20}}}}\n",
+        ball(&format!("texture: checker, material: {shared}")).replace("- {", "- &b {"),
+    )));
+    let colors = read.materials.iter().map(|own| own.phong().unwrap().color);
+    let colors: Vec<_> = colors.collect();
+    assert_eq!(
+        (&colors[..], warnings),
+        (&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]][..], vec![])
+    );
+}
+
+#[test]
+fn a_texture_beside_the_material_of_a_solid_is_that_of_its_operands() {
+    let text = |a: &str, own: &str| {
+        format!(
+            "Eye: [200, 200, 1000]\nLights: [{{position: [5, 9, 800], color: [1, 1, 1]}}]\n\
+             Objects:\n- {{type: csg, operation: difference, \
+             a: {{type: sphere, position: [0, 0, 0], radius: 90{a}}}, \
+             b: {{type: sphere, position: [0, 0, 90], radius: 50}}, {own}}}\n"
+        )
+    };
+    let coefficients = "ka: 0.2, kd: 0.7, ks: 0.3, n: 20";
+    let within = text(
+        "",
+        &format!("material: {{texture: checker, {coefficients}}}"),
+    );
+    let beside = text(
+        "",
+        &format!("texture: checker, material: {{{coefficients}}}"),
+    );
+    assert_eq!(accepted(&beside), (scene(&within).unwrap(), vec![]));
+    // An operand's own texture or material is its own.
+    let maps = |a: &str| {
+        let (read, warnings) = accepted(&text(
+            a,
+            &format!("texture: checker, material: {{color: [1, 0, 0], {coefficients}}}"),
+        ));
+        assert_eq!(warnings, [""; 0], "{a}");
+        let map = |surface: &rtc::internals::ir::Surface| {
+            let material = &read.materials[surface.material.0 as usize];
+            let map = material.phong().unwrap().color_map;
+            map.map(|map| read.textures[map.0 as usize].clone())
+        };
+        read.surfaces.iter().map(map).collect::<Vec<_>>()
+    };
+    let [Some(stripes), Some(checker)] = &maps(", texture: stripes")[..] else {
+        panic!("each operand has a texture");
+    };
+    assert_ne!(stripes, checker);
+    let plain = format!(", material: {{color: [0, 1, 0], {coefficients}}}");
+    assert_eq!(maps(&plain), [None, Some(checker.clone())]);
+    // Of a material with a texture of its own, the one beside it is ignored, and that is told.
+    let two = format!("texture: stripes, material: {{texture: checker, {coefficients}}}");
+    assert_eq!(
+        accepted(&text("", &two)),
+        (scene(&within).unwrap(), vec!["SC001"])
+    );
 }
 
 #[test]

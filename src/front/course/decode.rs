@@ -54,10 +54,14 @@ impl<T> Spanned<T> {
 /// Three numbers with their span.
 pub(super) type SpannedVector = Spanned<[f64; 3]>;
 
+/// The node of a shared value, and that of the texture beside it: of objects with textures of their
+/// own, each has a material of its own.
+pub(super) type SharedNode = (NodeId, Option<NodeId>);
+
 /// A value that aliases and merge keys may repeat: its node, and the value when it is decoded
 /// first.
 pub(super) struct SharedValue<T> {
-    pub(super) node: NodeId,
+    pub(super) node: SharedNode,
     pub(super) value: Option<T>,
 }
 
@@ -65,11 +69,8 @@ impl<T: Decode> Decode for SharedValue<T> {
     const IS_LIST: bool = T::IS_LIST;
 
     fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
-        // Of objects with textures of their own, each has a material of its own.
-        let target = match context.object_texture {
-            Some(texture) => texture.value,
-            None => context.tree.target(node),
-        };
+        let texture = context.object_texture.map(|texture| texture.value);
+        let target = (context.tree.target(node), texture);
         if context.decoded.contains(&target) {
             return Some(Self {
                 node: target,
@@ -173,6 +174,13 @@ pub(super) struct MapEntry<'a> {
     pub(super) claimed: bool,
 }
 
+/// The material of a solid for its operands, and the texture beside it.
+#[derive(Clone, Copy)]
+pub(super) struct OperandMaterial<'a> {
+    pub(super) material: MapEntry<'a>,
+    pub(super) texture: Option<MapEntry<'a>>,
+}
+
 /// The number of diagnostics that are remembered to prevent duplicates.
 const MAX_REMEMBERED: usize = 10_000;
 
@@ -184,9 +192,11 @@ pub(super) struct DecodeContext<'a> {
     /// The entries of the maps being read, innermost last.
     pub(super) entries: Vec<MapEntry<'a>>,
     /// The material of operands that have none of their own.
-    pub(super) operand_material: Option<MapEntry<'a>>,
+    pub(super) operand_material: Option<OperandMaterial<'a>>,
     /// The texture beside the material of the object that is read; the material takes it.
     pub(super) object_texture: Option<MapEntry<'a>>,
+    /// The textures that materials have taken.
+    pub(super) taken_textures: BTreeSet<NodeId>,
     /// The spellings that are not canonical, each with the span of its first use.
     pub(super) spellings: Vec<(&'a str, &'static str, Span)>,
     /// The first key in another case of letters.
@@ -197,7 +207,7 @@ pub(super) struct DecodeContext<'a> {
     /// Whether the value of a key is read that only rtc has.
     is_own_key: bool,
     /// The shared values decoded so far.
-    decoded: BTreeSet<NodeId>,
+    decoded: BTreeSet<SharedNode>,
     /// The codes reported for each span: aliases visit a node several times.
     reported: BTreeSet<(Span, &'static str)>,
     steps: u64,
@@ -222,6 +232,7 @@ impl<'a> DecodeContext<'a> {
             entries: Vec::new(),
             operand_material: None,
             object_texture: None,
+            taken_textures: BTreeSet::new(),
             spellings: Vec::new(),
             other_case: None,
             typos: Vec::new(),

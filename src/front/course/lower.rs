@@ -3,7 +3,7 @@
 
 use super::assets::{PendingAsset, PendingMaterial};
 use super::camera;
-use super::decode::{Decode, DecodeContext, ValueKey};
+use super::decode::{Decode, DecodeContext, SharedNode, ValueKey};
 use super::glass::Glass;
 use super::ineffective::DependentKeys;
 use super::object::sizing::MeshSizing;
@@ -17,8 +17,8 @@ use rtc_diag::{Diagnostic, DiagnosticSink, clip, codes};
 use rtc_ir::{
     self as ir, EntityField, EntityKind, LoweredScene, MaterialId, SourceSpans, ValuePath,
 };
+use rtc_source::tree::NodeContent;
 use rtc_source::tree::yaml::{self, YamlError};
-use rtc_source::tree::{NodeContent, NodeId};
 use rtc_source::{FileId, SourceMap, Span};
 use std::collections::BTreeMap;
 
@@ -100,7 +100,7 @@ impl UnfinishedScene {
 pub(super) struct Lowering {
     pub(super) scene: ir::Scene,
     /// The materials by their nodes, which aliases may repeat.
-    pub(super) shared: BTreeMap<NodeId, MaterialId>,
+    pub(super) shared: BTreeMap<SharedNode, MaterialId>,
     /// The material of objects without one, once it is used.
     pub(super) grey: Option<MaterialId>,
     /// The textures and meshes so far.

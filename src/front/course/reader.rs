@@ -56,19 +56,17 @@ impl MapReader {
         if !context.options.strict {
             fold_case(record, first_entry, context);
         }
-        let takes_material = || record.fields.iter().any(|field| field.name == MATERIAL);
-        let is_own = |entry: &MapEntry<'_>| entry.key == MATERIAL;
-        if let Some(material) = context.operand_material
-            && takes_material()
-            && !context.entries[first_entry..].iter().any(is_own)
-        {
-            context.entries.push(material);
-        }
-        let is_solid = || record.fields.iter().any(|field| field.name == "of");
-        let offers_texture = takes_material() && !is_solid();
+        let offers_texture = record.fields.iter().any(|field| field.name == MATERIAL);
         if offers_texture {
-            let mut entries = context.entries[first_entry..].iter();
-            context.object_texture = entries.find(|entry| entry.key == TEXTURE).copied();
+            let own = |key: &str| {
+                let mut entries = context.entries[first_entry..].iter();
+                entries.find(|entry| entry.key == key).copied()
+            };
+            context.object_texture = own(TEXTURE);
+            if let (None, Some(outer)) = (own(MATERIAL), context.operand_material) {
+                context.object_texture = context.object_texture.or(outer.texture);
+                context.entries.push(outer.material);
+            }
         } else if record.name == MATERIAL {
             take_object_texture(first_entry, context);
         }
@@ -146,8 +144,9 @@ impl MapReader {
         for at in self.first_entry..context.entries.len() {
             let entry = context.entries[at];
             // The material has taken the texture beside it.
-            let is_taken =
-                entry.key == TEXTURE && self.offers_texture && context.object_texture.is_none();
+            let is_taken = entry.key == TEXTURE
+                && self.offers_texture
+                && context.taken_textures.contains(&entry.value);
             if !(entry.claimed || is_taken) && entry.key != COMMENT {
                 partial |= self.report_unused_key(entry, context);
             }
@@ -425,6 +424,9 @@ fn take_object_texture(first_entry: usize, context: &mut DecodeContext<'_>) {
     let mut entries = context.entries[first_entry..].iter();
     if !entries.any(|entry| entry.key == TEXTURE) {
         let texture = context.object_texture.take();
+        context
+            .taken_textures
+            .extend(texture.map(|texture| texture.value));
         context.entries.extend(texture);
     }
 }

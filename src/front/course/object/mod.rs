@@ -32,11 +32,13 @@ mod sphere;
 pub(super) mod torus;
 mod triangle;
 
-use super::decode::{Decode, DecodeContext, MapEntry, SharedValue, Spanned, ValueKey};
+use super::decode::{
+    Decode, DecodeContext, MapEntry, OperandMaterial, SharedValue, Spanned, ValueKey,
+};
 use super::lower::Lowering;
 use super::material::Material;
 use super::number::NonNegative;
-use super::reader::{MATERIAL, look_up, missing_keys};
+use super::reader::{MATERIAL, TEXTURE, look_up, missing_keys};
 use super::record::{HasRecord, Record};
 use super::schema::{self, SchemaDefinitions};
 use super::spelling::quoted_list;
@@ -165,7 +167,7 @@ impl Decode for Object {
         // Operands without a material have that of the object around them.
         let outer = context.operand_material;
         if kind.record.fields.iter().any(|field| field.name == "of") {
-            context.operand_material = own_material(node, context).or(outer);
+            context.operand_material = operand_material(node, context);
         }
         let outer_texture = context.object_texture.take();
         let object = (kind.decode)(kind.record, node, context);
@@ -179,16 +181,30 @@ impl Decode for Object {
     }
 }
 
-/// The entry of the material of an object.
-fn own_material<'a>(node: NodeId, context: &DecodeContext<'a>) -> Option<MapEntry<'a>> {
+/// The material of a solid's operands: its own, or that of the solid around it, either with the
+/// texture of the solid if it has one.
+fn operand_material<'a>(node: NodeId, context: &DecodeContext<'a>) -> Option<OperandMaterial<'a>> {
     let tree = context.tree;
-    let mut pairs = tree.pairs(node);
-    let (key_node, value) = pairs.find(|(key, _)| tree.text(*key) == Some(MATERIAL))?;
-    Some(MapEntry {
-        key: MATERIAL,
-        key_node,
-        value,
-        claimed: false,
+    let own = |key| {
+        let mut pairs = tree.pairs(node);
+        let (key_node, value) = pairs.find(|(name, _)| tree.text(*name) == Some(key))?;
+        Some(MapEntry {
+            key,
+            key_node,
+            value,
+            claimed: false,
+        })
+    };
+    let outer = match own(MATERIAL) {
+        Some(material) => Some(OperandMaterial {
+            material,
+            texture: None,
+        }),
+        None => context.operand_material,
+    };
+    outer.map(|outer| OperandMaterial {
+        texture: own(TEXTURE).or(outer.texture),
+        ..outer
     })
 }
 
