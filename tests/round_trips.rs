@@ -129,6 +129,12 @@ doubleSided: true, baseColor: [1, 0.5, 1, 1], baseColorMap: p.png}}\n",
         "noise in space",
         pyramid!("{pattern: noise, mapping: world, scale: 2, octaves: 2}"),
     ),
+    objects(
+        "checks with a placement",
+        pyramid!(
+            "{pattern: checker, scale: 3, transform: [0.8, 0.3, 0.1, -0.4, 1.5, 0.2]}"
+        ),
+    ),
     objects("a texture of floats", pyramid!("e.exr")),
     objects(
         "checks for a roughness",

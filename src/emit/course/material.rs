@@ -84,13 +84,13 @@ impl<'s> SceneWriter<'s> {
                 Err("a material of the course looks at a texture of glTF".to_owned())
             }
             Texture::Image(image) => self.names.image(scene, *image),
-            Texture::Procedural(texture) => Ok(self.pattern(texture)),
+            Texture::Procedural(texture) => Ok(format!("{{{}}}", self.pattern(texture))),
         }
     }
 }
 
 impl SceneWriter<'_> {
-    /// A procedural texture as a flow map.
+    /// The keys of a procedural texture.
     pub(super) fn pattern(&mut self, texture: &Procedural) -> String {
         let Procedural {
             pattern,
@@ -113,7 +113,7 @@ impl SceneWriter<'_> {
         };
         self.finite &= scale.is_finite();
         let (colors, scale) = (colors.join(", "), shortest(*scale));
-        format!("{{pattern: {word}, colors: [{colors}], scale: {scale}{mapping}{parameters}}}")
+        format!("pattern: {word}, colors: [{colors}], scale: {scale}{mapping}{parameters}")
     }
 }
 

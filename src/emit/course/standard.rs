@@ -196,30 +196,34 @@ impl ParameterWriter<'_, '_> {
         else {
             return Ok("none".to_owned());
         };
-        let sampled = match exists(*texture, self.scene)? {
-            Texture::Sampled(sampled) => sampled,
-            Texture::Procedural(pattern) if *set == 0 && texture_from_surface.is_none() => {
-                return Ok(self.text.pattern(pattern));
-            }
-            Texture::Procedural(_) => {
-                return Err("a pattern has another placement, and this format has none".to_owned());
-            }
+        let mut keys = match exists(*texture, self.scene)? {
+            Texture::Sampled(sampled) => self.sampled(sampled)?,
+            Texture::Procedural(pattern) => self.text.pattern(pattern),
             Texture::Uv | Texture::Image(_) => {
                 let message =
                     "a material of glTF looks at a texture as only those of the course are";
                 return Err(message.to_owned());
             }
         };
+        // Write the placement where it is not the default.
+        if *set != 0 {
+            keys += &format!(", set: {set}");
+        }
+        if let Some(rows) = texture_from_surface {
+            let rows = self.text.list(rows.iter().flatten().copied());
+            keys += &format!(", transform: {rows}");
+        }
+        Ok(format!("{{{keys}}}"))
+    }
+
+    /// The keys of an image.
+    fn sampled(&mut self, sampled: &Sampled) -> WrittenValue {
         let Sampled {
             image,
             wrap,
             filter,
         } = sampled;
-        // Write the keys that are not defaults.
         let mut keys = format!("file: {}", self.text.names.image(self.scene, *image)?);
-        if *set != 0 {
-            keys += &format!(", set: {set}");
-        }
         if *wrap != [Wrap::Repeat; 2] {
             let [u, v] = wrap.map(wrap_name);
             keys += &format!(", wrap: [{u}, {v}]");
@@ -228,11 +232,7 @@ impl ParameterWriter<'_, '_> {
             Filter::Linear => {}
             Filter::Nearest => keys += ", filter: nearest",
         }
-        if let Some(rows) = texture_from_surface {
-            let rows = self.text.list(rows.iter().flatten().copied());
-            keys += &format!(", transform: {rows}");
-        }
-        Ok(format!("{{{keys}}}"))
+        Ok(keys)
     }
 }
 

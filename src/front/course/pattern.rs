@@ -3,9 +3,12 @@
 use super::decode::{Decode, DecodeContext, Spanned};
 use super::keyword::{Keyword, KeywordTable, keyword_schema};
 use super::number::{NonNegative, integer, json_number, ranged};
-use super::record::record;
+use super::record::{FieldResult, record};
+use super::rotation::PlaneRows;
 use super::schema::SchemaDefinitions;
+use super::standard::SetIndex;
 use super::value::{Color, FileName, tuple};
+use rtc_diag::{Severity, codes};
 use rtc_ir::Procedural;
 use rtc_math::{GradientNoise, TextureMapping, TexturePattern};
 use rtc_source::tree::{NodeContent, NodeId};
@@ -37,6 +40,11 @@ record! {
         /// The number of octaves of `noise`: each has twice the frequency and half the weight of
         /// the one before.
         octaves: Spanned<Octaves>, default(OCTAVES), &[&["octaves"]];
+        /// The set of texture coordinates of the mesh, 0 or 1, in a `standard` material.
+        set: Spanned<SetIndex>, default(SetIndex(0)), &[&["set"]];
+        /// Six numbers, in a `standard` material: the rows (a, b, c) of the map from texture
+        /// coordinates of the surface to those of the pattern, each a·u + b·v + c.
+        transform: Spanned<PlaneRows>, optional, &[&["transform"]];
     }
 }
 
@@ -132,6 +140,21 @@ impl PatternTexture {
             mapping: Spanned::without_span(TextureMapping::Uv),
             seed: Spanned::without_span(SEED),
             octaves: Spanned::without_span(OCTAVES),
+            set: Spanned::without_span(SetIndex(0)),
+            transform: FieldResult::Absent,
+        }
+    }
+
+    /// Reports a placement in a Phong material, which has none.
+    fn report_placement(&self, context: &mut DecodeContext<'_>) {
+        let transform = self.transform.read().and_then(|rows| rows.span);
+        for (key, span) in [("set", self.set.span), ("transform", transform)] {
+            let Some(span) = span else { continue };
+            let message = || format!("`{key}` of a pattern has no effect in a Phong material");
+            context.report(&codes::NO_EFFECT, span, message, |d| {
+                d.at(span, "only for textures of a `standard` material")
+                    .severity(Severity::Warning)
+            });
         }
     }
 
@@ -162,7 +185,9 @@ pub(super) enum FileOrPattern {
 impl Decode for FileOrPattern {
     fn decode(node: NodeId, context: &mut DecodeContext<'_>) -> Option<Self> {
         if context.tree.is_map(node) {
-            return PatternTexture::decode(node, context).map(|map| Self::Pattern(Box::new(map)));
+            let pattern = PatternTexture::decode(node, context)?;
+            pattern.report_placement(context);
+            return Some(Self::Pattern(Box::new(pattern)));
         }
         if let Some(pattern) = pattern_word(node, context) {
             return Some(Self::Pattern(Box::new(pattern)));

@@ -14,6 +14,7 @@ mod texture;
 mod value;
 
 pub(super) use texture::TextureMap;
+pub(super) use value::SetIndex;
 
 use super::decode::{Decode, DecodeContext, Spanned};
 use super::lower::Lowering;

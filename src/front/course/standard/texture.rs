@@ -128,8 +128,8 @@ impl Lowering {
             MapOrFile::Pattern(pattern) => {
                 return ir::Map {
                     texture: self.pattern(pattern, span),
-                    set: 0,
-                    texture_from_surface: None,
+                    set: pattern.set.value.0,
+                    texture_from_surface: pattern.transform.read().map(|rows| rows.value.0),
                 };
             }
         };
@@ -144,10 +144,7 @@ impl Lowering {
         ir::Map {
             texture: self.files.sampled(&mut self.scene, file, sampling),
             set: set.value.0,
-            texture_from_surface: match transform {
-                FieldResult::Read(rows) => Some(rows.value.0),
-                FieldResult::Absent | FieldResult::Broken => None,
-            },
+            texture_from_surface: transform.read().map(|rows| rows.value.0),
         }
     }
 }
