@@ -251,6 +251,7 @@ pub fn validate(
     unseen(&valid_scene, lowered, sink);
     untextured(&valid_scene, lowered, sink);
     focused(&valid_scene, lowered, sink);
+    unsampled(&valid_scene, lowered, sink);
     Some(valid_scene)
 }
 
@@ -292,6 +293,13 @@ fn unseen(scene: &ValidScene, lowered: &LoweredScene, sink: &mut DiagnosticSink)
 
 /// Warns about textures that a surface does not show, because it has no texture coordinates.
 fn untextured(scene: &ValidScene, lowered: &LoweredScene, sink: &mut DiagnosticSink) {
+    // The reader of glTF reports the primitives of an asset that lack texture coordinates.
+    let reported: BTreeSet<_> = sink
+        .kept()
+        .iter()
+        .filter(|reported| reported.alias == Some(TOO_FEW_TEXCOORDS))
+        .filter_map(|reported| Some(reported.primary.as_ref()?.span.file))
+        .collect();
     for map in plan::hidden_maps(scene) {
         let texture = ValuePath::new(EntityKind::Material, map.material.index(), map.field);
         let surface = ValuePath::new(EntityKind::Surface, map.surface, EntityField::Whole);
@@ -300,16 +308,28 @@ fn untextured(scene: &ValidScene, lowered: &LoweredScene, sink: &mut DiagnosticS
         } else {
             "a surface"
         };
+        let span = lowered.source_spans.span(texture);
+        if map.is_mesh && span.is_some_and(|span| reported.contains(&span.file)) {
+            continue;
+        }
+        let hint = if map.is_mesh {
+            "a mesh needs texture coordinates for images and patterns"
+        } else {
+            "a pattern with `mapping: world` needs no texture coordinates"
+        };
         let message = format!(
             "{surface_or_part} has no texture coordinates, and is shown without its texture"
         );
         let diagnostic = Diagnostic::new(&codes::UNTEXTURED, message)
-            .at(lowered.source_spans.span(texture), "the texture")
+            .at(span, "the texture")
             .also(lowered.source_spans.span(surface), "a surface without it")
-            .hint("a pattern with `mapping: world` needs no texture coordinates");
+            .hint(hint);
         sink.push(diagnostic.pointer(texture.to_string()));
     }
 }
+
+/// What Khronos calls a glTF primitive without the texture coordinates of its material.
+const TOO_FEW_TEXCOORDS: &str = "MESH_PRIMITIVE_TOO_FEW_TEXCOORDS";
 
 /// Notes that the caustics of a small light are not estimated.
 fn focused(scene: &ValidScene, lowered: &LoweredScene, sink: &mut DiagnosticSink) {
@@ -334,6 +354,19 @@ fn focused(scene: &ValidScene, lowered: &LoweredScene, sink: &mut DiagnosticSink
         .also(lowered.source_spans.span(light), "the light")
         .hint("`--set caustics=true` estimates it; `rtc cost` measures whether that pays");
     sink.push(note.pointer(light.to_string()));
+}
+
+/// Notes that light of infinite faces is found by chance.
+fn unsampled(scene: &ValidScene, lowered: &LoweredScene, sink: &mut DiagnosticSink) {
+    let Some(surface) = plan::unsampled_solid(scene) else {
+        return;
+    };
+    let path = ValuePath::new(EntityKind::Surface, surface, EntityField::Whole);
+    let message = "the light of infinite faces of a solid is found by chance";
+    let note = Diagnostic::new(&codes::CAUSTICS, message)
+        .at(lowered.source_spans.span(path), "this solid shines")
+        .hint("faces of a bounded solid are sampled: intersect it with a large sphere");
+    sink.push(note.pointer(path.to_string()));
 }
 
 /// The maximum number of objects with their own warning.

@@ -12,14 +12,15 @@ pub struct HiddenMap {
     pub surface: usize,
     /// Whether other parts of the surface show the map.
     pub is_partial: bool,
+    /// Whether the surface is a mesh.
+    pub is_mesh: bool,
     /// Its material.
     pub material: MaterialId,
     /// The map.
     pub field: EntityField,
 }
 
-/// The maps that some surface does not show, one of each material. Maps of `standard` materials on
-/// meshes are left out: the reader of glTF reports them.
+/// The maps that some surface does not show, one of each material.
 #[must_use]
 pub fn hidden_maps(scene: &ValidScene) -> Vec<HiddenMap> {
     if scene.textures().is_empty() {
@@ -37,6 +38,7 @@ pub fn hidden_maps(scene: &ValidScene) -> Vec<HiddenMap> {
             hidden.push(HiddenMap {
                 surface: surface.index,
                 is_partial,
+                is_mesh: matches!(surface.shape, Shape::Instance(_)),
                 material,
                 field,
             });
@@ -76,7 +78,6 @@ fn hidden_map(
             let mut maps = maps.into_iter();
             maps.find_map(|(field, map)| Some((field, hides(map?, UvSet::First)?)))
         }
-        Material::Standard(_) if matches!(shape, Shape::Instance(_)) => None,
         Material::Standard(standard) => {
             let mut maps = standard.maps();
             let hidden = maps.find_map(|map| hides(map.texture, map.set));

@@ -67,7 +67,7 @@ pub use features::{FeatureSet, PathFeatures, ShapeSet, WhittedFeatures};
 pub use hidden_maps::{HiddenMap, hidden_maps};
 pub use invisible::invisible_surfaces;
 pub use layer::Layer;
-pub use missed_caustics::{FocusedLight, focused_light};
+pub use missed_caustics::{FocusedLight, focused_light, unsampled_solid};
 pub use path::{CausticMaterials, Caustics, PathPlan, RemainingEnvironment, RemainingLight};
 pub use pixel_classes::{PixelClass, PixelClassGrid};
 pub use precision::{MIN_HIT_DISTANCE, PrecisionArtifact, PrecisionLoss, loss};
