@@ -1,9 +1,8 @@
 //! EXR: floats of 32 or 16 bits per channel, unchanged except that they are finite, in one part,
 //! with the chromaticities, the view, and the provenance.
 //!
-//! The encoder keeps free attributes in hash maps with a random order: `ordered` creates them again
-//! until they have the required one. The Merkle tree is known last and is stored in reserved space
-//! of the header.
+//! The encoder writes free attributes in a random order, and the Merkle tree is known last: once
+//! the pixels are written, these attributes are written again, in their order.
 
 use super::header::{BLOCK_ROWS, PictureHeader, StripSource};
 use super::range::{is_half, narrow};
@@ -13,13 +12,13 @@ use ::exr::block::lines::LineRefMut;
 use ::exr::block::writer::ChunksWriter;
 use ::exr::error::{Error, UnitResult};
 use ::exr::meta::attribute::{
-    AttributeValue, ChannelDescription, Chromaticities, SampleType, Text,
+    self, AttributeValue, ChannelDescription, Chromaticities, SampleType, Text,
 };
 use ::exr::meta::header::{Header, ImageAttributes, LayerAttributes};
 use ::exr::meta::{BlockDescription, attribute::LineOrder};
 use ::exr::prelude::{Compression, Vec2, f16};
 use std::borrow::Cow;
-use std::io::{self, Cursor, Seek, SeekFrom, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 
 /// The primaries of linear sRGB and its white, D65 (ITU-R BT.709-6, table 1, items 1.3 and 1.4).
 const REC_709: Chromaticities = Chromaticities {
@@ -32,6 +31,9 @@ const REC_709: Chromaticities = Chromaticities {
 /// The attribute of the Merkle tree, and its type.
 pub(super) const TREE: &str = "rtc:tiles";
 const TREE_TYPE: &str = "rtc:tree";
+
+/// The bytes of a file before its header: the magic number and the version.
+const PREAMBLE: u64 = 8;
 
 /// The value of a pixel that a channel stores.
 #[derive(Clone, Copy)]
@@ -47,13 +49,33 @@ pub(super) enum ChannelSource {
 /// Writes a picture as EXR, block after block, as its strips come.
 pub(super) fn write(
     head: &PictureHeader,
-    mut out: impl Write + Seek,
+    out: impl Write + Seek,
     strips: &mut StripSource<'_>,
 ) -> io::Result<()> {
+    write_file(head, out, strips).map_err(|error| match error {
+        Error::Io(error) => error,
+        other @ (Error::Aborted | Error::NotSupported(_) | Error::Invalid(_)) => {
+            io::Error::other(other.to_string())
+        }
+    })
+}
+
+fn write_file(
+    head: &PictureHeader,
+    mut out: impl Write + Seek,
+    strips: &mut StripSource<'_>,
+) -> UnitResult {
     let sources = channels(head);
-    let header = header(head, &sources);
-    let offset = offset_of_tree(&header);
-    let written = ::exr::block::write(
+    let mut header = header(head, &sources);
+    // The free attributes come before the 0 that ends the header.
+    let mut others = Vec::new();
+    header.write(&mut others)?;
+    let start = PREAMBLE + others.len() as u64 - 1;
+    let blank = head
+        .has_tiles
+        .then(|| vec![0; MerkleTree::length(head.size)]);
+    header.own_attributes.other = free_attributes(head, blank).collect();
+    ::exr::block::write(
         &mut out,
         [header].into_iter().collect(),
         true,
@@ -82,68 +104,53 @@ pub(super) fn write(
             }
             Ok(())
         },
-    );
-    written.map_err(|error| match error {
-        Error::Io(error) => error,
-        other @ (Error::Aborted | Error::NotSupported(_) | Error::Invalid(_)) => {
-            io::Error::other(other.to_string())
-        }
-    })?;
-    if let Some((offset, tree)) = offset.zip(strips.tree(head)) {
-        out.seek(SeekFrom::Start(offset))?;
-        out.write_all(&tree.bytes())?;
-    }
-    Ok(())
+    )?;
+    let tree = strips.tree(head).map(|tree| tree.bytes());
+    out.seek(SeekFrom::Start(start))?;
+    free_attributes(head, tree)
+        .try_for_each(|(name, value)| attribute::write(name.as_slice(), &value, &mut out))
 }
 
-/// The offset of the tree in a file with this header, if it has space for one.
-fn offset_of_tree(header: &Header) -> Option<u64> {
-    // A file that ends with its head.
-    let mut file = Vec::new();
-    let headers = [header.clone()].into_iter().collect();
-    let stop = |_, _: &mut _| Err(Error::Aborted);
-    let _ = ::exr::block::write(Cursor::new(&mut file), headers, true, stop);
-    // Name and type end with a 0; the length has 32 bits.
-    let name = [TREE, "\0", TREE_TYPE, "\0"].concat();
-    let mut starts = file.windows(name.len());
-    let start = starts.position(|window| window == name.as_bytes())?;
-    Some((start + name.len() + 4) as u64)
+/// The attributes that the format does not know, in their order, with the bytes of the tree.
+fn free_attributes(
+    head: &PictureHeader,
+    tree: Option<Vec<u8>>,
+) -> impl Iterator<Item = (Text, AttributeValue)> {
+    let words = |name, words: &str| {
+        let value = (!words.is_empty()).then(|| AttributeValue::Text(text(words)));
+        value.map(|value| (text(name), value))
+    };
+    let tree = tree.map(|bytes| {
+        let (kind, bytes) = (text(TREE_TYPE), bytes.into());
+        (text(TREE), AttributeValue::Custom { kind, bytes })
+    });
+    let all = [
+        words("rtc:settings", &head.metadata.settings),
+        tree,
+        words("rtc:scene", &head.metadata.scene),
+    ];
+    all.into_iter().flatten()
 }
 
-/// The provenance of the picture, and its channels in blocks of rows.
+/// The software and the view of the picture, and its channels in blocks of rows.
 fn header(head: &PictureHeader, sources: &[(&str, ChannelSource)]) -> Header {
     const COMPRESSION: Compression = Compression::ZIP16;
     const _: () = assert!(BLOCK_ROWS == 16, "as many rows as ZIP16 has in a block");
     let PictureMetadata {
         software,
-        scene,
-        settings,
         world_to_camera,
-        layer: _,
+        ..
     } = &head.metadata;
     let [width, height] = head.size.map(|side| side as usize);
     let size = (width, height);
-    // Store the metadata as attributes.
-    let other = |name, words: &str| {
-        let value = (!words.is_empty()).then(|| AttributeValue::Text(text(words)));
-        value.map(|value| (text(name), value))
-    };
-    // Reserve room for the hash tree, which is known after the pixels.
-    let tree = head.has_tiles.then(|| {
-        let kind = text(TREE_TYPE);
-        let bytes = std::iter::repeat_n(0, MerkleTree::length(head.size)).collect();
-        (text(TREE), AttributeValue::Custom { kind, bytes })
-    });
     // Attributes belong to the layer or to the whole image.
     let attributes = LayerAttributes {
         software_name: (!software.is_empty()).then(|| text(software)),
         world_to_camera: *world_to_camera,
-        other: ordered(other("rtc:settings", settings).into_iter().chain(tree)),
         ..LayerAttributes::default()
     };
     let shared = ImageAttributes {
         chromaticities: Some(REC_709),
-        other: ordered(other("rtc:scene", scene)),
         ..ImageAttributes::with_size(size)
     };
     // Each channel has 16 or 32 bits.
@@ -165,24 +172,6 @@ fn header(head: &PictureHeader, sources: &[(&str, ChannelSource)]) -> Header {
         .with_shared_attributes(shared)
 }
 
-/// A map that hands on its entries in the order in which they are given.
-#[expect(
-    clippy::disallowed_types,
-    reason = "the encoder takes no other map; this one has an order"
-)]
-fn ordered(
-    entries: impl IntoIterator<Item = (Text, AttributeValue)>,
-) -> std::collections::HashMap<Text, AttributeValue> {
-    let entries: Vec<_> = entries.into_iter().collect();
-    loop {
-        // Each map has hash keys of its own.
-        let map: std::collections::HashMap<_, _> = entries.iter().cloned().collect();
-        if map.keys().eq(entries.iter().map(|(name, _)| name)) {
-            return map;
-        }
-    }
-}
-
 /// All channels, in the order of their names, as the format wants them.
 pub(super) fn channels(head: &PictureHeader) -> Vec<(&str, ChannelSource)> {
     let colors = ["R", "G", "B"].into_iter().enumerate();
@@ -193,6 +182,14 @@ pub(super) fn channels(head: &PictureHeader) -> Vec<(&str, ChannelSource)> {
     let mut all: Vec<_> = colors.chain(alpha).chain(layers).collect();
     all.sort_unstable_by_key(|(name, _)| *name);
     all
+}
+
+/// The source of each channel, and whether it has floats of 16 bits, in the same order.
+pub(super) fn formats(head: &PictureHeader) -> Vec<(ChannelSource, bool)> {
+    let channels = channels(head).into_iter();
+    channels
+        .map(|(name, source)| (source, is_half(head.form, name)))
+        .collect()
 }
 
 /// Fills a row of one channel, in floats of 16 bits or not, from the strip whose first row is
@@ -231,10 +228,7 @@ fn value(strip: &Picture, pixel: usize, (source, is_half): (ChannelSource, bool)
 /// The samples of a picture, pixel after pixel, each in the order of its channels, little-endian.
 pub(super) fn samples(picture: &Picture, form: FileFormat) -> Vec<u8> {
     let head = PictureHeader::of(picture, form);
-    let channels: Vec<_> = channels(&head)
-        .into_iter()
-        .map(|(name, source)| (source, is_half(form, name)))
-        .collect();
+    let channels = formats(&head);
     let mut bytes = Vec::new();
     for pixel in 0..picture.image.pixels.len() {
         for channel in &channels {
@@ -248,17 +242,17 @@ pub(super) fn samples(picture: &Picture, form: FileFormat) -> Vec<u8> {
     bytes
 }
 
-/// The values of a pixel whose samples are those of [`samples`]: its colour, its opacity and those
-/// of its layers; `None` if it has another number of bytes.
+/// The colour and the opacity of a pixel whose samples are those of [`samples`], and the values of
+/// its layers, which are put into `layers`; `None` if it has another number of bytes.
 pub(super) fn unpacked(
-    form: FileFormat,
-    channels: &[(&str, ChannelSource)],
+    channels: &[(ChannelSource, bool)],
     mut bytes: &[u8],
-) -> Option<([f64; 3], f32, Vec<f32>)> {
-    let (mut color, mut alpha, mut layers) = ([0.0; 3], 1.0, vec![0.0; channels.len()]);
-    for (name, source) in channels {
+    layers: &mut [f32],
+) -> Option<([f64; 3], f32)> {
+    let (mut color, mut alpha) = ([0.0; 3], 1.0);
+    for (source, is_half) in channels {
         let value;
-        if is_half(form, name) {
+        if *is_half {
             let (half, rest) = bytes.split_first_chunk()?;
             (value, bytes) = (f16::from_le_bytes(*half).to_f32(), rest);
         } else {
@@ -271,7 +265,7 @@ pub(super) fn unpacked(
             ChannelSource::Layer(k) => layers[k] = value,
         }
     }
-    bytes.is_empty().then_some((color, alpha, layers))
+    bytes.is_empty().then_some((color, alpha))
 }
 
 /// EXR text is Latin-1; other characters become question marks.
@@ -289,6 +283,7 @@ mod tests {
     use super::super::{Image, PixelLayers};
     use super::*;
     use ::exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read};
+    use std::io::Cursor;
 
     fn bright() -> (Picture, PictureHeader) {
         let pixels = vec![

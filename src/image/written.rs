@@ -145,17 +145,20 @@ impl WrittenPicture {
     fn strip(&self, head: &PictureHeader, top: u32, rows: u32) -> io::Result<Picture> {
         let count = self.size[0] as usize * rows as usize;
         let samples = self.part([0, top], [self.size[0], rows]);
-        let channels = exr::channels(head);
-        let (mut pixels, mut opacities, mut values) = (Vec::new(), Vec::new(), Vec::new());
+        let (channels, traits) = (exr::formats(head), self.form.traits());
+        let mut pixels = Vec::with_capacity(count);
+        let mut opacities = Vec::with_capacity(count);
+        let mut values = Vec::with_capacity(count * head.layers.len());
         for pixel in samples.chunks_exact((samples.len() / count).max(1)) {
-            let read = match self.form.traits() {
-                traits if traits.is_linear => exr::unpacked(self.form, &channels, pixel),
-                traits => display_values(pixel, traits.bits == 16),
+            let before = values.len();
+            values.resize(before + head.layers.len(), 0.0);
+            let read = match traits.is_linear {
+                true => exr::unpacked(&channels, pixel, &mut values[before..]),
+                false => display_values(pixel, traits.bits == 16),
             };
-            let (color, opacity, layers) = read.ok_or(io::ErrorKind::InvalidData)?;
+            let (color, opacity) = read.ok_or(io::ErrorKind::InvalidData)?;
             pixels.push(color);
             opacities.push(opacity);
-            values.extend(&layers[..head.layers.len()]);
         }
         let image = Image {
             width: self.size[0],
@@ -175,29 +178,24 @@ impl WrittenPicture {
 
 /// The colour and the opacity of a pixel of 8 or 16 bits a channel, in the middle between those
 /// that are stored alike; it has no layers.
-fn display_values(samples: &[u8], is_deep: bool) -> Option<([f64; 3], f32, Vec<f32>)> {
-    let numbers: Vec<f64> = match is_deep {
-        true => {
-            let pairs = samples.as_chunks::<2>().0.iter();
-            pairs
-                .map(|pair| f64::from(u16::from_be_bytes(*pair)))
-                .collect()
-        }
-        false => samples.iter().copied().map(f64::from).collect(),
+fn display_values(samples: &[u8], is_deep: bool) -> Option<([f64; 3], f32)> {
+    let value = |channel: usize| {
+        let (number, most) = match is_deep {
+            true => {
+                let pair = samples.as_chunks::<2>().0.get(channel)?;
+                (u16::from_be_bytes(*pair), u16::MAX)
+            }
+            false => (u16::from(*samples.get(channel)?), u16::from(u8::MAX)),
+        };
+        Some((f64::from(number) + 0.5) / f64::from(most))
     };
-    let most = if is_deep {
-        u16::MAX
-    } else {
-        u16::from(u8::MAX)
-    };
-    let value = |number: &f64| (number + 0.5) / f64::from(most);
-    let color = numbers.first_chunk::<3>()?.each_ref().map(value);
+    let color = [value(0)?, value(1)?, value(2)?];
     #[expect(
         clippy::cast_possible_truncation,
         reason = "steps of 16 bits are far apart"
     )]
-    let opacity = numbers.get(3).map_or(1.0, |number| value(number) as f32);
-    Some((color, opacity, Vec::new()))
+    let opacity = value(3).map_or(1.0, |value| value as f32);
+    Some((color, opacity))
 }
 
 /// The samples of a picture as a file of this format stores them, pixel by pixel: of a PNG in the
