@@ -19,7 +19,7 @@ struct SourceFile {
     /// The folder that it was read from; `None` for a stream.
     folder: Option<Folder>,
     /// All bytes, or the first ones of a file that was released.
-    bytes: Vec<u8>,
+    bytes: Arc<Vec<u8>>,
     is_released: bool,
     /// Computed when a line is first needed: most files never need it, and some are large and
     /// binary.
@@ -210,7 +210,7 @@ impl SourceMap {
         self.files.push(SourceFile {
             name,
             folder,
-            bytes,
+            bytes: Arc::new(bytes),
             is_released: false,
             line_starts: OnceLock::new(),
             characters: OnceLock::new(),
@@ -237,6 +237,12 @@ impl SourceMap {
         &self.file(file).bytes
     }
 
+    /// The same, for a reader that outlives a borrow of the map.
+    #[must_use]
+    pub fn shared_bytes(&self, file: FileId) -> Arc<Vec<u8>> {
+        Arc::clone(&self.file(file).bytes)
+    }
+
     /// Whether the file is text with readable lines. Latin-1 counts: only some of its characters
     /// are lost.
     #[must_use]
@@ -252,8 +258,7 @@ impl SourceMap {
         let kept = kept.max(SNIFF);
         if kept < self.bytes(file).len() && !self.is_text(file) {
             let source = &mut self.files[file.0 as usize];
-            source.bytes.truncate(kept);
-            source.bytes.shrink_to_fit();
+            source.bytes = Arc::new(source.bytes[..kept].to_vec());
             (source.line_starts, source.characters) = (OnceLock::new(), OnceLock::new());
             source.is_released = true;
         }

@@ -94,7 +94,7 @@ impl Lowering<'_> {
         let bytes = self.map.bytes(text);
         self.is_version_3 = memchr::memmem::find(bytes, b"WorldEnd").is_some();
         Some(OpenFile {
-            reader: TokenReader::new(text, bytes),
+            reader: TokenReader::new(text, self.map.shared_bytes(text)),
             is_import: false,
         })
     }
@@ -147,7 +147,7 @@ impl Lowering<'_> {
                     Some(scene) => scene,
                     None => {
                         let file = self.map.add_found(&found, bytes);
-                        TokenReader::new(file, self.map.bytes(file))
+                        TokenReader::new(file, self.map.shared_bytes(file))
                     }
                 };
                 self.texts.insert(found.path.clone(), reader.clone());

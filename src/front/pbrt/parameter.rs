@@ -409,7 +409,7 @@ mod tests {
     fn parameters(text: &str) -> (Parameters, Vec<&'static str>) {
         let mut codes = Vec::new();
         let file = SourceMap::default().add("text", Vec::new());
-        let mut reader = TokenReader::new(file, text.as_bytes());
+        let mut reader = TokenReader::new(file, std::sync::Arc::new(text.into()));
         let report = &mut |diagnostic: Diagnostic| codes.push(diagnostic.code.id);
         (read(&mut reader, report), codes)
     }

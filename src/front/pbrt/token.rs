@@ -3,7 +3,7 @@
 use crate::exchange::SpannedText;
 use rtc_source::{FileId, Span};
 use std::ops::Range;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// The kind of a token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,33 +37,31 @@ impl PbrtToken {
 #[derive(Clone, Debug)]
 pub(super) struct TokenReader {
     file: FileId,
-    bytes: Rc<[u8]>,
+    /// Those of the source map.
+    bytes: Arc<Vec<u8>>,
     at: usize,
     /// The tokens that were read.
     pub(super) count: u64,
 }
 
 impl TokenReader {
-    pub(super) fn new(file: FileId, bytes: &[u8]) -> Self {
+    pub(super) fn new(file: FileId, bytes: Arc<Vec<u8>>) -> Self {
         let mark: &[u8] = b"\xef\xbb\xbf";
         Self {
             file,
-            bytes: bytes.into(),
             at: if bytes.starts_with(mark) {
                 mark.len()
             } else {
                 0
             },
+            bytes,
             count: 0,
         }
     }
 
     /// The same text from its start.
     pub(super) fn restarted(&self) -> Self {
-        Self {
-            bytes: Rc::clone(&self.bytes),
-            ..Self::new(self.file, b"")
-        }
+        Self::new(self.file, Arc::clone(&self.bytes))
     }
 
     /// The bytes of the text.
@@ -73,7 +71,7 @@ impl TokenReader {
 
     /// Whether its text is this one.
     pub(super) fn has_text(&self, bytes: &[u8]) -> bool {
-        *self.bytes == *bytes
+        *self.bytes == bytes
     }
 
     pub(super) fn file(&self) -> FileId {
@@ -190,7 +188,7 @@ mod tests {
 
     fn words(text: &str) -> Vec<(PbrtTokenKind, String)> {
         let file = SourceMap::default().add("text", Vec::new());
-        let mut reader = TokenReader::new(file, text.as_bytes());
+        let mut reader = TokenReader::new(file, Arc::new(text.into()));
         let mut words = Vec::new();
         while let Some(token) = reader.next() {
             words.push((token.kind, reader.text(token).text));
