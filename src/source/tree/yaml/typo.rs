@@ -269,14 +269,7 @@ impl SourceText<'_, '_> {
             None => inside.trim_end_matches([',', '}', ']', ' ', '\r']).len(),
         };
         let close = start + open + 1 + length;
-        Some(YamlError::Syntax {
-            message: "a quote is never closed".to_owned(),
-            label: "opened here".to_owned(),
-            hint: "close it with the same kind of quote",
-            replacement: (length > 0).then(|| Box::new((self.span(close, close), '"'.to_string()))),
-            span: self.span(start + open, start + open + 1),
-            bracket: None,
-        })
+        Some(self.unclosed(start + open, (length > 0).then_some((close, '"'))))
     }
 
     /// A quote that is never closed: the last quote before the error that opens and does not close
@@ -292,20 +285,25 @@ impl SourceText<'_, '_> {
                     .filter(|_| line.matches(quote).count() % 2 == 1);
                 if let Some(open) = open {
                     let is_last = !line.get(open..)?.contains([',', '}', ']', '#']);
-                    let close = self.span(start + line.len(), start + line.len());
-                    return Some(YamlError::Syntax {
-                        message: "a quote is never closed".to_owned(),
-                        label: "opened here".to_owned(),
-                        hint: "close it with the same kind of quote",
-                        replacement: is_last.then(|| Box::new((close, quote.to_string()))),
-                        span: self.span(start + open, start + open + 1),
-                        bracket: None,
-                    });
+                    let close = is_last.then_some((start + line.len(), quote));
+                    return Some(self.unclosed(start + open, close));
                 }
             }
             end = start;
         }
         None
+    }
+
+    /// The report of a quote that opens here, and which quote closes it where, if that is known.
+    fn unclosed(&self, open: usize, close: Option<(usize, char)>) -> YamlError<'static> {
+        YamlError::Syntax {
+            message: "a quote is never closed".to_owned(),
+            label: "opened here".to_owned(),
+            hint: "close it with the same kind of quote",
+            replacement: close.map(|(at, quote)| Box::new((self.span(at, at), quote.to_string()))),
+            span: self.span(open, open + 1),
+            bracket: None,
+        }
     }
 
     /// A dash without a space, in the line before.
