@@ -44,8 +44,9 @@ pub(super) struct OpenText {
     pub(super) checks: u64,
     /// Whether it is to be checked again although the editor did not change it.
     pub(super) is_stale: bool,
-    /// Whether it was a scene before a change: it stays one while it is written.
-    was_scene: bool,
+    /// Whether it is a scene, or was one before it was changed: editors send all YAML and JSON,
+    /// most of which belongs to other programs.
+    is_scene: bool,
 }
 
 /// The tree of a text of YAML or JSON.
@@ -97,7 +98,7 @@ impl CheckedScene {
 
 impl OpenText {
     pub(super) fn new(uri: DocumentUri, version: i32, text: String) -> Self {
-        Self {
+        let mut document = Self {
             path: place::path(&uri),
             uri,
             version,
@@ -109,8 +110,10 @@ impl OpenText {
             reported: Vec::new(),
             checks: 0,
             is_stale: false,
-            was_scene: false,
-        }
+            is_scene: false,
+        };
+        document.is_scene = document.looks_like_scene();
+        document
     }
 
     /// The same document, opened again.
@@ -135,19 +138,15 @@ impl OpenText {
         SourceKind::of(&self.path.to_string_lossy(), self.text.as_bytes())
     }
 
-    /// Whether it is a scene, or was one before it was changed: editors send all YAML and JSON,
-    /// most of which belongs to other programs.
-    fn is_scene(&self) -> bool {
-        self.was_scene
-            || self.kind() != SourceKind::Scene
-            || course::is_scene_text(self.text.as_bytes())
+    fn looks_like_scene(&self) -> bool {
+        self.kind() != SourceKind::Scene || course::is_scene_text(self.text.as_bytes())
     }
 
     /// Whether it is a scene or may become one: it has no key yet.
     pub(super) fn may_be_scene(&self) -> bool {
         let mut lines = self.text.lines().map(str::trim_start);
         let is_begun = |line: &str| line.contains(':') || line.starts_with(['-', '[', '{']);
-        self.is_scene() || lines.all(|line| line.starts_with('#') || !is_begun(line))
+        self.is_scene || lines.all(|line| line.starts_with('#') || !is_begun(line))
     }
 
     /// The same after changes, each of the text that the one before has left.
@@ -157,7 +156,6 @@ impl OpenText {
         changes: Vec<TextDocumentContentChangeEvent>,
         columns: Columns,
     ) {
-        self.was_scene = self.is_scene();
         let mut rope = Rope::from_str(&self.text);
         // A single change inside an object leaves most of the tree as it is.
         let mut only = None;
@@ -178,6 +176,7 @@ impl OpenText {
             }
         }
         self.text = Arc::new(rope.into());
+        self.is_scene = self.is_scene || self.looks_like_scene();
         let before = self.parsed.take().flatten();
         let spliced = only.zip(before.filter(|parsed| parsed.is_clean));
         let spliced = spliced
@@ -214,7 +213,7 @@ impl OpenText {
         if self.checked.is_some() {
             return;
         }
-        if !self.is_scene() {
+        if !self.is_scene {
             self.checked = Some(CheckedText::Other);
             return;
         }
