@@ -147,8 +147,7 @@ fn is_pattern(path: &Path) -> bool {
 
 /// The files that fit a pattern, and the scenes below the folders that do: at least one.
 fn fitting(pattern: &Path, is_meant: FileNameFilter) -> Result<Vec<PathBuf>, Failure> {
-    let shown = pattern.display();
-    let refused = |message: &str| Failure::Failed(format!("`{shown}`: {message}"));
+    let refused = |message: &str| refused(pattern, message);
     let pattern = FilePattern::new(pattern).map_err(|message| refused(&message))?;
     let mut found = Vec::new();
     for entry in pattern.traverse() {
@@ -231,21 +230,34 @@ impl FilePattern {
     }
 }
 
-/// All scenes below a folder: at least one.
+/// The scenes below a folder, by their paths in it; there may be none.
+pub(super) fn scenes_below(folder: &Path) -> Result<BTreeSet<PathBuf>, Failure> {
+    let mut found = named_below(folder, is_scene_name)?;
+    found.retain(|path| looks_like_scene(path));
+    let within = |path: &PathBuf| path.strip_prefix(folder).unwrap_or(path).to_owned();
+    Ok(found.iter().map(within).collect())
+}
+
+/// All files below a folder with the name of a scene: at least one.
 fn below(folder: &Path, is_meant: FileNameFilter) -> Result<Vec<PathBuf>, Failure> {
-    let refused = |message: &str| Failure::Failed(format!("`{}`: {message}", folder.display()));
+    let found = named_below(folder, is_meant)?;
+    match found.is_empty() {
+        true => Err(refused(folder, "there are no scenes in this folder")),
+        false => Ok(found),
+    }
+}
+
+/// The same, or none.
+fn named_below(folder: &Path, is_meant: FileNameFilter) -> Result<Vec<PathBuf>, Failure> {
     let mut found = Vec::new();
     for entry in ignored::traverse(folder, WalkDir::new(folder), |entry| !is_hidden(entry)) {
-        let entry = entry.map_err(|error| refused(&reason(&error)))?;
+        let entry = entry.map_err(|error| refused(folder, &reason(&error)))?;
         let is_scene = is_meant(&entry.file_name().to_string_lossy());
         if is_scene && entry.file_type().is_file() {
             found.push(entry.into_path());
         }
     }
-    match found.is_empty() {
-        true => Err(refused("there are no scenes in this folder")),
-        false => Ok(found),
-    }
+    Ok(found)
 }
 
 /// The pictures below a folder, by their paths in it, sorted; without hidden files and links.
@@ -253,9 +265,7 @@ pub(super) fn pictures(folder: &Path) -> Result<BTreeSet<PathBuf>, Failure> {
     let mut found = BTreeSet::new();
     let entries = WalkDir::new(folder).into_iter();
     for entry in entries.filter_entry(|entry| !is_hidden(entry)) {
-        let entry = entry.map_err(|error| {
-            Failure::Failed(format!("`{}`: {}", folder.display(), reason(&error)))
-        })?;
+        let entry = entry.map_err(|error| refused(folder, &reason(&error)))?;
         let path = entry.path().strip_prefix(folder).unwrap_or(entry.path());
         if is_picture(path) && entry.file_type().is_file() {
             found.insert(path.to_owned());
@@ -267,6 +277,11 @@ pub(super) fn pictures(folder: &Path) -> Result<BTreeSet<PathBuf>, Failure> {
 /// Whether the name of a found entry, not of a named one, begins with a dot.
 fn is_hidden(entry: &DirEntry) -> bool {
     entry.depth() > 0 && entry.file_name().as_encoded_bytes().starts_with(b".")
+}
+
+/// The failure of a path.
+fn refused(path: &Path, message: &str) -> Failure {
+    Failure::Failed(format!("`{}`: {message}", path.display()))
 }
 
 /// The error of the system.

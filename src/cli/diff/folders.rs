@@ -33,13 +33,10 @@ fn listed(args: &DiffArgs) -> Result<(ComparedKind, [BTreeSet<PathBuf>; 2]), Fai
     if found.iter().any(|files| !files.is_empty()) {
         return Ok((ComparedKind::Pictures, found));
     }
-    let scenes = |folder: &PathBuf| {
-        let found = files::scenes(std::slice::from_ref(folder), false);
-        let paths = found.map_or_else(|_| Vec::new(), |found| found.paths);
-        let within = |path: PathBuf| path.strip_prefix(folder).map(Path::to_owned).ok();
-        paths.into_iter().filter_map(within).collect()
-    };
-    let found: [BTreeSet<PathBuf>; 2] = [scenes(&args.new), scenes(&args.old)];
+    let found = [
+        files::scenes_below(&args.new)?,
+        files::scenes_below(&args.old)?,
+    ];
     match found.iter().all(BTreeSet::is_empty) {
         true => {
             let message = "there are no pictures and no scenes in these folders";
@@ -143,25 +140,29 @@ fn row(path: &Path, found: &Comparison, has_passed: Option<bool>) -> Vec<TableCe
     let name = TableCell::Text(path.display().to_string());
     let mut row = vec![name, TableCell::Text(result.to_owned())];
     row.extend(match found {
-        Comparison::Of(found) => measures(found),
+        Comparison::Of(found) => measures(|of| of(found)),
         Comparison::Failed(_) => [const { TableCell::Absent }; 4],
     });
     row
 }
 
-/// The measures of a difference that a table has.
-fn measures(found: &Difference) -> [TableCell; 4] {
+/// A measure of a difference.
+type Measure = fn(&Difference) -> f64;
+
+/// The measures that a table has, by the value of each.
+fn measures(value: impl Fn(Measure) -> f64) -> [TableCell; 4] {
+    let cell = |of: Measure, decimals| TableCell::Measure(value(of), decimals);
     [
-        TableCell::Measure(found.rmse, 4),
-        TableCell::Measure(found.max, 2),
-        TableCell::Measure(found.flip, 6),
-        TableCell::Measure(found.fraction, 6),
+        cell(|found| found.rmse, 4),
+        cell(|found| found.max, 2),
+        cell(|found| found.flip, 6),
+        cell(|found| found.fraction, 6),
     ]
 }
 
 /// The table of all pairs; the total has the largest of each measure.
 fn table(kind: ComparedKind, rows: Vec<(Vec<TableCell>, Comparison)>) -> FileTable {
-    let most = |of: fn(&Difference) -> f64| {
+    let most = |of: Measure| {
         let values = rows.iter().filter_map(|(_, found)| match found {
             Comparison::Of(found) => Some(of(found)),
             Comparison::Failed(_) => None,
@@ -175,7 +176,7 @@ fn table(kind: ComparedKind, rows: Vec<(Vec<TableCell>, Comparison)>) -> FileTab
         "{same} same, {} differ, {lacking} not compared",
         rows.len() - same - lacking
     );
-    let total = vec![
+    let mut total = vec![
         TableCell::Text(plural(
             rows.len(),
             match kind {
@@ -184,11 +185,8 @@ fn table(kind: ComparedKind, rows: Vec<(Vec<TableCell>, Comparison)>) -> FileTab
             },
         )),
         TableCell::Text(result),
-        TableCell::Measure(most(|found| found.rmse), 4),
-        TableCell::Measure(most(|found| found.max), 2),
-        TableCell::Measure(most(|found| found.flip), 6),
-        TableCell::Measure(most(|found| found.fraction), 6),
     ];
+    total.extend(measures(most));
     FileTable {
         schema: "rtc-diff-table/1",
         columns: &["file", "result", "rmse", "max", "flip", "share"],
