@@ -3,7 +3,7 @@
 use super::Failure;
 use super::interrupt::Interrupt;
 use rtc_diag::{clean_json, clean_lines};
-use rtc_pipeline::{AtomicFile, Input, sidecar_folder};
+use rtc_pipeline::{AtomicFile, FolderIdentity, Input, sidecar_folder};
 use rtc_source::{Loader, SourceMap};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, IsTerminal, Write};
@@ -262,6 +262,12 @@ impl Write for OutputStream<'_> {
     fn flush(&mut self) -> io::Result<()> {
         self.file.flush()
     }
+}
+
+/// Checks that the folder of a result was not replaced since it was found.
+pub(super) fn check_folder(folder: &FolderIdentity, path: &Path) -> Result<(), Failure> {
+    let checked = folder.check();
+    checked.map_err(|error| failure(&format!("`{}`", path.display()), &error))
 }
 
 /// A closed pipe is a reader that had enough; all else is trouble.

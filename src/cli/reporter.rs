@@ -5,8 +5,7 @@ use super::render::FinishedPicture;
 use super::{Failure, args, output};
 use anstream::{AutoStream, ColorChoice};
 use rtc_diag::{
-    Diagnostic, DiagnosticPrinter, DiagnosticSink, Format, PrintOptions, Severity, clean_json,
-    clean_lines,
+    DiagnosticPrinter, DiagnosticSink, Format, PrintOptions, Severity, clean_json, clean_lines,
 };
 use rtc_source::SourceMap;
 use serde::{Deserialize, Serialize};
@@ -119,15 +118,16 @@ impl Reporter {
         sink: DiagnosticSink,
         map: &SourceMap,
     ) -> Result<(), Failure> {
-        let is_warning = |found: &&Diagnostic| found.severity != Severity::Note;
-        self.warnings += sink.kept().iter().filter(is_warning).count() + sink.dropped();
-        let severities = [Severity::Error, Severity::Warning, Severity::Note];
-        let of = |severity| {
-            sink.kept()
-                .iter()
-                .filter(move |found| found.severity == severity)
-        };
-        self.last = severities.map(|severity| of(severity).count());
+        let [mut errors, mut warnings, mut notes] = [0; 3];
+        for found in sink.kept() {
+            match found.severity {
+                Severity::Error => errors += 1,
+                Severity::Warning => warnings += 1,
+                Severity::Note => notes += 1,
+            }
+        }
+        self.last = [errors, warnings, notes];
+        self.warnings += errors + warnings + sink.dropped();
         let deferred = self.printer.deferred();
         let text = self.printer.file(name, sink, map);
         if self.printer.deferred() > deferred {

@@ -12,7 +12,7 @@
 use super::super::project::Project;
 use super::super::reporter::{self, ReportedMessage, Reporter};
 use super::super::{Failure, args, interrupt::Interrupt, output::Output};
-use super::layers::LayerFiles;
+use super::layers::{self, LayerFiles};
 use super::{FinishedPicture, RenderSetup};
 use rtc_ir::Scene;
 use rtc_pipeline::{
@@ -118,7 +118,7 @@ impl PictureCache {
             reading: args.reading.clone(),
             request,
             key: None,
-            files: 1 + LayerFiles::count(&setup.picture.look),
+            files: 1 + layers::separate(&setup.picture.look).len(),
         };
         cache.key = cache.request_key(project.as_ref());
         reporter.record();

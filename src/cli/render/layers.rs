@@ -19,19 +19,13 @@ impl LayerFiles {
         path: &Path,
         read: &SourceMap,
     ) -> Result<Self, Failure> {
-        if look.kind.is_linear() {
-            return Ok(Self(Vec::new()));
-        }
         let open = |aov: &Aov| {
             let extension = look.kind.traits().extensions[0];
             let path = path.with_extension(format!("{}.{extension}", aov.name()));
             Ok((*aov, Output::open_unless_read(&path, read)?))
         };
-        look.aovs
-            .iter()
-            .map(open)
-            .collect::<Result<_, _>>()
-            .map(Self)
+        let opened = separate(look).iter().map(open);
+        opened.collect::<Result<_, _>>().map(Self)
     }
 
     /// The files of the layers of a picture.
@@ -45,18 +39,17 @@ impl LayerFiles {
         self.0.iter().map(encode).collect()
     }
 
-    /// The number of files of a picture with this output transform.
-    pub(super) fn count(look: &OutputTransform) -> usize {
-        if look.kind.is_linear() {
-            0
-        } else {
-            look.aovs.len()
-        }
-    }
-
     /// Writes their bytes.
     pub(super) fn commit(self, files: &[Vec<u8>], interrupt: &Interrupt) -> Result<(), Failure> {
         let mut files = self.0.into_iter().zip(files);
         files.try_for_each(|((_, output), bytes)| output.commit(bytes, interrupt))
+    }
+}
+
+/// The layers of a picture that have files of their own: a linear one holds them itself.
+pub(super) fn separate(look: &OutputTransform) -> &[Aov] {
+    match look.kind.is_linear() {
+        true => &[],
+        false => &look.aovs,
     }
 }

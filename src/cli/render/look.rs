@@ -3,6 +3,7 @@
 use super::super::Failure;
 use super::super::args::{BitDepthArg, OutputTransformArgs};
 use super::super::output::is_stdout;
+use super::layers::separate;
 use rtc_color::Tone;
 use rtc_image::FileFormat;
 use rtc_pipeline::{OutputTransform, PictureSetup};
@@ -28,7 +29,7 @@ pub(super) fn look(args: &OutputTransformArgs, output: &Path) -> Result<OutputTr
 
 /// Refuses layers that would be files beside a picture, where it is the only file.
 pub(crate) fn refuse_layers(setup: &PictureSetup) -> Result<(), Failure> {
-    if setup.look.kind.is_linear() || setup.look.aovs.is_empty() {
+    if separate(&setup.look).is_empty() {
         return Ok(());
     }
     Err(Failure::Failed(

@@ -1,5 +1,6 @@
 //! Pictures of many scenes in sequence: failures are reported, the others continue.
 
+use super::super::output::check_folder;
 use super::super::reporter::{self, Reporter};
 use super::super::{Failure, args, files, interrupt};
 use super::sheet::ContactSheet;
@@ -235,10 +236,8 @@ fn carry_out(
         }
         // One that fails does not stop the others.
         let output = plan.output.clone();
-        let is_there = folder.as_ref().map_or(Ok(()), FolderIdentity::check);
-        let is_there = is_there.map_err(|error| {
-            Failure::Failed(format!("can't write `{}`: {error}", output.display()))
-        });
+        let folder = folder.as_ref();
+        let is_there = folder.map_or(Ok(()), |folder| check_folder(folder, &output));
         match is_there.and_then(|()| plan.begin(&scene, args, reporter)) {
             Ok(()) => {
                 made.insert(output);

@@ -256,10 +256,7 @@ impl RenderSetup {
         let folder = FolderIdentity::of_file(&self.output);
         let folder = folder.map_err(|error| Failure::Failed(error.to_string()))?;
         for frame in views.shown.clone() {
-            let is_there = folder.check();
-            is_there.map_err(|error| {
-                Failure::Failed(format!("can't write `{}`: {error}", path(frame).display()))
-            })?;
+            output::check_folder(&folder, &path(frame))?;
             table.turn(&mut subject.validated, frame)?;
             subject.turn();
             match &self.part {
