@@ -103,11 +103,9 @@ impl PictureSetup {
         let dark: Vec<SeenBehind> = dark.map(|(_, seen)| seen).collect();
         let lamps = subject.renderer.as_ref();
         if let Some(mut lamps) = lamps.and_then(|renderer| renderer.lamps(&dark, stops)) {
-            lamps.truncate(if subject.first.adds_lamps {
-                lamps.len()
-            } else {
-                0
-            });
+            if !subject.first.adds_lamps {
+                lamps.clear();
+            }
             input.push(picture_diagnostics::closed_room(lamps.len()));
             if !lamps.is_empty() {
                 subject.add_light(|scene| scene.lights.extend(lamps));
