@@ -205,7 +205,7 @@ struct Family {
     class: fn(usize) -> String,
 }
 
-const FAMILIES: [Family; 4] = [
+const FAMILIES: [Family; 5] = [
     Family {
         names: [
             "500 prims that inherit 500 variants",
@@ -258,6 +258,19 @@ const FAMILIES: [Family; 4] = [
         class: |count| {
             let targets = numbered(count, |n| format!("</M{n}>, "));
             format!("class \"C\" {{ rel material:binding = [{targets}] }}\n")
+        },
+    },
+    Family {
+        names: [
+            "500 prims that inherit 500 references",
+            "1 000 prims that inherit 1 000 references",
+            "2 000 prims that inherit 2 000 references",
+        ],
+        too_many: 500,
+        class: |count| {
+            let targets = numbered(count, |n| format!("</R{n}>, "));
+            let prims = numbered(count, |n| format!("def \"R{n}\" {{}}\n"));
+            format!("class \"C\" ( references = [{targets}] ) {{}}\n{prims}")
         },
     },
 ];
