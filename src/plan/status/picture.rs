@@ -123,6 +123,12 @@ fn textures(findings: &RuleResults<'_>) -> EffectStatus {
     if !materials.iter().any(|material| has_map(&material)) {
         return EffectStatus::absent(effect, "no material has a texture", vec![]);
     }
+    let varies = |summary: &MaterialSummary| {
+        [summary.color_map, summary.specular_map].contains(&MapUse::Varying)
+    };
+    if let Some(status) = kept(findings, effect, varies) {
+        return status;
+    }
     // Pruned otherwise; find the rule: mode, constant, or unused.
     if let Some(status) = findings
         .by_mode(effect, true)
@@ -142,9 +148,6 @@ fn textures(findings: &RuleResults<'_>) -> EffectStatus {
             facts,
         );
     }
-    if let Some(status) = kept(findings, effect, MaterialSummary::has_map) {
-        return status;
-    }
     let unseen = findings.first_unseen(MaterialSummary::has_map);
     let facts = first_n(
         unseen
@@ -161,7 +164,8 @@ fn kept(
     effect: Effect,
     has_map: impl Fn(&MaterialSummary) -> bool,
 ) -> Option<EffectStatus> {
-    if findings.facts.rules.contains(Rule::TextureUnseen) {
+    let is_allowed = findings.facts.rules.contains(Rule::TextureUnseen);
+    if is_allowed || matches!(findings.mode(), Mode::Depth) {
         return None;
     }
     let facts = vec![findings.surface(findings.first(has_map)?, EntityField::Whole)];
