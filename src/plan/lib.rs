@@ -12,6 +12,8 @@
 //!    rays can hit), [`light`] (which lights and shadow rays contribute) and [`pixel_classes`]
 //!    (which pixels are empty or uniform). For path tracing they are the items of [`path::rules`],
 //!    applied to a builder until nothing changes.
+//!    A rule drops a surface or a light only with a token that its proof alone makes: [`unseen`],
+//!    [`dark`].
 //! 3. Features ([`WhittedFeatures`], [`PathFeatures`]): the smallest set of compile-time features of the
 //!    integrator that the remaining work needs.
 //! 4. Status ([`EffectStatus`]): for each [`Effect`], whether it is needed, pruned or absent, the
@@ -39,6 +41,7 @@
 //! materials to the models of each integrator.
 
 mod coverage;
+mod dark;
 mod effect;
 pub mod facts;
 mod features;
@@ -59,6 +62,7 @@ mod shape;
 mod status;
 mod summary;
 mod surface_bounds;
+mod unseen;
 mod visibility;
 
 pub use coverage::{MapPresence, ShownMap, UvCoverage};
@@ -83,6 +87,7 @@ use rtc_valid::{CourseLight, Mode, PathSettings, Projection, Shape, ValidScene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use summary::MaterialSummary;
+use unseen::{Unseen, WorldSurfaces};
 use visibility::VisibleSurfaces;
 
 /// The maximum number of surface–surface or surface–light pairs that a plan tests for visibility.
@@ -206,11 +211,6 @@ impl Plan {
             requested
         };
         let max_depth = visibility::truncated_depth(&facts, needed, rules);
-        // Remove the surfaces that no ray can hit.
-        let is_kept = |surface: usize| {
-            visibility.visible[surface] || lights.occludes[surface] || !rules.contains(Rule::Cull)
-        };
-        let surfaces = (0..screen_rects.len()).map(is_kept).collect::<Vec<_>>();
         let findings = RuleResults {
             facts,
             visibility,
@@ -218,6 +218,11 @@ impl Plan {
             max_depth,
             requested,
         };
+        // Remove the surfaces that no ray can hit.
+        let mut surfaces = WorldSurfaces::all(screen_rects.len());
+        for unseen in Unseen::by_any_ray(&findings) {
+            surfaces.drop_surface(unseen);
+        }
         // Classify the pixels.
         let pixel_classes = PixelClassGrid::new(&findings, &projection, &screen_rects);
         let moments = motion::moments(scene);
@@ -228,7 +233,7 @@ impl Plan {
             rules,
             features: findings.features(),
             shapes: shapes(scene, &surfaces),
-            surfaces,
+            surfaces: surfaces.to_vec(),
             max_depth,
             statuses,
             moments,
@@ -260,7 +265,7 @@ impl Plan {
             features: WhittedFeatures::EVERYTHING,
             shapes: shapes(scene, &surfaces),
             lights: IdTable::default(),
-            surfaces,
+            surfaces: surfaces.to_vec(),
             constants: ConstantTextures::none(scene),
             max_depth,
             pixel_classes: PixelClassGrid::default(),

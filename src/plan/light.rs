@@ -1,12 +1,13 @@
 //! The remaining terms of each light, and the possible occluders between each light and surface.
 
+use super::dark::Dark;
 use super::margin::{BoxMargins, MARGIN, OrientedPlane, VisibleSides};
 use super::rules::Rule;
 use super::surface_bounds::{ShapeClass, SurfaceBounds, SurfaceExtent};
 use super::visibility::VisibleSurfaces;
 use super::{LightPlan, MAX_PAIRS, SceneFacts};
 use rtc_math::{Bounds, IdTable, Vec3};
-use rtc_valid::{Ambient, CourseLight, CourseLightId, Mode};
+use rtc_valid::{CourseLight, CourseLightId, Mode};
 
 /// The results of the rules about lights and shadows.
 pub(super) struct LightRuleResults {
@@ -35,15 +36,18 @@ pub(super) struct PossibleShadow {
 impl LightRuleResults {
     pub(super) fn new(facts: &SceneFacts<'_>, visibility: &VisibleSurfaces) -> Self {
         let lights = &facts.sources;
-        let (plans, rules): (Vec<_>, Vec<_>) = lights
-            .iter()
-            .map(|light| facts.light(light, visibility))
-            .unzip();
-        let occludes = vec![false; facts.surface_bounds.len()];
+        let count = facts.surface_bounds.len();
+        let plan = |light| {
+            let mut plan = LightPlan::full(count);
+            let dark = Dark::of(light, facts, visibility);
+            let rule = dark.map(|dark| plan.drop_light(dark));
+            (plan, rule)
+        };
+        let (plans, rules): (Vec<_>, Vec<_>) = lights.iter().map(plan).unzip();
         let mut all = Self {
             plans: plans.into(),
             rules: rules.into(),
-            occludes,
+            occludes: vec![false; count],
             shadow: None,
             single_surface: true,
             capped: false,
@@ -166,55 +170,6 @@ impl SceneFacts<'_> {
     pub(super) fn occluders(&self) -> impl Iterator<Item = usize> {
         let surfaces = self.scene.surfaces();
         (0..surfaces.len()).filter(|surface| surfaces[*surface].casts_shadow)
-    }
-
-    /// The remaining terms of a light, and the rule that removed its direct terms.
-    fn light(
-        &self,
-        light: &CourseLight,
-        visibility: &VisibleSurfaces,
-    ) -> (LightPlan, Option<Rule>) {
-        let surfaces =
-            || (0..self.surface_bounds.len()).filter(|surface| visibility.visible[*surface]);
-        let shadowed = vec![true; self.surface_bounds.len()];
-        let rule = match self.scene.settings().mode {
-            Mode::Gooch(_) | Mode::Path(_) => None,
-            Mode::Normal | Mode::Depth => self.allowed(Rule::Mode),
-            Mode::Phong if light.color == Vec3::ZERO && self.rules.contains(Rule::LightBlack) => {
-                Some(Rule::LightBlack)
-            }
-            Mode::Phong if surfaces().all(|surface| !self.summaries[surface].is_illuminated()) => {
-                self.allowed(Rule::LightUnreached)
-            }
-            Mode::Phong
-                if surfaces().all(|surface| {
-                    self.adds_no_direct(surface, visibility.sides[surface], light)
-                }) =>
-            {
-                self.allowed(Rule::LightBehind)
-            }
-            Mode::Phong => None,
-        };
-        // Keep the light if its ambient term is still needed.
-        let ambient = self.scene.settings().ambient == Ambient::PerLight
-            && surfaces().any(|surface| self.summaries[surface].ambient);
-        let is_used = match rule {
-            None => true,
-            Some(Rule::LightBlack | Rule::Mode) => false,
-            Some(_) => ambient || !self.rules.contains(Rule::LightUnreached),
-        };
-        (
-            LightPlan {
-                is_used,
-                direct: rule.is_none(),
-                shadowed,
-                occluders: match self.surface_bounds.len() {
-                    count @ 0..=64 => vec![u64::MAX; count],
-                    _ => Vec::new(),
-                },
-            },
-            rule,
-        )
     }
 
     /// Whether a light adds no direct term to a surface: the coefficients are 0, or the light is

@@ -2,6 +2,7 @@
 //! removes what provably contributes zero.
 
 use super::caustics::CausticMaterials;
+use super::dark::{KeptLights, UnreachedLight};
 use super::facts::MaterialUses;
 use super::rules::PathRule;
 use super::texture::TextureValues;
@@ -12,6 +13,7 @@ use crate::layer::Layer;
 use crate::projection::ScreenRect;
 use crate::rules::Rule;
 use crate::surface_bounds::SurfaceBounds;
+use crate::unseen::{Unseen, WorldSurfaces};
 use rtc_ir::{EntityField, EntityKind, ValuePath};
 use rtc_math::{IdTable, Medium, Plastic, UnitInterval, Vec3};
 use rtc_valid::{
@@ -22,7 +24,7 @@ use std::ops::Range;
 
 /// The part of a scene that remains in the plan.
 #[derive(Clone)]
-pub(super) struct PathPlanBuilder<'scene> {
+pub(crate) struct PathPlanBuilder<'scene> {
     pub(super) scene: &'scene ValidScene,
     pub(super) path: PathSettings,
     /// The punctual lights.
@@ -32,9 +34,9 @@ pub(super) struct PathPlanBuilder<'scene> {
     /// The values of the textures.
     pub(super) textures: &'scene TextureValues<'scene>,
     /// The bounds of each surface.
-    pub(super) surface_bounds: &'scene [SurfaceBounds],
+    pub(crate) surface_bounds: &'scene [SurfaceBounds],
     /// The screen rectangle of each surface.
-    pub(super) screen_rects: &'scene [ScreenRect],
+    pub(crate) screen_rects: &'scene [ScreenRect],
     /// The simplified material for each material of the scene.
     pub(super) materials: IdTable<Material, Standard>,
     /// The materials of caustics.
@@ -42,12 +44,12 @@ pub(super) struct PathPlanBuilder<'scene> {
     /// For each material, the maps that are folded into factors.
     pub(super) folded: IdTable<Material, Vec<ShownMap>>,
     /// The use of each punctual light.
-    pub(super) lights: IdTable<Punctual, RemainingLight>,
+    pub(super) lights: KeptLights,
     pub(super) environment: RemainingEnvironment,
     /// The medium around the camera.
     pub(super) medium: Option<Medium>,
     /// For each surface, whether it is in the world.
-    pub(super) surfaces: Vec<bool>,
+    pub(crate) surfaces: WorldSurfaces,
     /// The maximum number of bounces.
     pub(super) max_depth: u32,
     /// Whether the last ray of a path may hit an emitter.
@@ -113,6 +115,35 @@ impl PathPlanBuilder<'_> {
         })
     }
 
+    /// Drops surfaces from the world; returns their paths.
+    pub(super) fn drop_surfaces(&mut self, unseen: Vec<Unseen>) -> Vec<ValuePath> {
+        let drop = |unseen: Unseen| {
+            let index = self.scene.surfaces()[unseen.surface()].index;
+            self.surfaces.drop_surface(unseen);
+            ValuePath::new(EntityKind::Surface, index, EntityField::Whole)
+        };
+        unseen.into_iter().map(drop).collect()
+    }
+
+    /// Drops lights, or all but their indices; returns their paths.
+    pub(super) fn drop_lights(&mut self, dark: Vec<UnreachedLight>) -> Vec<ValuePath> {
+        let drop = |dark: UnreachedLight| {
+            let index = dark.light().index();
+            self.lights.drop_light(dark);
+            ValuePath::new(EntityKind::Light, index, EntityField::Whole)
+        };
+        dark.into_iter().map(drop).collect()
+    }
+
+    /// The punctual lights of which such a part is left.
+    pub(crate) fn lights_left(
+        &self,
+        is_such: impl Fn(RemainingLight) -> bool,
+    ) -> impl Iterator<Item = &Punctual> {
+        let lights = self.punctual.iter().zip(&*self.lights);
+        lights.filter_map(move |(light, left)| is_such(*left).then_some(light))
+    }
+
     /// Simplifies the used materials; returns the paths of the changed ones.
     pub(super) fn simplify(
         &mut self,
@@ -162,7 +193,7 @@ impl PathPlanBuilder<'_> {
     }
 
     /// Whether a path may continue after the first hit, or scattering in a medium.
-    pub(super) fn bounces(&self) -> bool {
+    pub(crate) fn bounces(&self) -> bool {
         let mut used = self.used_materials();
         let has_bounces = self.max_depth > u32::from(!self.last_ray);
         (has_bounces || self.has_free_panes()) && (used.next().is_some() || self.medium.is_some())
@@ -177,7 +208,7 @@ impl PathPlanBuilder<'_> {
     }
 
     /// Whether a path may be in a participating medium.
-    pub(super) fn has_media(&self) -> bool {
+    pub(crate) fn has_media(&self) -> bool {
         self.media().next().is_some()
     }
 
@@ -187,7 +218,7 @@ impl PathPlanBuilder<'_> {
     }
 
     /// Whether an effect is still required.
-    pub(super) fn requires(&self, effect: Effect) -> bool {
+    pub(crate) fn requires(&self, effect: Effect) -> bool {
         // An effect is required if the remaining scene can show it.
         match effect {
             Effect::Surfaces => self.surfaces.contains(&true),
@@ -236,7 +267,7 @@ impl PathPlanBuilder<'_> {
 
     /// The surfaces in the world.
     fn used_surfaces(&self) -> impl Iterator<Item = &Surface> {
-        let surfaces = self.scene.surfaces().iter().zip(&self.surfaces);
+        let surfaces = self.scene.surfaces().iter().zip(&*self.surfaces);
         surfaces.filter_map(|(surface, is_in_world)| is_in_world.then_some(surface))
     }
 

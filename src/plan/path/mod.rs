@@ -4,6 +4,7 @@
 //! - [`texture`]: the values of a texture within a rectangle of texture coordinates.
 //! - [`builder`]: the [`PathPlanBuilder`], the part of the scene that remains in the plan.
 //! - [`rules`]: the rules, each with its name, its statement and its proof.
+//! - [`dark`]: the proofs that a light illuminates nothing.
 //! - [`status`]: the status of each effect, derived from the builder before and after the rules.
 //! - [`caustics`]: whether and how the caustics of a scene are found.
 //!
@@ -17,11 +18,13 @@
 
 mod builder;
 mod caustics;
+mod dark;
 mod facts;
 pub(crate) mod rules;
 mod status;
 mod texture;
 
+pub(super) use builder::PathPlanBuilder;
 pub use builder::{RemainingEnvironment, RemainingLight};
 pub use caustics::{CausticMaterials, Caustics};
 pub(super) use texture::UvRect;
@@ -34,7 +37,9 @@ use super::layer::Layer;
 use super::projection::{ScreenProjection, ScreenRect};
 use super::rules::{PATH_RULES, RuleSet};
 use super::surface_bounds::surface_bounds;
-use builder::{AppliedRule, PathPlanBuilder, is_among};
+use super::unseen::WorldSurfaces;
+use builder::{AppliedRule, is_among};
+use dark::KeptLights;
 use facts::MaterialUses;
 use rtc_math::{IdTable, Medium, Vec3};
 use rtc_valid::{
@@ -77,7 +82,7 @@ impl PathPlan {
 pub(super) struct PathPlanning {
     pub(super) plan: PathPlan,
     /// For each surface, whether it is in the world.
-    pub(super) surfaces: Vec<bool>,
+    pub(super) surfaces: WorldSurfaces,
     /// The maximum number of bounces.
     pub(super) max_depth: u32,
     pub(super) statuses: Vec<EffectStatus>,
@@ -121,14 +126,14 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: RuleSet) -> Pa
         materials,
         caustics: &caustics,
         folded: vec![Vec::new(); scene.materials().len()].into(),
-        lights: vec![RemainingLight::All; punctual.len()].into(),
+        lights: KeptLights::all(punctual.len()),
         environment: if scene.environment().radiance == Vec3::ZERO {
             RemainingEnvironment::Nothing
         } else {
             RemainingEnvironment::All
         },
         medium: scene.medium(),
-        surfaces: vec![true; surface_bounds.len()],
+        surfaces: WorldSurfaces::all(surface_bounds.len()),
         max_depth: scene.settings().max_depth,
         last_ray: true,
         nee: true,
@@ -142,7 +147,7 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: RuleSet) -> Pa
     let plan = PathPlan {
         features: features(&reduced, rules),
         folded: reduced.folded,
-        lights: reduced.lights,
+        lights: IdTable::clone(&reduced.lights),
         environment: reduced.environment,
         medium: reduced.medium,
         // Chains of smooth surfaces are followed in a vacuum only.

@@ -5,6 +5,7 @@ use crate::effect::{Effect, EffectStatus};
 use crate::pixel_classes::PixelClassGrid;
 use crate::rules::Rule;
 use crate::summary::MapUse;
+use crate::unseen::Unseen;
 use crate::{MaterialSummary, RuleResults};
 use rtc_ir::EntityField;
 use rtc_valid::{Mode, Pattern};
@@ -35,22 +36,17 @@ pub(super) fn buffers(
 fn surfaces(findings: &RuleResults<'_>, pixel_classes: &PixelClassGrid) -> EffectStatus {
     // List the surfaces that no ray can hit.
     let count = findings.facts.surface_bounds.len();
-    let is_left_out = |surface: usize| {
-        !findings.visibility.visible[surface] && !findings.lights.occludes[surface]
-    };
-    let out = (0..count)
-        .filter(|surface| is_left_out(*surface))
-        .collect::<Vec<_>>();
+    let out = Unseen::by_any_ray(findings);
     let places = first_n(
         out.iter()
-            .map(|surface| findings.surface(*surface, EntityField::Whole)),
+            .map(|unseen| findings.surface(unseen.surface(), EntityField::Whole)),
     );
     let empty = pixel_classes.empty_fraction();
     // Absent without surfaces; pruned if no ray can hit any.
     if count == 0 {
         return EffectStatus::absent(Effect::Surfaces, "the scene has none", vec![]);
     }
-    if out.len() == count && findings.facts.rules.contains(Rule::Cull) {
+    if out.len() == count {
         return EffectStatus::pruned(
             Effect::Surfaces,
             Rule::Cull,

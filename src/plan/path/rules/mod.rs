@@ -3,7 +3,8 @@
 //!
 //! A rule is a [`PathRule`] constant beside the functions of its proof: [`light`] for lights, light
 //! sampling and shadows, [`material`] for material parameters, [`texture`] for maps, [`paths`] for
-//! the path length and the surfaces of the world. The rules run in the order of the table in
+//! the path length and the surfaces of the world. What drops lights and surfaces is proven in
+//! [`super::dark`] and [`crate::unseen`]. The rules run in the order of the table in
 //! [`crate::rules`] until none changes anything. To add a rule: a constant here, its row in that
 //! table, and a test in `tests/plan`.
 
