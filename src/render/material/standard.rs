@@ -58,6 +58,12 @@ pub(crate) struct StandardMaterial {
 }
 
 impl StandardMaterial {
+    /// Whether light may cross the surface without a bounce, where a scene names media: a thin
+    /// dielectric that transmits light.
+    pub(crate) fn is_pane(&self) -> bool {
+        self.is_thin_dielectric && (self.refracts || self.diffuse_transmission.is_some())
+    }
+
     /// The index of refraction, at a wavelength that a dispersed path picked; 0 for an infinite
     /// one.
     pub(crate) fn ior_at(&self, channel: Option<usize>) -> f64 {
