@@ -247,7 +247,7 @@ fn below(folder: &Path, is_meant: FileNameFilter) -> Result<Vec<PathBuf>, Failur
     }
 }
 
-/// The same, or none.
+/// All files below a folder with the name of a scene; there may be none.
 fn named_below(folder: &Path, is_meant: FileNameFilter) -> Result<Vec<PathBuf>, Failure> {
     let mut found = Vec::new();
     for entry in ignored::traverse(folder, WalkDir::new(folder), |entry| !is_hidden(entry)) {

@@ -2,7 +2,7 @@
 //! removes what provably contributes zero.
 
 use super::caustics::CausticMaterials;
-use super::dark::{KeptLights, UnreachedLight};
+use super::dark::{DarkLight, KeptLights};
 use super::facts::MaterialUses;
 use super::rules::PathRule;
 use super::texture::TextureValues;
@@ -126,8 +126,8 @@ impl PathPlanBuilder<'_> {
     }
 
     /// Drops lights, or all but their indices; returns their paths.
-    pub(super) fn drop_lights(&mut self, dark: Vec<UnreachedLight>) -> Vec<ValuePath> {
-        let drop = |dark: UnreachedLight| {
+    pub(super) fn drop_lights(&mut self, dark: Vec<DarkLight>) -> Vec<ValuePath> {
+        let drop = |dark: DarkLight| {
             let index = dark.light().index();
             self.lights.drop_light(dark);
             ValuePath::new(EntityKind::Light, index, EntityField::Whole)
@@ -135,7 +135,7 @@ impl PathPlanBuilder<'_> {
         dark.into_iter().map(drop).collect()
     }
 
-    /// The punctual lights of which such a part is left.
+    /// The punctual lights whose remaining part satisfies a condition.
     pub(crate) fn lights_left(
         &self,
         is_such: impl Fn(RemainingLight) -> bool,

@@ -1,6 +1,6 @@
 //! The punctual lights that certainly illuminate nothing, and what is left of the lights.
 //!
-//! Only the proofs in this module make a [`UnreachedLight`], without which no light is dropped.
+//! Only the proofs in this module make a [`DarkLight`], without which no light is dropped.
 
 use super::builder::{PathPlanBuilder, RemainingLight};
 use crate::margin::MARGIN;
@@ -20,7 +20,7 @@ impl KeptLights {
     }
 
     /// Drops a light, or all but its index.
-    pub(super) fn drop_light(&mut self, dark: UnreachedLight) {
+    pub(super) fn drop_light(&mut self, dark: DarkLight) {
         self.0[dark.light] = dark.rest;
     }
 }
@@ -34,12 +34,12 @@ impl Deref for KeptLights {
 }
 
 /// The proof that a light illuminates nothing, and what must be left of it all the same.
-pub(super) struct UnreachedLight {
+pub(super) struct DarkLight {
     light: PunctualId,
     rest: RemainingLight,
 }
 
-impl UnreachedLight {
+impl DarkLight {
     /// The light.
     pub(super) fn light(&self) -> PunctualId {
         self.light

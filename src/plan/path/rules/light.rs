@@ -3,7 +3,7 @@
 use super::PathRule;
 use crate::margin::{MARGIN, OrientedPlane, VisibleSides};
 use crate::path::builder::{PathPlanBuilder, RemainingEnvironment, is_transmissive};
-use crate::path::dark::UnreachedLight;
+use crate::path::dark::DarkLight;
 use crate::path::facts::is_delta;
 use crate::surface_bounds::ShapeClass;
 use rtc_image::Texels;
@@ -17,7 +17,7 @@ pub(crate) const ZERO_INTENSITY: PathRule = PathRule {
            distribution.",
     reason: "all lights have intensity 0",
     apply: |builder| {
-        let dark = UnreachedLight::by_intensity(builder);
+        let dark = DarkLight::by_intensity(builder);
         builder.drop_lights(dark)
     },
 };
@@ -74,7 +74,7 @@ pub(crate) const OUT_OF_RANGE: PathRule = PathRule {
            random numbers does not change, but it is not evaluated and has no shadow ray.",
     reason: "no surface is within the range or the cone of a light",
     apply: |builder| {
-        let dark = UnreachedLight::by_reach(builder);
+        let dark = DarkLight::by_reach(builder);
         builder.drop_lights(dark)
     },
 };
