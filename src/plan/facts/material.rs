@@ -1,6 +1,7 @@
 //! Materials as each integrator uses them: the Whitted integrator uses the Phong model, the path
 //! integrator the glTF material.
 
+use crate::layer::Layer;
 use rtc_math::{IdTable, NonNegative, Positive, UnitInterval, Vec3};
 use rtc_tables::{PhongTerms, fit_phong};
 use rtc_valid::{Map, Material, MaterialId, Phong, Standard, TextureId, UvSet, ValidScene};
@@ -127,6 +128,20 @@ pub const WHITE: Standard = Standard {
     specular: UnitInterval::ZERO,
     ..Standard::DEFAULT
 };
+
+/// Whether a material transmits light.
+pub(crate) fn is_transmissive(m: &Standard) -> bool {
+    let mut layers = Layer::ALL.into_iter();
+    let by_layer = layers.any(|layer| layer.transmits() && layer.is_in(m));
+    by_layer || m.transmission > UnitInterval::ZERO
+}
+
+/// Whether a material is a pane, which light crosses without a bounce in a scene that names media:
+/// a thin dielectric that transmits light.
+#[must_use]
+pub fn is_pane(m: &Standard) -> bool {
+    m.thin_dielectric && !m.unlit && is_transmissive(m)
+}
 
 #[cfg(test)]
 mod tests {

@@ -8,8 +8,7 @@ use super::rules::PathRule;
 use super::texture::TextureValues;
 use crate::coverage::{MapPresence, ShownMap};
 use crate::effect::Effect;
-use crate::facts::material::has_media;
-use crate::layer::Layer;
+use crate::facts::material::{has_media, is_pane, is_transmissive};
 use crate::projection::ScreenRect;
 use crate::rules::Rule;
 use crate::surface_bounds::SurfaceBounds;
@@ -175,7 +174,6 @@ impl PathPlanBuilder<'_> {
 
     /// Whether light crosses panes without a bounce, as it does in a scene that names media.
     fn has_free_panes(&self) -> bool {
-        let is_pane = |m: &Standard| m.thin_dielectric && !m.unlit && is_transmissive(m);
         has_media(self.scene) && self.used_materials().any(|(_, material)| is_pane(material))
     }
 
@@ -416,13 +414,6 @@ fn is_sampled(shape: &Shape) -> bool {
         | Shape::Instance(_)
         | Shape::Ellipsoid(_) => true,
     }
-}
-
-/// Whether a material transmits light.
-pub(super) fn is_transmissive(m: &Standard) -> bool {
-    let mut layers = Layer::ALL.into_iter();
-    let by_layer = layers.any(|layer| layer.transmits() && layer.is_in(m));
-    by_layer || m.transmission > UnitInterval::ZERO
 }
 
 /// Whether a material requires an effect; false for effects that do not depend on materials.

@@ -42,6 +42,8 @@ pub(crate) struct StandardMaterial {
     pub(crate) dispersed: Option<[f64; 3]>,
     /// Whether a smooth pane reflects light inside it.
     pub(crate) is_thin_dielectric: bool,
+    /// Whether light crosses the surface without a bounce, where a scene names media.
+    pub(crate) is_pane: bool,
     /// Whether the surface bounds a medium.
     pub(crate) bounds_a_volume: bool,
     /// The absorption coefficient of that medium, per unit of length.
@@ -58,12 +60,6 @@ pub(crate) struct StandardMaterial {
 }
 
 impl StandardMaterial {
-    /// Whether light may cross the surface without a bounce, where a scene names media: a thin
-    /// dielectric that transmits light.
-    pub(crate) fn is_pane(&self) -> bool {
-        self.is_thin_dielectric && (self.refracts || self.diffuse_transmission.is_some())
-    }
-
     /// The index of refraction, at a wavelength that a dispersed path picked; 0 for an infinite
     /// one.
     pub(crate) fn ior_at(&self, channel: Option<usize>) -> f64 {

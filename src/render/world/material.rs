@@ -10,6 +10,7 @@ use crate::shape::geometry::AttributeRequest;
 use crate::texture::bilinear::Bump;
 use crate::texture::sampled::{ColorSpace, UvSets};
 use rtc_math::{Id, IdTable, Plastic, UnitInterval, Vec3, Weight, cos, ln, sin};
+use rtc_plan::facts::material::is_pane;
 use rtc_plan::{Effect, Layer, MapPresence, PathPlan, Plan, Rule, UvCoverage};
 use rtc_valid::{self as valid, Maps, Phong, Standard, TextureId, UvSet, ValidScene};
 use std::collections::BTreeMap;
@@ -210,6 +211,7 @@ pub(super) fn standard(
         ior: m.ior.get(),
         dispersed: (m.dispersion.get() > 0.0).then(|| dispersed(m.ior.get(), m.dispersion.get())),
         is_thin_dielectric: m.thin_dielectric,
+        is_pane: is_pane(m),
         bounds_a_volume: m.thickness.get() > 0.0,
         absorption: absorption(m),
         media: None,

@@ -1,8 +1,9 @@
 //! Rules on lights, light sampling and shadows.
 
 use super::PathRule;
+use crate::facts::material::is_transmissive;
 use crate::margin::{MARGIN, OrientedPlane, VisibleSides};
-use crate::path::builder::{PathPlanBuilder, RemainingEnvironment, is_transmissive};
+use crate::path::builder::{PathPlanBuilder, RemainingEnvironment};
 use crate::path::dark::DarkLight;
 use crate::path::facts::is_delta;
 use crate::surface_bounds::ShapeClass;

@@ -58,7 +58,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     pub(super) fn is_free_pane(&self, state: &PathState, material: &StandardMaterial) -> bool {
         Self::can(PathFeatures::TRANSMISSION)
             && self.world.has_free_panes
-            && material.is_pane()
+            && material.is_pane
             && state.free < MAX_SKIPPED
     }
 

@@ -110,7 +110,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         if let Some(set) = point.bump_set() {
             point.derivatives = surface.shape.uv_derivatives(ray, &at, hit.prim_id, set);
         }
-        let is_free = self.world.has_free_panes && point.material.is_pane();
+        let is_free = self.world.has_free_panes && point.material.is_pane;
         let count = match is_free && left.free > 0 {
             true => &mut left.free,
             false => &mut left.bounces,
