@@ -308,6 +308,20 @@ fn hostile() -> impl Strategy<Value = String> {
     prop::collection::vec(word, 0..60).prop_map(|words| words.join(" "))
 }
 
+#[test]
+fn a_point_that_is_too_far_away_is_reported_where_it_is() {
+    let Outcome {
+        lowered, errors, ..
+    } = mesh("0 1e308 0 #");
+    let positions = list(&lowered.scene.meshes[0].positions);
+    assert!(
+        positions
+            .iter()
+            .all(|position| *position == [0.0, 1e308, 0.0])
+    );
+    assert!(!positions.is_empty() && !errors);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, cases: 500, ..ProptestConfig::default() })]
 

@@ -193,11 +193,13 @@ fn camera(eye: Vec3, [x, y, z]: [Vec3; 3], half: [f64; 2], projection: ir::Proje
     }
 }
 
-/// The size that a pixel in the picture of the camera that we choose has at the middle of the ball.
+/// The size that a pixel in the picture of the camera that we choose has at the middle of the ball;
+/// 0 if that is too far away for it.
 pub(crate) fn pixel(ball: BoundingSphere) -> f64 {
     let camera = looking_at(ball);
     let eye = Vec3::from_array(camera.eye);
-    Vec3::from_array(camera.up).length() / reach(eye) * eye.distance(ball.center)
+    let pixel = Vec3::from_array(camera.up).length() / reach(eye) * eye.distance(ball.center);
+    if pixel.is_finite() { pixel } else { 0.0 }
 }
 
 /// A camera that sees the whole ball.
