@@ -363,7 +363,7 @@ fn unsampled(scene: &ValidScene, lowered: &LoweredScene, sink: &mut DiagnosticSi
     };
     let path = ValuePath::new(EntityKind::Surface, surface, EntityField::Whole);
     let message = "the light of infinite faces of a solid is found by chance";
-    let note = Diagnostic::new(&codes::CAUSTICS, message)
+    let note = Diagnostic::new(&codes::UNSAMPLED, message)
         .at(lowered.source_spans.span(path), "this solid shines")
         .hint("faces of a bounded solid are sampled: intersect it with a large sphere");
     sink.push(note.pointer(path.to_string()));

@@ -62,6 +62,7 @@ mod shape;
 mod status;
 mod summary;
 mod surface_bounds;
+mod unsampled;
 mod unseen;
 mod visibility;
 
@@ -71,12 +72,13 @@ pub use features::{FeatureSet, PathFeatures, ShapeSet, WhittedFeatures};
 pub use hidden_maps::{HiddenMap, hidden_maps};
 pub use invisible::invisible_surfaces;
 pub use layer::Layer;
-pub use missed_caustics::{FocusedLight, focused_light, unsampled_solid};
+pub use missed_caustics::{FocusedLight, focused_light};
 pub use path::{CausticMaterials, Caustics, PathPlan, RemainingEnvironment, RemainingLight};
 pub use pixel_classes::{PixelClass, PixelClassGrid};
 pub use precision::{MIN_HIT_DISTANCE, PrecisionArtifact, PrecisionLoss, loss};
 pub use rules::{Rule, RuleSet};
 pub use summary::ConstantTextures;
+pub use unsampled::unsampled_solid;
 
 use findings::{RuleResults, SceneFacts};
 use light::LightRuleResults;

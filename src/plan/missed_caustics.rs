@@ -3,11 +3,10 @@
 
 use crate::facts;
 use crate::path::CausticMaterials;
-use crate::shape::shape_facts;
 use crate::surface_bounds::{SurfaceBounds, surface_bounds};
 use rtc_ir::{EntityField, EntityKind, ValuePath};
 use rtc_math::{Bounds, IdTable, Vec3};
-use rtc_valid::{Material, MaterialId, Mode, Shape, Standard, Surface, ValidScene};
+use rtc_valid::{Material, MaterialId, Mode, Standard, ValidScene};
 
 /// A light is small if its radius is at most this fraction of its distance from the caster;
 /// manifold sampling leaves larger ones to BSDF sampling.
@@ -70,33 +69,6 @@ pub fn focused_light(scene: &ValidScene) -> Option<FocusedLight> {
             light: ValuePath::new(EntityKind::Surface, surface.index, EntityField::Whole),
             caster: first.index,
         })
-}
-
-/// The first CSG solid of a path-traced scene, as an IR index, that shines on infinite faces: no
-/// point of these is sampled. `None` if there is none.
-#[must_use]
-pub fn unsampled_solid(scene: &ValidScene) -> Option<usize> {
-    let Mode::Path(_) = scene.settings().mode else {
-        return None;
-    };
-    let is_infinite = |shape: &Shape| matches!(shape, Shape::Plane(_) | Shape::InfiniteCylinder(_));
-    let is_unsampled = |surface: &&Surface| {
-        let Shape::Csg(csg) = &surface.shape else {
-            return false;
-        };
-        let operands = csg.operands.iter().enumerate();
-        let mut shown = operands.filter(|(operand, _)| csg.faces >> operand & 1 == 1);
-        let standard = facts::material::standard(&scene.materials()[surface.material]);
-        shown.any(|(_, operand)| is_infinite(operand))
-            && shape_facts(&surface.shape)
-                .bounds(&IdTable::default())
-                .aabb()
-                .is_none()
-            && !standard.unlit
-            && standard.emissive != Vec3::ZERO
-    };
-    let mut surfaces = scene.surfaces().iter();
-    surfaces.find(is_unsampled).map(|surface| surface.index)
 }
 
 /// Whether an emissive surface is small as seen from a caster.

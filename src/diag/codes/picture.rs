@@ -14,9 +14,10 @@ super::codes! { RD:
     TOO_SHORT = "RD011", Warning, "the time budget is too short";
     UNTEXTURED = "RD012", Warning, "a surface has no texture coordinates for its texture";
     Z_UP = "RD013", Warning, "a mesh stands as if z pointed up";
-    CAUSTICS = "RD014", Note, "light is found by chance, or not at all";
+    CAUSTICS = "RD014", Note, "caustics of a small light are found by chance, or not at all";
     CLOSED_ROOM = "RD015", Note, "no light gets into a closed room that the camera looks into";
     FLAT = "RD016", Warning, "pictures that are compared are of one value each";
     UNMET = "RD017", Warning, "a picture ends above its target error";
     DARK = "RD018", Warning, "all surfaces in view are black";
+    UNSAMPLED = "RD019", Note, "light of infinite faces of a solid is found by chance";
 }
